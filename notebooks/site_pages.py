@@ -9,8 +9,8 @@ from pathlib import Path
 
 import zerodrift as zd
 from zerodrift import errors
-from zerodrift.mechanisms.joints import JOINTS
-from zerodrift.mechanisms.made_forces import ELEMENTS
+from zerodrift.mechanisms.elements.joints import JOINTS
+from zerodrift.mechanisms.elements.table_forces import ELEMENTS
 
 WARNINGS = tuple(each for each in vars(errors).values() if inspect.isclass(each) and issubclass(each, Warning))
 ERRORS = tuple(each for each in vars(errors).values() if inspect.isclass(each) and issubclass(each, zd.ZerodriftError))

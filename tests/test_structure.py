@@ -2,6 +2,8 @@
 
 import ast
 import importlib.util
+import inspect
+import re
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -69,6 +71,76 @@ def test_no_folders_import_each_other_in_a_circle(files):
         folders.setdefault(folder, set()).update({folder_of(other) for other in dependencies} - {folder})
     assert {"zerodrift.runs", "zerodrift.systems"} <= set(folders)
     assert circle(folders) is None
+
+
+def room_of(module):
+    """The room of `mechanisms` that a module is in: a sub-package, or a file directly in it; None for the package itself."""
+    parts = module.split(".")[2:]
+    return parts[0] if parts else None
+
+
+def arrows_between_rooms(files):
+    """Pairs of rooms of `mechanisms`, of which the first imports the second."""
+    return {(room_of(module), room_of(other)) for module in files if is_of_mechanisms(module) for other in files[module]
+            if is_of_mechanisms(other)} - {(room, room) for room in map(room_of, files)}
+
+
+def is_of_mechanisms(module):
+    return module.startswith("zerodrift.mechanisms.")
+
+
+def test_mechanisms_have_few_rooms_and_few_arrows_between_them(files):
+    """An import from a facade, an `__init__.py` that imports, would hide arrows, so there is none."""
+    rooms = {room_of(module) for module in files if is_of_mechanisms(module)}
+    arrows = arrows_between_rooms(files)
+    graph = {room: {other for one, other in arrows if one == room} for room in rooms}
+    assert rooms == {"elements", "building", "equations", "assembly", "reports", "files", "pictures",
+                     "mechanism", "system", "linkage"}
+    assert len(rooms) <= 10
+    assert len(arrows) <= 30
+    assert circle(graph) is None
+    facades = [module for module, path in FILES.items() if is_of_mechanisms(module) and path.name == "__init__.py"]
+    assert len(facades) == 7
+    assert not any(files[module] for module in facades)
+
+
+def test_no_room_of_mechanisms_has_more_than_fifteen_files():
+    rooms = [path for path in (PACKAGE / "mechanisms").iterdir() if path.is_dir() and path.name != "__pycache__"]
+    assert len(rooms) == 7
+    assert {room.name: len(list(room.glob("*.py"))) for room in rooms if len(list(room.glob("*.py"))) > 15} == {}
+
+
+ENDINGS = re.compile("(|s|es|e|ed?|d|ers?|ings?|ions?|or|ant|ance|ancy|ment|able|y)")
+
+
+def differ_in_an_ending(one, other):
+    """True if two names are one word with different grammatical endings, such as "partition" and "partitioned"."""
+    return one != other and any(one[:k] == other[:k] and ENDINGS.fullmatch(one[k:]) and ENDINGS.fullmatch(other[k:])
+                                for k in range(4, min(len(one), len(other)) + 1))
+
+
+@pytest.mark.parametrize(("one", "other", "expected"), [
+    ("partition", "partitioned", True), ("redundancy", "redundant", True), ("measures", "measuring", True),
+    ("rate", "rates", True),
+    ("bodies", "space_bodies", False), ("tables", "trees", False), ("force_verbs", "force_shapes", False)])
+def test_names_that_differ_in_an_ending_are_found(one, other, expected):
+    assert differ_in_an_ending(one, other) is expected
+    assert differ_in_an_ending(other, one) is expected
+
+
+def test_no_two_modules_of_mechanisms_differ_in_an_ending():
+    names = sorted({module.rpartition(".")[2] for module in FILES if is_of_mechanisms(module)})
+    pairs = [(one, other) for one in names for other in names if one < other and differ_in_an_ending(one, other)]
+    assert len(names) > 60
+    assert pairs == []
+
+
+def test_no_public_function_has_the_name_of_a_module():
+    """A module `zerodrift.NAME` would replace the function `zerodrift.NAME` when it is first imported."""
+    modules = {module.split(".")[1] for module in FILES if module != "zerodrift"}
+    functions = {name for name in zerodrift.__all__ if inspect.isfunction(getattr(zerodrift, name))}
+    assert len(functions) > 20
+    assert modules & functions == set()
 
 
 @pytest.mark.parametrize("source", [

@@ -67,8 +67,8 @@ _LATER = {      # imported, or made, at first use
     "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices", "native": "systems.native",
     "numba_signature": "systems.native", "reach": "tracing.trace", "record_size": "runs.record_size",
     "reference": "studies.reference", "stability_map": "studies.stability_map", "symbolic": "symbolics.define",
-    "table": "mechanisms.data", "trace": "tracing.trace", "transmission_angle": "tracing.transmission", "tune": "studies.tune",
-    "view": "player.view", "work_precision": "studies.work_precision",
+    "table": "mechanisms.elements.interpolation", "trace": "tracing.trace", "transmission_angle": "tracing.transmission",
+    "tune": "studies.tune", "view": "player.view", "work_precision": "studies.work_precision",
 }
 
 

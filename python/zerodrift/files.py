@@ -7,6 +7,7 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
+from . import _check
 from .runs import sample_file
 from .runs.saving import read
 from .runs.solution import Solution
@@ -54,10 +55,9 @@ def load(path: str | Path) -> Any:
         return Solution(**values)
     content = Path(path).read_bytes()
     if b"zerodrift" in content and content.lstrip()[:1] == b"{":
-        rebuilding = _rebuilding()
-        description = rebuilding.parsed(content.decode(errors="replace"), str(path))
+        description = _module("files.from_json").parsed(content.decode(errors="replace"), str(path))
         if description is not None:
-            return rebuilding.mechanism(description, str(path))
+            return _mechanism(description, str(path))
     raise ValueError(f"{path} is no solution saved by zerodrift, no ensemble, and no mechanism")
 
 
@@ -81,11 +81,19 @@ def _ensembles() -> Any:
     return importlib.import_module(".ensembles.loading", __package__)
 
 
-def _rebuilding() -> Any:
-    """What rebuilds mechanisms; imported where there is one, as `Mechanism` is."""
-    return importlib.import_module(".mechanisms.rebuilding", __package__)
+def _module(name: str) -> Any:
+    """A module of `mechanisms`, imported when a file needs it."""
+    return importlib.import_module(f".mechanisms.{name}", __package__)
+
+
+def _mechanism(description: Any, where: str) -> Any:
+    """The mechanism of a JSON description."""
+    return _module("files.from_json").mechanism(_module("mechanism").Mechanism, description, where)
 
 
 def _system(description: dict[str, Any], path: str) -> Any:
     """The system of a mechanism that was saved with a solution."""
-    return _rebuilding().system(description, f"{path}, mechanism")
+    where, systems = f"{path}, mechanism", _module("system")
+    drawing = _mechanism(description["mechanism"], where)._drawing()
+    layout = _check.choice(f"layout of {where}", description["layout"], systems.LAYOUTS)
+    return systems.MechanismSystem(drawing, layout, description["changed"])

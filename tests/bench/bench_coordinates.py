@@ -22,7 +22,7 @@ import zerodrift as zd
 from large_mechanisms import binary_tree, chain, chain_of_balls, four_bars, spatial_chain, spatial_linkages, spatial_star, star
 from measuring import RESULTS, least
 from random_assemblies import Assembly
-from zerodrift.mechanisms import cost
+from zerodrift.mechanisms.reports import cost
 
 ROUNDS, SECONDS, FEW, MOST_STEPS = 9, 1.5e-3, 4, 100
 STEPS = [k * 10.0**-e for e in (3, 4, 5) for k in (5, 2, 1)]

@@ -3,10 +3,10 @@
 import numpy as np
 
 import zerodrift as zd
-from zerodrift.mechanisms.force_verbs import force_verb, taken
-from zerodrift.mechanisms.joint_verbs import verb
-from zerodrift.mechanisms.joints import JOINTS, made
-from zerodrift.mechanisms.made_forces import ELEMENTS, made_force
+from zerodrift.mechanisms.building.table_force_verbs import force_verb, taken
+from zerodrift.mechanisms.building.table_joint_verbs import verb
+from zerodrift.mechanisms.elements.joints import JOINTS, made
+from zerodrift.mechanisms.elements.table_forces import ELEMENTS, made_force
 
 AXIS, NORMAL, LENGTH = (0.8, 0.6), (-0.6, 0.8), 0.4
 

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 import zerodrift as zd
 from support import assert_close
-from zerodrift.mechanisms.space import about
+from zerodrift.mechanisms.elements.frames import about
 
 R = about((0.3, 0.6, -0.2), 0.7)        # so that no direction is one of the drawing's
 STIFFNESS, TORSION = np.array([200.0, 300.0, 500.0]), np.array([20.0, 45.0, 30.0])

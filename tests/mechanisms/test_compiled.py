@@ -183,10 +183,10 @@ def test_without_a_compiler_tables_are_interpreted(cache_folder, monkeypatch):  
 
 
 def test_what_was_derived_is_kept_for_the_next_process(cache_folder, monkeypatch):  # noqa: F811
-    from zerodrift.mechanisms import compiled
+    from zerodrift.mechanisms.equations import generated_code
 
-    monkeypatch.setattr(compiled, "_codes", {})
+    monkeypatch.setattr(generated_code, "_codes", {})
     system = swinging().system(compiled=True)
-    compiled._codes.clear()
-    monkeypatch.setattr(compiled.Written, "_derive", lambda self, equations: pytest.fail("it is derived again"))
+    generated_code._codes.clear()
+    monkeypatch.setattr(generated_code.Written, "_derive", lambda self, equations: pytest.fail("it is derived again"))
     assert swinging().system(compiled=True)._written._code == system._written._code

@@ -9,7 +9,7 @@ import zerodrift as zd
 from large_mechanisms import binary_tree, chain, chain_of_balls, four_bars, spatial_chain, spatial_linkages, spatial_star, star
 from mechanisms import known
 from watched import At, throw
-from zerodrift.mechanisms import cost
+from zerodrift.mechanisms.reports import cost
 
 
 def cost_of(m, **options):

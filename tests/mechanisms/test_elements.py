@@ -6,7 +6,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 import zerodrift as zd
-from zerodrift.mechanisms.splines import PeriodicSpline
+from zerodrift.mechanisms.building.periodic_spline import PeriodicSpline
 from zerodrift.systems.jets import Jet
 
 LAYOUTS = ("joint", "absolute")

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from zerodrift.mechanisms.elimination import Rows, least_solution
+from zerodrift.mechanisms.assembly.sparse_least_squares import Rows, least_solution
 
 AGREES = 1e-11      # of the largest: rounding times the condition of the rows, which is 1e4 at most
 

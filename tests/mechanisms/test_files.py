@@ -7,11 +7,11 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from zerodrift.mechanisms.describing import WRITTEN
-from zerodrift.mechanisms.expressions import from_json, to_json
-from zerodrift.mechanisms.joints import BY_ROW
-from zerodrift.mechanisms.made_forces import FORCES_BY_ROW
-from zerodrift.mechanisms.rebuilding import MADE
+from zerodrift.mechanisms.elements.joints import BY_ROW
+from zerodrift.mechanisms.elements.table_forces import FORCES_BY_ROW
+from zerodrift.mechanisms.files.expressions_json import from_json, to_json
+from zerodrift.mechanisms.files.from_json import MADE
+from zerodrift.mechanisms.files.to_json import WRITTEN
 from zerodrift.runs.saving import Described
 
 t, x = sp.symbols("t x")

@@ -8,9 +8,9 @@ import sympy as sp
 
 import zerodrift as zd
 from every_model import IN_SPACE
-from zerodrift.mechanisms.describing_space import IN_SPACE as WRITTEN
-from zerodrift.mechanisms.rebuilding_space import IN_SPACE as MADE
-from zerodrift.mechanisms.space import about
+from zerodrift.mechanisms.elements.frames import about
+from zerodrift.mechanisms.files.space_from_json import IN_SPACE as MADE
+from zerodrift.mechanisms.files.space_to_json import IN_SPACE as WRITTEN
 
 TURNED = about((0.3, 0.6, -0.2), 0.7)      # so that no axis is one of the drawing's
 

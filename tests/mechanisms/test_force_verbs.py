@@ -9,9 +9,9 @@ import sympy as sp
 
 import tolerances as tol
 import zerodrift as zd
-from zerodrift.mechanisms import describing, rebuilding
-from zerodrift.mechanisms.force_verbs import force_verb, taken
-from zerodrift.mechanisms.made_forces import ELEMENTS, FORCES_BY_ROW, WRITTEN, made_force
+from zerodrift.mechanisms.building.table_force_verbs import force_verb, taken
+from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_BY_ROW, WRITTEN, made_force
+from zerodrift.mechanisms.files import from_json, to_json
 
 OF = {"w": "B1.angular_velocity", "x": "B0.position.x"}
 LAW = sp.Symbol("w") * 2 - sp.Symbol("x")
@@ -74,8 +74,8 @@ def test_it_is_saved_and_read_again(kind, monkeypatch, tmp_path):
     """To the last bit, its numbers with their paths."""
     force = made_force(kind)
     monkeypatch.setattr(zd.Mechanism, kind, force_verb(force))
-    monkeypatch.setitem(describing.WRITTEN, kind, describing._made_force)
-    monkeypatch.setitem(rebuilding.MADE, kind, rebuilding._force_by_row(force))
+    monkeypatch.setitem(to_json.WRITTEN, kind, to_json._made_force)
+    monkeypatch.setitem(from_json.MADE, kind, from_json._force_by_row(force))
     m, P, Q = two_bodies()
     added(m, P, Q, kind)
     one, other = (each.system("absolute") for each in (m, zd.load(m.save(tmp_path / "m"))))

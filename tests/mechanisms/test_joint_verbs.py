@@ -8,9 +8,9 @@ import pytest
 
 import zerodrift as zd
 from mechanisms.every_joint_by_row import AXIS, LENGTH, NORMAL, added, by_row, two_bodies
-from zerodrift.mechanisms import rebuilding
-from zerodrift.mechanisms.joint_verbs import verb
-from zerodrift.mechanisms.joints import BY_ROW, JOINTS, made
+from zerodrift.mechanisms.building.table_joint_verbs import verb
+from zerodrift.mechanisms.elements.joints import BY_ROW, JOINTS, made
+from zerodrift.mechanisms.files import from_json
 
 BY_HAND = {     # on the bodies, and by the points, that `added` takes
     "revolute": lambda m, first, second: m.revolute("J", first, second, damping=0.1),
@@ -26,7 +26,7 @@ def by_their_rows(monkeypatch, kind):
     """Has a kind's verb, and what reads it from a file, made from its row."""
     joint = made(kind)
     monkeypatch.setattr(zd.Mechanism, kind, verb(joint))
-    monkeypatch.setitem(rebuilding.MADE, kind, rebuilding._by_row(joint))
+    monkeypatch.setitem(from_json.MADE, kind, from_json._by_row(joint))
     return joint
 
 

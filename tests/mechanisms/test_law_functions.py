@@ -9,8 +9,8 @@ import sympy as sp
 import zerodrift as zd
 from zerodrift._gateway.uses import law_sizes
 from zerodrift.errors import ZerodriftError
-from zerodrift.mechanisms import law_functions
-from zerodrift.mechanisms.law_rows import Laws
+from zerodrift.mechanisms.equations import function_code
+from zerodrift.mechanisms.equations.function_calls import Laws
 from zerodrift.symbolics import compilers, compiling
 
 t, x, u, k = sp.symbols("t x u k")
@@ -68,7 +68,7 @@ def systems(make, monkeypatch, layout=None):
     compiled = make().system(layout)
     assert all(compiled._core._law.compiled(law_sizes(compiled._core.tables)))
     with monkeypatch.context() as patched:
-        patched.setattr(law_functions, "compiled", lambda row, k: None)
+        patched.setattr(function_code, "compiled", lambda row, k: None)
         asked = make().system(layout)
         assert not any(asked._core._law.compiled(law_sizes(asked._core.tables)))
     return compiled, asked
@@ -140,7 +140,7 @@ def test_what_is_pickled_or_saved_is_compiled_again(tmp_path, monkeypatch):
                                      lambda patch: patch.setenv("CC", "false")], ids=["no compiler", "one that fails"])
 def test_without_a_compiler_python_is_asked(without, monkeypatch):
     expected = zd.simulate(scene(effort, 2), 0.2, step=0.01).p
-    monkeypatch.setattr(law_functions, "_functions", {})
+    monkeypatch.setattr(function_code, "_functions", {})
     without(monkeypatch)
     asked = called(monkeypatch)
     assert np.abs(zd.simulate(scene(effort, 2), 0.2, step=0.01).p - expected).max() < ROUNDING
@@ -162,7 +162,7 @@ def test_what_c_has_not_is_left_to_python(monkeypatch):
     assert set(asked) == {1}
     row = m.system()._core._law.rows[0]
     row.law.expression = Bump(t)
-    assert [law_functions.compiled(row, 1) for _ in range(2)] == [None, None]
+    assert [function_code.compiled(row, 1) for _ in range(2)] == [None, None]
 
 
 @pytest.mark.filterwarnings("ignore:invalid value encountered in log")

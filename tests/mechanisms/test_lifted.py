@@ -7,7 +7,7 @@ import sympy as sp
 import zerodrift as zd
 from every_model import MECHANISMS
 from support import assert_close
-from zerodrift.mechanisms.lifting import LIFTED
+from zerodrift.mechanisms.building.plane_to_space import LIFTED
 
 ROUGH = {"jansen", "klann", "stephenson"}       # sketches: the two assemblies stop within 1e-6 of each other
 

@@ -5,7 +5,7 @@ import pytest
 
 import zerodrift as zd
 from large_mechanisms import chain, chain_of_balls, four_bars, spatial_chain, star
-from zerodrift.mechanisms import assembly_of_many
+from zerodrift.mechanisms.assembly import sparse
 
 AGREES = 1e-12
 NEAREST = 1e-4      # steps towards the drawing end where they gain a millionth of the distance: a thousandth of a tenth is left,
@@ -22,7 +22,7 @@ def doubled(n):
 @pytest.fixture
 def few(monkeypatch):
     """Takes what is done for many rows from the first one on, once it is called."""
-    return lambda: monkeypatch.setattr(assembly_of_many, "MOST_DENSE", 0)
+    return lambda: monkeypatch.setattr(sparse, "MOST_DENSE", 0)
 
 
 @pytest.mark.parametrize(("make", "held"), [

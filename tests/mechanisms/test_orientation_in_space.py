@@ -5,7 +5,7 @@ import pytest
 
 import zerodrift as zd
 from support import assert_close
-from zerodrift.mechanisms.space import about
+from zerodrift.mechanisms.elements.frames import about
 
 CLOSED = 1e-12      # of assembled positions
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from zerodrift.mechanisms.expressions import FUNCTIONS
-from zerodrift.mechanisms.scalars import function_of
+from zerodrift.mechanisms.elements.user_functions import function_of
+from zerodrift.mechanisms.files.expressions_json import FUNCTIONS
 from zerodrift.systems.jets import Jet
 
 x, y = sp.symbols("x y", real=True)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from zerodrift.mechanisms.space import about
+from zerodrift.mechanisms.elements.frames import about
 
 
 def drawing():

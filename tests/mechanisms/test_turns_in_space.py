@@ -6,7 +6,7 @@ import pytest
 import zerodrift as zd
 from support import assert_close
 from tolerances import SAME
-from zerodrift.mechanisms.space import about
+from zerodrift.mechanisms.elements.frames import about
 
 R = about((0.3, 0.6, -0.2), 0.7)        # so that no axis of a mechanism is one of the drawing's
 AXIS = R[:, 2]

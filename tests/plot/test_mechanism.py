@@ -11,8 +11,8 @@ from scipy.spatial import ConvexHull
 
 import zerodrift as zd
 from drawn import centres, collection, is_among, outlines, sorts
-from zerodrift.mechanisms.joints import JOINTS
-from zerodrift.mechanisms.made_forces import ELEMENTS
+from zerodrift.mechanisms.elements.joints import JOINTS
+from zerodrift.mechanisms.elements.table_forces import ELEMENTS
 from zerodrift.plot import annotations, marks
 from zerodrift.plot.glyphs import GLYPHS
 from zerodrift.plot.mechanism import Picture

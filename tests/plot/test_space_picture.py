@@ -7,7 +7,7 @@ import pytest
 import zerodrift as zd
 from every_model import IN_SPACE
 from support import assert_close
-from zerodrift.mechanisms.space import about
+from zerodrift.mechanisms.elements.frames import about
 from zerodrift.plot.space_picture import DOTS, FACES, GLYPHS
 
 

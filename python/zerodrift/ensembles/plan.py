@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..errors import ZerodriftError
-from ..mechanisms.measures import name_of
+from ..mechanisms.elements.measures import name_of
 from ..runs import events as events_of
 from ..runs import settings
 from ..runs.simulate import simulate

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import ZerodriftError
-from ..mechanisms.measures import name_of
+from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
 from ..runs.operations import assemble
 from ..systems.base import BaseSystem, core_of, system_of

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, models
-from ..mechanisms.forces import Motor
+from ..mechanisms.elements.forces import Motor
 from ..mechanisms.mechanism import Mechanism
 from ..runs.simulate import simulate
 from ..runs.solution import Solution

@@ -10,11 +10,11 @@ import numpy as np
 
 from .. import _check
 from ..errors import SingularSystem
-from .bodies import Point
+from .assembly.start import Starting
+from .building.link_shape import Shape, on_sides
+from .elements.bodies import Point
+from .elements.numbers import AS_GIVEN
 from .mechanism import Mechanism
-from .numbers import AS_GIVEN
-from .plates import Shape, on_sides
-from .starting import Starting
 
 GROUND = "ground"
 

@@ -11,15 +11,15 @@ import numpy as np
 from .. import _check
 from .._writing import write_whole
 from ..systems.base import Makes, Terms
-from .describing import described, text
-from .drawing import Drawing
-from .lifting import lift
-from .making_bodies import BodyVerbs
-from .making_couplings import CouplingVerbs
-from .making_forces import ForceVerbs
-from .making_joints import JointVerbs
-from .report import headline, report
-from .start import StartVerbs
+from .building.body_verbs import BodyVerbs
+from .building.coupling_verbs import CouplingVerbs
+from .building.force_verbs import ForceVerbs
+from .building.joint_verbs import JointVerbs
+from .building.plane_to_space import lift
+from .building.start_verbs import StartVerbs
+from .elements.drawing import Drawing
+from .files.to_json import described, text
+from .reports.summary import headline, report
 from .system import LAYOUTS, MechanismSystem
 
 

@@ -17,29 +17,27 @@ from ..symbolics.direct_functions import NO_COMPILER, DirectFunctions
 from ..systems.base import BaseSystem
 from ..systems.shapes import Shape
 from ..systems.tables import NumberTables, refusals
-from . import advice, cost, space_advice
-from .arrows import acting, chosen
-from .compiled import Written
-from .describing import described
-from .drawing import Drawing
-from .many import are_plain, varied
-from .measuring import measuring
-from .numbers import Numbers
-from .outline import outline
-from .posed import Parts, Posed
-from .sketch import sketches
-from .space_bodies import SpaceInertias
-from .space_joints import SpaceJoint
-from .space_measuring import orientation
-from .space_outline import space_outline
-from .space_posed import SpacePosed
-from .space_sketch import space_sketches
-from .space_tables import SpaceTables
-from .start import targets
-from .starting import Starting
-from .tables import Tables
-from .tabulated import tables_of
-from .unforced import is_driven
+from .assembly import space_advice
+from .assembly.free_coordinates import is_driven
+from .assembly.start import Starting
+from .assembly.variants import are_plain, varied
+from .building.start_verbs import targets
+from .elements.drawing import Drawing
+from .elements.numbers import Numbers
+from .elements.space_bodies import SpaceInertias
+from .equations.generated_code import Written
+from .equations.measure_tables import measuring, orientation
+from .equations.space_tables import SpaceTables, tables_of
+from .equations.tables import Tables, constraint_names
+from .files.to_json import described
+from .pictures.arrows import acting, chosen
+from .pictures.plane_outline import outline
+from .pictures.plane_pose import Parts, Posed
+from .pictures.plane_shapes import sketches
+from .pictures.space_outline import space_outline
+from .pictures.space_pose import SpacePosed
+from .pictures.space_shapes import space_sketches
+from .reports import advice, cost
 
 LAYOUTS = ("joint", "absolute")
 MANY = 32       # joint coordinates: of fewer, none is told what they cost
@@ -98,7 +96,7 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def constraints(self) -> tuple[Variable, ...]:
-        return row_names(self._tables, self._first_core)
+        return constraint_names(self._tables, self._first_core)
 
     @property
     def measures(self) -> tuple[str, ...]:
@@ -340,24 +338,6 @@ def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Vari
             place = f"{body.name}.{coordinate.kind}"
             found.append((Variable(place, "m"), Variable(f"{place}_dot", "m/s")))
     return found
-
-
-def row_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
-    """What each row of C is: of a joint, which of its gauges; of a drive or coupling, its name."""
-    named = []
-    for row in core.rows:
-        if row.owner == "relation":
-            named.append(Variable(tables.relation_names[row.index], ""))
-            continue
-        joint = tables.joints[row.index]
-        if isinstance(joint, SpaceJoint):
-            named.append(joint.row_named(row.component))
-            continue
-        rows = joint.row.rows
-        gauge = rows[row.component].gauge
-        unit = "rad" if gauge == "angle" else "m"
-        named.append(Variable(joint.name if len(rows) == 1 else f"{joint.name}.{gauge}", unit))
-    return tuple(named)
 
 
 def _is_right(path: str, value: float) -> bool:

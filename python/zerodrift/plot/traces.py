@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from .. import _check
 from .._gateway import Variable
-from ..mechanisms.measures import name_of
+from ..mechanisms.elements.measures import name_of
 from ..tracing.traced import Trace
 from . import style as _style
 from .drawing import drawing_axes, paths_of

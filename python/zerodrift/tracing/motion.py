@@ -10,15 +10,15 @@ import numpy as np
 from .. import _check
 from .._gateway.geometry import Component, Geometry
 from ..errors import SingularSystem
-from ..mechanisms.assembly_of_many import assembly_of
-from ..mechanisms.forces import Actuator, Motor
-from ..mechanisms.measures import name_of
-from ..mechanisms.measuring import measuring
-from ..mechanisms.readings import checked_reading
-from ..mechanisms.start import targets
-from ..mechanisms.starting import Starting, size_of
+from ..mechanisms.assembly.sparse import assembly_of
+from ..mechanisms.assembly.start import Starting, size_of
+from ..mechanisms.building.start_verbs import targets
+from ..mechanisms.elements.forces import Actuator, Motor
+from ..mechanisms.elements.measures import name_of
+from ..mechanisms.equations.measure_names import checked_reading
+from ..mechanisms.equations.measure_tables import measuring
+from ..mechanisms.equations.tables import Tables
 from ..mechanisms.system import MechanismSystem
-from ..mechanisms.tables import Tables
 from .curve import ZERO_SLOPE, Curve, Knot
 
 DEPENDENT = 1e-9        # of the largest singular value: what counts as dependent

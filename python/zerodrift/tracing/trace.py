@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..mechanisms.measures import name_of
+from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
 from ..systems.base import system_of
 from . import walk

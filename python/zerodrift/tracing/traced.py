@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
-from ..mechanisms.measures import name_of
+from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
 
 

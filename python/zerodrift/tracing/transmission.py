@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from .. import _check
-from ..mechanisms import transmission
-from ..mechanisms.joints import Joint
-from ..mechanisms.measures import Measure
+from ..mechanisms.elements.joints import Joint
+from ..mechanisms.elements.measures import Measure
+from ..mechanisms.equations import transmission
 from ..mechanisms.mechanism import Mechanism
 
 

@@ -6,7 +6,7 @@ import scipy.integrate
 
 import zerodrift as zd
 from support import assert_close
-from zerodrift.mechanisms.space import about
+from zerodrift.mechanisms.elements.frames import about
 
 EXACT = {"integrator": "dop853", "step": None, "rtol": 1e-11, "atol": 1e-12}
 

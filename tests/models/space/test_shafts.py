@@ -5,7 +5,7 @@ import pytest
 
 import zerodrift as zd
 from support import assert_close
-from zerodrift.mechanisms.numbers import AS_GIVEN
+from zerodrift.mechanisms.elements.numbers import AS_GIVEN
 
 
 def test_hookes_joint_by_its_tangents():

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ... import _check
+from ...mechanisms.elements.frames import about
 from ...mechanisms.mechanism import Mechanism
-from ...mechanisms.space import about
 from .._arguments import checked
 
 

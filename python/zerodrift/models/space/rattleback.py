@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...mechanisms.elements.frames import about
 from ...mechanisms.mechanism import Mechanism
-from ...mechanisms.space import about
 from .._arguments import checked
 
 

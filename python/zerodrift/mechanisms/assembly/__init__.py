@@ -1,0 +1,1 @@
+"""Initial positions and velocities that satisfy all joints and drives."""

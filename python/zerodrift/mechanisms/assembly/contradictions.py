@@ -1,0 +1,47 @@
+"""Velocities that cannot be met together, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...errors import InconsistentStart
+
+MOST_TOLD = 8           # names in a sentence
+ANGLES = "angle", "angle1", "angle2"
+
+
+def contradiction(left: np.ndarray, size: np.ndarray, names: Sequence[str], rows: Sequence[str]) -> Exception:
+    """The error that names whose velocities contradict each other, or the joints that do not leave one its velocity.
+
+    What is left over weighs rows so that the weighted sum of them vanishes and that of their right sides does not: rows with
+    a weight are those that contradict each other. `names` are what rows ask a velocity for, and `rows` what they belong to.
+    """
+    least = 1e-3 * np.abs(left).max()
+    worst = [int(i) for i in np.argsort(-np.abs(left)) if abs(left[i]) > least]
+    moved = list(dict.fromkeys(names[i] for i in worst if names[i]))
+    if len(moved) > 1:
+        told, off = _told(moved, " and "), np.abs(left * size).max()
+        return InconsistentStart(f"start: the velocities of {told} contradict each other, by {off:.3g}")
+    row = max((i for i, name in enumerate(names) if name), key=lambda i: abs(left[i]))
+    off = left @ left / abs(left[row]) * size[row] if row in worst else 0.0      # of this row, where all others are met
+    told = f"; it is off by {off:.3g}" if off else ""
+    joints = _told(sorted({rows[i] for i in worst if not names[i]}), ", ")
+    blocking = f"the joints {joints} do" if joints else "the mechanism does"
+    return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow in this pose{told}. "
+                             "At a dead centre, start a little aside, or drive another joint")
+
+
+def unit_of(name: str) -> str:
+    """The unit of a held measure; none of drives and couplings, which are named without a quantity, and of cosines."""
+    quantity = name.split(".")[1:]
+    if not quantity or quantity[-1].endswith("]"):
+        return ""
+    return "rad" if quantity[-1] in ANGLES else "m"
+
+
+def _told(names: Sequence[str], between: str) -> str:
+    """Names, not all of many."""
+    others = [f"{len(names) - MOST_TOLD} others"] if len(names) > MOST_TOLD else []
+    return between.join([*map(repr, names[:MOST_TOLD]), *others])

@@ -1,0 +1,172 @@
+"""Joint coordinates that a start does not force: they stay as drawn, and their speeds zero.
+
+Bodies hang on a tree of joints. A value that is held or driven forces the coordinates on the way between the bodies that it
+measures, or its own coordinate alone where it is one. A joint that closes a loop, or a coupling, that contains a forced
+coordinate forces the others in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..._gateway.space import Gauge
+from ..._gateway.uses import Observed
+from ..elements.bodies import Body, Point
+from ..elements.drawing import Drawing
+from ..elements.forces import Actuator, Motor
+from ..elements.joints import Coupling, Joint
+from ..elements.space_joints import SpaceJoint, speeds
+from ..equations.measure_names import has_coordinate, reading_of_start
+from ..equations.tables import Tables
+from .joint_paths import Reach
+
+
+class Coordinate(NamedTuple):
+    """A joint coordinate, or several of one body: the body that it moves, and the measures of its positions and rates.
+
+    `axis` is "x", "y" or "z" of a place, of which each is a coordinate; None: all components are meant. `joint` is that of a
+    spherical joint, whose rotation is measured by cosines between the axes of its bodies.
+    """
+
+    body: int
+    position: str
+    rate: str
+    axis: str | None = None
+    joint: Joint | None = None
+
+
+class Forced(NamedTuple):
+    """The values that force coordinates: names of measures, and elements whose way is forced as a whole."""
+
+    measures: Sequence[str]
+    elements: Sequence[Any]
+
+
+def is_driven(drawing: Drawing) -> bool:
+    """Whether a motor, an actuator or a law of a constraint prescribes a motion."""
+    drives = any(each.prescribes for each in drawing.of((Motor, Actuator)))
+    return drives or any(each.law is not None for each in drawing.of(Coupling))
+
+
+def is_forced(drawing: Drawing) -> bool:
+    """Whether anything but joints says where the mechanism starts."""
+    return bool(drawing.held or drawing.wished or is_driven(drawing) or drawing.of(Coupling))
+
+
+def unforced(drawing: Drawing, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
+    """The coordinates whose positions, and those whose rates, held and wished values, drives and constraints do not reach."""
+    if not is_forced(drawing):
+        return [], []
+    coordinates = _Coordinates(drawing, tables)
+    return coordinates.unforced(_forced(drawing, rates=False)), coordinates.unforced(_forced(drawing, rates=True))
+
+
+def names_of(coordinates: Iterable[Coordinate]) -> list[str]:
+    """The measures of their positions and rates."""
+    return [name for each in coordinates for name in (each.position, each.rate)]
+
+
+def _forced(drawing: Drawing, *, rates: bool) -> Forced:
+    held = [name for given in (drawing.held, drawing.wished) for name in given if _is_rate(name, drawing) == rates]
+    drives = [motor for motor in drawing.of(Motor) if motor.prescribes]
+    held += [f"{motor.joint.name}.{motor.coordinate}" for motor in drives]
+    moved = [each for each in drawing.of(Actuator) if each.prescribes]
+    moved += [each for each in drawing.of(Coupling) if each.kind in ("constraint", "nonholonomic", "cam")]
+    return Forced(held, moved)
+
+
+class _Coordinates:
+    """The joint coordinates of a mechanism, and which of them move with which."""
+
+    def __init__(self, drawing: Drawing, tables: Tables) -> None:
+        self.drawing, self.tables, self.carrier = drawing, tables, tables.tree(with_cut=True)
+        self.reach = Reach(self.carrier, [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints])
+        self.coordinates = list(self._all())
+
+    def unforced(self, forced: Forced) -> list[Coordinate]:
+        ways: set[int] = set()
+        alone: set[int] = set()             # coordinates that are held or driven, by their numbers
+        for name in forced.measures:
+            own = [i for i, each in enumerate(self.coordinates) if _is_of(name, each)]
+            alone |= set(own)
+            ways |= set() if own else self._way_of(name)
+        for element in forced.elements:
+            ways |= self._way_of_element(element)
+        moving = self.reach.moving_with(ways, {self.coordinates[i].body for i in alone}, self._couplings())
+        return [each for i, each in enumerate(self.coordinates) if i not in alone and each.body not in moving]
+
+    def _couplings(self) -> Iterator[set[int]]:
+        for each in (*self.drawing.of(Coupling), *(each for each in self.drawing.of(Actuator) if each.prescribes)):
+            yield self._way_of_element(each)
+
+    def _way_of_element(self, element: Any) -> set[int]:
+        if isinstance(element, Coupling):
+            return set().union(*(self._way_of(name) for name in element.of))
+        numbers = [self.tables.number[body.name] for body in bodies_of(element)]
+        return self.reach.between(*numbers) if len(numbers) == 2 else self.reach.between(0, numbers[0])
+
+    def _way_of(self, name: str) -> set[int]:
+        return self._way_of_element(self.drawing.elements[name.partition(".")[0]])
+
+    def _all(self) -> Iterator[Coordinate]:
+        for number, (body, carrier) in enumerate(zip(self.tables.parts, self.carrier, strict=True), 1):
+            if carrier < 0:
+                yield from _of_free(number, body, self.drawing.dimension)
+            else:
+                yield from _of_joint(number, body, self.tables.joints[carrier])
+
+
+def _of_free(number: int, body: Body, dimension: int) -> Iterator[Coordinate]:
+    for axis in "xyz"[:dimension]:
+        yield Coordinate(number, f"{body.name}.position", f"{body.name}.velocity", axis)
+    if body.turns:
+        yield Coordinate(number, f"{body.name}.{'angle' if dimension == 2 else 'rotation'}", f"{body.name}.angular_velocity")
+
+
+def _of_joint(number: int, body: Body, joint: Joint) -> Iterator[Coordinate]:
+    if not isinstance(joint, SpaceJoint):
+        if has_coordinate(joint):
+            yield Coordinate(number, f"{joint.name}.{joint.coordinate}", f"{joint.name}.speed")
+        return
+    for speed, coordinate in speeds(joint.row).items():
+        yield Coordinate(number, f"{joint.name}.{coordinate}", f"{joint.name}.{speed}")
+    if body.turns and any(each.kind == "swings" for each in joint.row.freedoms):
+        yield Coordinate(number, f"{joint.name} swings", f"{joint.name} swings at", joint=joint)
+
+
+def bodies_of(element: Any) -> tuple[Body, ...]:
+    """The bodies that an element is, or belongs to, or joins."""
+    if isinstance(element, Body):
+        return (element,)
+    if isinstance(element, Point):
+        return (element.body,)
+    return element.bodies if isinstance(element, Joint) else (element.first.body, element.second.body)
+
+
+def swings(tables: Tables, coordinates: Iterable[Coordinate], first: int) -> tuple[list[Gauge], list[Observed]]:
+    """What reads the rotations of spherical joints: gauges, to be put behind `first` others, and the measures that they make."""
+    gauges: list[Gauge] = []
+    observed: list[Observed] = []
+    for each in coordinates:
+        if each.joint is None:
+            continue
+        bodies = [tables.number[body.name] for body in each.joint.bodies]
+        cosines = [Gauge("cosine", *bodies, a=tuple(a), b=tuple(b)) for a in np.eye(3) for b in np.eye(3)]
+        for name, unit, quantity in ((each.position, "", "values"), (each.rate, "1/s", "rates")):
+            observed.append(Observed(name, unit, quantity, first + len(gauges), len(cosines)))
+        gauges += cosines
+    return gauges, observed
+
+
+def _is_of(name: str, coordinate: Coordinate) -> bool:
+    """Whether a measure that is held is this coordinate, or its rate."""
+    base, _, axis = name.rpartition(".")
+    return name in (coordinate.position, coordinate.rate) or (
+        base in (coordinate.position, coordinate.rate) and axis == coordinate.axis)
+
+
+def _is_rate(name: str, drawing: Drawing) -> bool:
+    return reading_of_start(name, drawing.elements).is_rate

@@ -1,0 +1,72 @@
+"""Ways out of a pose in which rows follow from others that do not nearby: positions aside of it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from ...errors import CorrectionFailed, InconsistentStart
+from .dense import NUDGE, Assembly, Target
+from .least_squares import RANK, nullspace
+from .sparse import is_of_many
+
+NUDGED = "zd.assemble(m, nudge=True) starts beside it"
+OTHERWISE = "start a little aside, or drive another joint"
+
+
+def nudged(assembly: Assembly, p: np.ndarray, left_out: Collection[int] = (), far: float = NUDGE) -> np.ndarray:
+    """Positions that are moved a little along a random free direction, without the rows left out, and assembled."""
+    free = nullspace(np.delete(assembly.scaled_rows(p), sorted(left_out), axis=0))
+    if not free.shape[1]:
+        return p
+    direction = free @ np.random.default_rng(0).standard_normal(free.shape[1])
+    return assembly.nearby(_moved(assembly, p, far * direction / np.abs(direction).max()), left_out)
+
+
+def aside(assembly: Assembly, p: np.ndarray, far: float, held: Sequence[Target]) -> np.ndarray:
+    """Positions so far aside, in which all rows are met.
+
+    Where velocities are asked for it goes along these: branches cross in a singular pose, and not each of them allows them.
+    """
+    found = _along(assembly, p, far, held)
+    if found is None:
+        found = nudged(assembly, p, far=far)
+    if not assembly.is_closed(found, ()):
+        raise CorrectionFailed(f"no positions in which all joints close were found {far:g} aside: take a smaller nudge")
+    return found
+
+
+def _along(assembly: Assembly, p: np.ndarray, far: float, held: Sequence[Target]) -> np.ndarray | None:
+    """Positions along the velocities that are asked for; None: none are, or they lead back, as where drives hold the pose."""
+    try:
+        v = assembly.velocities(p, held, ()) / assembly.scale
+    except InconsistentStart:
+        return None
+    if not v.any():
+        return None
+    found = assembly.nearby(_moved(assembly, p, far * v / np.abs(v).max()))
+    gone = np.abs(assembly.core.apart(found, p) / assembly.scale).max()
+    return found if gone > far / 2 else None
+
+
+def _moved(assembly: Assembly, p: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """Positions after a step in rad and parts of the length."""
+    return assembly.core.moved(p, step * assembly.scale)
+
+
+def way_out(assembly: Assembly, p: np.ndarray, held: Sequence[Target]) -> str:
+    """What helps in a singular pose: a nudge, where it leads to one that is less so and that the velocities allow."""
+    if is_of_many(assembly.core):       # of which no dense matrices are made to see it
+        return NUDGED
+    try:
+        found = aside(assembly, p, NUDGE, held)
+        assembly.velocities(found, held, ())
+    except (CorrectionFailed, InconsistentStart):
+        return OTHERWISE
+    return NUDGED if _rank(assembly, found) > _rank(assembly, p) else OTHERWISE
+
+
+def _rank(assembly: Assembly, p: np.ndarray) -> int:
+    s = np.linalg.svd(assembly.scaled_rows(p), compute_uv=False)
+    return int((s > RANK * s.max(initial=0.0)).sum())

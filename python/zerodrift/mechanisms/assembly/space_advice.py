@@ -1,0 +1,165 @@
+"""What a mechanism in space knows of errors that the core tells in numbers.
+
+It is about discs that lie flat, shafts at right angles, and joints that leave no motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..._gateway.space import SpaceCore
+from ..._rotations import rotation_of
+from ..elements.bodies import Body
+from ..elements.joints import Joint
+from ..elements.space_joints import SpaceJoint, SpaceRolling
+from ..equations.space_tables import SpaceTables
+
+FLAT = 15.0             # degrees between the axle of a disc and the normal: how near to lying flat a run may have failed by that
+RIGHT_ANGLE = 10.0      # degrees that shafts are off one
+PARALLEL = 1e-4         # degrees
+MEETS = 1e-6            # of the distance: how far off an axis still passes through a point
+RANK = 1e-9             # of the largest singular value
+LOCKED = "leave no body any motion, and yet rows follow from others"
+MOST_ROWS = 300         # whose singular values take a moment
+SHAFTS = "revolute", "cylindrical"
+
+
+def on_failure(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray) -> str | None:
+    """What stands in the way near the state in which a run has failed; None: nothing that is known here."""
+    R = _rotations(core, p)
+    for joint in tables.joints:
+        told = _of_disc(tables, joint, R) if isinstance(joint, SpaceRolling) else (
+            _of_shafts(tables, joint, R) if joint.kind == "universal" else None)
+        if told:
+            return f"near t = {t:g} {told}"
+    return None
+
+
+def _of_disc(tables: SpaceTables, joint: SpaceRolling, R: Sequence[np.ndarray]) -> str | None:
+    if min(joint.semiaxes) > 0:
+        return None
+    row = tables.joint_rows[tables.joint_number[joint.name]]
+    off = _between(R[row.first] @ row.frame1[0], R[row.second] @ row.frame2[0])
+    if off > FLAT:
+        return None
+    return (f"disc {joint.second.body.name!r} of {joint.name!r} falls flat: its axle is {off:.3g} degrees off the normal, and a "
+            "disc that lies flat does not roll. End the run before, as by an event")
+
+
+def _of_shafts(tables: SpaceTables, joint: SpaceJoint, R: Sequence[np.ndarray], off: float = RIGHT_ANGLE) -> str | None:
+    """Of a universal joint whose two bodies each turn about an axis of their own, at nearly a right angle."""
+    axes, names = _shafts(tables, joint, R)
+    if len(axes) < 2 or abs((apart := _between(*axes)) - 90) > off:
+        return None
+    return (f"the shafts of universal joint {joint.name!r} about the axes of {names[0]!r} and {names[1]!r} are {apart:.4g} "
+            "degrees apart: at a right angle it hands no turning on")
+
+
+def _shafts(tables: SpaceTables, joint: SpaceJoint, R: Sequence[np.ndarray]) -> tuple[list[np.ndarray], list[str]]:
+    """The axes about which the bodies of a universal joint turn, and the joints that have them, as far as there are any."""
+    axes, names = [], []
+    for body in joint.bodies:
+        shaft = _shaft(tables, body)
+        if shaft is not None:
+            row, side = tables.joint_rows[tables.joint_number[shaft.name]], shaft.bodies.index(body)
+            axes.append(R[(row.first, row.second)[side]] @ (row.frame1, row.frame2)[side][0])
+            names.append(shaft.name)
+    return axes, names
+
+
+def at_right_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[str]:
+    """What is told of each universal joint whose shafts are at a right angle, and stay so."""
+    R = _rotations(core, p)
+    told = [_of_shafts(tables, joint, R, PARALLEL) for joint in _with_shafts(tables)]
+    return [each for each in told if each]
+
+
+def flat_crosses(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[str]:
+    """Each universal joint whose cross lies in the plane of both shafts, where turning either leaves its arms perpendicular."""
+    R, told = _rotations(core, p), []
+    for joint in _with_shafts(tables):
+        axes, names = _shafts(tables, joint, R)
+        row = tables.joint_rows[tables.joint_number[joint.name]]
+        across = np.cross(R[row.first] @ row.frame1[0], R[row.second] @ row.frame2[1])
+        if all(90 - _between(across, axis) <= PARALLEL for axis in axes):
+            told.append(f"the cross of universal joint {joint.name!r} lies in the plane of its shafts, the axes of "
+                        f"{names[0]!r} and {names[1]!r}")
+    return told
+
+
+def of_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray, names: Sequence[str]) -> str:
+    """Of angles of universal joints that cannot be met: how far apart bearings keep the shafts; nothing where none do."""
+    R, told = _rotations(core, p), []
+    for joint in _with_shafts(tables):
+        if {f"{joint.name}.angle1", f"{joint.name}.angle2"} & set(names):
+            axes, bearings = _shafts(tables, joint, R)
+            told.append(f"; the shafts of universal joint {joint.name!r} stay {_between(*axes):.4g} degrees apart in "
+                        f"{bearings[0]!r} and {bearings[1]!r}, which limits its angles")
+    return "".join(told)
+
+
+def _with_shafts(tables: SpaceTables) -> list[SpaceJoint]:
+    """The universal joints between two shafts that meet in their centres, and turn in one and the same body."""
+    found = []
+    for joint in tables.joints:
+        shafts = [_shaft(tables, body) for body in joint.bodies] if joint.kind == "universal" else [None]
+        if all(shaft is not None and _passes_through(shaft, joint, body)
+               for shaft, body in zip(shafts, joint.bodies, strict=False)):
+            holding = {other for shaft in shafts for other in shaft.bodies if other not in joint.bodies}
+            found += [joint] if len(holding) == 1 else []
+    return found
+
+
+def _shaft(tables: SpaceTables, body: Body) -> SpaceJoint | None:
+    """The bearing in which a body turns about an axis, if it has one."""
+    return next((joint for joint in tables.joints if joint.kind in SHAFTS and body in joint.bodies), None)
+
+
+def _passes_through(shaft: SpaceJoint, joint: SpaceJoint, body: Body) -> bool:
+    """Whether the axis of the bearing goes through the joint, as the body of both is drawn."""
+    places = [(each.first, each.second)[each.bodies.index(body)].drawn for each in (shaft, joint)]
+    way = places[1] - places[0]
+    return bool(np.linalg.norm(np.cross(shaft.axis_as_drawn(), way)) <= MEETS * max(np.linalg.norm(way), 1e-300))
+
+
+def _rotations(core: SpaceCore, p: np.ndarray) -> list[np.ndarray]:
+    """Of the ground and of the bodies."""
+    return [np.eye(3), *rotation_of(core.poses(p)[0][:, 3:])]
+
+
+def at_start(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray, name: str) -> str | None:
+    """Whether the joints leave no motion at all, and which axes may be why; None: they leave some."""
+    if core.m > MOST_ROWS:
+        return None
+    C = core.evaluate(t, p, np.zeros(core.nv))["C"]
+    s = np.linalg.svd(C / np.maximum(np.linalg.norm(C, axis=1, keepdims=True), 1e-300), compute_uv=False)
+    if np.count_nonzero(s > RANK * s[0]) < core.nv:
+        return None
+    return locked(tables, name) or f"the joints of {name!r} {LOCKED}"
+
+
+def locked(tables: SpaceTables, name: str) -> str | None:
+    """Which axes may be why nothing moves; None: those of all hinges are parallel."""
+    hinges = [joint for joint in tables.joints if joint.kind == "revolute"]
+    off = _off_most(hinges) if hinges else []
+    skew = ", ".join(f"{hinge.name!r} {angle:.3g} degrees off"
+                     for hinge, angle in zip(hinges, off, strict=True) if angle > PARALLEL)
+    if not skew:
+        return None
+    true = next(hinge.name for hinge, angle in zip(hinges, off, strict=True) if angle <= PARALLEL)
+    return (f"the joints of {name!r} {LOCKED}: hinges of a loop in a plane need parallel axes, and there is {skew} "
+            f"that of {true!r}")
+
+
+def _off_most(hinges: Sequence[Joint]) -> list[float]:
+    """How many degrees the axis of each hinge is off that to which most are parallel."""
+    axes = [hinge.axis_as_drawn() for hinge in hinges]
+    angles = [[_between(axis, other) for other in axes] for axis in axes]
+    return max(angles, key=lambda each: sum(angle <= PARALLEL for angle in each))
+
+
+def _between(a: np.ndarray, b: np.ndarray) -> float:
+    """Degrees between two lines, from 0 to 90."""
+    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), abs(a @ b))))

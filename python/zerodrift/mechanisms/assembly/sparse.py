@@ -1,0 +1,231 @@
+"""Assembly of many bodies at a cost in proportion to them: no dense matrix is made.
+
+Steps onto the rows are least in rad and parts of the mechanism's length, not in the mass metric. In that, a long chain would bend
+in few links, since whatever is beyond these has to be moved, and bends strongly, where Newton's method gains little by a step.
+Only the way to the drawing is measured by mass.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Collection, Sequence
+
+import numpy as np
+
+from ..._gateway.consistent import nearest_velocities
+from ..._gateway.mechanisms import MechanismCore
+from ...errors import InconsistentStart
+from .contradictions import contradiction
+from .dense import ATTEMPTS, CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly
+from .sparse_constraints import SparseRows, Target, are_met, read_targets, sparse_rows
+
+MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
+HALVINGS = 6            # of a step of Newton's method that gains nothing
+SMALLEST_PART = 1e-3    # of the way that drives and targets go: where shorter ones are not met, none are
+MOST_TIMES = 20.0       # a step towards the drawing is lengthened or shortened so many times at most
+LEAST_GAIN = 1e-6       # of the squares that are left: damped steps end where they gain less
+WISHED = 1e-6           # a wish weighs as much as steps that are so many times smaller
+
+
+def assembly_of(core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float, t: float,
+                couplings: Collection[int] = ()) -> Assembly:
+    """The assembly of a mechanism, as many bodies as it has."""
+    return (AssemblyOfMany if is_of_many(core) else Assembly)(core, rows, left_out, length, t, couplings)
+
+
+def is_of_many(core: MechanismCore) -> bool:
+    """Whether there are so many rows that no dense matrix is made of them."""
+    has_diagonal_mass = core.packing is not None and core.stored("M") == (core.nv,)
+    return has_diagonal_mass and max(core.nv, core.m) > MOST_DENSE
+
+
+class AssemblyOfMany(Assembly):
+    """The assembly of a mechanism of many bodies, all of which are free and have mass; see `Assembly`."""
+
+    # ---- positions ----
+
+    def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
+        allowed = CLOSED * SMALLEST * self.length
+        if self._rows_are_met(p) and are_met(self.core, p, held, allowed):
+            return True
+        return bool(np.abs(self._residual(p, held)[0]).max(initial=0.0) <= CLOSED)
+
+    def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, SparseRows]:
+        stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
+        rows, off = sparse_rows(self.core, stored, p, targets)
+        is_kept = np.ones(self.core.m + len(targets), dtype=bool)
+        is_kept[: self.core.m] = np.isin(np.arange(self.core.m), self.kept)
+        rows = rows[is_kept] * self.scale
+        size = self._sizes(rows.lengths(), targets)
+        return np.concatenate([stored["Phi"][self.kept] if self.core.mh else [], off]) / size, rows / size
+
+    def _least_step(self, rows: SparseRows, right: np.ndarray) -> np.ndarray:
+        return (rows * (1 / self.weight)).least(right) / self.weight
+
+    def _newton(self, p: np.ndarray, system: Callable) -> np.ndarray | None:
+        """Least steps in rad and parts of the length, halved where they gain nothing; None where that is not near enough."""
+        residual, rows = system(p)
+        best = np.abs(residual).max(initial=0.0)
+        for _ in range(40):
+            if best < 1e-15:
+                break
+            tried = self._gaining(p, _at_most(LONGEST, -rows.least(residual)), system, best)
+            if tried is None:
+                break
+            p, residual, rows, best = tried
+        return p if best <= CLOSED else None
+
+    def _gaining(self, p: np.ndarray, step: np.ndarray, system: Callable,
+                 best: float) -> tuple[np.ndarray, np.ndarray, SparseRows, float] | None:
+        """Positions with their residual after a step, or the longest of its halves, that gains; None where none does."""
+        for _ in range(1 + HALVINGS):
+            tried = self._moved(p, step)
+            residual, rows = system(tried)
+            error = np.abs(residual).max(initial=0.0)
+            if error < best:
+                return tried, residual, rows, error
+            if best <= CLOSED:      # what is left is rounding
+                return None
+            step = step / 2
+        return None
+
+    def _track(self, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
+        """Leads drives, couplings and held targets from where they are to where they shall be, in parts as long as can be.
+
+        Where they do not get there, what is left is made least.
+        """
+        start = self._residual(p, held)[0]
+        start[: len(self.kept)][self.is_joint] = 0.0
+        done, part = 0.0, min(1.0, TRACKED / max(np.abs(start).max(initial=0.0), TRACKED))
+        while done < 1.0 and part >= SMALLEST_PART:
+            reached = min(1.0, done + part)
+            moved = self._newton(p, lambda p, left=1.0 - reached: self._shifted(p, held, left * start))
+            if moved is None:
+                part /= 4
+            else:
+                p, done, part = moved, reached, 2 * part
+        if done >= 1.0:
+            return p
+        for begin in (p, self._aside(p)):
+            closest, residual = self._least_squares(begin, lambda p: self._residual(p, held))
+            if np.abs(residual).max(initial=0.0) <= 1e3 * CLOSED:
+                return closest
+        raise self._unmet(self._left_over(p, held, residual), held)
+
+    def _left_over(self, p: np.ndarray, held: Sequence[Target], residual: np.ndarray) -> np.ndarray:
+        """What remains as near to drives, couplings and what is held as closed joints allow."""
+        is_soft = np.append(~self.is_joint, np.ones(len(held), dtype=bool))
+        return self._residual(self._nearest_to_soft(self._aside(p), lambda p: self._residual(p, held), is_soft), held)[0]
+
+    def _approach(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
+        is_wish = np.repeat([False, True], [len(self.kept) + len(held), len(wished)])
+        return self._nearest_to_soft(p, lambda p: self._residual(p, [*held, *wished]), is_wish)
+
+    def _nearest(self, drawn: np.ndarray, p: np.ndarray, system: Callable) -> np.ndarray:
+        """As of few bodies, but with steps of Barzilai and Borwein's lengths: each is but little less than the one before."""
+        distance, last, times = self._distance(p, drawn), None, 1.0
+        for _ in range(NEARER):
+            residual, rows = system(p)
+            way = self._apart(drawn, p)
+            step = way - self._least_step(rows, rows @ way + residual)
+            longest = self._times(step, last, times)
+            for times in (longest, longest / 4, longest / 16, longest / 64):
+                tried = self._newton(self._moved(p, _at_most(TRACKED, times * step)), system)
+                if tried is not None and (nearer := self._distance(tried, drawn)) < distance * (1 - 1e-6):
+                    break
+            else:
+                break
+            p, distance, last = tried, nearer, step
+        return p
+
+    def _distance(self, p: np.ndarray, other: np.ndarray) -> float:
+        return float(np.linalg.norm(self._apart(p, other) * self.weight))
+
+    def _times(self, step: np.ndarray, last: np.ndarray | None, times: float) -> float:
+        """How many times as long as itself a step is to be taken, where the last one was taken `times` as long."""
+        if last is None:
+            return 1.0
+        before, less = last * self.weight, (last - step) * self.weight
+        return float(np.clip(times * (before @ before) / max(before @ less, 1e-300), 1 / MOST_TIMES, MOST_TIMES))
+
+    def _nearest_to_soft(self, p: np.ndarray, system: Callable, is_soft: np.ndarray) -> np.ndarray:
+        """Positions with the least squares of the soft rows' residuals that the others allow, which are met where it begins.
+
+        By Levenberg's and Marquardt's method among the steps that the others allow, each of which is led back onto them.
+        """
+        def others(p: np.ndarray) -> tuple[np.ndarray, SparseRows]:
+            residual, rows = system(p)
+            return residual[~is_soft], rows[~is_soft]
+
+        (residual, rows), damping = system(p), 1e-2
+        for _ in range(ATTEMPTS):
+            size = float(residual[is_soft] @ residual[is_soft])
+            while damping < 1e12:
+                tried = self._newton(self._moved(p, _at_most(TRACKED, -rows.damped(residual, is_soft, damping))), others)
+                left = None if tried is None else system(tried)
+                if left is not None and (gain := size - float(left[0][is_soft] @ left[0][is_soft])) > 0:
+                    break
+                damping *= 10
+            else:
+                break
+            p, (residual, rows), damping = tried, left, max(damping / 10, WISHED**2)
+            if gain < LEAST_GAIN * size or gain < CLOSED**2:
+                break
+        return p
+
+    def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
+        """Newton's method; where it does not get there, damped steps that leave all rows open as little as can be."""
+        found = self._newton(p, system)
+        if found is None:
+            p = self._nearest_to_soft(p, system, np.ones(len(system(p)[0]), dtype=bool))
+            found = self._newton(p, system)
+        p = p if found is None else found
+        return p, system(p)[0]
+
+    # ---- velocities ----
+
+    def _as_they_are(self, p: np.ndarray, staying: Sequence[Target]) -> list[Target]:
+        values = read_targets(self.core, p, staying)[1] if staying else ()
+        return [each._replace(value=each.value + float(value)) for each, value in zip(staying, values, strict=True)]
+
+    def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
+                   staying: Sequence[Target] = ()) -> np.ndarray:
+        if staying and (held or wished or not self._may_rest(p)):
+            with contextlib.suppress(InconsistentStart):
+                return self.velocities(p, [*held, *staying], wished)
+        if not held and not wished:
+            return nearest_velocities(self.core, self.t, p, np.zeros(self.core.nv))
+        stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
+        rows, off = sparse_rows(self.core, stored, p, [*held, *wished])
+        rows, right = rows * (self.scale / self.weight), np.concatenate([-stored.get("Phi_t", np.zeros(self.core.m)), -off])
+        is_wish = np.arange(len(right)) >= self.core.m + len(held)
+        asked, asked_right = rows[~is_wish], right[~is_wish]
+        x = asked.least(asked_right)
+        size = asked.lengths()
+        size[size == 0.0] = 1.0
+        left = (asked @ x - asked_right) / size
+        if np.abs(left).max() > MET * max(np.abs(asked_right / size).max(), np.abs(x).max()):
+            raise contradiction(left, size, self._asked(held), self.rows)
+        return (x + _towards(rows, right - rows @ x, is_wish)) / self.weight * self.scale
+
+
+def _towards(rows: SparseRows, right: np.ndarray, is_wish: np.ndarray) -> np.ndarray:
+    """The least change that leaves all other rows as they are and takes wishes as near to their right sides as that allows.
+
+    Twice, as what damping leaves of the first is its share of a wish.
+    """
+    x = np.zeros(sum(rows.sizes))
+    size = np.abs(right[is_wish]).max(initial=0.0)
+    if not size:
+        return x
+    lengths = np.where(is_wish, rows.lengths()[is_wish].max(), 1.0)
+    rows, right = rows / lengths, np.where(is_wish, right / lengths, 0.0)
+    for _ in range(2):
+        left = np.where(is_wish, right - rows @ x, 0.0)
+        x = x + rows.damped(left, is_wish, WISHED**2)
+    return x
+
+
+def _at_most(longest: float, step: np.ndarray) -> np.ndarray:
+    """A step, shortened where it moves a coordinate further."""
+    return step * min(1.0, longest / max(np.abs(step).max(initial=0.0), 1e-300))

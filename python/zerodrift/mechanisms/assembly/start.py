@@ -1,0 +1,273 @@
+"""Where a mechanism starts: its drawing, what is held and wished, and its drives, assembled."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..._gateway.mechanisms import MechanismCore
+from ..._rotations import quaternion_of
+from ...errors import CorrectionFailed, InconsistentStart, SingularSystem
+from ..elements import columns
+from ..elements.drawing import Drawing
+from ..elements.forces import Motor
+from ..elements.joints import Coupling
+from ..elements.numbers import Numbers
+from ..equations.measure_names import Reading, checked_reading, reading_of_start
+from ..equations.measure_tables import read
+from ..equations.space_tables import SpaceTables, tables_of
+from ..equations.tables import Tables
+from ..equations.tree import loop
+from .dense import Assembly, Target
+from .free_coordinates import Coordinate, bodies_of, names_of, swings, unforced
+from .nudge import aside, way_out
+from .space_advice import of_angles
+from .sparse import assembly_of, is_of_many
+
+MASSLESS = 1e-13        # of the largest: how little a motion may weigh
+
+
+class Starting:
+    """The start of a mechanism, in poses of mass centres; `tables` are those of the drawing, where they are known already."""
+
+    def __init__(self, drawing: Drawing, numbers: Numbers, tables: Tables | None = None) -> None:
+        self.drawing, self.numbers, self._known = drawing, numbers, tables
+        self.has_speeds = bool(drives_of(drawing))
+        self._stays: tuple[list[Coordinate], list[Coordinate]] | None = None
+        self._check_held()
+
+    def _check_held(self) -> None:
+        for what, given in (("start", self.drawing.held), ("wish", self.drawing.wished)):
+            for name, value in given.items():
+                checked_reading(what, name, value, self.drawing.elements)
+
+    @property
+    def drives_by_name(self) -> list[str]:
+        """The coordinates that drives of constant speed prescribe."""
+        return [f"{motor.joint.name}.{motor.coordinate}" for motor in drives_of(self.drawing)]
+
+    @functools.cached_property
+    def drives(self) -> dict[str, float]:
+        """Where the coordinates that drives of constant speed prescribe are at t = 0."""
+        if not self.has_speeds:
+            return {}
+        tables = self._tables({})
+        names = self.drives_by_name
+        assembly = self._assembly(tables, 0.0, speeds=names)
+        p = self._positions(tables, assembly)
+        index = {row.name: i for i, row in enumerate(assembly.core.measures)}
+        zero = np.zeros(assembly.core.nv)
+        return {name: float(assembly.core.measure_at(index[name], 0.0, p, zero)["value"][0]) for name in names}
+
+    @functools.cached_property
+    def has_mass(self) -> bool:
+        """Whether nothing moves without mass at t = 0, as it is drawn."""
+        try:
+            self.assembled(0.0)
+        except (CorrectionFailed, InconsistentStart, SingularSystem):
+            return False
+        return True
+
+    def assembled(self, t: float) -> tuple[Assembly, np.ndarray]:
+        """The assembly at a time, and the positions that it found.
+
+        Drives of constant speed count from t = 0, and so does then what is held: from there they lead to their places at t.
+        """
+        tables, assembly, p = self.closed(t)
+        self._check_mass(tables, assembly, p)
+        return assembly, p
+
+    def closed(self, t: float) -> tuple[Tables, Assembly, np.ndarray]:
+        """The same with its tables, and whatever moves without mass."""
+        tables = self._tables(self.drives)
+        assembly = self._assembly(tables, t)
+        if t and self.has_speeds:
+            return tables, assembly, assembly.led_to(self.closed(0.0)[2], staying=self._staying(assembly.core, rates=False))
+        return tables, assembly, self._positions(tables, assembly)
+
+    def at(self, t: float, *, nudge: float = 0.0) -> tuple[np.ndarray, ...]:
+        """Poses (bodies, 3) of the mass centres at a time, and their rates; nudged as far as asked for.
+
+        In space poses are (bodies, 7), and the angles of joints come third.
+        """
+        assembly, p = self.assembled(t)
+        held, wished = (self.targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
+        if nudge:
+            p = aside(assembly, p, nudge, held)
+        poses = assembly.core.poses(p, assembly.velocities(p, held, wished, self._staying(assembly.core, rates=True)))
+        return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
+
+    def way_out(self) -> str:
+        """What helps where the assembled start is singular: a nudge, if it leads out, and drives allow it."""
+        assembly, p = self.assembled(0.0)
+        held = self.targets(self.drawing.held, assembly.core, rates=True)
+        return way_out(assembly, p, held)
+
+    def _tables(self, starts: Mapping[str, float]) -> Tables:
+        if self._known is None or starts:
+            return tables_of(self.drawing, self.numbers, in_tree=False, starts=starts)
+        return self._known.absolute()
+
+    def _assembly(self, tables: Tables, t: float, *, speeds: Sequence[str] = ()) -> Assembly:
+        """The assembly at a time; without the drives of the coordinates that `speeds` names, which it measures, too."""
+        staying = [each for rates in (False, True) for each in self._unforced(tables)[rates]]
+        measured = [*self.drawing.held, *self.drawing.wished, *speeds, *names_of(staying)]
+        gauges, observed = read(tables, measured)
+        more, of_swings = swings(tables, dict.fromkeys(staying), len(gauges))
+        core = tables.core([*gauges, *more], [*observed, *of_swings]) if measured else tables.core()
+        names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index] for row in core.rows]
+        motors = {motor.name for motor in self.drawing.of(Motor) if _is_constant_speed(motor)} if speeds else set()
+        left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
+        linear = {each.name for each in self.drawing.of(Coupling) if each.law is None}
+        couplings = {i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in linear}
+        return assembly_of(core, names, left_out, size_of(self.drawing, self.numbers), t, couplings)
+
+    def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
+        p, _ = assembly.core.state(self._drawn(tables))
+        held, wished = (self.targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
+        try:
+            return assembly.positions(p, held, wished, self._staying(assembly.core, rates=False))
+        except CorrectionFailed:
+            raise CorrectionFailed(self._not_closed(assembly, p)) from None
+        except InconsistentStart as error:
+            raise InconsistentStart(f"{error}{self._loop_in_words(tables, assembly, p)}") from None
+
+    def _unforced(self, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
+        """The coordinates whose positions, and those whose rates, neither held values nor drives reach."""
+        if self._stays is None:
+            self._stays = unforced(self.drawing, tables)
+        return self._stays
+
+    def _staying(self, core: MechanismCore, *, rates: bool) -> list[Target]:
+        """What keeps such coordinates as drawn, their rates at zero; of positions the values are still to be read."""
+        index = {row.name: i for i, row in enumerate(core.measures)}
+        targets = []
+        for each in (self._stays or ((), ()))[rates]:
+            measure = index[each.rate if rates else each.position]
+            components = range(core.measures[measure].size) if each.axis is None else ["xyz".index(each.axis)]
+            targets += [Target(each.position, measure, i, 0.0) for i in components]
+        return targets
+
+    def _drawn(self, tables: Tables) -> np.ndarray:
+        """Poses of mass centres as drawn; of bodies whose rotation is held, with that: no small steps lead half a turn away."""
+        poses = tables.drawn()
+        for name, value in self.drawing.held.items():
+            body, _, quantity = name.partition(".")
+            if quantity == "rotation":
+                poses[tables.number[body] - 1, 3:] = quaternion_of(value @ tables.inertias.of[body].axes)
+        return poses
+
+    def targets(self, given: Mapping[str, Any], core: MechanismCore, *, rates: bool = False) -> list[Target]:
+        """The components of what is held or wished, of positions or of velocities."""
+        if not given:
+            return []
+        index = {row.name: i for i, row in enumerate(core.measures)}
+        targets = []
+        for name, value in given.items():
+            read: Reading = reading_of_start(name, self.drawing.elements)
+            if read.is_rate != rates:
+                continue
+            base, _, axis = name.rpartition(".")
+            if name in index:
+                targets += [Target(_component(name, i, np.shape(value)), index[name], i, float(each))
+                            for i, each in enumerate(np.ravel(value))]
+            else:
+                targets.append(Target(name, index[base], "xyz".index(axis), float(value)))
+        return targets
+
+    # ---- what is wrong ----
+
+    def _not_closed(self, assembly: Assembly, p: np.ndarray) -> str:
+        """Which loop does not close, and by how much: in joint coordinates only the joints that close loops are open."""
+        if self.drawing.dimension == 3 or is_of_many(assembly.core):
+            return self._left_open(assembly, p)
+        tables = Tables(self.drawing, self.numbers, in_tree=True)
+        core = tables.core()
+        names = [tables.joints[row.index].name if row.owner == "joint" else "" for row in core.rows]
+        in_tree = Assembly(core, names, [i for i, name in enumerate(names) if not name], assembly.length, assembly.t)
+        p = in_tree.least_open(core.state(assembly.core.poses(p)[0])[0])
+        Phi = core.evaluate(assembly.t, p, np.zeros(core.nv))["Phi"]
+        open_by: dict[int, float] = {}
+        for row, value in zip(core.rows, Phi, strict=False):
+            if row.owner == "joint" and tables.joints[row.index].row.rows[row.component].gauge != "angle":
+                open_by[row.index] = float(np.hypot(open_by.get(row.index, 0.0), value))
+        ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
+        joint = max(open_by, key=lambda each: open_by[each])
+        told, _ = _around(tables, *loop(tables.carrier, ends, joint))
+        return (f"{told}, cannot close: it stays open by "
+                f"{open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw it nearer")
+
+    def _left_open(self, assembly: Assembly, p: np.ndarray) -> str:
+        """Which joints stay open where all of them are as nearly closed as can be."""
+        p = assembly.least_open(p)
+        Phi = assembly.core.evaluate(assembly.t, p, np.zeros(assembly.core.nv))["Phi"]
+        open_by: dict[str, float] = {}
+        for row, name, value in zip(assembly.core.rows, assembly.rows, Phi, strict=False):
+            if row.owner == "joint":
+                open_by[name] = max(open_by.get(name, 0.0), abs(float(value)))
+        worst = sorted(open_by, key=lambda name: -open_by[name])[:3]
+        told = ", ".join(f"{name!r} by {open_by[name]:.3g}" for name in worst)
+        return (f"the joints cannot all close: nearest to it there stay open {told} (m, or rad); look at the lengths, or draw it "
+                "nearer")
+
+    def _loop_in_words(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> str:
+        """Which loop something held or driven is in; in space, which shafts keep the angles of a universal joint."""
+        if isinstance(tables, SpaceTables):
+            return of_angles(tables, assembly.core, p, [*self.drawing.held])
+        tables = Tables(self.drawing, self.numbers, in_tree=True)
+        owners = [self.drawing.elements[name.partition(".")[0]] for name in self.drawing.held]
+        owners += [motor.joint for motor in self.drawing.of(Motor)]
+        meant = {body.name for owner in owners for body in bodies_of(owner)}
+        ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
+        cuts = set(range(len(ends))) - set(tables.carrier)
+        for joint in sorted(cut for cut in cuts if not tables.joints[cut].is_of_one_body):
+            told, bodies = _around(tables, *loop(tables.carrier, ends, joint))
+            if meant & bodies - {"ground"}:
+                return f"; in {told}"
+        return ""
+
+    def _check_mass(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> None:
+        """Refuses a motion that nothing with mass takes part in: what is massless has to be held."""
+        if all(tables.inertias.is_massive(body) for body in tables.parts):
+            return
+        M, free = assembly.free_motions(p)
+        if not free.shape[1]:
+            return
+        weights, motions = np.linalg.eigh(free.T @ M @ free)
+        if weights[0] > MASSLESS * max(np.abs(M).max(), 1e-300):
+            return
+        motion = np.abs(free @ motions[:, 0])
+        moved = {assembly.core.motions[i].body for i in np.flatnonzero(motion > 1e-6 * motion.max())}
+        names = ", ".join(repr(tables.parts[body - 1].name) for body in sorted(moved))
+        raise SingularSystem(f"{names} can move without moving any mass: give it mass and inertia, or hold it by a joint")
+
+
+def _around(tables: Tables, bodies: Sequence[int], joints: Sequence[int]) -> tuple[str, set[str]]:
+    """A loop in words, and the names of its bodies."""
+    parts = ["ground", *(body.name for body in tables.parts)]
+    around, through = [parts[body] for body in bodies], [tables.joints[i].name for i in sorted(joints)]
+    return f"the loop of {', '.join(around)}, through {', '.join(through)}", set(around)
+
+
+def _component(name: str, i: int, shape: tuple[int, ...]) -> str:
+    """What an error calls an entry of what is held: of a number, a vector or a matrix."""
+    return name if not shape else f"{name}.{'xyz'[i]}" if len(shape) == 1 else f"{name}[{i // 3}, {i % 3}]"
+
+
+def size_of(drawing: Drawing, numbers: Numbers) -> float:
+    """How large a drawing is, in m: the longest side of the box around its points; 1 where there is nothing."""
+    places = [point.drawn_with(numbers) for point in drawing.joined_points()] + [body.pose.origin for body in drawing.parts()]
+    size = columns.longest_side(places) if places else 0.0
+    return size or 1.0
+
+
+def drives_of(drawing: Drawing) -> list[Motor]:
+    """Those of constant speed."""
+    return [motor for motor in drawing.of(Motor) if _is_constant_speed(motor)]
+
+
+def _is_constant_speed(motor: Motor) -> bool:
+    return motor.drives == "speed" and motor.law.constant is not None

@@ -1,0 +1,91 @@
+"""Mechanisms that differ in their numbers, from one drawing: their tables, in columns, and where they start."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from ..._gateway.mechanisms import MechanismCore
+from ..._gateway.uses import Observed
+from ..._gateway.varied import Held, Varied
+from ..elements.columns import Column, Varies, spread
+from ..elements.drawing import Drawing
+from ..elements.frames import turned
+from ..elements.numbers import Numbers
+from ..equations.measure_names import reading
+from ..equations.measure_tables import read
+from ..equations.tables import Tables
+from .free_coordinates import Coordinate, names_of, unforced
+from .start import Starting, drives_of, size_of
+
+
+def are_plain(drawing: Drawing, tables: Tables, start: Starting) -> bool:
+    """Whether there is nothing that Python has to do for each: no laws and no wishes, and nothing moves without mass."""
+    if drawing.dimension != 2 or tables.laws.rows or drawing.wished:
+        return False
+    return all(tables.inertias.is_massive(body) for body in tables.parts) or start.has_mass
+
+
+def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[str, np.ndarray], layout: str, core: MechanismCore,
+           *, wrong: np.ndarray, starts_are_known: bool) -> Varied | None:
+    """Mechanisms whose numbers are those of the drawing but for what has changed, and for parameters (count,) by their paths.
+
+    None where they differ in more than numbers. Those that are wrong (count,) are not assembled.
+    """
+    count = len(wrong)
+    numbers = Numbers({**changed, **{name: Column(np.asarray(each, dtype=float)) for name, each in parameters.items()}})
+    try:
+        tables = Tables(drawing, numbers, in_tree=layout != "absolute")
+        absolute = tables.absolute()
+        if layout == "absolute" and not all(tables.inertias.is_massive(body) for body in tables.parts):
+            return None
+        drives = drives_of(drawing)
+        if starts_are_known and drives:
+            return None
+        places, rates = unforced(drawing, tables)
+        gauges, observed = read(absolute, [*drawing.held, *names_of([*places, *rates])])
+        index = {row.name: i for i, row in enumerate(observed)}
+        staying = [*_staying(places, observed, index, is_rate=False), *_staying(rates, observed, index, is_rate=True)]
+        held = [*_held(drawing, index), *staying]
+        poses, length = _drawn(tables, count), spread(size_of(drawing, numbers), count)
+        moving, drawn = tables.written(*read(tables)), absolute.written(gauges, observed)
+    except Varies:
+        return None
+    has_its_measures = [row[1:] for row in moving.measures] == [row[1:] for row in core.measures]
+    if absolute.relation_names != tables.relation_names or not has_its_measures:
+        return None
+    poses[wrong] = np.nan
+    numbers_of_drives = [tables.relation_names.index(motor.name) for motor in drives]
+    return Varied(moving, drawn, count, poses, length, held, numbers_of_drives, starts_are_known)
+
+
+def _held(drawing: Drawing, index: Mapping[str, int]) -> list[Held]:
+    """What the start holds, component by component."""
+    held = []
+    for name, value in drawing.held.items():
+        is_rate, (base, _, axis) = reading(name, drawing.elements).is_rate, name.rpartition(".")
+        if name in index:
+            held += [Held(index[name], i, is_rate, float(each)) for i, each in enumerate(np.atleast_1d(value))]
+        else:
+            held.append(Held(index[base], "xy".index(axis), is_rate, float(value)))
+    return held
+
+
+def _staying(coordinates: Sequence[Coordinate], observed: Sequence[Observed], index: Mapping[str, int], *,
+             is_rate: bool) -> Iterator[Held]:
+    """What keeps coordinates as drawn, or at rest."""
+    for each in coordinates:
+        measure = index[each.rate if is_rate else each.position]
+        components = range(observed[measure].size) if each.axis is None else ["xy".index(each.axis)]
+        yield from (Held(measure, i, is_rate, 0.0, stays=True) for i in components)
+
+
+def _drawn(tables: Tables, count: int) -> np.ndarray:
+    """Poses (count, bodies, 3) of the mass centres as drawn."""
+    poses = np.empty((count, len(tables.parts), 3))
+    for i, body in enumerate(tables.parts):
+        place = body.pose.origin + turned(body.pose.angle, tables.inertias.of[body.name][2])
+        for j, each in enumerate((*place, body.pose.angle)):
+            poses[:, i, j] = spread(each, count)
+    return poses

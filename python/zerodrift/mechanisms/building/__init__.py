@@ -1,0 +1,1 @@
+"""Verbs of `Mechanism`: each checks its arguments and adds an element."""

@@ -1,0 +1,210 @@
+"""The verbs of a mechanism that make bodies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..elements.bodies import Body, Link, Particle, Point
+from ..elements.frames import Pose, Pose3, given_rotation, perpendicular
+from ..elements.space_bodies import SpaceBody, SpaceLink, SpaceParticle, tensor
+from .registry import Elements
+
+PARALLEL = 1e-6     # of the sine: what counts as parallel
+
+
+class BodyVerbs(Elements):
+    """Bodies, links and particles."""
+
+    def body(self, name: str, mass: float, inertia: Any = 0.0, *, at: Any = None, angle: float = 0.0, rotation: Any = None,
+             com: Any = None) -> Body:
+        """Add a rigid body.
+
+        Parameters
+        ----------
+        name : str
+            Letters, digits, blanks, ``_`` and ``-``.
+        mass : float
+            In kg, at least 0.
+        inertia : float, in space array_like (3, 3) or (3,)
+            About the centre of mass, in kg m^2, at least 0; `zerodrift.inertia` has it for plain shapes. In space the tensor in
+            the axes of its frame, or its diagonal; products of inertia as they stand in the matrix, which is with the sign that
+            tables of products often leave out.
+        at : array_like (2,) or (3,), Point or name
+            Where the origin of its frame is in the drawing, in m; left out: the drawing's origin.
+        angle : float
+            Of its frame, from the drawing's x axis, counter-clockwise, in rad; in the plane.
+        rotation : array_like (3, 3) or (4,)
+            The same in space: a matrix whose columns are the body's axes in the drawing, or a unit quaternion (w, x, y, z).
+        com : array_like (2,) or (3,)
+            The centre of mass in its frame, in m; left out: its origin.
+
+        Returns
+        -------
+        Body
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the name is taken, or a number is none that there can be.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("wheel", gravity=(0, -9.81))
+        >>> m.body("wheel", *zd.inertia.disc(mass=2.0, radius=0.5), at=(0, 0.5))
+        <body wheel>
+        """
+        name = self._new_name(name, "body")
+        at = np.zeros(self.dimension) if at is None else self._drawn(f"at of {name!r}", at)
+        com = np.zeros(self.dimension) if com is None else _check.vector(f"com of {name!r}", com, self.dimension)
+        mass = _amount("mass", name, mass)
+        if self.dimension == 3:
+            if angle:
+                raise ValueError(f"angle of {name!r} is for the plane: in space take rotation=")
+            pose = Pose3(at, given_rotation(f"rotation of {name!r}", rotation))
+            return self._add(SpaceBody(name, pose, mass, tensor(f"inertia of {name!r}", inertia), com))
+        if rotation is not None:
+            raise ValueError(f"rotation of {name!r} is for mechanisms in space: in the plane take angle=")
+        pose = Pose(at, _check.number(f"angle of {name!r}", angle))
+        return self._add(Body(name, pose, mass, _amount("inertia", name, inertia), com))
+
+    def link(self, name: str, start: Any, end: Any, mass: float = 0.0, *, length: float | None = None,
+             inertia: Any = None, thickness: float | None = None, normal: Any = None) -> Link:
+        """Add a link, a uniform slender rod between two points of the drawing; in space a round bar.
+
+        Parameters
+        ----------
+        name : str
+            Letters, digits, blanks, ``_`` and ``-``.
+        start, end : array_like (2,) or (3,), Point or name
+            In the drawing, in m. Its frame begins at the start, and its x axis goes to the end. In space its z axis is the
+            drawing's z made perpendicular to that, or the drawing's y where they are parallel.
+        mass : float
+            In kg, at least 0.
+        length : float, optional
+            In m, from the start; left out: as drawn. The drawing may be a sketch: lengths count.
+        inertia : float, in space array_like (3, 3) or (3,), optional
+            About the middle, in kg m^2; left out: that of a uniform rod.
+        thickness : float, optional
+            In space, the diameter of the bar in m; left out: a twentieth of its length.
+        normal : array_like (3,), optional
+            In space, what is made perpendicular for the z axis instead, in the drawing.
+
+        Returns
+        -------
+        Link
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the name is taken, a number is none that there can be, or start and end are the same point.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> link = m.link("link", (0, 0), (0.3, -0.4), mass=2.0)
+        >>> link.length
+        0.5
+        """
+        name = self._new_name(name, "link")
+        start, end = self._drawn(f"start of {name!r}", start), self._drawn(f"end of {name!r}", end)
+        if not np.linalg.norm(end - start) > 0:
+            raise ValueError(f"start and end of {name!r} must be two places in the drawing, not both {tuple(map(float, start))}")
+        if length is not None:
+            length = _check.number(f"length of {name!r}", length, above=0)
+        if self.dimension == 3:
+            return self._space_link(name, start, end, _amount("mass", name, mass), length, inertia, thickness, normal)
+        if thickness is not None or normal is not None:
+            raise ValueError(f"thickness and normal of {name!r} are for mechanisms in space")
+        if inertia is not None:
+            inertia = _amount("inertia", name, inertia)
+        return self._add(Link(name, start, end, _amount("mass", name, mass), length, inertia))
+
+    def _space_link(self, name: str, start: np.ndarray, end: np.ndarray, mass: float, length: float | None, inertia: Any,
+                    thickness: float | None, normal: Any) -> Link:
+        along = (end - start) / np.linalg.norm(end - start)
+        wished = np.array([0.0, 0.0, 1.0]) if normal is None else self._direction(f"normal of {name!r}", normal)
+        if np.linalg.norm(np.cross(wished, along)) < PARALLEL:
+            if normal is not None:
+                raise ValueError(f"normal of {name!r} must not be parallel to the link")
+            wished = np.array([0.0, 1.0, 0.0])
+        z = perpendicular(along, wished)
+        rotation = np.stack([along, np.cross(z, along), z], axis=1)
+        if thickness is not None:
+            thickness = _check.number(f"thickness of {name!r}", thickness, above=0)
+        inertia = None if inertia is None else tensor(f"inertia of {name!r}", inertia)
+        length = float(np.linalg.norm(end - start)) if length is None else length
+        return self._add(SpaceLink(name, start, end, mass, length, rotation, thickness, inertia))
+
+    def particle(self, name: str, mass: float, at: Any) -> Particle:
+        """Add a mass in a point.
+
+        Parameters
+        ----------
+        name : str
+            Letters, digits, blanks, ``_`` and ``-``.
+        mass : float
+            In kg, at least 0.
+        at : array_like (2,) or (3,), Point or name
+            Where it is in the drawing, in m: then it is a part of its own. Or a point of a body: then its mass belongs to that
+            body, and it has measures, but no joint.
+
+        Returns
+        -------
+        Particle
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the name is taken, or a number is none that there can be.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> m.particle("bob", 1.0, at=(0.6, -0.8))
+        <particle bob>
+        """
+        name = self._new_name(name, "particle")
+        mass, at = _amount("mass", name, mass), self._named(f"at of {name!r}", at)
+        made = SpaceParticle if self.dimension == 3 else Particle
+        if isinstance(at, Point | Particle):
+            carrier = self._point("at", at)
+            return self._add(made(name, carrier.drawn, mass, carrier))
+        return self._add(made(name, _check.vector(f"at of {name!r}", at, self.dimension), mass))
+
+    def point(self, name: str, body: Body | str, local: Any = None, *, at: Any = None) -> Point:
+        """Add a named point to a body, as ``body.point(local, at=at, name=name)`` does.
+
+        Parameters
+        ----------
+        name : str
+            For its measures, ``"name.position"`` and ``"name.velocity"``.
+        body : Body or name
+        local : array_like (2,) or (3,)
+            Its coordinates in the body's frame, in m.
+        at : array_like (2,) or (3,), Point or name
+            Instead: where it is in the drawing.
+
+        Returns
+        -------
+        Point
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum")
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> m.point("P", link, (0.5, 0)).position
+        VectorMeasure('P.position')
+        """
+        at = None if at is None else self._drawn("at", at)
+        return self._body("body", body).point(local, at=at, name=self._new_name(name, "point"))
+
+
+def _amount(quantity: str, name: str, value: Any) -> float:
+    return _check.number(f"{quantity} of {name!r}", value, least=0)

@@ -1,0 +1,312 @@
+"""The verbs of a mechanism that couple measures: gears, cams, and constraints of the user's own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ... import _check
+from ..elements.joints import Coupling, Joint
+from ..elements.measures import Measure, name_of
+from ..elements.user_functions import Law
+from .periodic_spline import PeriodicSpline
+from .registry import Elements
+
+
+class CouplingVerbs(Elements):
+    """Couplings of measures, one row each."""
+
+    def gear(self, name: str, first: Joint | str, second: Joint | str, *, ratio: float) -> Coupling:
+        """Couple two hinges by gears: ``second.angle = ratio * first.angle``, as their joints measure them.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Joint or name
+            Two revolutes.
+        ratio : float
+            Less than 0 for wheels that mesh outside.
+
+        Returns
+        -------
+        Coupling
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("gears")
+        >>> wheels = [m.body(f"wheel{i}", 1.0, 0.1, at=(i, 0)) for i in range(2)]
+        >>> pins = [m.revolute(f"pin{i}", m.ground, wheel.point((0, 0))) for i, wheel in enumerate(wheels)]
+        >>> m.gear("mesh", *pins, ratio=-2.0)
+        <gear mesh: pin0.angle, pin1.angle>
+
+        Notes
+        -----
+        The gear acts along the two angles, between the two bodies of each joint. Its effort is its own measure: ``mesh.torque``,
+        in N m, acts on ``second.angle`` and is positive where it drives that angle up; ``-ratio * mesh.torque`` acts on
+        ``first.angle``. `force` and `torque` of the joints leave it out, and the side load of the teeth on the bearings is not
+        modelled.
+        """
+        return self._linear(name, "gear", (first, ("angle",)), (second, ("angle",)), ratio)
+
+    def rack_pinion(self, name: str, pinion: Joint | str, rack: Joint | str, *, ratio: float) -> Coupling:
+        """Couple a hinge and a slider: ``rack.displacement = ratio * pinion.angle``.
+
+        Parameters
+        ----------
+        name : str
+        pinion, rack : Joint or name
+            A revolute; a prismatic or a slot.
+        ratio : float
+            In m/rad.
+
+        Returns
+        -------
+        Coupling
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("steering")
+        >>> wheel, bar = m.body("wheel", 1.0, 0.1), m.body("bar", 2.0, 0.1)
+        >>> pinion = m.revolute("pinion", m.ground, wheel.point((0, 0)))
+        >>> rack = m.prismatic("rack", m.ground, bar, axis=(1, 0))
+        >>> m.rack_pinion("teeth", pinion, rack, ratio=0.02)
+        <rack_pinion teeth: pinion.angle, rack.displacement>
+
+        Notes
+        -----
+        The teeth act along the two coordinates, between the two bodies of each joint. Their effort is a measure of its own:
+        ``teeth.force``, in N, acts on ``rack.displacement`` and is positive where it drives the rack forward;
+        ``-ratio * teeth.force``, in N m, acts on ``pinion.angle``. `force` and `torque` of the joints leave it out, and the side
+        load of the teeth on the bearings is not modelled.
+        """
+        return self._linear(name, "rack_pinion", (pinion, ("angle",)), (rack, ("displacement",)), ratio)
+
+    def _linear(self, name: Any, kind: str, first: Any, second: Any, ratio: Any) -> Coupling:
+        name = self._new_name(name, kind)
+        joints = [self._joint(f"{side} of {name!r}", *given) for side, given in (("first", first), ("second", second))]
+        if joints[0] is joints[1]:
+            raise ValueError(f"{name!r} couples {joints[0].name!r} to itself: first and second must be two joints")
+        ratio = _check.number(f"ratio of {name!r}", ratio)
+        if not ratio:
+            raise ValueError(f"ratio of {name!r} must not be 0")
+        return self._add(Coupling(name, kind, tuple(
+            f"{joint.name}.{joint.coordinate or given[1][0]}" for joint, given in zip(joints, (first, second), strict=True)),
+            ratio=ratio))
+
+    def coupler(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:
+        """Couple measures of positions by any function of them that has to be zero; the same as `constraint`, said of joints.
+
+        Parameters
+        ----------
+        name : str
+        value : callable, SymPy expression, or dict of measure to float
+            What has to be zero; a dict is a sum of measures by their coefficients.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+
+        Returns
+        -------
+        Coupling
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("differential")
+        >>> wheels = [m.body(f"wheel{i}", 1.0, 0.1) for i in range(3)]
+        >>> pins = [m.revolute(f"pin{i}", m.ground, wheel.point((0, 0))) for i, wheel in enumerate(wheels)]
+        >>> m.coupler("cage", {pins[0].angle: 1.0, pins[1].angle: 1.0, pins[2].angle: -2.0})
+        <coupler cage: pin0.angle, pin1.angle, pin2.angle>
+
+        Notes
+        -----
+        The coupler acts along its measures: along the coordinate of a joint between the two bodies of that joint. Its effort is
+        its own measure, ``cage.torque`` in N m where the second of the measures (here ``pin1.angle``) is an angle, else
+        ``cage.force`` in N. It is that on the second of them, positive where it drives it up; on any other it is multiplied by
+        the derivative of `value` to that one over the derivative to the second. `force` and `torque` of joints leave it out, and
+        side loads, as of teeth on bearings, are not modelled.
+        """
+        name = self._new_name(name, "coupler")
+        if isinstance(value, Mapping):
+            terms = {name_of(measure, f"value of coupler {name!r}"): _check.number(f"coefficient in {name!r}", coefficient)
+                     for measure, coefficient in value.items()}
+            value, of = _Sum(tuple(terms.values())), {f"x{i}": measure for i, measure in enumerate(terms)}
+        return self._by_law(name, "coupler", value, of)
+
+    def cam(self, name: str, cam: Joint | str, follower: Joint | Measure | str, *, profile: Any) -> Coupling:
+        """Couple a follower to the angle of a cam: ``follower = profile(angle)``.
+
+        Parameters
+        ----------
+        name : str
+        cam : Joint or name
+            A revolute.
+        follower : Joint, measure, or name of one
+            Whose coordinate, or what measure, follows.
+        profile : callable, SymPy expression, or (angles, values)
+            Of the angle, which it may call as it likes; in rad or m. A table over one turn becomes a
+            periodic quintic spline; its last point may repeat the first, a turn later.
+
+        Returns
+        -------
+        Coupling
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("valve")
+        >>> shaft, valve = m.body("shaft", 1.0, 0.1), m.body("valve", 0.1)
+        >>> turn = m.revolute("turn", m.ground, shaft.point((0, 0)))
+        >>> lift = m.prismatic("lift", m.ground, valve, axis=(0, 1))
+        >>> m.cam("cam", turn, lift, profile=lambda angle: 0.01 * (1 - np.cos(angle)))
+        <cam cam: turn.angle, lift.displacement>
+
+        Notes
+        -----
+        The cam acts along the two coordinates, between the two bodies of each joint. Its effort is its own measure: on the
+        follower, ``cam.force`` in N or, where the follower is an angle, ``cam.torque`` in N m, positive where it drives the
+        follower up; on the cam, ``cam.cam_torque`` in N m, positive where it drives the angle up. `force` and `torque` of the
+        joints leave it out, and the side load on guides and bearings is not modelled. A cam pulls, too: its follower does not
+        lift off where the force is negative.
+        """
+        name = self._new_name(name, "cam")
+        cam = self._joint(f"cam of {name!r}", cam, ("angle",))
+        if isinstance(follower, str) and "." not in follower:       # with a dot it is the name of a measure
+            follower = self._named(f"follower of {name!r}", follower)
+        if isinstance(follower, Joint):
+            follower = self._joint(f"follower of {name!r}", follower, ("angle", "displacement"))
+            follower = f"{follower.name}.{follower.coordinate}"
+        if isinstance(profile, tuple):
+            if len(profile) != 2:
+                raise ValueError(f"profile of {name!r} must be (angles, values), not {len(profile)} things")
+            profile = PeriodicSpline(f"profile of {name!r}", *profile)
+        elif hasattr(profile, "free_symbols"):
+            profile = _Expression(name, profile)
+        elif not callable(profile):
+            raise TypeError(f"profile of {name!r} must be a callable, a SymPy expression or (angles, values), "
+                            f"not {_check.shown(profile)}")
+        return self._by_law(name, "cam", _Follows(profile), {"angle": cam.angle, "follower": follower})
+
+    def constraint(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:
+        """Add a constraint of one's own.
+
+        Parameters
+        ----------
+        name : str
+        value : callable or SymPy expression
+            What has to be zero: of t, parameters, and measures of positions. Callables are built of operators and NumPy's
+            functions, and their derivatives are exact.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+
+        Returns
+        -------
+        Coupling
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bead")
+        >>> bead = m.particle("bead", 0.1, at=(1, 1))
+        >>> m.constraint("wire", lambda x, y: y - x**2, of={"x": bead.position.x, "y": bead.position.y})
+        <constraint wire: bead.position.x, bead.position.y>
+        """
+        return self._by_law(self._new_name(name, "constraint"), "constraint", value, of)
+
+    def nonholonomic(self, name: str, value: Any, *, of: Mapping[str, Any] | None = None) -> Coupling:
+        """Add a nonholonomic constraint of one's own.
+
+        Parameters
+        ----------
+        name : str
+        value : callable or SymPy expression
+            What has to be zero: of t, parameters, measures of positions, and linear in measures of velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+
+        Returns
+        -------
+        Coupling
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("sleigh")
+        >>> sleigh = m.body("sleigh", 1.0, 0.1)
+        >>> m.nonholonomic("blade", lambda a, u, v: u * np.sin(a) - v * np.cos(a),
+        ...                of={"a": sleigh.angle, "u": sleigh.velocity.x, "v": sleigh.velocity.y})
+        <nonholonomic blade: sleigh.angle, sleigh.velocity.x, sleigh.velocity.y>
+        """
+        return self._by_law(self._new_name(name, "nonholonomic constraint"), "nonholonomic", value, of)
+
+    def _by_law(self, name: str, kind: str, value: Any, of: Any) -> Coupling:
+        law = self._law(f"{kind} {name!r}", value, of, positions=kind != "nonholonomic")
+        if not law.measures:
+            raise ValueError(f"{kind} {name!r} depends on no measure: bind some, of={{'x': body.position.x}}")
+        return self._add(Coupling(name, kind, law.measures, law=law))
+
+
+class _Sum:
+    """A sum of measures, which it is handed as x0, x1, ..."""
+
+    def __init__(self, coefficients: tuple[float, ...]) -> None:
+        self.coefficients = coefficients
+        import inspect
+
+        kind = inspect.Parameter.KEYWORD_ONLY
+        self.__signature__ = inspect.Signature([inspect.Parameter(f"x{i}", kind) for i in range(len(coefficients))])
+
+    def __call__(self, **x: Any) -> Any:
+        return sum(coefficient * x[f"x{i}"] for i, coefficient in enumerate(self.coefficients))
+
+    def written(self, equations: Any, **x: Any) -> Any:
+        """As a node, of nodes."""
+        return equations.graph.sum((x[f"x{i}"], coefficient) for i, coefficient in enumerate(self.coefficients))
+
+
+class _Follows:
+    """What is zero where a follower is where its cam has it."""
+
+    def __init__(self, profile: Any) -> None:
+        self.profile = profile
+        self.inner_expression = profile.expression if isinstance(profile, _Expression) else None
+
+    def __call__(self, angle: Any, follower: Any) -> Any:
+        return follower - self.profile(angle)
+
+    @property
+    def written(self) -> Any:
+        """The same as a node, of nodes; no attribute where the profile is a callable of the user's."""
+        profile = self.profile.written
+        return lambda equations, angle, follower: equations.difference(follower, profile(equations, angle))
+
+
+class _Expression:
+    """A SymPy expression of one symbol as a callable."""
+
+    def __init__(self, name: str, expression: Any) -> None:
+        if len(expression.free_symbols) != 1:
+            raise ValueError(f"profile of {name!r} must be an expression of one symbol, the angle, not of "
+                             f"{', '.join(sorted(map(str, expression.free_symbols))) or 'none'}")
+        self._law = Law(f"profile of {name!r}", expression.subs(next(iter(expression.free_symbols)), _time()))
+
+    @property
+    def expression(self) -> Any:
+        """In t as its symbol."""
+        return self._law.expression
+
+    def __call__(self, angle: Any) -> Any:
+        return self._law.value(angle, (), {})
+
+    def written(self, equations: Any, angle: Any) -> Any:
+        """As a node, of a node."""
+        return equations.read(self._law.what, self.expression, dict.fromkeys(self.expression.free_symbols, angle))
+
+
+def _time() -> Any:
+    import sympy as sp
+
+    return sp.Symbol("t")

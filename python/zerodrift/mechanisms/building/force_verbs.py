@@ -1,0 +1,381 @@
+"""The verbs of a mechanism that drive, push and damp."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..._rotations import AXES
+from ..elements.bodies import Body, Particle, Point
+from ..elements.forces import Actuator, Bushing, Force, Motor, SpaceBushing, Spring, Torque, TorsionSpring
+from ..elements.frames import perpendicular
+from ..elements.joints import Joint
+from ..elements.table_forces import FORCES_BY_ROW
+from .registry import Elements
+from .table_force_verbs import force_verb
+
+FLAT = 1e-6             # of the sine: what counts as parallel
+DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
+          "force": ("displacement",)}
+
+
+class ForceVerbs(Elements):
+    """Drives, springs, forces. Callables name what they want: ``t``, parameters, and what ``of=`` binds to measures."""
+
+    def motor(self, name: str, joint: Joint | str, *, angle: Any = None, displacement: Any = None, speed: Any = None,
+              torque: Any = None, force: Any = None, of: Mapping[str, Any] | None = None) -> Motor:
+        """Drive a joint.
+
+        Parameters
+        ----------
+        name : str
+        joint : Joint or name
+            With an angle or a displacement.
+        angle, displacement : float, callable or SymPy expression of t
+            What the joint's coordinate is, in rad or m, zero as drawn; t counts from 0. Callables are built of NumPy's functions.
+        speed : float, callable or expression
+            The rate of that coordinate, in rad/s or m/s: a number, or a function of t, parameters and measures of positions.
+        torque, force : float, callable or expression
+            What acts on the joint's second body, its opposite on the first, in N m or N; of t, parameters and measures of
+            positions and velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+
+        Returns
+        -------
+        Motor
+
+        Raises
+        ------
+        TypeError, ValueError
+            If not one of the five is given, the joint has no such coordinate, another motor prescribes its motion already, or a
+            callable asks for what there is not.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("crank")
+        >>> crank = m.link("crank", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, crank.start)
+        >>> m.motor("drive", pin, angle=lambda t: 0.5 * np.sin(3 * t))
+        <motor drive: angle of pin>
+        """
+        name = self._new_name(name, "motor")
+        given = {"angle": angle, "displacement": displacement, "speed": speed, "torque": torque, "force": force}
+        words = [word for word, value in given.items() if value is not None]
+        if len(words) != 1:
+            raise TypeError(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}")
+        drives = words[0]
+        joint = self._joint(f"joint of motor {name!r}", joint, DRIVES[drives])
+        if joint.coordinate is None and drives == "speed":
+            raise ValueError(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed")
+        law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"))
+        if drives in ("angle", "displacement") and law.measures:
+            raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
+        motor = Motor(name, joint, drives, law)
+        rival = next((other for other in self.motors if other.joint is joint and other.prescribes
+                      and other.coordinate == motor.coordinate), None)
+        if motor.prescribes and rival is not None:
+            raise ValueError(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor")
+        return self._add(motor)
+
+    def actuator(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, length: Any = None,
+                 force: Any = None, of: Mapping[str, Any] | None = None) -> Actuator:
+        """Drive two points apart or together, as a hydraulic cylinder does.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Point, Particle or name
+        length : float, callable or SymPy expression of t
+            The distance of the points, in m; t counts from 0. Callables are built of NumPy's functions.
+        force : float, callable or expression
+            What pushes them apart, in N; of t, parameters and measures of positions and velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+
+        Returns
+        -------
+        Actuator
+
+        Raises
+        ------
+        TypeError, ValueError
+            If not one of length and force is given, or a callable asks for what there is not.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("digger")
+        >>> arm = m.link("arm", (0, 0), (2, 0), mass=100.0)
+        >>> hinge = m.revolute("hinge", m.ground, arm.start)
+        >>> m.actuator("cylinder", m.ground.point((0, -1)), arm.point((1, 0)), length=lambda t: 1.4 + 0.1 * np.sin(t))
+        <actuator cylinder: length between ground and arm>
+        """
+        name = self._new_name(name, "actuator")
+        first, second = self._different(name, self._point("first", first), self._point("second", second))
+        if (length is None) == (force is None):
+            raise TypeError(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}")
+        drives, given = ("length", length) if force is None else ("force", force)
+        law = self._law(f"{drives} of actuator {name!r}", given, of)
+        if drives == "length" and law.measures:
+            raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
+        if drives == "length" and law.constant is not None:
+            _check.number(law.what, law.constant, above=0)
+        return self._add(Actuator(name, first, second, drives, law))
+
+    def spring(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, stiffness: Any,
+               length: float | None = None, damping: float = 0.0) -> Spring:
+        """Put a spring with a damper between two points.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Point, Particle or name
+        stiffness : float
+            In N/m, at least 0.
+        length : float, optional
+            At which it is slack, in m; left out: as drawn.
+        damping : float
+            In N s/m, at least 0.
+
+        Returns
+        -------
+        Spring
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bungee")
+        >>> bob = m.particle("bob", 1.0, at=(0, -1))
+        >>> m.spring("rope", m.ground.point((0, 0)), bob, stiffness=50.0).force
+        Measure('rope.force')
+        """
+        name = self._new_name(name, "spring")
+        first, second = self._different(name, self._point("first", first), self._point("second", second))
+        if length is not None:
+            length = _check.number(f"length of {name!r}", length, least=0)
+        stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
+        return self._add(Spring(name, first, second, stiffness, length, damping))
+
+    def torsion_spring(self, name: str, joint: Joint | str, *, stiffness: float, angle: float = 0.0,
+                       damping: float = 0.0) -> TorsionSpring:
+        """Put a spring with a damper about a hinge.
+
+        Parameters
+        ----------
+        name : str
+        joint : Joint or name
+            A revolute; in space any joint with one angle, too, such as a cylindrical one. Angles count turns.
+        stiffness : float
+            In N m/rad, at least 0.
+        angle : float
+            Of the joint, at which it is slack, in rad.
+        damping : float
+            In N m s/rad, at least 0.
+
+        Returns
+        -------
+        TorsionSpring
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("door")
+        >>> door = m.link("door", (0, 0), (1, 0), mass=1.0)
+        >>> hinge = m.revolute("hinge", m.ground, door.start)
+        >>> m.torsion_spring("closer", hinge, stiffness=3.0, damping=1.0).torque
+        Measure('closer.torque')
+        """
+        name = self._new_name(name, "torsion spring")
+        joint = self._joint(f"joint of {name!r}", joint, ("angle",))
+        stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
+        return self._add(TorsionSpring(name, joint, stiffness, _check.number(f"angle of {name!r}", angle), damping))
+
+    def bushing(self, name: str, first: Body | Point | str, second: Body | Point | str, *, at: Any = None,
+                stiffness: Any = 0.0, damping: Any = 0.0, torsion: Any = 0.0, torsion_damping: Any = 0.0, axis: Any = None,
+                normal: Any = None) -> Bushing:
+        """Join two bodies softly, by springs and dampers along and about the axes of the first.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            As of `revolute`. It is slack as drawn.
+        at : array_like (2,) or (3,)
+            Where it is in the drawing, in m.
+        stiffness, damping : array_like (2,) or (3,), or float
+            Along its directions, in N/m and N s/m, at least 0: in the plane the first body's x and y axis.
+        torsion, torsion_damping : float, in space or array_like (3,)
+            About them, in N m/rad and N m s/rad, at least 0.
+        axis, normal : array_like (3,), optional
+            In space its first direction in the drawing, and the second one, which is made perpendicular; the third follows. They
+            turn with the first body. Left out: that body's own axes.
+
+        Returns
+        -------
+        Bushing
+
+        Notes
+        -----
+        In space the angle about a direction is that by which the next one has turned, as seen along it. So a turn about one
+        direction is that angle, and small ones about several are those of a linear model; none may come near half a turn.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("mount")
+        >>> engine = m.body("engine", 50.0, 2.0)
+        >>> m.bushing("mount", m.ground, engine, at=(0, 0), stiffness=(1e5, 2e5), torsion=1e3)
+        <bushing mount: ground - engine>
+        """
+        name = self._new_name(name, "bushing")
+        first, second = self._sides(name, first, second, at)
+        self._turning(name, "bushing", first.body, second.body)
+        given = {"stiffness": stiffness, "damping": damping}
+        turning = {"torsion": torsion, "torsion_damping": torsion_damping}
+        values = _of_axes(name, given | turning if self.dimension == 3 else given, self.dimension)
+        if self.dimension == 3:
+            return self._add(SpaceBushing(name, first, second, values, self._space_frames(name, first, second, axis, normal)))
+        if axis is not None or normal is not None:
+            raise ValueError(f"axis and normal of {name!r} are for mechanisms in space")
+        values |= {word: _least(word, name, value) for word, value in turning.items()}
+        return self._add(Bushing(name, first, second, values))
+
+    def _space_frames(self, name: str, first: Point, second: Point, axis: Any, normal: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Three directions in the frames of both bodies; left out, those of the first body."""
+        if axis is None and normal is not None:
+            raise TypeError(f"normal of {name!r} goes with axis=, to which it is made perpendicular")
+        frame = first.body.pose.rotation.T
+        if axis is not None:
+            axis = self._direction(f"axis of {name!r}", axis)
+            normal = None if normal is None else self._direction(f"normal of {name!r}", normal)
+            if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:
+                raise ValueError(f"normal of {name!r} must not be parallel to its axis")
+            normal = perpendicular(axis, normal)
+            frame = np.stack([axis, normal, np.cross(axis, normal)])
+        return tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
+
+    def force(self, name: str, point: Point | Body | str, *, along: Any, value: Any, of: Mapping[str, Any] | None = None,
+              frame: Body | str | None = None) -> Force:
+        """Let a force act at a point.
+
+        Parameters
+        ----------
+        name : str
+        point : Point, Body or name
+            Of a body without a point, its centre of mass.
+        along : array_like (2,) or (3,)
+            Its direction in the drawing; the length of the vector is ignored.
+        value : float, callable or SymPy expression
+            In N, of t, parameters and measures of positions and velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+        frame : Body or name, optional
+            With which the direction turns; left out: it stays.
+
+        Returns
+        -------
+        Force
+
+        Notes
+        -----
+        A stop or a contact can be a steep smooth law, such as ``value=lambda y: 1e5 * max(0.0, -y)**1.5``.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("rocket")
+        >>> rocket = m.body("rocket", 1.0, 0.1)
+        >>> m.force("thrust", rocket, along=(0, 1), value=lambda t: 20.0 * np.exp(-t), frame=rocket)
+        <force thrust at rocket>
+        """
+        name = self._new_name(name, "force")
+        along = self._direction(f"along of {name!r}", along)
+        point = self._point("point", point, center=True)
+        frame = self.ground if frame is None else self._body("frame", frame)
+        self._turning(name, "the frame of", frame)
+        if point.body is self.ground:
+            raise ValueError(f"force {name!r} acts on the ground, which does not move: point must be of another body")
+        law = self._law(f"value of force {name!r}", value, of)
+        return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
+
+    def torque(self, name: str, body: Body | str, *, value: Any, of: Mapping[str, Any] | None = None,
+               against: Body | str | None = None, axis: Any = None, frame: Body | str | None = None) -> Torque:
+        """Let a moment act on a body.
+
+        Parameters
+        ----------
+        name : str
+        body : Body or name
+        value : float, callable or SymPy expression
+            In N m, counter-clockwise, in space right-handed about the axis; of t, parameters and measures of positions and
+            velocities.
+        of : dict of str to measure
+            Under which names a callable is handed which measures.
+        against : Body or name, optional
+            On which the opposite acts; left out: the ground.
+        axis : array_like (3,)
+            In space: its direction in the drawing. It stays, or turns with `frame` or `against`.
+        frame : Body or name, optional
+            In space: with which the axis turns, where nothing else acts on that body; may be the body itself.
+
+        Returns
+        -------
+        Torque
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("fan")
+        >>> fan = m.body("fan", 1.0, 0.1)
+        >>> m.torque("air", fan, value=lambda w: -0.01 * w * abs(w), of={"w": fan.angular_velocity})
+        <torque air on fan>
+        """
+        name = self._new_name(name, "torque")
+        body = self._body("body", body)
+        against = self.ground if against is None else self._body("against", against)
+        self._turning(name, "torque", body, against)
+        if body is against:
+            raise ValueError(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed")
+        law = self._law(f"value of torque {name!r}", value, of)
+        if self.dimension == 3:
+            return self._space_torque(name, body, against, law, axis, frame)
+        if axis is not None or frame is not None:
+            raise ValueError(f"axis and frame of {name!r} are for mechanisms in space: in the plane it is about its normal")
+        return self._add(Torque(name, body, against, law))
+
+    def _space_torque(self, name: str, body: Body, against: Body, law: Any, axis: Any, frame: Any) -> Torque:
+        if axis is None:
+            raise TypeError(f"torque {name!r} needs axis=, the direction in the drawing about which it acts")
+        frame = self.ground if frame is None else self._body("frame", frame)
+        self._turning(name, "the frame of", frame)
+        if against is not self.ground and frame is not self.ground:
+            raise ValueError(f"torque {name!r} acts against {against.name!r}, with which its axis turns: leave frame out")
+        turns_with = frame if against is self.ground else against
+        axis = turns_with.pose.local_direction(self._direction(f"axis of {name!r}", axis))
+        return self._add(Torque(name, body, against, law, axis=axis, frame=frame))
+
+
+for _kind, _force in FORCES_BY_ROW.items():
+    setattr(ForceVerbs, _kind, force_verb(_force))
+
+
+def _least(quantity: str, name: str, value: Any) -> float:
+    return _check.number(f"{quantity} of {name!r}", value, least=0)
+
+
+def _of_axes(name: str, given: dict[str, Any], dimension: int) -> dict[str, float]:
+    """The numbers of quantities along or about each axis, by their paths."""
+    found = {}
+    for quantity, value in given.items():
+        each = np.broadcast_to(value, dimension) if np.ndim(value) == 0 else value
+        for axis, number in zip(AXES, _check.vector(f"{quantity} of {name!r}", each, dimension), strict=False):
+            found[f"{quantity}.{axis}"] = _least(quantity, name, float(number))
+    return found

@@ -1,0 +1,341 @@
+"""The verbs of a mechanism that make joints."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ... import _check
+from ..elements.bodies import Body, Particle, Point
+from ..elements.joints import BY_ROW, KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot, Weld
+from .space_joint_verbs import SpaceJointVerbs, checked_cut
+from .table_joint_verbs import verb
+
+Side = Body | Point | str
+
+
+class JointVerbs(SpaceJointVerbs):
+    """Joints between bodies.
+
+    Where a joint is: `first` and `second` are points, which are joined; or a body and a point, and then the body's point that
+    lies there in the drawing is meant; or two bodies, and ``at=`` is a place in the drawing. Names stand for what they name:
+    ``"crank"``, ``"crank.end"``, a point's own name.
+    """
+
+    gravity: Any
+
+    def revolute(self, name: str, first: Side, second: Side, *, axis: Any = None, at: Any = None, damping: float = 0.0,
+                 cut: bool = False) -> Any:
+        """Join two bodies by a hinge.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            Two points; a body and a point; or two bodies, and `at`. In the plane one of them may be a particle.
+        axis : array_like (3,)
+            In space: about which direction of the drawing it turns.
+        at : array_like (2,) or (3,)
+            Where the joint is in the drawing, in m.
+        damping : float
+            In N m s, at least 0.
+        cut : bool
+            Whether this joint shall close a loop; left out, loops are cut where it is best.
+
+        Returns
+        -------
+        Revolute, in space SpaceJoint
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the name is taken, a point belongs to no body of this mechanism, or both sides to one.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum")
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> m.revolute("A", m.ground, link.start)
+        <revolute A: ground - link>
+        """
+        axis = self._one_axis(name, axis)
+        if axis is not None:
+            return self._join("revolute", name, first, second, at, axis, damping=damping, cut=cut)
+        name = self._new_name(name, "joint")
+        sides = self._sides(name, first, second, at)
+        damping = _check.number(f"damping of {name!r}", damping, least=0)
+        if damping:
+            self._turning(name, "damping of", *(side.body for side in sides))
+        return self._add(Revolute(name, *sides, damping=damping, cut=checked_cut(name, cut)))
+
+    def prismatic(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, damping: float = 0.0,
+                  cut: bool = False) -> Any:
+        """Join two bodies by a slider, which keeps their angle.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            As of `revolute`; two points may lie apart along the axis. Of two bodies without `at`, the second's origin is meant.
+        axis : array_like (2,) or (3,)
+            Its direction in the drawing; it turns with the first body.
+        at : array_like (2,) or (3,)
+            Where the joint is in the drawing, in m.
+        damping : float
+            In N s/m, at least 0.
+        cut : bool
+            As of `revolute`.
+
+        Returns
+        -------
+        Prismatic, in space SpaceJoint
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for an axis of length zero, or a particle.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("drawer")
+        >>> drawer = m.body("drawer", 2.0)
+        >>> m.prismatic("rail", m.ground, drawer, axis=(1, 0)).displacement
+        Measure('rail.displacement')
+        """
+        if self.dimension == 3:
+            return self._join("prismatic", name, first, second, self._at_origin(at, first, second),
+                              self._direction(f"axis of {name!r}", axis), damping=damping, cut=cut)
+        name = self._new_name(name, "joint")
+        axis = self._direction(f"axis of {name!r}", axis)
+        first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
+        if at is None and isinstance(first, Body) and isinstance(second, Body) and first.turns and second.turns:
+            at = second.pose.origin
+        sides = self._sides(name, first, second, at)
+        self._turning(name, "prismatic", *(side.body for side in sides))
+        return self._add(Prismatic(name, *sides, axis=sides[0].body.pose.local_direction(axis), cut=checked_cut(name, cut),
+                                   damping=_check.number(f"damping of {name!r}", damping, least=0)))
+
+    def weld(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> Any:
+        """Join two bodies rigidly, as they are drawn.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            As of `revolute`; the reaction is told at the second's point.
+        at : array_like (2,) or (3,)
+            Where the joint is in the drawing, in m.
+        cut : bool
+            Whether this joint shall close a loop; left out, loops are cut where it is best.
+
+        Returns
+        -------
+        Weld, in space SpaceJoint
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for a particle.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bracket")
+        >>> arm = m.link("arm", (0, 0), (1, 0), mass=1.0)
+        >>> m.weld("wall", m.ground, arm.start).torque
+        Measure('wall.torque')
+        """
+        if self.dimension == 3:
+            return self._join("weld", name, first, second, at, cut=cut)
+        name = self._new_name(name, "joint")
+        sides = self._sides(name, first, second, at)
+        self._turning(name, "weld", *(side.body for side in sides))
+        return self._add(Weld(name, *sides, cut=checked_cut(name, cut)))
+
+    def rod(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *,
+            length: float | None = None) -> Any:
+        """Keep two points at a distance, as a massless rod with a hinge at each end does.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Point, Particle or name
+        length : float, optional
+            In m; left out: as drawn.
+
+        Returns
+        -------
+        Rod, in space SpaceJoint
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and if two points that lie in one place have no length.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum")
+        >>> bob = m.particle("bob", 1.0, at=(0.6, -0.8))
+        >>> m.rod("rod", m.ground.point((0, 0)), bob).tension
+        Measure('rod.tension')
+        """
+        name = self._new_name(name, "joint")
+        sides = self._different(name, self._point("first", first), self._point("second", second))
+        if length is not None:
+            length = _check.number(f"length of {name!r}", length, above=0)
+        if self.dimension == 3:
+            return self._fasten("rod", name, *sides, length=length)
+        rod = Rod(name, *sides, length=length)
+        _check.number(f"length of {name!r}, as drawn,", rod.numbers()["length"], above=0)
+        return self._add(rod)
+
+    def slot(self, name: str, first: Body | str, second: Point | Particle | str, *, axis: Any, cut: bool = False) -> Any:
+        """Keep a point on a line of a body.
+
+        Parameters
+        ----------
+        name : str
+        first : Body or name
+            What the line belongs to; it goes, as drawn, through the point.
+        second : Point, Particle or name
+            What slides.
+        axis : array_like (2,) or (3,)
+            The line's direction in the drawing.
+        cut : bool
+            Whether this joint shall close a loop; left out, loops are cut where it is best. In the plane a slot always does.
+
+        Returns
+        -------
+        Slot, in space SpaceJoint
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for an axis of length zero, or if the line would belong to a particle.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("bead")
+        >>> bead = m.particle("bead", 0.1, at=(0, 0))
+        >>> m.slot("wire", m.ground, bead, axis=(1, -1)).displacement
+        Measure('wire.displacement')
+        """
+        name = self._new_name(name, "joint")
+        axis = self._direction(f"axis of {name!r}", axis)
+        first, second = self._body("first", first), self._point("second", second)
+        self._turning(name, "the line of", first)
+        first, second = self._different(name, first.point(at=second.drawn), second)
+        if self.dimension == 3:
+            return self._fasten("slot", name, first, second, axis, cut=cut)
+        checked_cut(name, cut)
+        return self._add(Slot(name, first, second, axis=first.body.pose.local_direction(axis)))
+
+    def rolling(self, name: str, first: Body | str, second: Side, *, radius: float | None = None, at: Any = None,
+                normal: Any = None, axle: Any = None, semiaxes: Any = None) -> Any:
+        """Let a wheel roll on a line without slipping; in space a disc, a sphere or an ellipsoid on a plane.
+
+        Parameters
+        ----------
+        name : str
+        first : Body or name
+            What the line, or the plane, belongs to.
+        second : Body, Point or name
+            The wheel, whose origin is its centre, or the point of the body that is.
+        radius : float
+            In m; in space of a sphere, or of a disc where there is an axle.
+        at : array_like (2,) or (3,)
+            A place of the line or plane in the drawing; left out: the drawing's origin.
+        normal : array_like (2,) or (3,), optional
+            Of the line or plane in the drawing, towards the wheel; left out: against gravity, and where there is none, y, in
+            space z.
+        axle : array_like (3,), optional
+            In space: of a disc, its axle in the drawing. It turns with the second body.
+        semiaxes : array_like (3,), optional
+            In space, instead of the radius: those of an ellipsoid along the axes of the second body's frame, in m.
+
+        Returns
+        -------
+        Rolling, in space SpaceJoint
+            Its force acts where it touches. In space it has one holonomic row, and two nonholonomic ones, along the plane.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for a normal of length zero, a radius that is not positive, or a particle.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("wheel", gravity=(0, -9.81))
+        >>> wheel = m.body("wheel", *zd.inertia.disc(mass=1.0, radius=0.5), at=(0, 0.5))
+        >>> m.rolling("road", m.ground, wheel, radius=0.5).force
+        VectorMeasure('road.force')
+        """
+        if self.dimension == 3:
+            return self._space_rolling(name, first, second, radius, at, normal, axle, semiaxes)
+        if axle is not None or semiaxes is not None:
+            raise ValueError(f"axle and semiaxes of {name!r} are for mechanisms in space")
+        name = self._new_name(name, "joint")
+        at = (0.0, 0.0) if at is None else at
+        radius = _check.number(f"radius of {name!r}", radius, above=0)
+        if normal is None:
+            normal = -self.gravity if self.gravity.any() else (0.0, 1.0)
+        normal = self._direction(f"normal of {name!r}", normal)
+        first, at, second = self._body("first", first), self._drawn("at", at), self._named("second", second)
+        if isinstance(second, Body) and second.turns:
+            second = self._body("second", second).point((0.0, 0.0))
+        first, second = self._different(name, first.point(at=at), self._point("second", second))
+        self._turning(name, "rolling", first.body, second.body)
+        return self._add(Rolling(name, first, second, radius, first.body.pose.local_direction(normal)))
+
+    def knife_edge(self, name: str, point: Side, *, along: Any, normal: Any = None) -> Any:
+        """Let a point of a body move along one direction of the body only, as a skate does on ice.
+
+        Parameters
+        ----------
+        name : str
+        point : Point, Body or name
+            Of a body without a point, its centre of mass.
+        along : array_like (2,) or (3,)
+            The direction in the drawing in which it glides; it turns with the body.
+        normal : array_like (3,), optional
+            In space: a direction in the drawing, made perpendicular to `along`; left out: against gravity, and where there is no
+            gravity, z. The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a
+            body that leans takes it along. The joint does not keep the point on a plane.
+
+        Returns
+        -------
+        KnifeEdge, in space SpaceJoint
+            Its first body is the ground.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `revolute`; and for a direction of length zero, or a particle.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("sleigh")
+        >>> sleigh = m.body("sleigh", 1.0, 0.1)
+        >>> m.knife_edge("blade", sleigh.point((-0.5, 0)), along=(1, 0))
+        <knife_edge blade: ground - sleigh>
+        """
+        if self.dimension == 3:
+            return self._space_knife_edge(name, point, along, normal)
+        if normal is not None:
+            raise ValueError(f"normal of {name!r} is for mechanisms in space")
+        name = self._new_name(name, "joint")
+        along = self._direction(f"along of {name!r}", along)
+        point = self._point("point", point, center=True)
+        self._turning(name, "knife edge", point.body)
+        first, point = self._different(name, self.ground.point(at=point.drawn), point)
+        return self._add(KnifeEdge(name, first, point, axis=point.body.pose.local_direction(along)))
+
+
+for _kind, _joint in BY_ROW.items():
+    setattr(JointVerbs, _kind, verb(_joint))
+

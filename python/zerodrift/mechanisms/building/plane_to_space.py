@@ -1,0 +1,257 @@
+"""A mechanism of the plane in space: the same bodies, joints, drives and forces, and what keeps them in their plane."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ..elements.bodies import Body, Link, Particle, Point, _Center
+from ..elements.drawing import Drawing
+from ..elements.frames import about
+from ..elements.joints import Joint
+from ..elements.user_functions import Law
+from .coupling_verbs import _Expression, _Follows, _Sum
+from .periodic_spline import PeriodicSpline
+
+NORMAL = (0.0, 0.0, 1.0)
+HINGED = ("revolute", "prismatic", "weld")      # what keeps two bodies in one plane
+
+
+def lift(drawing: Drawing, m: Any) -> None:
+    """Adds to a mechanism in space, which is empty, all that a drawing of the plane has."""
+    for element in drawing.elements.values():
+        if element is not drawing.ground:
+            kind = _kind(element)
+            if kind not in LIFTED:
+                raise ValueError(f"{element.name!r} cannot be lifted: a {kind} has no counterpart in space")
+            LIFTED[kind](m, element)
+    for name in _free(drawing):
+        _keep(m, m[name])
+    m.start(_start(drawing, drawing.held), wish=_start(drawing, drawing.wished))
+
+
+def _kind(element: Any) -> str:
+    if isinstance(element, Body):
+        return element.what
+    return "point" if isinstance(element, Point) else element.kind
+
+
+def _free(drawing: Drawing) -> list[str]:
+    """The bodies that no joint keeps in the plane: of those which keep each other there, one."""
+    kept, free = {"ground"}, []
+    joints = drawing.of(Joint)
+    for body in sorted(drawing.parts(), key=lambda body: not body.turns):      # particles last, as bodies may hold them
+        _spread(joints, kept)
+        if body.name not in kept:
+            free.append(body.name)
+            kept.add(body.name)
+    return free
+
+
+def _spread(joints: list[Joint], kept: set[str]) -> None:
+    """Adds what joints keep in the plane."""
+    size = 0
+    while size < len(kept):
+        size = len(kept)
+        for joint in joints:
+            first, second = joint.bodies
+            if joint.kind in HINGED or (joint.kind == "slot" and not second.turns):
+                kept.update(other.name for one, other in ((first, second), (second, first)) if one.name in kept and one.turns)
+
+
+def _keep(m: Any, body: Body) -> None:
+    """Keeps a body in the plane."""
+    if body.turns:
+        m.planar(f"{body.name} in its plane", m.ground, body, normal=NORMAL)
+    else:
+        m.coupler(f"{body.name} in its plane", {f"{body.name}.position.z": 1.0})
+
+
+# ---- parts of elements ----
+
+
+def _raised(vector: Any) -> tuple[float, float, float]:
+    return float(vector[0]), float(vector[1]), 0.0
+
+
+def _point(m: Any, point: Point) -> Any:
+    """The same point in space; a particle is one itself."""
+    body = m[point.body.name]
+    if isinstance(body, Particle):
+        return body
+    for end in ("start", "end"):
+        if getattr(point.body, end, None) is point:
+            return getattr(body, end)
+    if isinstance(point, _Center):
+        return body.center
+    return m[point.name] if point.name in m._elements else body.point(_raised(point.local))
+
+
+def _sides(m: Any, element: Any) -> tuple[Any, Any]:
+    return _point(m, element.first), _point(m, element.second)
+
+
+def _measure(m: Any, name: str) -> str:
+    """What a measure is called in space."""
+    owner, _, quantity = name.rpartition(".")
+    if not isinstance(body := m._elements.get(owner), Body):
+        return name
+    if quantity == "angle":
+        raise ValueError(f"{name!r} cannot be lifted: {body.name!r} has a rotation in space and no angle; take that of a joint")
+    return f"{name}.z" if quantity == "angular_velocity" else name
+
+
+def _law(m: Any, law: Law) -> dict[str, Any]:
+    """What a law was given, and its `of`."""
+    if law.constant is not None:
+        return {"value": law.constant, "of": None}
+    bound = {name: _measure(m, measure) for name, measure in law._bound.items()}
+    if law.expression is None:
+        return {"value": law._function, "of": bound}
+    told = {symbol: type(symbol)(bound[str(symbol)]) for symbol in law.expression.free_symbols if "." in str(symbol)}
+    return {"value": law.expression.subs(told), "of": {name: measure for name, measure in bound.items() if "." not in name}}
+
+
+def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:
+    """What a start says, in measures of space."""
+    said: dict[str, Any] = {}
+    for name, value in given.items():
+        owner, _, quantity = name.rpartition(".")
+        if isinstance(drawing.elements.get(owner), Body) and quantity == "angle":
+            said[f"{owner}.rotation"] = about(NORMAL, value)
+        elif isinstance(drawing.elements.get(owner), Body) and quantity == "angular_velocity":
+            said[f"{name}.z"] = value
+        elif np.ndim(value):
+            said |= {f"{name}.x": float(value[0]), f"{name}.y": float(value[1])}
+        else:
+            said[name] = value
+    return said
+
+
+# ---- elements ----
+
+
+def _plate(inertia: float) -> tuple[float, float, float]:
+    """A tensor with this moment about z, that of a thin round plate; the others do not count."""
+    return inertia / 2, inertia / 2, inertia
+
+
+def _body(m: Any, body: Body) -> None:
+    m.body(body.name, body.mass, _plate(body.inertia), at=_raised(body.pose.origin), rotation=about(NORMAL, body.pose.angle),
+           com=_raised(body._com))
+
+
+def _link(m: Any, link: Link) -> None:
+    m.link(link.name, _raised(link.pose.origin), _raised(link.drawn_end), link.mass, length=link.length,
+           inertia=_plate(link.inertia))
+
+
+def _particle(m: Any, particle: Particle) -> None:
+    at = _raised(particle.pose.origin) if particle.carrier is None else _point(m, particle.carrier)
+    m.particle(particle.name, particle.mass, at=at)
+
+
+def _named_point(m: Any, point: Point) -> None:
+    m.point(point.name, point.body.name, _raised(point.local))
+
+
+def _revolute(m: Any, joint: Any) -> None:
+    sides = _sides(m, joint)
+    if all(body.turns for body in joint.bodies):
+        m.revolute(joint.name, *sides, axis=NORMAL, damping=joint.damping)
+    else:
+        m.spherical(joint.name, *sides)     # a particle does not turn
+
+
+def _prismatic(m: Any, joint: Any) -> None:
+    m.prismatic(joint.name, *_sides(m, joint), axis=_raised(joint.axis_as_drawn()), damping=joint.damping)
+
+
+def _weld(m: Any, joint: Any) -> None:
+    m.weld(joint.name, *_sides(m, joint))
+
+
+def _rod(m: Any, joint: Any) -> None:
+    m.rod(joint.name, *_sides(m, joint), length=joint.length)
+
+
+def _slot(m: Any, joint: Any) -> None:
+    m.slot(joint.name, joint.first.body.name, _point(m, joint.second), axis=_raised(joint.axis_as_drawn()))
+
+
+def _rolling(m: Any, joint: Any) -> None:
+    m.rolling(joint.name, joint.first.body.name, _point(m, joint.second), radius=joint.radius, at=_raised(joint.first.drawn),
+              normal=_raised(joint.first.body.pose.direction(joint.normal)), axle=NORMAL)
+
+
+def _knife_edge(m: Any, joint: Any) -> None:
+    m.knife_edge(joint.name, _point(m, joint.second), along=_raised(joint.axis_as_drawn()), normal=NORMAL)
+
+
+def _linear(m: Any, coupling: Any) -> None:
+    getattr(m, coupling.kind)(coupling.name, *(measure.rpartition(".")[0] for measure in coupling.of), ratio=coupling.ratio)
+
+
+def _coupling(m: Any, coupling: Any) -> None:
+    law = coupling.law
+    if isinstance(law._function, _Sum):
+        names = (_measure(m, measure) for measure in coupling.of)
+        m.coupler(coupling.name, dict(zip(names, law._function.coefficients, strict=True)))
+    else:
+        getattr(m, coupling.kind)(coupling.name, **_law(m, law))
+
+
+def _cam(m: Any, coupling: Any) -> None:
+    follows: _Follows = coupling.law._function
+    profile = follows.profile
+    if isinstance(profile, PeriodicSpline):
+        profile = profile.angles, profile.values
+    elif isinstance(profile, _Expression):
+        profile = profile._law.expression
+    m.cam(coupling.name, coupling.of[0].rpartition(".")[0], coupling.of[1], profile=profile)
+
+
+def _motor(m: Any, motor: Any) -> None:
+    law = _law(m, motor.law)
+    m.motor(motor.name, motor.joint.name, of=law["of"], **{motor.drives: law["value"]})
+
+
+def _actuator(m: Any, actuator: Any) -> None:
+    law = _law(m, actuator.law)
+    m.actuator(actuator.name, *_sides(m, actuator), of=law["of"], **{actuator.drives: law["value"]})
+
+
+def _spring(m: Any, spring: Any) -> None:
+    m.spring(spring.name, *_sides(m, spring), stiffness=spring.stiffness, length=spring.free_length, damping=spring.damping)
+
+
+def _torsion_spring(m: Any, spring: Any) -> None:
+    m.torsion_spring(spring.name, spring.joint.name, stiffness=spring.stiffness, angle=spring.angle, damping=spring.damping)
+
+
+def _bushing(m: Any, bushing: Any) -> None:
+    along, about = {}, {}
+    for word in ("stiffness", "damping"):
+        along[word] = *(bushing.values[f"{word}.{axis}"] for axis in "xy"), 0.0
+    for word in ("torsion", "torsion_damping"):
+        about[word] = 0.0, 0.0, bushing.values[word]
+    m.bushing(bushing.name, *_sides(m, bushing), **along, **about)
+
+
+def _force(m: Any, force: Any) -> None:
+    m.force(force.name, _point(m, force.point), along=_raised(force.frame.pose.direction(force.along)),
+            frame=m[force.frame.name], **_law(m, force.law))
+
+
+def _torque(m: Any, torque: Any) -> None:
+    m.torque(torque.name, torque.body.name, against=torque.against.name, axis=NORMAL, **_law(m, torque.law))
+
+
+LIFTED: dict[str, Callable[[Any, Any], None]] = {
+    "body": _body, "link": _link, "particle": _particle, "point": _named_point, "revolute": _revolute, "prismatic": _prismatic,
+    "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _linear,
+    "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
+    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
+    "force": _force, "torque": _torque}

@@ -1,0 +1,217 @@
+"""The elements of a mechanism by name, and how arguments are read that mean bodies, points and joints among them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..elements.bodies import Body, Ground, Link, Particle, Point, place
+from ..elements.forces import Motor
+from ..elements.joints import Joint
+from ..elements.space_bodies import SpaceGround
+from ..elements.user_functions import Law
+from ..equations.measure_names import reading
+
+
+class Elements:
+    """What a mechanism consists of; the verbs of `Mechanism` add to it."""
+
+    name: str
+    dimension: int
+
+    def __init__(self, parameters: Any) -> None:
+        self.ground = SpaceGround() if self.dimension == 3 else Ground()
+        self.ground._register = self._register_point
+        self.parameters = {key: _check.number(f"parameter {key!r}", value)
+                           for key, value in _check.parameters(parameters).items() if _is_identifier(key)}
+        self._elements: dict[str, Any] = {"ground": self.ground}
+
+    # ---- adding ----
+
+    def _new_name(self, name: Any, what: str) -> str:
+        return checked_name(name, what, self._elements)
+
+    def _add(self, element: Any) -> Any:
+        self._elements[element.name] = element
+        if isinstance(element, Body):
+            element._register = self._register_point
+        return element
+
+    def _register_point(self, point: Point) -> Point:
+        if point.name is not None:
+            self._elements[self._new_name(point.name, "point")] = point
+        return point
+
+    def _in_the_plane(self, what: str) -> None:
+        """Refuses what there is in the plane alone."""
+        if self.dimension == 3:
+            raise ValueError(f"{what} is there for mechanisms in the plane, not yet in space")
+
+    # ---- reading arguments ----
+
+    def _named(self, argument: str, value: Any) -> Any:
+        """What a name stands for: an element, a link's start or end, a body's center; what is no string is taken as it is."""
+        if not isinstance(value, str):
+            return value
+        if value in self._elements:
+            return self._elements[value]
+        owner, _, side = value.partition(".")
+        if side in ("start", "end") and isinstance(link := self._elements.get(owner), Link):
+            return getattr(link, side)
+        if side == "center" and isinstance(body := self._elements.get(owner), Body):
+            return body.center
+        known = [*self._elements, *(f"{link.name}.{side}" for link in self._of(Link) for side in ("start", "end"))]
+        raise ValueError(f"{argument} names {value!r}, which is no element of {self.name!r}; {_check.closest(value, known)}")
+
+    def _body(self, argument: str, value: Any) -> Body:
+        """A body of this mechanism."""
+        value = self._named(argument, value)
+        _check.instance(argument, value, Body, f"a body of {self.name!r}")
+        if self._elements.get(value.name) is not value:
+            raise ValueError(f"{argument} must be a body of {self.name!r}, and {value!r} is not: it belongs to another mechanism")
+        return value
+
+    def _point(self, argument: str, value: Any, *, center: bool = False) -> Point:
+        """A point of this mechanism; of a particle, its place, and of a body its centre of mass, where that is meant."""
+        value = self._named(argument, value)
+        if isinstance(value, Particle):
+            return self._particle_point(argument, value)
+        if center and isinstance(value, Body):
+            return self._body(argument, value).center
+        if isinstance(value, Body):
+            raise TypeError(f"{argument} must be a point, and {value.name!r} is a whole body: take {value.name}.point(...)")
+        _check.instance(argument, value, Point, "a point of a body, such as link.end or body.point((x, y))")
+        self._body(argument, value.body)
+        return value
+
+    def _particle_point(self, argument: str, particle: Particle) -> Point:
+        self._body(argument, particle)
+        return Point(particle, np.zeros(self.dimension)) if particle.carrier is None else particle.carrier
+
+    def _joint(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> Joint:
+        """A joint of this mechanism that has one of these coordinates, "angle" or "displacement"."""
+        value = self._named(argument, value)
+        _check.instance(argument, value, Joint, "a joint")
+        if self._elements.get(value.name) is not value:
+            raise ValueError(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism")
+        if not set(value.coordinates) & set(coordinate):
+            raise ValueError(f"{argument} must be a joint with {' or '.join(coordinate)}, and {value.name!r} is a {value.kind}")
+        particle = next((body for body in value.bodies if not body.turns), None)
+        if value.coordinate == "angle" and particle is not None:
+            raise ValueError(f"{argument} {value.name!r} joins the particle {particle.name!r}, which has no angle")
+        return value
+
+    def _sides(self, name: str, first: Any, second: Any, at: Any) -> tuple[Point, Point]:
+        """The points that a joint joins, each in the frame of its body, (first, second)."""
+        first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
+        is_body = [isinstance(side, Body) and side.turns for side in (first, second)]
+        if at is not None and not all(is_body):
+            raise TypeError(f"at= of {name!r} goes with two bodies; with a point, the point says where the joint is")
+        if at is not None:
+            at = self._drawn("at", at)
+            sides = tuple(self._body(side, value).point(at=at) for side, value in (("first", first), ("second", second)))
+        else:
+            sides = self._given_sides(name, first, second, is_body)
+        return self._different(name, *sides)
+
+    def _given_sides(self, name: str, first: Any, second: Any, is_body: list[bool]) -> tuple[Point, Point]:
+        if all(is_body):
+            raise TypeError(f"{name!r} joins two bodies, {first.name!r} and {second.name!r}: it needs at=, its place as drawn, "
+                            "or a point of one of them")
+        if is_body[0]:
+            second = self._point("second", second)
+            return self._body("first", first).point(at=second.drawn), second
+        first = self._point("first", first)
+        return first, self._body("second", second).point(at=first.drawn) if is_body[1] else self._point("second", second)
+
+    def _drawn(self, argument: str, value: Any) -> np.ndarray:
+        """A place in the drawing, (dimension,): coordinates, or where a point is drawn."""
+        return place(argument, self._named(argument, value), self.dimension)
+
+    def _different(self, name: str, first: Point, second: Point) -> tuple[Point, Point]:
+        if first.body is second.body:
+            raise ValueError(f"{name!r} joins {first.body.name!r} to itself: first and second must belong to two bodies")
+        return first, second
+
+    def _turning(self, name: str, what: str, *bodies: Body) -> None:
+        """Refuses particles, which have no orientation."""
+        for body in bodies:
+            if not body.turns:
+                raise ValueError(f"{what} {name!r} needs an orientation, and {body.name!r} is a particle, which has none")
+
+    def _direction(self, argument: str, value: Any) -> np.ndarray:
+        """A direction in the drawing, (dimension,) of length one."""
+        vector = _check.vector(argument, value, self.dimension)
+        length = np.hypot(*vector) if self.dimension == 2 else np.linalg.norm(vector)
+        if not length > 0:
+            raise ValueError(f"{argument} must be a direction in the drawing, and {tuple(map(float, vector))} has length zero")
+        return vector / length
+
+    def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False) -> Law:
+        """A law whose measures there are."""
+        law = Law(what, given, of=of, parameters=self.parameters)
+        for measure in law.measures:
+            self._check_measured(what, measure)
+            read = reading(measure, self._elements)
+            if read is None or len(read.gauges) != 1:
+                raise ValueError(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is none")
+            if read.is_rate and positions:
+                raise ValueError(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity")
+        return law
+
+    def _check_measured(self, what: str, measure: str) -> None:
+        """Refuses measures of what is not there."""
+        owner = measure.partition(".")[0]
+        if owner not in self._elements:
+            raise ValueError(f"{what} names {measure!r}, and there is no {owner!r} in {self.name!r}; "
+                             f"{_check.closest(owner, self._elements)}")
+
+    # ---- looking ----
+
+    def __getitem__(self, name: str) -> Any:
+        """The element of that name."""
+        if name not in self._elements:
+            raise KeyError(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._elements)}")
+        return self._elements[name]
+
+    def _of(self, kind: type | tuple[type, ...]) -> list[Any]:
+        return [element for element in self._elements.values() if isinstance(element, kind)]
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """Bodies, links and particles, in the order in which they were added; the ground is none of them."""
+        return tuple(body for body in self._of(Body) if body is not self.ground)
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Joints, in the order in which they were added."""
+        return tuple(self._of(Joint))
+
+    @property
+    def motors(self) -> tuple[Motor, ...]:
+        """Motors, in the order in which they were added."""
+        return tuple(self._of(Motor))
+
+
+def _is_identifier(name: str) -> bool:
+    if not name.isidentifier():
+        raise ValueError(f"parameters must have names that a callable can take, without a dot, not {name!r}")
+    return True
+
+
+ALLOWED = re.compile(r"[A-Za-z0-9_\-]([A-Za-z0-9_\- ]*[A-Za-z0-9_\-])?")
+
+
+def checked_name(name: Any, what: str, taken: Iterable[str]) -> str:
+    """A name for a new element, if it is one and nothing else has it."""
+    if not isinstance(name, str):
+        raise TypeError(f"name of a {what} must be a string, not {_check.shown(name)}")
+    if not ALLOWED.fullmatch(name):
+        raise ValueError(f"name of a {what} must be of letters, digits, blanks inside, '_' and '-', not {name!r}")
+    if name in taken:
+        raise ValueError(f"name {name!r} is taken: each element of a mechanism has a name of its own")
+    return name

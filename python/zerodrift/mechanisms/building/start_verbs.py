@@ -1,0 +1,102 @@
+"""What a start holds and wishes: values of measures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..elements.forces import Actuator
+from ..elements.frames import given_rotation
+from ..elements.measures import name_of
+from ..equations.measure_names import checked_reading
+from .registry import Elements
+
+
+class StartVerbs(Elements):
+    """The verb that says where a mechanism starts."""
+
+    def __init__(self, parameters: Any) -> None:
+        super().__init__(parameters)
+        self._held: dict[str, Any] = {}
+        self._wished: dict[str, Any] = {}
+        self._is_balanced = False
+
+    def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None,
+              equilibrium: bool | None = None) -> None:
+        """Say where and how fast the motion starts; all else starts as drawn and at rest, unless a loop has to move with it.
+
+        Joint coordinates that neither values given here nor drives force stay as in the drawing with its joints closed, and
+        their rates are zero: the angle of a pendulum on a cart does not change with the cart's place. Coordinates of a loop or a
+        coupling that contains a forced one move as little as possible in the mass metric. Where joint coordinates cannot stay,
+        as in a drawing that is singular, all bodies move as little as possible in the mass metric. The printed mechanism names
+        joints that are drawn open and bodies that start elsewhere than drawn.
+
+        Parameters
+        ----------
+        held : dict of measure to value
+            What is met: positions and velocities by object or by name, components or vectors; of a body in space its
+            ``rotation``, too, as a matrix or a unit quaternion. Later calls add and replace; None as a value takes back.
+        wish : dict of measure to value
+            What is met as nearly as possible after that.
+        equilibrium : bool, optional
+            True: the motion starts in the stable equilibrium that `zerodrift.equilibrium` finds from that position, with drives
+            at its time; held positions are where the search begins, held speeds are kept as nearly as the constraints allow.
+            False takes that back; left out, it stays as it was.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If nothing has such a measure, a value is no number or vector, or a motor prescribes it.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum")
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, link.start)
+        >>> m.start({link.angle: -0.3, "pin.speed": 2.0})
+        """
+        if equilibrium is not None:
+            self._is_balanced = _check.instance("equilibrium", equilibrium, bool, "True or False")
+        for kept, given, what in ((self._held, held, "held"), (self._wished, wish, "wish")):
+            checked = targets(given, what, self.dimension)
+            for name, value in checked.items():
+                self._check_start("start" if what == "held" else what, name, value)
+            for name, value in checked.items():
+                kept.pop(name, None) if value is None else kept.update({name: value})
+
+    def _check_start(self, what: str, name: str, value: Any) -> None:
+        """Refuses what is not there, and what a motor prescribes."""
+        self._check_measured(what, name)
+        checked_reading(what, name, value, self._elements)
+        for motor in self.motors:
+            taken = {"angle": ("angle", "speed"), "displacement": ("displacement", "speed"),
+                     "speed": ("speed",)}.get(motor.drives, ())
+            if name in {f"{motor.joint.name}.{quantity}" for quantity in taken}:
+                raise ValueError(f"start holds {name!r}, which motor {motor.name!r} prescribes: leave one of them out")
+        owner, _, quantity = name.rpartition(".")
+        actuator = self._elements.get(owner)
+        if isinstance(actuator, Actuator) and actuator.prescribes:
+            raise ValueError(f"start holds {name!r}, which the actuator prescribes: leave its {quantity} out")
+
+
+def targets(given: Any, what: str, dimension: int = 2) -> dict[str, Any]:
+    """Measures and their values, checked: names to numbers, vectors or None."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
+    read = {}
+    for measure, value in given.items():
+        name = name_of(measure, f"a key of {what}")
+        if value is not None:
+            said = f"{what}[{name!r}]"
+            if dimension == 3 and name.endswith(".rotation"):
+                value = given_rotation(said, value)
+            else:
+                value = _check.vector(said, value, dimension) if np.ndim(value) else _check.number(said, value)
+        read[name] = value
+    return read

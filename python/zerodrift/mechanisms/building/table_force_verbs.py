@@ -1,0 +1,100 @@
+"""The verbs of force elements that nobody has written by hand: what they take, check and say is what the core's row says."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..elements.table_forces import MadeForce
+from .registry import Elements
+from .table_joint_verbs import SIDES, wrapped
+
+TAKEN = {
+    "axis": ("array_like (2,)", "Its direction in the drawing; it turns with the first body."),
+    "stiffness": ("float{size}", "In N/m, along angles in N m/rad, at least 0{each}. It is slack as drawn."),
+    "damping": ("float{size}", "In N s/m, along angles in N m s/rad, at least 0{each}."),
+    "length": ("float, optional", "At which it is slack, in m, at least 0; left out: as drawn."),
+    "value": ("float, callable or SymPy expression",
+              "In N, along angles in N m; of t, parameters and measures of positions and velocities."),
+    "of": ("dict of str to measure", "Under which names a callable is handed which measures.")}
+NEEDED = inspect.Parameter.empty
+
+
+def force_verb(force: type[MadeForce]) -> Callable[..., MadeForce]:
+    """The verb of `Mechanism` that makes such elements."""
+    signature = inspect.Signature(
+        [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD) for name in ("self", "name", "first", "second")]
+        + [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial)
+           for name, initial in {"at": None, **taken(force)}.items()])
+
+    def make(m: Elements, *given: Any, **named: Any) -> MadeForce:
+        try:
+            bound = signature.bind(m, *given, **named)
+        except TypeError as error:
+            raise TypeError(f"{force.kind}(): {error}") from None
+        bound.apply_defaults()
+        values = dict(bound.arguments)
+        return _add(values.pop("self"), force, values.pop("name"), **values)
+
+    make.__name__, make.__qualname__ = force.kind, f"Mechanism.{force.kind}"
+    make.__doc__, make.__signature__ = _documentation(force), signature      # type: ignore[attr-defined]
+    return make
+
+
+def taken(force: type[MadeForce]) -> dict[str, Any]:
+    """What a verb takes besides sides, and what it is where it is left out."""
+    axis = {"axis": NEEDED} if force.has("along", "across", "glide", "skid") else {}
+    if not force.row.is_spring:
+        return {**axis, "value": NEEDED, "of": None}
+    length = {"length": None} if any(zero == "length" for _, zero in force.row.gauges) else {}
+    return {**axis, "stiffness": NEEDED, "damping": 0.0, **length}
+
+
+def _add(m: Elements, force: type[MadeForce], name: Any, *, first: Any, second: Any, at: Any, axis: Any = None,
+         stiffness: Any = None, damping: Any = 0.0, length: Any = None, value: Any = None, of: Any = None) -> MadeForce:
+    m._in_the_plane(force.kind)
+    name = m._new_name(name, force.kind)
+    first, second = m._sides(name, first, second, at)
+    if force.has("angle"):
+        m._turning(name, force.kind, first.body, second.body)
+    if axis is not None:
+        m._turning(name, "axis of", first.body)
+        axis = first.body.pose.local_direction(m._direction(f"axis of {name!r}", axis))
+    values, law = {}, None
+    if force.row.is_spring:
+        values = _each("stiffness", name, force, stiffness) | _each("damping", name, force, damping)
+    else:
+        law = m._law(f"value of {force.kind} {name!r}", value, of)
+    if length is not None:
+        values["length"] = _check.number(f"length of {name!r}", length, least=0)
+    return m._add(force(name, first, second, axis, values, law))
+
+
+def _each(quantity: str, name: str, force: type[MadeForce], given: Any) -> dict[str, float]:
+    """A quantity of all gauges by its paths: one number for all of them, or one for each."""
+    paths = force.paths(quantity)
+    given = np.broadcast_to(given, len(paths)) if np.ndim(given) == 0 else given
+    each = zip(paths, _check.vector(f"{quantity} of {name!r}", given, len(paths)), strict=True)
+    return {path: _check.number(f"{path} of {name!r}", float(number), least=0) for path, number in each}
+
+
+def _documentation(force: type[MadeForce]) -> str:
+    """A docstring in the style of those that are written by hand."""
+    card, several = force.row.card, len(force.row.gauges) > 1
+    words = {"size": f" or array_like ({len(force.row.gauges)},)" if several else "",
+             "each": f"; for each of {', '.join(gauge for gauge, _ in force.row.gauges)}" if several else ""}
+    lines = [card.summary, "", *wrapped(card.description), "Parameters", "----------"]
+    for name, (kind, text) in {"name": ("str", ""), **SIDES, **{word: TAKEN[word] for word in taken(force)}}.items():
+        lines += [f"{name} : {kind.format(**words)}", *wrapped(text.format(**words), "    ")[:-1]]
+    lines += ["", "Returns", "-------", force.__name__, "", "Notes", "-----", *wrapped(f"Source: {card.equations}.")]
+    axis = ", axis=(1, 0)" if "axis" in taken(force) else ""
+    value = "stiffness=2.0" if force.row.is_spring else "value=2.0"
+    lines += ["Examples", "--------", ">>> import zerodrift as zd", '>>> m = zd.Mechanism("example")',
+              '>>> body = m.body("body", 1.0, 0.1, at=(1, 0))',
+              f'>>> m.{force.kind}("element", m.ground, body, at=(1, 0){axis}, {value})',
+              f"<{force.kind} element: ground - body>"]
+    return "\n".join(lines)

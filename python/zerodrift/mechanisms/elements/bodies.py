@@ -1,0 +1,280 @@
+"""Bodies, links, particles and the points on them, as they were given; `Numbers` says what has been changed since."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ... import _check
+from . import columns
+from .frames import Pose
+from .immutable import Fixed
+from .measures import scalar, vector
+from .numbers import AS_GIVEN, Numbers
+
+
+class MassProperties(NamedTuple):
+    """Mass in kg, moment of inertia about the centre of mass in kg m^2, and that centre in the body's frame, (2,) in m."""
+
+    mass: float
+    inertia: float
+    com: np.ndarray
+
+
+class Point(Fixed):
+    """A point that moves with a body; `Body.point` makes it, and a link has a `start` and an `end`.
+
+    Attributes
+    ----------
+    body : Body
+        What it moves with.
+    name : str or None
+        By which its measures are called; None: they have no name.
+    """
+
+    def __init__(self, body: Body, local: np.ndarray, name: str | None = None) -> None:
+        self.body, self.name, self._local = body, name, local
+
+    position = vector("position", "Where the point is, in the drawing's axes, in m.")
+    velocity = vector("velocity", "Its velocity, in the drawing's axes, in m/s.")
+    acceleration = vector("acceleration", "Its acceleration, in the drawing's axes, in m/s^2.")
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.body.dimension
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        if self.name is None:
+            raise AttributeError(f"{self!r} has no name, and so no measures: give it one, {self.body.name}.point(..., name=...)")
+        return self.name
+
+    @property
+    def local(self) -> np.ndarray:
+        """Its coordinates in the body's frame, (2,) in m."""
+        return self.local_with(AS_GIVEN)
+
+    @property
+    def drawn(self) -> np.ndarray:
+        """Where the drawing has it, (2,) in m."""
+        return self.drawn_with(AS_GIVEN)
+
+    def local_with(self, numbers: Numbers) -> np.ndarray:
+        """Its coordinates in the body's frame, (2,) in m, with numbers that may have been changed."""
+        return numbers.vector(self.name, "local", self._local)
+
+    def drawn_with(self, numbers: Numbers) -> np.ndarray:
+        """Where the drawing has it, (2,) in m."""
+        return self.body.pose.point(self.local_with(numbers))
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path, of a point that has a name."""
+        return {f"local.{axis}": float(value) for axis, value in zip("xyz", self.local_with(now), strict=False)}
+
+    def __repr__(self) -> str:
+        return f"<point {self.name or tuple(map(float, self.local))} of {self.body.name}>"
+
+
+class Body(Fixed):
+    """A rigid body; `Mechanism.body` makes it.
+
+    Attributes
+    ----------
+    name : str
+    mass : float
+        In kg.
+    inertia : float
+        About the centre of mass, in kg m^2.
+    """
+
+    what = "body"
+    turns = True        # whether it has an orientation: a particle has none
+
+    def __init__(self, name: str, pose: Pose, mass: float, inertia: float, com: np.ndarray) -> None:
+        self.name, self.pose, self.mass, self.inertia, self._com = name, pose, mass, inertia, com
+        self._register: Callable[[Point], Point] = _as_it_is       # the mechanism puts its own in place
+
+    position = vector("position", "Where the origin of its frame is, in the drawing's axes, in m.")
+    velocity = vector("velocity", "The velocity of that origin, in the drawing's axes, in m/s.")
+    angle = scalar("angle", "Its orientation from the drawing's x axis, counter-clockwise, in rad; it counts turns.")
+    acceleration = vector("acceleration", "The acceleration of that origin, in the drawing's axes, in m/s^2.")
+    angular_velocity = scalar("angular_velocity", "Its angular velocity in rad/s.")
+    angular_acceleration = scalar("angular_acceleration", "Its angular acceleration in rad/s^2.")
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return len(self.pose.origin)
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    @property
+    def center(self) -> Point:
+        """The centre of mass as a point, measured as ``body.center.position``; particles put on the body do not move it."""
+        return _Center(self, self._com, f"{self.name}.center")
+
+    def point(self, local: Any = None, *, at: Any = None, name: str | None = None) -> Point:
+        """A point of the body.
+
+        Parameters
+        ----------
+        local : array_like (2,), in space (3,)
+            Its coordinates in the body's frame, in m.
+        at : array_like (2,) or (3,), or Point
+            Instead: where it is in the drawing.
+        name : str, optional
+            For its measures, ``"name.position"`` and ``"name.velocity"``.
+
+        Returns
+        -------
+        Point
+
+        Raises
+        ------
+        TypeError, ValueError
+            If there are no coordinates, or the name is taken.
+        """
+        if (local is None) == (at is None):
+            raise TypeError(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn")
+        size = self.dimension
+        local = _check.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
+        return self._register(Point(self, local, name))
+
+    def properties(self, numbers: Numbers) -> MassProperties:
+        """Its mass, inertia and centre of mass, with numbers that may have been changed."""
+        return MassProperties(numbers(self, "mass", self.mass), numbers(self, "inertia", self.inertia),
+                              numbers.vector(self.name, "com", self._com))
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        mass, inertia, com = self.properties(now)
+        return {"mass": mass, "inertia": inertia, "com.x": float(com[0]), "com.y": float(com[1])}
+
+    def __repr__(self) -> str:
+        return f"<{self.what} {self.name}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_register": _as_it_is}     # a snapshot does not take its mechanism along
+
+
+class Ground(Body):
+    """What does not move; its frame is the drawing's."""
+
+    what = "ground"
+
+    def __init__(self) -> None:
+        super().__init__("ground", Pose(np.zeros(2), 0.0), 0.0, 0.0, np.zeros(2))
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """Nothing: it has no mass."""
+        return {}
+
+
+class Link(Body):
+    """A body between two points, `start` and `end`; `Mechanism.link` makes it.
+
+    Its frame begins at the start: `position`, `velocity` and `acceleration` are those of the start. Its middle is
+    ``link.center.position``.
+
+    Attributes
+    ----------
+    start, end : Point
+    length : float
+        Between them, in m.
+    """
+
+    what = "link"
+    position = vector("position", "Where its start is, in the drawing's axes, in m; its middle is ``link.center.position``.")
+    velocity = vector("velocity", "The velocity of its start, in the drawing's axes, in m/s.")
+    acceleration = vector("acceleration", "The acceleration of its start, in the drawing's axes, in m/s^2.")
+
+    def __init__(self, name: str, start: np.ndarray, end: np.ndarray, mass: float, length: float | None,
+                 inertia: float | None) -> None:
+        drawn = end - start
+        self.length = float(np.hypot(*drawn)) if length is None else length
+        self.drawn_end, self._inertia = end, inertia
+        moment = mass * self.length**2 / 12 if inertia is None else inertia
+        super().__init__(name, Pose(start, float(np.arctan2(drawn[1], drawn[0]))), mass, moment, np.array([self.length / 2, 0.0]))
+        self.start, self.end = Point(self, np.zeros(2), f"{name}.start"), _End(self, np.zeros(2), f"{name}.end")
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Its length, with numbers that may have been changed."""
+        return numbers(self, "length", self.length)
+
+    def properties(self, numbers: Numbers) -> MassProperties:
+        """As of any body; centre and inertia follow from mass and length, unless they were given."""
+        mass, length = numbers(self, "mass", self.mass), self.length_with(numbers)
+        inertia = mass * length**2 / 12 if self._inertia is None else self._inertia
+        return MassProperties(mass, numbers(self, "inertia", inertia), np.array([length / 2, 0.0]))
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        mass, inertia, _ = self.properties(now)
+        return {"mass": mass, "length": self.length_with(now), "inertia": inertia}
+
+
+class _End(Point):
+    """The end of a link, which follows its length. The drawing has it where it was written, as long as the length stays."""
+
+    def local_with(self, numbers: Numbers) -> np.ndarray:
+        return np.array([self.body.length_with(numbers), 0.0])
+
+    def drawn_with(self, numbers: Numbers) -> np.ndarray:
+        changed = self.body.length_with(numbers) != self.body.length
+        return columns.chosen(changed, self.body.pose.point(self.local_with(numbers)), self.body.drawn_end)
+
+
+class _Center(Point):
+    """A centre of mass, which follows what it depends on."""
+
+    def local_with(self, numbers: Numbers) -> np.ndarray:
+        return self.body.properties(numbers).com
+
+
+class Particle(Body):
+    """A mass in a point, without orientation; `Mechanism.particle` makes it.
+
+    Attributes
+    ----------
+    carrier : Point or None
+        The point of a body to which its mass belongs; None: it is a part of its own.
+    """
+
+    what = "particle"
+    turns = False
+
+    def __init__(self, name: str, at: np.ndarray, mass: float, carrier: Point | None = None) -> None:
+        super().__init__(name, Pose(at, 0.0), mass, 0.0, np.zeros(2))
+        self.carrier = carrier
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {"mass": self.properties(now).mass}
+
+    @property
+    def angle(self) -> Any:
+        """A particle has none."""
+        raise AttributeError(f"particle {self.name!r} has no orientation: no angle, no angular velocity")
+
+    angular_velocity = angular_acceleration = angle
+
+    @property
+    def center(self) -> Point:
+        """Itself as a point."""
+        return Point(self, np.zeros(2), self.name)
+
+
+def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
+    """A place in the drawing, (dimension,): coordinates, or where a point is drawn."""
+    return value.drawn if isinstance(value, Point) else _check.vector(argument, value, dimension)
+
+
+def _as_it_is(point: Point) -> Point:
+    return point

@@ -1,0 +1,232 @@
+"""Drives and forces, as they were given."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import columns
+from .bodies import Body, Point
+from .immutable import Fixed
+from .joints import Joint
+from .measures import scalar, vector
+from .numbers import AS_GIVEN, Numbers
+from .user_functions import Law
+
+
+class Motor(Fixed):
+    """A drive of a joint, `Mechanism.motor`.
+
+    Attributes
+    ----------
+    name : str
+    joint : Joint
+    drives : str
+        "angle", "displacement", "speed", "torque" or "force".
+    law : Law
+    """
+
+    kind = "motor"
+    torque = scalar("torque", "The motor's part of the joint's torque, positive where it drives the angle up, in N m.")
+    force = scalar("force", "The motor's part of the joint's force, positive where it drives the displacement up, in N.")
+    power = scalar("power", "The power that it puts in, in W.")
+
+    def __init__(self, name: str, joint: Joint, drives: str, law: Law) -> None:
+        self.name, self.joint, self.drives, self.law = name, joint, drives, law
+
+    @property
+    def coordinate(self) -> str:
+        """Which coordinate of the joint it drives, "angle" or "displacement"."""
+        return self.joint.coordinate or {"torque": "angle", "force": "displacement"}.get(self.drives, self.drives)
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    @property
+    def prescribes(self) -> bool:
+        """Whether it takes a freedom, by a row; one of effort does not."""
+        return self.drives not in ("torque", "force")
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {} if self.law.constant is None else {self.drives: self.law.constant}
+
+    def __repr__(self) -> str:
+        return f"<motor {self.name}: {self.drives} of {self.joint.name}>"
+
+
+class Actuator(Fixed):
+    """A cylinder or a linear drive between two points, `Mechanism.actuator`.
+
+    Attributes
+    ----------
+    name : str
+    first, second : Point
+    drives : str
+        "length" or "force".
+    law : Law
+    """
+
+    kind, coordinate = "actuator", "length"
+    length = scalar("length", "The distance of its ends, in m.")
+    speed = scalar("speed", "The rate of `length`, in m/s.")
+    force = scalar("force", "The force with which it pushes its ends apart, in N.")
+    power = scalar("power", "The power that it puts in, in W.")
+
+    def __init__(self, name: str, first: Point, second: Point, drives: str, law: Law) -> None:
+        self.name, self.first, self.second, self.drives, self.law = name, first, second, drives, law
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.first.dimension
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    @property
+    def prescribes(self) -> bool:
+        """Whether it takes a freedom, by a row; one of force does not."""
+        return self.drives == "length"
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {} if self.law.constant is None else {self.drives: self.law.constant}
+
+    def __repr__(self) -> str:
+        return f"<actuator {self.name}: {self.drives} between {self.first.body.name} and {self.second.body.name}>"
+
+
+class Spring(Fixed):
+    """A spring with a damper between two points, `Mechanism.spring`."""
+
+    kind = "spring"
+    force = scalar("force", "Its tension, the damper's included, positive where it pulls, in N.")
+    length = scalar("length", "The distance of its ends, in m.")
+
+    def __init__(self, name: str, first: Point, second: Point, stiffness: float, free_length: float | None,
+                 damping: float) -> None:
+        self.name, self.first, self.second = name, first, second
+        self.stiffness, self.free_length, self.damping = stiffness, free_length, damping
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.first.dimension
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    def free_length_with(self, numbers: Numbers) -> float:
+        """The length at which it is slack; where none was given, the distance in the drawing."""
+        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        drawn = columns.hypot(*apart) if len(apart) == 2 else float(np.linalg.norm(apart))
+        return numbers(self, "length", drawn if self.free_length is None else self.free_length)
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {"stiffness": self.stiffness, "length": self.free_length_with(now), "damping": self.damping}
+
+    def __repr__(self) -> str:
+        return f"<spring {self.name}: {self.first.body.name} - {self.second.body.name}>"
+
+
+class TorsionSpring(Fixed):
+    """A spring with a damper about a joint, `Mechanism.torsion_spring`."""
+
+    kind = "torsion_spring"
+    torque = scalar("torque", "What acts on the joint's second body, in N m.")
+
+    def __init__(self, name: str, joint: Joint, stiffness: float, angle: float, damping: float) -> None:
+        self.name, self.joint, self.stiffness, self.angle, self.damping = name, joint, stiffness, angle, damping
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {"stiffness": self.stiffness, "angle": self.angle, "damping": self.damping}
+
+    def __repr__(self) -> str:
+        return f"<torsion spring {self.name} at {self.joint.name}>"
+
+
+class Bushing(Fixed):
+    """A soft joint: springs and dampers along and about a frame of the first body, `Mechanism.bushing`."""
+
+    kind = "bushing"
+    force = vector("force", "What the first body does to the second, at the second's point, in the drawing's axes, in N.")
+    torque = scalar("torque", "The moment that the first body exerts on the second, about the second's point, in N m.")
+
+    def __init__(self, name: str, first: Point, second: Point, values: dict[str, float]) -> None:
+        self.name, self.first, self.second, self.values = name, first, second, values
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return dict(self.values)
+
+    def __repr__(self) -> str:
+        return f"<bushing {self.name}: {self.first.body.name} - {self.second.body.name}>"
+
+
+class SpaceBushing(Bushing):
+    """A soft joint in space: springs and dampers along and about three directions of the first body, `Mechanism.bushing`.
+
+    Attributes
+    ----------
+    frames : tuple of ndarray (3, 3)
+        The rows are these directions, in the frame of the first body and of the second.
+    """
+
+    torque = vector("torque", "The moment that the first body exerts on the second, about the second's point, in the drawing's "
+                    "axes, in N m.")
+
+    def __init__(self, name: str, first: Point, second: Point, values: dict[str, float],
+                 frames: tuple[np.ndarray, np.ndarray]) -> None:
+        super().__init__(name, first, second, values)
+        self.frames = frames
+
+
+class Force(Fixed):
+    """A force at a point along a direction, `Mechanism.force`."""
+
+    kind = "force"
+
+    def __init__(self, name: str, point: Point, along: np.ndarray, frame: Body, law: Law) -> None:
+        self.name, self.point, self.along, self.frame, self.law = name, point, along, frame, law
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {} if self.law.constant is None else {"value": self.law.constant}
+
+    def __repr__(self) -> str:
+        return f"<force {self.name} at {self.point.body.name}>"
+
+
+class Torque(Fixed):
+    """A moment on a body, `Mechanism.torque`; in space about an axis (3,) of `frame`, or of `against` where that is a body."""
+
+    kind = "torque"
+
+    def __init__(self, name: str, body: Body, against: Body, law: Law, *, axis: np.ndarray | None = None,
+                 frame: Body | None = None) -> None:
+        self.name, self.body, self.against, self.law, self.axis, self.frame = name, body, against, law, axis, frame
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {} if self.law.constant is None else {"value": self.law.constant}
+
+    def __repr__(self) -> str:
+        return f"<torque {self.name} on {self.body.name}>"

@@ -1,0 +1,109 @@
+"""Vectors and frames in the plane."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ... import _check
+from ..._rotations import quaternion_of, rotation_of, turn
+
+
+def turned(angle: float, vector: np.ndarray) -> np.ndarray:
+    """A vector (2,), turned counter-clockwise."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
+
+
+def turned_back(angle: float, vector: np.ndarray) -> np.ndarray:
+    """A vector (2,), turned clockwise."""
+    return turned(-angle, vector)
+
+
+class Pose(NamedTuple):
+    """Where a frame is: its origin (2,) in m, and its x axis from the drawing's, in rad."""
+
+    origin: np.ndarray
+    angle: float
+
+    def point(self, local: np.ndarray) -> np.ndarray:
+        """Where a point of the frame is in the drawing, (2,)."""
+        return self.origin + turned(self.angle, local)
+
+    def local(self, drawn: np.ndarray) -> np.ndarray:
+        """The coordinates in the frame of a place in the drawing, (2,)."""
+        return turned_back(self.angle, drawn - self.origin)
+
+    def direction(self, local: np.ndarray) -> np.ndarray:
+        """A direction of the frame in the drawing, (2,)."""
+        return turned(self.angle, local)
+
+    def local_direction(self, drawn: np.ndarray) -> np.ndarray:
+        """A direction of the drawing in the frame, (2,)."""
+        return turned_back(self.angle, drawn)
+
+
+ROTATION = 1e-6         # how nearly a matrix that is given has to be a rotation, and a quaternion of length one
+
+
+class Pose3(NamedTuple):
+    """Where a frame is: its origin (3,) in m, and its axes in the drawing, the columns of `rotation` (3, 3)."""
+
+    origin: np.ndarray
+    rotation: np.ndarray
+
+    def point(self, local: np.ndarray) -> np.ndarray:
+        """Where a point of the frame is in the drawing, (3,)."""
+        return self.origin + self.rotation @ local
+
+    def local(self, drawn: np.ndarray) -> np.ndarray:
+        """The coordinates in the frame of a place in the drawing, (3,)."""
+        return self.rotation.T @ (drawn - self.origin)
+
+    def direction(self, local: np.ndarray) -> np.ndarray:
+        """A direction of the frame in the drawing, (3,)."""
+        return self.rotation @ local
+
+    def local_direction(self, drawn: np.ndarray) -> np.ndarray:
+        """A direction of the drawing in the frame, (3,)."""
+        return self.rotation.T @ drawn
+
+
+def given_rotation(argument: str, value: Any) -> np.ndarray:
+    """A rotation (3, 3) from a matrix whose columns are the axes in the drawing, or from a unit quaternion (w, x, y, z)."""
+    if value is None:
+        return np.eye(3)
+    if np.shape(value) == (4,):
+        q = _check.vector(argument, value, 4)
+        length = float(np.sqrt(q @ q))
+        if abs(length - 1) > ROTATION:
+            raise ValueError(f"{argument} must be a quaternion of length 1, and {tuple(map(float, q))} has length {length:g}")
+        return rotation_of(q / length)
+    if np.shape(value) != (3, 3):
+        raise ValueError(f"{argument} must be a (3, 3) matrix or a quaternion (w, x, y, z), not {_check.shown(value)}")
+    R = _check.vector(argument, np.ravel(value), 9).reshape(3, 3)
+    if np.abs(R.T @ R - np.eye(3)).max() > ROTATION or np.linalg.det(R) < 0:
+        raise ValueError(f"{argument} must be a rotation, its columns right-handed, perpendicular and of length 1")
+    return rotation_of(quaternion_of(R))        # as near to one as doubles are
+
+
+def about(axis: Any, angle: float) -> np.ndarray:
+    """The rotation (3, 3) about an axis (3,) by an angle in rad, right-handed."""
+    axis = np.asarray(axis, dtype=float)
+    return rotation_of(turn(axis / np.linalg.norm(axis) * angle))
+
+
+def perpendicular(axis: np.ndarray, wished: np.ndarray | None = None) -> np.ndarray:
+    """A direction (3,) perpendicular to an axis: the wished one made so, or the drawing's axis that is farthest from it."""
+    if wished is None:
+        wished = np.eye(3)[int(np.argmin(np.abs(axis)))]
+    left = wished - (wished @ axis) * axis
+    left = left - (left @ axis) * axis
+    return left / np.sqrt(left @ left)
+
+
+def triple(vector: Any) -> tuple[float, float, float]:
+    """A vector as the core's tables take it."""
+    x, y, z = vector
+    return float(x), float(y), float(z)

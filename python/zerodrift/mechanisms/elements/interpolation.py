@@ -1,0 +1,131 @@
+"""Laws from measured data: a cubic spline with two continuous derivatives."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ...systems import jets
+
+BEYOND = 1e-9       # of the table's length: how far rounding may lead beyond its ends
+
+
+def table(x: Any, y: Any, *, argument: str = "t") -> Table:
+    """A smooth function through measured data, for prescribed motions and for forces.
+
+    The cubic spline with continuous first and second derivatives, and a continuous third one at the second and the last but one
+    point (not-a-knot, as SciPy's ``CubicSpline``); through two or three points the straight line or the parabola. A prescribed
+    motion has the speed and the acceleration of the spline.
+
+    Parameters
+    ----------
+    x, y : array_like (n,)
+        The data, at least two points; x increases. In the units of what the law takes and gives: s, m, rad, N, N m.
+    argument : str
+        The name of x as the law has it: "t", or of a force the name in its ``of``.
+
+    Returns
+    -------
+    callable
+        To be given wherever a mechanism takes a function. Beyond its ends it raises ValueError.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If x does not increase, or sizes differ, or a value is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np, zerodrift as zd
+    >>> m = zd.Mechanism("crank")
+    >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    >>> pin = m.revolute("pin", m.ground, link.start)
+    >>> t = np.linspace(0, 1, 11)
+    >>> drive = m.motor("drive", pin, angle=zd.table(t, 0.2 * t**3))
+    >>> sol = zd.simulate(m, 1.0, step=0.01)
+    >>> bool(abs(sol["pin.speed"] - 0.6 * sol.t**2).max() < 1e-12)
+    True
+    """
+    x = np.array(_check.real("x of a table must hold", x), dtype=float)
+    if x.ndim != 1 or x.size < 2:
+        raise ValueError(f"x of a table must have shape (n,) with n at least 2, not {x.shape}")
+    y = _check.vector("y of a table", y, x.size)
+    if not (np.diff(x) > 0).all():
+        place = int(np.flatnonzero(~(np.diff(x) > 0))[0])
+        raise ValueError(f"x of a table must increase, and x[{place + 1}] = {x[place + 1]:g} follows x[{place}] = {x[place]:g}")
+    return Table(x, _coefficients(x, y), argument)
+
+
+class Table:
+    """A piecewise cubic; `coefficients` (4, n - 1) of powers 3, 2, 1, 0 of the distance from the point before."""
+
+    def __init__(self, x: np.ndarray, coefficients: np.ndarray, argument: str) -> None:
+        self.x, self.coefficients, self.argument = x, coefficients, _check.instance("argument", argument, str, "a name")
+        self.__signature__ = inspect.Signature([inspect.Parameter(argument, inspect.Parameter.POSITIONAL_OR_KEYWORD)])
+
+    def __call__(self, *given: Any, **named: Any) -> Any:
+        at, = (*given, *named.values())
+        value = float(jets.value(at))
+        if not self.x[0] - self._allowed <= value <= self.x[-1] + self._allowed:
+            raise ValueError(f"the table goes from {self.argument} = {self.x[0]:g} to {self.x[-1]:g}, and is asked for {value:g}")
+        piece = min(max(int(np.searchsorted(self.x, value, side="right")) - 1, 0), self.x.size - 2)
+        s, result = at - float(self.x[piece]), 0.0
+        for coefficient in self.coefficients[:, piece]:
+            result = result * s + float(coefficient)
+        return result
+
+    @property
+    def _allowed(self) -> float:
+        return BEYOND * (self.x[-1] - self.x[0])
+
+    def __repr__(self) -> str:
+        return f"<table of {self.x.size} points, {self.argument} = {self.x[0]:g} ... {self.x[-1]:g}>"
+
+
+def recognised(given: Any) -> Any:
+    """A spline of SciPy as a table of the time; anything else as it is."""
+    if type(given).__module__.startswith("scipy.interpolate") and hasattr(given, "c") and hasattr(given, "x"):
+        x, c = np.asarray(given.x, dtype=float), np.asarray(given.c, dtype=float)
+        if c.ndim == 2 and c.shape[1] == x.size - 1:
+            return Table(x, c, "t")
+    return given
+
+
+def _coefficients(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Of the spline, (4, n - 1), by its slopes at the points."""
+    h, steps = np.diff(x), np.diff(y) / np.diff(x)
+    slopes = _slopes(h, steps)
+    bend = (slopes[:-1] + slopes[1:] - 2 * steps) / h
+    return np.array([bend / h, (steps - slopes[:-1]) / h - bend, slopes[:-1], y[:-1]])
+
+
+def _slopes(h: np.ndarray, steps: np.ndarray) -> np.ndarray:
+    """Slopes (n,) with which second derivatives are continuous: a tridiagonal system, by elimination."""
+    n = h.size + 1
+    if n == 2:
+        return np.array([steps[0], steps[0]])
+    if n == 3:      # a parabola
+        middle = (h[1] * steps[0] + h[0] * steps[1]) / (h[0] + h[1])
+        return np.array([2 * steps[0] - middle, middle, 2 * steps[1] - middle])
+    below, diagonal, above, right = np.empty(n), np.empty(n), np.empty(n), np.empty(n)
+    below[1:-1], diagonal[1:-1], above[1:-1] = h[1:], 2 * (h[:-1] + h[1:]), h[:-1]
+    right[1:-1] = 3 * (h[1:] * steps[:-1] + h[:-1] * steps[1:])
+    diagonal[0], above[0], right[0] = _end(h[0], h[1], steps[0], steps[1])
+    diagonal[-1], below[-1], right[-1] = _end(h[-1], h[-2], steps[-1], steps[-2])
+    for i in range(1, n):
+        factor = below[i] / diagonal[i - 1]
+        diagonal[i] -= factor * above[i - 1]
+        right[i] -= factor * right[i - 1]
+    slopes = right / diagonal
+    for i in range(n - 2, -1, -1):
+        slopes[i] -= above[i] / diagonal[i] * slopes[i + 1]
+    return slopes
+
+
+def _end(h: float, next_h: float, step: float, next_step: float) -> tuple[float, float, float]:
+    """The row of an end, of its own slope and the next: the third derivative does not jump at the next point."""
+    both = h + next_h
+    return next_h, both, ((h + 2 * both) * next_h * step + h**2 * next_step) / both

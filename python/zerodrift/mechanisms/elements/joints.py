@@ -1,0 +1,296 @@
+"""Joints, as they were given: which points of which bodies they join, and along which axis of the first.
+
+What a kind of joint is stands in the core's table: its coordinate, what it takes, what can be measured of it. A kind that has no
+class here gets one from its row.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from ..._gateway.mechanisms import JointKind, joint_kinds
+from . import columns
+from .bodies import Point
+from .immutable import Fixed
+from .measures import Measure, scalar, vector
+from .numbers import AS_GIVEN, Numbers
+from .user_functions import Law
+
+JOINTS = joint_kinds()
+
+
+class Joint(Fixed):
+    """What joins two bodies; verbs of `Mechanism` make it.
+
+    Attributes
+    ----------
+    name : str
+    first, second : Point
+        What it joins; its reaction is what the first body does to the second, at the second's point.
+    damping : float
+        Of its coordinate, in N m s or N s/m.
+    cut : bool
+        Whether it shall close a loop, and own no coordinate.
+    """
+
+    kind = ""                           # as the core's table calls it
+    row: ClassVar[JointKind]            # its row there
+    coordinate: str | None = None       # what motors and dampers act along: "angle" or "displacement"
+    is_of_one_body = False              # whether all of its rows are about the second body, whose axis it has
+    takes: tuple[str, ...] = ()         # what its verb takes besides the sides
+
+    def __init_subclass__(cls) -> None:
+        """What the row says; what a class says itself stays."""
+        if not cls.kind:        # those in space have a table of their own
+            return
+        cls.row = JOINTS[cls.kind]
+        cls.coordinate = cls.row.coordinate
+        cls.is_of_one_body = all(each.gauge in ("glide", "skid") for each in cls.row.rows)
+        said = {"takes": _taken(cls.row), **{name: scalar(name, doc) for name, doc in _measures(cls.row).items()},
+                **({name: vector(name, doc) for name, doc in PLACE.items()} if is_hinge(cls.row) else {}),
+                **({"transmission_angle": scalar("transmission_angle", TRANSMISSION)} if is_hinge(cls.row) else {})}
+        for name, value in said.items():
+            if name not in vars(cls):
+                setattr(cls, name, value)
+
+    def __init__(self, name: str, first: Point, second: Point, *, axis: np.ndarray | None = None, length: float | None = None,
+                 damping: float = 0.0, cut: bool = False) -> None:
+        self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first's frame
+        self.length, self.damping, self.cut = length, damping, cut
+
+    if TYPE_CHECKING:       # the measures that the row has
+        def __getattr__(self, name: str) -> Any: ...
+
+    force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N: what holds "
+                   "the joint, its motors and its damping. Springs, and couplings such as gears, are elements of their own: what "
+                   "they do along the joint's coordinate is in their measures, and not in this one.")
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.first.dimension
+
+    @property
+    def bodies(self) -> tuple[Any, Any]:
+        """The two bodies."""
+        return self.first.body, self.second.body
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """What motors and dampers may act along."""
+        return () if self.coordinate is None else (self.coordinate,)
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Its length; where none was given, the distance in the drawing; 0 where the kind has none."""
+        if not self.row.takes_length:
+            return 0.0
+        drawn = columns.hypot(*(self.second.drawn_with(numbers) - self.first.drawn_with(numbers)))
+        return numbers(self, "length", drawn if self.length is None else self.length)
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        length = {"length": self.length_with(now)} if self.row.takes_length else {}
+        return length if self.coordinate is None else {**length, "damping": self.damping}
+
+    def angle_as_drawn(self) -> float:
+        """The second body's angle less the first's in the drawing, where the joint's angle is zero."""
+        return self.second.body.pose.angle - self.first.body.pose.angle
+
+    def offset_as_drawn(self, numbers: Numbers) -> float:
+        """How far the second's point is along the axis from the first's in the drawing, where the displacement is zero."""
+        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        axis = self.axis_as_drawn()
+        return columns.plain(apart[0] * axis[0] + apart[1] * axis[1])
+
+    def axis_as_drawn(self) -> np.ndarray:
+        """The axis (2,) in the drawing, of length one."""
+        return self.bodies[1 if self.is_of_one_body else 0].pose.direction(self.axis)
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.name}: {self.first.body.name} - {self.second.body.name}>"
+
+
+def _taken(row: JointKind) -> tuple[str, ...]:
+    """What a verb takes for a joint besides its sides."""
+    words = {"axis": row.takes_axis, "length": row.takes_length, "damping": row.coordinate,
+             "cut": row.carrier is not None}
+    return tuple(word for word, is_taken in words.items() if is_taken)
+
+
+def _measures(row: JointKind) -> dict[str, str]:
+    """The scalars that can be measured of a joint, and what they are."""
+    found, unit = {}, "rad" if row.coordinate == "angle" else "m"
+    if row.coordinate == "angle":
+        found["angle"] = "How far the second body has turned against the first since the drawing, in rad; it counts turns."
+    elif row.coordinate:
+        found["displacement"] = "How far the second's point has moved along the axis since the drawing, in m."
+    if row.coordinate:
+        found["speed"] = f"The rate of `{row.coordinate}`, in {unit}/s."
+        found["acceleration"] = f"The rate of `speed`, in {unit}/s^2."
+    if holds_angle(row) or row.coordinate == "angle":
+        found["torque"] = ("The moment that the first body exerts on the second through the joint, about the second's point, in "
+                           "N m; as with `force`, without springs and couplings.")
+    if row.tension:
+        found[row.tension] = "What pulls the two points together, negative where it pushes, in N."
+    return found
+
+
+PLACE = {"position": "Where the joint is, by the second's point, in the drawing's axes, in m.",
+         "velocity": "The velocity of that point, in the drawing's axes, in m/s."}
+TRANSMISSION = "The angle between the lines of its two links, in rad, where there is one: `zerodrift.transmission_angle`."
+
+
+def is_hinge(row: JointKind) -> bool:
+    """Whether a joint is at one place of both bodies, about which they turn."""
+    return {each.gauge for each in row.rows} == {"x", "y"}
+
+
+def holds_angle(row: JointKind) -> bool:
+    """Whether a row of the joint is an angle."""
+    return any(each.gauge == "angle" for each in row.rows)
+
+
+class Revolute(Joint):
+    """A hinge, `Mechanism.revolute`."""
+
+    kind = "revolute"
+
+
+class Prismatic(Joint):
+    """A slider, `Mechanism.prismatic`."""
+
+    kind = "prismatic"
+
+
+class Weld(Joint):
+    """Two bodies that are one, `Mechanism.weld`."""
+
+    kind = "weld"
+
+
+class Rod(Joint):
+    """A massless rod between two points, `Mechanism.rod`."""
+
+    kind = "rod"
+
+
+class Slot(Joint):
+    """A point on a line of a body, `Mechanism.slot`."""
+
+    kind, takes = "slot", ("axis",)
+
+
+class KnifeEdge(Joint):
+    """A blade, `Mechanism.knife_edge`: its point moves along its axis only. The axis turns with the second body."""
+
+    kind = "knife_edge"
+
+
+class Rolling(Joint):
+    """A wheel on a line, `Mechanism.rolling`."""
+
+    kind, takes = "rolling", ("radius", "normal")
+
+    def __init__(self, name: str, first: Point, second: Point, radius: float, normal: np.ndarray) -> None:
+        super().__init__(name, first, second, axis=np.array([normal[1], -normal[0]]))
+        self.radius = radius
+
+    @property
+    def normal(self) -> np.ndarray:
+        """Of the line (2,) in the first's frame, towards the wheel."""
+        return np.array([-self.axis[1], self.axis[0]])
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Its radius."""
+        return numbers(self, "radius", self.radius)
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {"radius": self.radius}
+
+
+def made(kind: str) -> type[Joint]:
+    """The class of a kind of joint, from its row."""
+    name = "".join(word.capitalize() for word in kind.split("_"))
+    doc = f"{JOINTS[kind].card.summary} `Mechanism.{kind}`."
+    return type(name, (Joint,), {"kind": kind, "__doc__": doc, "__module__": __name__})
+
+
+# The kinds that have no class above, by name. Each is in this module, where a pickle or a copy looks for it.
+BY_ROW = {kind: made(kind) for kind in sorted(JOINTS.keys() - {written.kind for written in Joint.__subclasses__()})}
+globals().update({joint.__name__: joint for joint in BY_ROW.values()})
+
+
+class Coupling(Fixed):
+    """One row between measures: gears, a rack and its pinion, couplers, cams and users' own constraints.
+
+    Attributes
+    ----------
+    name : str
+    kind : str
+    of : tuple of str
+        The measures it couples: of gears and racks (first, second), where ``second = ratio * first``; of cams (cam, follower).
+    ratio : float or None
+    law : Law or None
+        What has to be zero, of the others.
+
+    Notes
+    -----
+    A coupling acts along the measures that it couples: along the coordinate of a joint between the two bodies of that joint,
+    with opposite signs. It is an element of its own, as a spring is: `force` and `torque` of joints leave it out, and its effort
+    is its own measure, `force` or `torque` by the unit of the second of these measures, positive where it drives that one up.
+    For every body, joints, springs, forces and couplings together are mass times acceleration. The force between teeth
+    across these coordinates (the load with which gears push their shafts apart and aside) is not modelled.
+    """
+
+    def __init__(self, name: str, kind: str, of: tuple[str, ...], *, ratio: float | None = None, law: Law | None = None) -> None:
+        self.name, self.kind, self.of, self.ratio, self.law = name, kind, of, ratio, law
+
+    @property
+    def efforts(self) -> dict[str, int]:
+        """What is measured of its effort, and along which of the measures in `of`."""
+        if self.kind in ("constraint", "nonholonomic"):
+            return {}
+        last = min(1, len(self.of) - 1)
+        effort = {_effort_along(self.of[last]): last}
+        return {**effort, "cam_torque": 0} if self.kind == "cam" else effort
+
+    @property
+    def force(self) -> Measure:
+        """The force along the second measure, positive where it drives it up, in N; where that measure is in m."""
+        return self._effort("force")
+
+    @property
+    def torque(self) -> Measure:
+        """The torque along the second measure, positive where it drives it up, in N m; where that measure is in rad."""
+        return self._effort("torque")
+
+    @property
+    def cam_torque(self) -> Measure:
+        """The torque on a cam, positive where it drives the cam's angle up, in N m."""
+        return self._effort("cam_torque")
+
+    def _effort(self, effort: str) -> Measure:
+        if effort not in self.efforts:
+            known = ", ".join(self.efforts) or "no measure but its multiplier"
+            raise AttributeError(f"{self.kind} {self.name!r} of {', '.join(self.of)} has no {effort}; it has {known}")
+        return Measure(f"{self.name}.{effort}")
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {} if self.ratio is None else {"ratio": self.ratio}
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.name}: {', '.join(self.of)}>"
+
+
+def _effort_along(measure: str) -> str:
+    """What acts along a measure: a torque along an angle, a force along a length."""
+    return "torque" if measure.endswith(".angle") else "force"

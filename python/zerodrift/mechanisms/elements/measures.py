@@ -1,0 +1,78 @@
+"""What can be read from a motion: handles for the names by which the core knows its measures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ... import _check
+
+
+class Measure:
+    """A quantity of a motion, such as ``crank.angle``; its name stands for it wherever measures are taken.
+
+    Attributes
+    ----------
+    name : str
+        ``"crank.angle"``, ``"P.position.x"``.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> m = zd.Mechanism("pendulum")
+    >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    >>> link.angle, link.end.position.y
+    (Measure('link.angle'), Measure('link.end.position.y'))
+    """
+
+    __slots__ = ("name",)
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.name!r})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Measure) and other.name == self.name
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+
+class VectorMeasure(Measure):
+    """A measure with components, which are measures, too: `x`, `y`."""
+
+    __slots__ = ()
+
+    x = property(lambda self: Measure(f"{self.name}.x"), doc="The component along the drawing's x axis.")
+    y = property(lambda self: Measure(f"{self.name}.y"), doc="The component along the drawing's y axis.")
+
+
+class VectorMeasure3(VectorMeasure):
+    """A measure with components in space: `x`, `y`, `z`."""
+
+    __slots__ = ()
+
+    z = property(lambda self: Measure(f"{self.name}.z"), doc="The component along the drawing's z axis.")
+
+
+def name_of(measure: Any, argument: str) -> str:
+    """The name of a measure that is given as such or by name."""
+    if isinstance(measure, Measure):
+        return measure.name
+    if isinstance(measure, str):
+        return measure
+    raise TypeError(f"{argument} must be a measure, such as crank.angle, or its name, not {_check.shown(measure)}")
+
+
+def scalar(quantity: str, doc: str) -> property:
+    """An attribute that is the scalar measure of that name of its element."""
+    return property(lambda self: Measure(f"{self.measured_name}.{quantity}"), doc=doc)
+
+
+def vector(quantity: str, doc: str) -> property:
+    """An attribute that is the vector measure of that name of its element."""
+    def measure(self: Any) -> VectorMeasure:
+        return (VectorMeasure3 if getattr(self, "dimension", 2) == 3 else VectorMeasure)(f"{self.measured_name}.{quantity}")
+
+    return property(measure, doc=doc)

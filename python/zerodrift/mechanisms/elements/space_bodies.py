@@ -1,0 +1,244 @@
+"""Bodies of mechanisms in space, as they were given."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ... import _check
+from ..._rotations import AXES
+from .bodies import Body, Ground, Link, MassProperties, Particle, Point, _End
+from .drawing import Drawing
+from .frames import Pose3
+from .measures import Measure, vector
+from .numbers import AS_GIVEN, Numbers
+
+SLENDER = 1 / 20        # of its length: the diameter of a link, if it is not given
+TRIANGLE = 1e-9         # of the largest moment: by how much it may exceed the sum of the two others
+SYMMETRIC = 1e-9        # of the largest entry
+PATHS = tuple(f"{AXES[i]}{AXES[j]}" for i in range(3) for j in range(i, 3))
+
+
+def tensor(argument: str, value: Any) -> np.ndarray:
+    """An inertia tensor (3, 3) from a tensor or its diagonal, entries as in the matrix; one that a body can have."""
+    shape = np.shape(value)
+    if shape == () and _check.number(argument, value) == 0:
+        return np.zeros((3, 3))
+    if shape not in ((3,), (3, 3)):
+        raise ValueError(f"{argument} must be a tensor (3, 3) or its diagonal (3,), in kg m^2, not {_check.shown(value)}")
+    entries = _check.vector(argument, np.ravel(value), 3 if shape == (3,) else 9)
+    J = np.diag(entries) if shape == (3,) else entries.reshape(3, 3)
+    check_tensor(argument, J)
+    return (J + J.T) / 2
+
+
+def check_tensor(argument: str, J: np.ndarray) -> None:
+    """Refuses what is the inertia of no body."""
+    apart = np.abs(J - J.T)
+    if apart.max() > SYMMETRIC * np.abs(J).max():
+        i, j = np.unravel_index(int(np.argmax(apart)), (3, 3))
+        raise ValueError(f"{argument} must be symmetric, and [{i}, {j}] is {J[i, j]:g} where [{j}, {i}] is {J[j, i]:g}")
+    a, b, c = np.linalg.eigvalsh((J + J.T) / 2)
+    if a < -TRIANGLE * abs(c):
+        raise ValueError(f"{argument} must have no negative moment, and about one of its axes it has {a:g} kg m^2")
+    if c - a - b > TRIANGLE * c:
+        raise ValueError(f"{argument} is that of no body: its largest moment, {c:g} kg m^2, is more than the sum of the two "
+                         f"others, {a:g} and {b:g}")
+
+
+class RotationMeasure(Measure):
+    """The orientation of a body: (k, 3, 3), the columns are its axes in the drawing."""
+
+    __slots__ = ()
+
+    def euler(self, order: str) -> Measure:
+        """The same as angles (k, 3) in rad, by turns about the body's own axes in this order, such as "zyx" or "zxz"."""
+        if len(order) != 3 or set(order) - set(AXES) or order[0] == order[1] or order[1] == order[2]:
+            raise ValueError(f"order must name three axes, such as 'zyx' or 'zxz', no two neighbours alike, not {order!r}")
+        return Measure(f"{self.name.removesuffix('.rotation')}.euler.{order}")
+
+
+class SpaceBody(Body):
+    """A rigid body in space; `Mechanism.body` makes it.
+
+    Attributes
+    ----------
+    name : str
+    mass : float
+        In kg.
+    inertia : ndarray (3, 3)
+        About the centre of mass in the axes of its frame, in kg m^2.
+    """
+
+    pose: Pose3
+    inertia: Any
+
+    angular_velocity = vector("angular_velocity", "Its angular velocity in the drawing's axes, in rad/s.")
+    angular_acceleration = vector("angular_acceleration", "The rate of `angular_velocity`, in rad/s^2.")
+
+    @property
+    def rotation(self) -> RotationMeasure:
+        """Its orientation, (k, 3, 3), the columns are its axes in the drawing; ``.euler("zyx")`` is the same as angles."""
+        return RotationMeasure(f"{self.measured_name}.rotation")
+
+    @property
+    def quaternion(self) -> Measure:
+        """Its orientation as unit quaternions (w, x, y, z), (k, 4), which change their sign nowhere."""
+        return Measure(f"{self.measured_name}.quaternion")
+
+    @property
+    def angle(self) -> Any:
+        """A body in space has none."""
+        raise AttributeError(f"{self.name!r} is a body in space, which has a rotation and no angle")
+
+    def properties(self, numbers: Numbers) -> MassProperties:
+        """Its mass, inertia tensor and centre of mass, with numbers that may have been changed."""
+        return MassProperties(numbers(self, "mass", self.mass), self.tensor_with(numbers, self.inertia),
+                              numbers.vector(self.name, "com", self._com))
+
+    def tensor_with(self, numbers: Numbers, given: np.ndarray) -> np.ndarray:
+        """The tensor (3, 3), each of whose entries has a path, ``"body.inertia.xx"``."""
+        if not numbers.changed:
+            return given
+        changed = given.copy()
+        for path in PATHS:
+            i, j = AXES.index(path[0]), AXES.index(path[1])
+            changed[i, j] = changed[j, i] = numbers(self, f"inertia.{path}", given[i, j])
+        if not np.array_equal(changed, given):
+            check_tensor(f"inertia of {self.name!r}", changed)
+        return changed
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        mass, J, com = self.properties(now)
+        entries = {f"inertia.{path}": float(J[AXES.index(path[0]), AXES.index(path[1])]) for path in PATHS}
+        return {"mass": mass, **entries, **{f"com.{axis}": float(com[i]) for i, axis in enumerate(AXES)}}
+
+
+class SpaceGround(Ground):
+    """What does not move; its frame is the drawing's."""
+
+    def __init__(self) -> None:
+        Body.__init__(self, "ground", Pose3(np.zeros(3), np.eye(3)), 0.0, 0.0, np.zeros(3))
+
+
+class SpaceLink(SpaceBody, Link):
+    """A body between two points, `start` and `end`; `Mechanism.link` makes it.
+
+    Its frame begins at the start, and its x axis goes to the end. It is a round bar, unless its inertia is given.
+
+    Attributes
+    ----------
+    start, end : Point
+    length, thickness : float
+        In m.
+    """
+
+    what = "link"
+    position, velocity, acceleration = Link.position, Link.velocity, Link.acceleration
+
+    def __init__(self, name: str, start: np.ndarray, end: np.ndarray, mass: float, length: float, rotation: np.ndarray,
+                 thickness: float | None, inertia: np.ndarray | None) -> None:
+        self.length, self.drawn_end, self._inertia = length, end, inertia
+        self.thickness = length * SLENDER if thickness is None else thickness
+        self._is_given_thickness = thickness is not None
+        moment = _bar(mass, length, self.thickness) if inertia is None else inertia
+        Body.__init__(self, name, Pose3(start, rotation), mass, moment, np.array([length / 2, 0.0, 0.0]))
+        self.start, self.end = Point(self, np.zeros(3), f"{name}.start"), _SpaceEnd(self, np.zeros(3), f"{name}.end")
+
+    def thickness_with(self, numbers: Numbers) -> float:
+        """Its diameter, with numbers that may have been changed; left out, it follows the length."""
+        given = self.thickness if self._is_given_thickness else self.length_with(numbers) * SLENDER
+        return numbers(self, "thickness", given)
+
+    def properties(self, numbers: Numbers) -> MassProperties:
+        """As of any body; centre and inertia follow from mass, length and thickness, unless they were given."""
+        mass, length = numbers(self, "mass", self.mass), self.length_with(numbers)
+        J = _bar(mass, length, self.thickness_with(numbers)) if self._inertia is None else self._inertia
+        return MassProperties(mass, self.tensor_with(numbers, J), np.array([length / 2, 0.0, 0.0]))
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        found = super().numbers(now)
+        return {"mass": found["mass"], "length": self.length_with(now), "thickness": self.thickness_with(now),
+                **{path: value for path, value in found.items() if path.startswith("inertia")}}
+
+
+def _bar(mass: float, length: float, thickness: float) -> np.ndarray:
+    """The inertia of a uniform round bar along x."""
+    about, across = mass * thickness**2 / 8, mass * (length**2 / 12 + thickness**2 / 16)
+    return np.diag([about, across, across])
+
+
+class _SpaceEnd(_End):
+    def local_with(self, numbers: Numbers) -> np.ndarray:
+        return np.array([self.body.length_with(numbers), 0.0, 0.0])
+
+
+class SpaceParticle(Particle):
+    """A mass in a point, without orientation; `Mechanism.particle` makes it."""
+
+    def __init__(self, name: str, at: np.ndarray, mass: float, carrier: Point | None = None) -> None:
+        Body.__init__(self, name, Pose3(at, np.eye(3)), mass, 0.0, np.zeros(3))
+        self.carrier = carrier
+
+    @property
+    def center(self) -> Point:
+        """Itself as a point."""
+        return Point(self, np.zeros(3), self.name)
+
+
+class SpaceMass(NamedTuple):
+    """Mass, principal moments (3,), the centre of mass (3,) in the frame, and the principal axes there, columns of (3, 3)."""
+
+    mass: float
+    moments: np.ndarray
+    com: np.ndarray
+    axes: np.ndarray
+
+
+class SpaceInertias:
+    """The mass of each part with the particles that belong to it."""
+
+    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
+        self.of: dict[str, SpaceMass] = {}
+        carried: dict[str, list[tuple[float, np.ndarray]]] = {}
+        for particle in drawing.of(Particle):
+            if particle.carrier:
+                place = particle.carrier.local_with(numbers)
+                carried.setdefault(particle.carrier.body.name, []).append((particle.properties(numbers).mass, place))
+        for body in drawing.parts():
+            self.of[body.name] = _principal(*body.properties(numbers), carried.get(body.name, []))
+
+    def local(self, point: Point, numbers: Numbers) -> np.ndarray:
+        """A point from its body's mass centre, in the body's principal axes; on the ground from its origin."""
+        place, known = point.local_with(numbers), self.of.get(point.body.name)
+        return place if known is None else known.axes.T @ (place - known.com)
+
+    def direction(self, body: Body, local: np.ndarray) -> np.ndarray:
+        """A direction of a body's frame in its principal axes."""
+        known = self.of.get(body.name)
+        return local if known is None else known.axes.T @ local
+
+    def is_massive(self, body: Body) -> bool:
+        """Whether no motion of a body is without mass."""
+        known = self.of[body.name]
+        return bool(known.mass > 0 and (not body.turns or known.moments.min() > 0))
+
+
+def _principal(mass: float, J: Any, com: np.ndarray, others: list[tuple[float, np.ndarray]]) -> SpaceMass:
+    """Of a body with point masses on it."""
+    J, total = np.zeros((3, 3)) if np.ndim(J) == 0 else J, mass + sum(other for other, _ in others)
+    if others and total:
+        centre = (mass * com + sum(other * place for other, place in others)) / total
+        for part, place in [(mass, com), *others]:
+            arm = place - centre
+            J = J + part * ((arm @ arm) * np.eye(3) - np.outer(arm, arm))
+        com = centre
+    if not np.count_nonzero(J - np.diag(np.diagonal(J))):
+        return SpaceMass(total, np.diagonal(J).copy(), com, np.eye(3))
+    moments, axes = np.linalg.eigh(J)
+    if np.linalg.det(axes) < 0:
+        axes[:, 0] *= -1
+    return SpaceMass(total, np.maximum(moments, 0.0), com, axes)

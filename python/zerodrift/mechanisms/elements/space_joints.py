@@ -1,0 +1,183 @@
+"""Joints of mechanisms in space, as they were given: what each is stands in the core's table of joints in space."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+
+from ..._gateway import Variable
+from ..._gateway.space import JointKind, joint_kinds
+from ..._rotations import AXES
+from .bodies import Point
+from .joints import PLACE, Joint
+from .measures import scalar, vector
+from .numbers import AS_GIVEN, Numbers
+
+JOINTS = joint_kinds()
+DIRECTIONS = ("axis", "normal", "third")
+
+
+class SpaceJoint(Joint):
+    """What joins two bodies in space; verbs of `Mechanism` make it.
+
+    Attributes
+    ----------
+    name : str
+    first, second : Point
+        What it joins; its reaction is what the first body does to the second, at the second's point.
+    frames : tuple of ndarray (3, 3)
+        The rows are the joint's axis, a normal of it and the third direction, in the frame of the first body and of the second.
+    damping : float
+        Of its coordinate, in N m s or N s/m.
+    cut : bool
+        Whether it shall close a loop, and own no coordinate.
+    """
+
+    row: ClassVar[JointKind]    # type: ignore[assignment]
+    coordinates: tuple[str, ...] = ()
+    angles: tuple[str, ...] = ()    # those of its coordinates that count turns
+
+    def __init_subclass__(cls) -> None:
+        """What the row says."""
+        cls.row = JOINTS[cls.kind]
+        cls.coordinates = tuple(name for name, _ in cls.row.coordinates)
+        cls.angles = tuple(name for name, gauge in cls.row.coordinates if gauge == "angle")
+        cls.coordinate = cls.coordinates[0] if len(cls.coordinates) == 1 else None
+        for name, doc in _measures(cls.row).items():
+            setattr(cls, name, scalar(name, doc))
+        if has_torque(cls.row):
+            cls.torque = vector("torque", "The moment that the first body exerts on the second through the joint, about the "
+                                "second's point, in the drawing's axes, in N m; without springs.")
+        if is_at_point(cls.row):
+            for name, doc in PLACE.items():
+                setattr(cls, name, vector(name, doc))
+
+    def __init__(self, name: str, first: Point, second: Point, *, frames: tuple[np.ndarray, np.ndarray],
+                 length: float | None = None, damping: float = 0.0, cut: bool = False) -> None:
+        super().__init__(name, first, second, length=length, damping=damping, cut=cut)
+        self.frames = frames
+
+    def length_with(self, numbers: Numbers) -> float:
+        """Its length; where none was given, the distance in the drawing; 0 where the kind has none."""
+        if not self.row.takes_length:
+            return 0.0
+        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        return numbers(self, "length", float(np.linalg.norm(apart)) if self.length is None else self.length)
+
+    def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
+        """Those of what rolls, along the rows of the second body's frame, in m; 0 where nothing does."""
+        return 0.0, 0.0, 0.0
+
+    def offset_as_drawn(self, numbers: Numbers) -> float:
+        """How far the second's point is along the axis from the first's in the drawing, where the displacement is zero."""
+        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        return float(apart @ self.axis_as_drawn())
+
+    def row_named(self, component: int) -> Variable:
+        """What a row of the joint is: a place along an axis of the drawing or of the joint's frame, or a turn about one."""
+        gauge, first, second = self.row.rows[component]
+        if len(self.row.rows) == 1:
+            return Variable(self.name, "m")
+        if gauge == "cosine":
+            return Variable(f"{self.name}.about {DIRECTIONS[3 - first - second]}", "rad")
+        return Variable(f"{self.name}.{gauge}" if gauge in AXES else f"{self.name}.along {DIRECTIONS[first]}", "m")
+
+    def axis_as_drawn(self) -> np.ndarray:
+        """The axis (3,) in the drawing, of length one."""
+        return self.bodies[0].pose.direction(self.frames[0][0])
+
+
+def speeds(row: JointKind) -> dict[str, str]:
+    """The names of the rates of a joint's coordinates, with the coordinates."""
+    names = [name for name, _ in row.coordinates]
+    return {"speed": names[0]} if len(names) == 1 else {f"{name}_speed": name for name in names}
+
+
+def acceleration_of(speed: str) -> str:
+    """The name of the rate of a speed."""
+    return f"{speed.removesuffix('speed')}acceleration"
+
+
+def _measures(row: JointKind) -> dict[str, str]:
+    """The scalars that can be measured of a joint, and what they are."""
+    found = {}
+    for name, gauge in row.coordinates:
+        found[name] = ("How far the second's point has moved along the axis since the drawing, in m." if gauge == "along" else
+                       "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
+    for speed, name in speeds(row).items():
+        unit = "m" if dict(row.coordinates)[name] == "along" else "rad"
+        found[speed] = f"The rate of `{name}`, in {unit}/s."
+        found[acceleration_of(speed)] = f"The rate of `{speed}`, in {unit}/s^2."
+    if row.tension:
+        found[row.tension] = "What pulls the two points together, negative where it pushes, in N."
+    return found
+
+
+def has_torque(row: JointKind) -> bool:
+    """Whether a joint exerts a moment, by its rows or by what drives or damps it."""
+    return any(gauge == "cosine" for gauge, _, _ in row.rows)
+
+
+def is_at_point(row: JointKind) -> bool:
+    """Whether a joint is at one place of both bodies."""
+    return {"x", "y", "z"} <= {gauge for gauge, _, _ in row.rows}
+
+
+def _made(kind: str) -> type[SpaceJoint]:
+    """The class of a kind of joint, from its row."""
+    name = "Space" + "".join(word.capitalize() for word in kind.split("_"))
+    doc = f"{JOINTS[kind].card.summary} `Mechanism.{kind}`."
+    return type(name, (SpaceJoint,), {"kind": kind, "__doc__": doc, "__module__": __name__})
+
+
+# By name. Each is in this module, where a pickle or a copy looks for it.
+BY_KIND = {kind: _made(kind) for kind in sorted(JOINTS)}
+globals().update({joint.__name__: joint for joint in BY_KIND.values()})
+
+
+class Screw(BY_KIND["screw"]):      # type: ignore[name-defined,misc]
+    """Turns one body about an axis of the other, along which it advances, `Mechanism.screw`."""
+
+    kind = "screw"
+
+    def length_with(self, numbers: Numbers) -> float:
+        """How far it advances for each radian, in m."""
+        return numbers(self, "pitch", self.length) / (2 * np.pi)
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        return {"pitch": now(self, "pitch", self.length)}
+
+
+class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
+    """A disc, a sphere or an ellipsoid on a plane of the first body, `Mechanism.rolling`.
+
+    Attributes
+    ----------
+    semiaxes : tuple of float
+        In m, along the rows of the second body's frame: of a disc the first is 0, and the others are its radius.
+    """
+
+    kind = "rolling"
+
+    def __init__(self, name: str, first: Point, second: Point, *, frames: tuple[np.ndarray, np.ndarray],
+                 semiaxes: tuple[float, float, float]) -> None:
+        super().__init__(name, first, second, frames=frames)
+        self.semiaxes = semiaxes
+
+    def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
+        """In m, along the rows of the second body's frame."""
+        if len({*self.semiaxes} - {0.0}) == 1:
+            radius = numbers(self, "radius", max(self.semiaxes))
+            return tuple(radius if each else 0.0 for each in self.semiaxes)
+        return tuple(numbers(self, f"semiaxes.{axis}", each) for axis, each in zip(AXES, self.semiaxes, strict=True))
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        found = self.semiaxes_with(now)
+        return {"radius": max(found)} if len({*found} - {0.0}) == 1 else {
+            f"semiaxes.{axis}": each for axis, each in zip(AXES, found, strict=True)}
+
+
+BY_KIND["screw"], BY_KIND["rolling"] = Screw, SpaceRolling

@@ -1,0 +1,99 @@
+"""Force elements that nobody has written by hand: what they are is what the core's row of the kind says."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+
+from ..._gateway.mechanisms import ElementKind, element_kinds
+from . import columns
+from .bodies import Point
+from .immutable import Fixed
+from .measures import scalar
+from .numbers import AS_GIVEN, Numbers
+from .user_functions import Law
+
+ELEMENTS = element_kinds()
+WRITTEN = "spring", "torsion_spring", "bushing", "force", "torque"      # by hand, in `forces.py`
+EFFORTS = {"force": "The force along its gauge, in N", "torque": "The moment along its gauge, in N m"}
+
+
+class MadeForce(Fixed):
+    """A force element between two points; verbs of `Mechanism` make it.
+
+    Attributes
+    ----------
+    name : str
+    first, second : Point
+    values : dict of str to float
+        Of springs: stiffness and damping of each gauge; ``length``, where it is given.
+    law : Law or None
+        The value of others.
+    """
+
+    kind = ""                           # as the core's table calls it
+    row: ClassVar[ElementKind]          # its row there
+
+    def __init_subclass__(cls) -> None:
+        cls.row = ELEMENTS[cls.kind]
+        if cls.row.effort:
+            sign = "positive where it pulls" if cls.row.sign < 0 else "positive where it drives the gauge up"
+            setattr(cls, cls.row.effort, scalar(cls.row.effort, f"{EFFORTS[cls.row.effort]}, {sign}."))
+
+    def __init__(self, name: str, first: Point, second: Point, axis: np.ndarray | None, values: dict[str, float],
+                 law: Law | None) -> None:
+        self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first's frame
+        self.values, self.law = values, law
+
+    @property
+    def measured_name(self) -> str:
+        """What its measures are called by."""
+        return self.name
+
+    @classmethod
+    def has(cls, *gauges: str) -> bool:
+        """Whether it has one of these kinds of gauges."""
+        return any(gauge in gauges for gauge, _ in cls.row.gauges)
+
+    @classmethod
+    def paths(cls, quantity: str) -> tuple[str, ...]:
+        """The path of a quantity for each gauge: named after it where there are several."""
+        several = len(cls.row.gauges) > 1
+        return tuple(f"{quantity}.{gauge}" if several else quantity for gauge, _ in cls.row.gauges)
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """What can be addressed by path."""
+        if self.law is None:
+            return dict(self.values)
+        return {} if self.law.constant is None else {"value": self.law.constant}
+
+    def zero(self, which: str | None, numbers: Numbers) -> float:
+        """What is taken from the reading of a gauge: its reading as drawn, or the length that was given."""
+        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        if which in ("along", "across"):
+            (x, y), axis = self.first.body.pose.local_direction(apart), self.axis if which == "along" else _turned(self.axis)
+            return columns.plain(x * axis[0] + y * axis[1])
+        if which == "length":
+            return numbers(self, "length", self.values.get("length", columns.hypot(*apart)))
+        return self.second.body.pose.angle - self.first.body.pose.angle if which == "angle" else 0.0
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.name}: {self.first.body.name} - {self.second.body.name}>"
+
+
+def _turned(axis: np.ndarray) -> np.ndarray:
+    """By a quarter turn, counter-clockwise."""
+    return np.array([-axis[1], axis[0]])
+
+
+def made_force(kind: str) -> type[MadeForce]:
+    """The class of a kind of force element, from its row."""
+    name = "".join(word.capitalize() for word in kind.split("_"))
+    doc = f"{ELEMENTS[kind].card.summary} `Mechanism.{kind}`."
+    return type(name, (MadeForce,), {"kind": kind, "__doc__": doc, "__module__": __name__})
+
+
+# The kinds that have no class in `forces.py`, by name. Each is in this module, where a pickle or a copy looks for it.
+FORCES_BY_ROW = {kind: made_force(kind) for kind in ELEMENTS if kind not in WRITTEN}
+globals().update({force.__name__: force for force in FORCES_BY_ROW.values()})

@@ -1,0 +1,214 @@
+"""Laws: what a drive prescribes, what a force is, and what a user's constraint says; numbers, callables or SymPy expressions."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ...symbolics.plainness import is_plain_expression
+from ...systems import jets
+from ...systems.callables import arguments
+from .interpolation import recognised
+from .measures import name_of
+
+
+class Law:
+    """A number that may depend on t, on measures and on the mechanism's own parameters.
+
+    Attributes
+    ----------
+    what : str
+        Whose it is, for errors: ``"speed of motor 'drive'"``.
+    measures : tuple of str
+        The measures it depends on, in the order in which `value` takes them.
+    constant : float or None
+        Its value where it is a plain number.
+    """
+
+    def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None, parameters: Iterable[str] = ()) -> None:
+        self.what, self.constant, self.expression, self._function = what, None, None, None
+        given = recognised(given)
+        bound = {name: name_of(measure, f"of[{name!r}]") for name, measure in _of(what, of).items()}
+        if callable(given):
+            self._names = _wanted(what, given, ["t", *parameters, *bound])
+            self._function, self._bound = given, {name: bound[name] for name in self._names if name in bound}
+        elif hasattr(given, "free_symbols"):
+            self._read_expression(given, bound, list(parameters))
+        elif isinstance(given, tuple | list | dict) or np.ndim(given):
+            raise TypeError(f"{what} must be a number, a function, an expression of SymPy, or zd.table(t, y) of data, "
+                            f"not {_check.shown(given)}")
+        else:
+            self.constant, self._names, self._bound = _check.number(what, given), [], {}
+        self.measures = tuple(self._bound.values())
+        self.depends_on_time = "t" in self._names
+
+    def _read_expression(self, expression: Any, bound: dict[str, str], parameters: list[str]) -> None:
+        """A SymPy expression of t, parameters, and measures: by what `of` calls them, or themselves."""
+        self.expression = expression
+        self._names, self._bound = [], {}
+        for symbol in sorted(expression.free_symbols, key=str):
+            name = str(symbol)
+            if "." in name:
+                self._bound[name] = name
+            elif name in bound:
+                self._bound[name] = bound[name]
+            elif name != "t" and name not in parameters:
+                raise TypeError(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures")
+            self._names.append(name)
+
+    @functools.cached_property
+    def _call(self) -> Callable[..., Any]:
+        """The function of its names, in their order."""
+        if self.expression is None:
+            return lambda *values: self._function(**dict(zip(self._names, values, strict=True)))
+        by_name = {str(symbol): symbol for symbol in self.expression.free_symbols}
+        return function_of([by_name[name] for name in self._names], self.expression)
+
+    def value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> Any:
+        """Its value at a time and values of its measures; where these are jets, a jet."""
+        if self.constant is not None:
+            return self.constant
+        known = {**parameters, "t": t, **dict(zip(self._bound, x, strict=True))}
+        try:
+            return self._call(*(known[name] for name in self._names))
+        except BaseException as error:
+            _check.tell(error, f"in {self.what}, called at t = {jets.value(t):g}")
+            raise
+
+    def number(self, t: float, x: Iterable[float], parameters: Mapping[str, Any]) -> float:
+        """Its value, checked to be a finite number."""
+        value = self.value(t, x, parameters)
+        if type(value) is float and -np.inf < value < np.inf:
+            return value
+        return _check.number(f"what {self.what} returns at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
+
+    def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> jets.Jet:
+        """Value with derivatives; zero derivatives of a law that is constant along them."""
+        x = tuple(x)
+        try:
+            value = self.value(t, x, parameters)
+        except (TypeError, AttributeError) as error:
+            if not self._has_value(t, x, parameters):
+                raise
+            raise TypeError(f"{self.what} must have derivatives: an expression of SymPy, or a function of arithmetic and smooth "
+                            "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none. zd.table(t, y) is a "
+                            "smooth function through data") from error
+        value = value[()] if isinstance(value, np.ndarray) else value
+        return value if isinstance(value, jets.Jet) else jets.Jet(_check.number(f"what {self.what} returns", value))
+
+    def _has_value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> bool:
+        """Success of an evaluation with floats instead of jets."""
+        try:
+            self.value(jets.value(t), [jets.value(each) for each in x], parameters)
+        except Exception:
+            return False
+        return True
+
+    @property
+    def inner_expression(self) -> Any:
+        """The one SymPy expression that it is, or is made with; None: there is none."""
+        return getattr(self._function, "inner_expression", None) if self.expression is None else self.expression
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it depends on no measure, or is a polynomial of measures, and of sines and cosines of them."""
+        if not self.measures:
+            return True
+        return self.expression is not None and is_plain_expression(self.expression, set(self._bound))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What it is a function of: t, parameters, and measures by what it calls them."""
+        return tuple(self._names)
+
+    @property
+    def kind(self) -> tuple[Any, ...]:
+        """All that its node depends on but that expression and its measures: what it calls, and its names."""
+        return type(self._function), self.names, tuple(self._bound)
+
+    @property
+    def has_expression(self) -> bool:
+        """Whether SymPy has to read it before it can be written out."""
+        return self.inner_expression is not None
+
+    def check_written(self) -> None:
+        """Refuses a callable, of which nobody but Python knows what it computes."""
+        if self._function is not None and not hasattr(self._function, "written"):
+            raise ValueError(f"{self.what} is a callable, which compiled=True cannot write out: give a SymPy expression in its "
+                             "place, or take compiled=False")
+
+    def written(self, equations: Any, x: Iterable[Any]) -> Any:
+        """Its node, where those of its measures are x."""
+        known = {**equations.parameters, "t": equations.t, **dict(zip(self._bound, x, strict=True))}
+        if self.constant is not None:
+            return equations.graph.number(self.constant)
+        if self.expression is not None:
+            return equations.read(self.what, self.expression, {each: known[str(each)] for each in self.expression.free_symbols})
+        return self._function.written(equations, **{name: known[name] for name in self._names})
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name != "_call"}
+
+
+def _of(what: str, of: Any) -> Mapping[str, Any]:
+    if of is None:
+        return {}
+    if not isinstance(of, Mapping) or not all(isinstance(name, str) and name.isidentifier() for name in of):
+        raise TypeError(f"of= of {what} must be a dict of measures by the names of its arguments, not {_check.shown(of)}")
+    return of
+
+
+def _wanted(what: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
+    """The names of the arguments that a callable wants. A function that NumPy wrote itself, such as np.sin, is one of t."""
+    return ["t"] if isinstance(given, np.ufunc) else arguments(what, given, allowed)
+
+
+def _floor(x: Any) -> float:
+    return float(math.floor(jets.value(x)))
+
+
+def _ceiling(x: Any) -> float:
+    return float(math.ceil(jets.value(x)))
+
+
+def _remainder(x: Any, divisor: Any) -> Any:
+    return x - divisor * _floor(x / divisor)
+
+
+def _sign(x: Any) -> float:
+    return float(np.sign(jets.value(x)))
+
+
+# By SymPy's names, as its printer of plain Python code writes them.
+FUNCTIONS: dict[str, Any] = {
+    "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2,
+    "sinh": np.sinh, "cosh": np.cosh, "tanh": np.tanh, "asinh": np.arcsinh, "acosh": np.arccosh, "atanh": np.arctanh,
+    "exp": np.exp, "log": np.log, "sqrt": np.sqrt, "abs": abs, "Abs": abs, "sign": _sign, "min": min, "max": max, "Min": min,
+    "Max": max, "floor": _floor, "ceil": _ceiling, "ceiling": _ceiling, "Mod": _remainder, "pi": np.pi, "e": np.e}
+
+
+@functools.cache
+def _printer() -> Any:
+    """SymPy's printer of plain Python code, with functions of ours for what Python has differently."""
+    from sympy.printing.lambdarepr import LambdaPrinter
+
+    class Printer(LambdaPrinter):
+        def _print_sign(self, expression: Any) -> str:
+            return f"sign({self._print(expression.args[0])})"
+
+        def _print_Mod(self, expression: Any) -> str:
+            return f"Mod({', '.join(map(self._print, expression.args))})"
+
+    return Printer({"fully_qualified_modules": False, "inline": True, "allow_unknown_functions": True})
+
+
+def function_of(names: Sequence[Any], expression: Any) -> Callable[..., Any]:
+    """The expression as a function of these symbols, in their order."""
+    import sympy as sp
+
+    return sp.lambdify(names, expression, [FUNCTIONS, "numpy"], printer=_printer())

@@ -1,0 +1,136 @@
+"""How the core calls laws: rows and efforts, with exact derivatives, in Python or as nodes of a graph."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ...systems.jets import Jet
+from ..elements.user_functions import Law
+from . import function_code
+
+
+class Call:
+    """A law with where its measures are: `picks` has, for each, the number of its gauge and whether its rate is meant."""
+
+    def __init__(self, law: Law, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
+        self.law, self.picks, self.parameters = law, tuple(picks), parameters
+
+    def _numbers(self, t: float, x: np.ndarray, xdot: np.ndarray) -> float:
+        values = [float((xdot if is_rate else x)[place]) for place, is_rate in self.picks]
+        return self.law.number(t, values, self.parameters)
+
+    def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        """The node of the row, or of the effort; `values` and `rates` are those of its gauges."""
+        return self.law.written(equations, [(rates if is_rate else values)[place] for place, is_rate in self.picks])
+
+    def said(self, leaves: Any, node: Any) -> Sequence[Any]:
+        """What a call gives, as nodes, where that is the node of the row or of the effort: of a holonomic row."""
+        return leaves.holonomic(node)
+
+
+class Effort(Call):
+    """A force or torque."""
+
+    def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
+        return (self._numbers(t, x, xdot),)
+
+    def said(self, leaves: Any, node: Any) -> Sequence[Any]:
+        return (node,)
+
+
+class Motion(Call):
+    """The row x = f(t) of a drive."""
+
+    def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
+        f = self.law.jet(Jet(t, 0.0, 1.0, 0.0), (), self.parameters)
+        return x[0] - f.value, 1.0, -f.first, -f.second
+
+    def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        return equations.difference(values[0], super().written(equations, values, rates))
+
+
+class Speed(Call):
+    """The nonholonomic row xdot = f(t, x) of a drive."""
+
+    def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
+        at = [Jet(float(x[place]), 0.0, float(xdot[place]), 0.0) for place, _ in self.picks]
+        f = self.law.jet(Jet(t, 0.0, 1.0, 0.0), at, self.parameters)
+        return 0.0, 1.0, *[0.0] * (len(x) - 1), -f.value, -f.first
+
+    def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
+        return equations.difference(rates[0], super().written(equations, values, rates))
+
+    def said(self, leaves: Any, node: Any) -> Sequence[Any]:
+        return leaves.nonholonomic(node)
+
+
+class Holonomic(Call):
+    """A row g(t, x) = 0."""
+
+    def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
+        axes = np.eye(len(x) + 1)
+        at = [Jet(float(x[place]), axes[place], float(xdot[place]), 0.0) for place, _ in self.picks]
+        g = self.law.jet(Jet(t, axes[-1], 1.0, 0.0), at, self.parameters)
+        return np.concatenate([[g.value], np.broadcast_to(g.gradient, len(axes)), [g.second]])
+
+
+class Nonholonomic(Call):
+    """A row h(t, x, xdot) = 0 that is linear in xdot."""
+
+    def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
+        h = self.at(t, x, xdot)
+        slopes = np.broadcast_to(h.gradient, len(x))
+        return np.concatenate([[0.0], slopes, [h.value - slopes @ xdot, h.first]])
+
+    def said(self, leaves: Any, node: Any) -> Sequence[Any]:
+        return leaves.nonholonomic(node)
+
+    def at(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Jet:
+        """The value of h, its gradient in the rates, and its derivative along the motion while the rates stay."""
+        axes = np.eye(len(x))
+        still = 0.0 * axes[0]
+        at = [Jet(float(xdot[place]), axes[place], 0.0, 0.0) if is_rate else Jet(float(x[place]), still, float(xdot[place]), 0.0)
+              for place, is_rate in self.picks]
+        return self.law.jet(Jet(t, still, 1.0, 0.0), at, self.parameters)
+
+    def check_linear(self, size: int) -> None:
+        """Refuses what is not linear in velocities, as far as two of them tell."""
+        x, one, other = (np.cos(np.arange(1.0, size + 1.0) + shift) for shift in (0.0, 0.5, 1.5))
+        slopes = [np.broadcast_to(self.at(0.3, x, rate).gradient, size) for rate in (one, other)]
+        if np.isfinite(slopes).all() and not np.allclose(*slopes, rtol=1e-9, atol=1e-12):
+            raise ValueError(f"{self.law.what} must be linear in measures of velocities, and is not")
+
+
+class Laws:
+    """All laws of a mechanism, as the core calls them."""
+
+    def __init__(self) -> None:
+        self.rows: list[Call] = []
+        self._compiled: list[Any] = []
+
+    def add(self, row: Call) -> int:
+        """The number under which the core calls it."""
+        self.rows.append(row)
+        return len(self.rows) - 1
+
+    def __call__(self, number: int, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
+        return self.rows[number](t, x, xdot)
+
+    def compiled(self, sizes: Mapping[int, tuple[int, int]]) -> list[Any]:
+        """Of each law the function that it is compiled to, as of `law_functions`, or None; they are handed so many gauges."""
+        if len(self._compiled) != len(self.rows):
+            self._compiled = [function_code.compiled(row, sizes[i][0]) for i, row in enumerate(self.rows)]
+        return self._compiled
+
+    def check_written(self) -> None:
+        """Refuses callables, which cannot be written out."""
+        for row in self.rows:
+            row.law.check_written()
+
+    @property
+    def know_time(self) -> bool:
+        """Whether one of them depends on t."""
+        return any(row.law.depends_on_time for row in self.rows)

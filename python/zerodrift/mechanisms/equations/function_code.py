@@ -1,0 +1,90 @@
+"""Laws that are SymPy expressions as compiled functions, which the core calls without Python.
+
+Parameters and the decimal numbers in an expression are handed to its function: laws that differ in these alone are compiled once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ...errors import CompilationFailed
+
+Compiled = tuple[int, np.ndarray, Any]      # the address of a function, its numbers, and the library that it lives in
+
+_functions: dict[Any, tuple[int, Any] | None] = {}      # by what they are written from; None: C has no counterpart
+
+
+def compiled(row: Any, k: int) -> Compiled | None:
+    """The function of a law that the core hands k gauges; None where it is no expression, or cannot be compiled here."""
+    expression = row.law.inner_expression
+    if expression is None:
+        return None
+    template, numbers = _without_numbers(expression)
+    names = tuple(sorted(name for name in row.parameters if name in row.law.names))
+    key = type(row), row.law.kind, template, row.picks, names, k
+    if key not in _functions:
+        try:
+            found = _Equations(template, names, len(numbers), k).function_of(row)
+        except CompilationFailed:       # Python says the same, if slowly
+            return None
+        except (TypeError, ValueError):
+            found = None
+        else:
+            if found is None:       # there is no compiler, which may change
+                return None
+        _functions[key] = found
+    function = _functions[key]
+    return function and (function[0], np.array([*(row.parameters[name] for name in names), *numbers], dtype=float), function[1])
+
+
+class _Equations:
+    """What a law is written into: `reads` the one expression that is in it, whose numbers stand behind the parameters."""
+
+    def __init__(self, template: Any, names: Sequence[str], numbers: int, k: int) -> None:
+        from ...symbolics.law import Leaves
+        from ...symbolics.reading import Reader  # slow to import, as SymPy is
+
+        self._reader, self._template = Reader(), template
+        self.graph = self._reader.graph
+        own = [self.graph.leaf("parameter", i) for i in range(len(names) + numbers)]
+        self.parameters = dict(zip(names, own, strict=False))
+        self._numbers = {_number(i): leaf for i, leaf in enumerate(own[len(names):])}
+        self.leaves = Leaves(self.graph, k)
+        self.t = self.leaves.t
+
+    def read(self, what: str, expression: Any, known: Mapping[Any, Any]) -> Any:
+        """The node of the expression."""
+        return self._reader.read(what, self._template, {**known, **self._numbers})
+
+    def difference(self, a: Any, b: Any) -> Any:
+        """The first without the second."""
+        return self.graph.plus(a, self.graph.minus(b))
+
+    def function_of(self, row: Any) -> tuple[int, Any] | None:
+        """The function of a law; None: there is no compiler."""
+        from ...symbolics import law
+
+        node = row.written(self, self.leaves.x, self.leaves.xdot)
+        return law.compiled(self.graph, row.said(self.leaves, node))
+
+
+def _without_numbers(expression: Any) -> tuple[Any, list[float]]:
+    """The expression with a symbol for each decimal number, and these; exponents stay, as a square root is no power to C."""
+    import sympy
+
+    exponents = {power.exp for power in expression.atoms(sympy.Pow)}
+    parts = dict.fromkeys(sympy.preorder_traversal(expression))     # in an order that hardly depends on what the numbers are
+    numbers = [each for each in parts if each.is_Float and each not in exponents]
+    return expression.xreplace({each: _number(i) for i, each in enumerate(numbers)}), [float(each) for each in numbers]
+
+
+@cache
+def _number(i: int) -> Any:
+    """What stands for a number."""
+    import sympy
+
+    return sympy.Symbol(f"number {i}", real=True)

@@ -1,0 +1,208 @@
+"""A mechanism written out: its equations as compiled code instead of tables that are interpreted.
+
+The numbers of the core's plan stay numbers, which the compiled functions are handed, all but zeros and ones. Whatever else the
+equations depend on is in the plan with nodes in place of its numbers: where that is the same, so is the code.
+
+In space, absolute coordinates keep the terms of the tables, whose products know more of joints than entries of C say; and what
+is written out are direct functions alone.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ... import _gateway
+from ..._gateway import space_plans
+from ..._gateway.mechanisms import MechanismCore
+from ..._gateway.plans import plan_of
+from ..._gateway.space import SpaceCore
+from ..._gateway.written import WrittenTerms, with_functions
+from ...errors import NoCompilerWarning
+from ...symbolics import cache as kept
+from ...symbolics import compilers, compiling
+from ...symbolics.direct_functions import DIRECT, DirectFunctions
+from ...symbolics.plain import Plain
+from ...symbolics.series_functions import JacobianFunctions
+from . import nodes, space_nodes
+from .function_calls import Laws
+
+DATA = "*(const double *const *)data"       # the doubles that functions are handed: csrc/mechanisms/mechanism.h
+MOST_VELOCITIES = 400   # of six a body, each takes more than ten operations: see direct_emission.MOST_OPERATIONS
+OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in lanes it is these alone that stand in groups
+
+
+@dataclass(frozen=True)
+class Code:
+    """What is the same whatever the numbers are. Everything in it can be written as JSON."""
+
+    provides: list[str]
+    timeless: bool
+    constants: int
+    scratch: int
+    c_source: str
+    program: dict[str, Any] | str       # as of symbolics/system.py
+
+
+class Written:
+    """The compiled functions of a mechanism, and the numbers that they are handed.
+
+    Parameters
+    ----------
+    core : MechanismCore or SpaceCore
+        The interpreted system.
+    laws : Laws
+    parameters : dict of str to float
+        The mechanism's own.
+    name : str
+        For a warning.
+
+    Attributes
+    ----------
+    core : MechanismCore or SpaceCore
+        The compiled system; where there is no compiler, the interpreted one.
+    is_compiled : bool
+        Whether there is a compiler.
+    key : str
+        The name of the code: two mechanisms of the same differ in numbers alone.
+    """
+
+    def __init__(self, core: MechanismCore | SpaceCore, laws: Laws, parameters: dict[str, float], name: str) -> None:
+        self._interpreted, self._sizes = core, (core.nq, core.nv, core.mh, core.mn)
+        is_in_space = isinstance(core, SpaceCore)
+        self._has_terms = not is_in_space or core.packing is None
+        reader = _reader(laws)
+        number = nodes.Numbering(reader.graph)
+        plan = (space_nodes.with_nodes(space_plans.plan_of(core), number) if is_in_space
+                else nodes.with_nodes(plan_of(core), number))
+        own = {key: number.new(value) for key, value in parameters.items()}
+        self._values = np.array(number.values)
+        self.key = kept.digest_of(_writing_code(type(reader)), repr(plan), repr(own), self._sizes, core.packing is None,
+                                  _described(laws.rows))
+        equations = space_nodes.Equations if is_in_space else nodes.Equations
+        self._code = _kept_code(self.key) or self._derive(lambda: equations(plan, reader, self._sizes, laws, own))
+        self._library = compiling.library(self._code.c_source) if self._has_terms else None
+        self.is_compiled = self._library is not None or (not self._has_terms and compilers.find() is not None)
+        if not self.is_compiled:
+            warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): the tables of {name} are interpreted",
+                          NoCompilerWarning, stacklevel=6)
+        self._jacobian = JacobianFunctions(self._code.program, self._sizes, DATA)
+        self.core = self._compiled(None) if self.is_compiled else core
+
+    def _derive(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
+        """The code of the equations, which is kept."""
+        code = self._code_of(written()) if self._has_terms else self._direct_alone(written)
+        kept.write(self.key, asdict(code))
+        _codes[self.key] = code
+        return code
+
+    def _direct_alone(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
+        """What direct functions are written from, where there are not too many velocities to begin with."""
+        from ...symbolics import direct, direct_emission
+        from ...symbolics.lowering import Lowering
+
+        if self._sizes[1] > MOST_VELOCITIES:
+            return Code([], False, 0, 0, "", direct_emission.TOO_LARGE)
+        equations = written()
+        lowering = Lowering(equations.graph, equations.values)
+        outputs = {name: [lowering.lower(node) for node in nodes] for name, nodes in equations.terms().items()}
+        return Code([], False, 0, 0, "", direct.as_json(lowering, outputs))
+
+    def _code_of(self, equations: nodes.Equations | space_nodes.Equations) -> Code:
+        from ...symbolics import direct, large
+        from ...symbolics.blocks import Blocks
+        from ...symbolics.lowering import Lowering
+
+        terms, packing = equations.terms(), self._interpreted.packing
+        lowering = Lowering(equations.graph, equations.values)
+        outputs = {name: [lowering.lower(node) for node in nodes] for name, nodes in terms.items()}
+        packed = {name: [outputs[name][place] for place in packing.places(name)] for name in ("M", "C")
+                  if packing and name in outputs}
+        c_source, constants, scratch = large.source(Blocks(lowering, outputs | packed), ["A mechanism."], len(self._values), DATA)
+        knows_time = any(operation.code == "leaf" and operation.arguments[0] == "t" for operation in lowering.operations)
+        return Code(list(terms), not knows_time, constants, scratch, c_source, direct.as_json(lowering, outputs))
+
+    def _compiled(self, direct: DirectFunctions | None, vector: str = "baseline",
+                  jacobian: Any = None) -> MechanismCore | SpaceCore:
+        """The system with compiled functions."""
+        code = self._code
+        numbers = np.concatenate([self._values, np.zeros(code.constants + (direct.constants if direct else 0) + 1)])
+        libraries, address, terms = [self._library], None, None
+        if self._library is not None:
+            self._library.zd_symbolic_constants(ctypes.c_void_p(numbers.ctypes.data))
+            evaluate = _gateway.address_of(self._library, "zd_symbolic_evaluate")
+            terms = WrittenTerms(evaluate, code.provides, code.timeless, code.scratch)
+        if direct:
+            libraries.append(direct.library(vector))
+            libraries[1].zd_symbolic_direct_constants(ctypes.c_void_p(numbers.ctypes.data))
+            address = _gateway.address_of(libraries[1], DIRECT)
+        numbers.flags.writeable = False
+        rates = jacobian and _gateway.address_of(jacobian, JacobianFunctions.symbol)
+        return with_functions(self._interpreted, numbers, [*libraries, jacobian], terms=terms, direct=address, jacobian=rates)
+
+    def with_jacobian(self, vector: str) -> MechanismCore | SpaceCore:
+        """The same with the derivatives of its rates for a vector unit, where there are any."""
+        library = self._jacobian.library(vector) if self.is_compiled else None
+        return self._compiled(None, vector, library) if library else self.core
+
+    def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> DirectFunctions:
+        """The direct functions; their orders of elimination are those for these numbers and the start p0."""
+        return DirectFunctions(self._code.program, self._sizes, self._values, p0, is_length,
+                               len(self._values) + self._code.constants, OF_DIRECT)
+
+    def with_direct(self, direct: DirectFunctions, vector: str) -> MechanismCore | SpaceCore:
+        """The same with direct functions for a vector unit, where there are any."""
+        return self._compiled(direct, vector) if self.is_compiled and direct.library(vector) else self.core
+
+
+def _reader(laws: Laws) -> Any:
+    """What the graph is in: with SymPy where a law is an expression."""
+    if not any(row.law.has_expression for row in laws.rows):
+        return Plain()
+    from ...symbolics.reading import Reader
+
+    return Reader()
+
+
+# ---- the key ----
+
+_codes: dict[str, Code] = {}
+
+
+def _kept_code(key: str) -> Code | None:
+    """What was derived before from the same plan."""
+    if key not in _codes and (found := kept.read(key, dict)) is not None:
+        _codes[key] = Code(**found)
+    return _codes.get(key)
+
+
+@cache
+def _writing_code(reader: type) -> str:
+    """The fingerprint of the code that writes: of SymPy's version, too, where it is taken."""
+    version = "" if reader is Plain else metadata.version("sympy")
+    here = Path(__file__).parent
+    files = [*sorted((here.parent / "symbolics").glob("*.py")), *sorted(here.glob("*.py"))]
+    return kept.digest_of(version, [file.read_text(encoding="utf-8") for file in files])
+
+
+def _described(what: Any) -> Any:
+    """Laws as JSON: all that their nodes depend on."""
+    if hasattr(what, "free_symbols"):
+        from sympy import srepr
+
+        return srepr(what)
+    if isinstance(what, np.ndarray):
+        return what.tolist()
+    if isinstance(what, Mapping):
+        return [[key, _described(value)] for key, value in what.items() if key not in ("parameters", "what", "_call")]
+    if isinstance(what, list | tuple):
+        return [_described(each) for each in what]
+    return [type(what).__name__, _described(vars(what))] if hasattr(what, "__dict__") else repr(what)

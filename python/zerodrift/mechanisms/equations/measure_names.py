@@ -1,0 +1,140 @@
+"""What a measure of positions or velocities reads: which element, which of its quantities, and whether its rate."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..elements.bodies import Body, Link, Point
+from ..elements.forces import Actuator, Spring
+from ..elements.joints import Joint, is_hinge
+from ..elements.space_joints import SpaceJoint, is_at_point, speeds
+from . import transmission
+
+RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed", of a joint's coordinate
+
+
+class Reading(NamedTuple):
+    """A reading of a position, or its rate: `gauges` are the names of those that it reads, one for each component."""
+
+    gauges: tuple[str, ...]
+    is_rate: bool
+
+
+def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
+    """What a measure reads; None where it is no measure of positions or velocities, or where there is no such."""
+    owner, *rest = name.split(".")
+    element = elements.get(owner)
+    if rest and rest[0] in _points(element):
+        element, owner, rest = getattr(element, rest[0]), f"{owner}.{rest[0]}", rest[1:]
+    if element is None or not rest:
+        return None
+    quantity, *component = rest
+    if getattr(element, "dimension", 2) == 3:
+        return _in_space(owner, element, quantity, component)
+    base = element.coordinate if quantity == "speed" and isinstance(element, Joint | Actuator) else RATES.get(quantity, quantity)
+    if name == f"{owner}.transmission_angle" and transmission.has_one(element, transmission.joints_by_body(elements)):
+        return Reading((name,), False)
+    if base not in quantities(element):
+        return None
+    if base == "position":
+        axes = component or ["x", "y"]
+        return Reading(tuple(f"{owner}.position.{axis}" for axis in axes), base != quantity) if set(axes) <= {"x", "y"} and (
+            len(component) <= 1) else None
+    return None if component else Reading((f"{owner}.{base}",), base != quantity)
+
+
+def _in_space(owner: str, element: Any, quantity: str, component: list[str]) -> Reading | None:
+    """The same of an element in space, whose angular velocity is the rate of no position."""
+    rates = rates_of(element)
+    if quantity in quantities(element) and quantity != "position":
+        return None if component else Reading((f"{owner}.{quantity}",), False)
+    if quantity in rates and rates[quantity] not in ("position", "spin"):
+        return None if component else Reading((f"{owner}.{rates[quantity]}",), True)
+    axes = component or ["x", "y", "z"]
+    if len(component) > 1 or not set(axes) <= {"x", "y", "z"} or (quantity not in rates and quantity not in quantities(element)):
+        return None
+    base = "angular_velocity" if quantity == "angular_velocity" else "position"
+    return Reading(tuple(f"{owner}.{base}.{axis}" for axis in axes), quantity != "position")
+
+
+def rates_of(element: Any) -> dict[str, str]:
+    """The rates that can be read of an element in space, with what each is the rate of."""
+    if isinstance(element, SpaceJoint):
+        return {**speeds(element.row), **({"velocity": "position"} if is_at_point(element.row) else {})}
+    if isinstance(element, Body | Point):
+        spin = {"angular_velocity": "spin"} if isinstance(element, Body) and element.turns else {}
+        return {"velocity": "position", **spin}
+    return {"speed": "length"} if isinstance(element, Actuator) else {}
+
+
+def _points(element: Any) -> tuple[str, ...]:
+    """The points of an element that have measures without having been given a name."""
+    if not isinstance(element, Body) or not element.turns:
+        return ()
+    return ("start", "end", "center") if isinstance(element, Link) else ("center",)
+
+
+def reading_of_start(name: str, elements: Mapping[str, Any]) -> Reading | None:
+    """The same of what a start may give: the rotation of a body in space, too, by its nine cosines."""
+    owner, _, quantity = name.partition(".")
+    body = elements.get(owner)
+    if quantity == "rotation" and isinstance(body, Body) and body.turns and body.dimension == 3:
+        return Reading((name,) * 9, False)
+    return reading(name, elements)
+
+
+def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any]) -> Reading:
+    """What a start reads, which holds or wishes it to have a value; an error where there is no such."""
+    read = reading_of_start(name, elements)
+    if read is None:
+        owner = elements.get(name.partition(".")[0])
+        known = readable(owner) if owner is not None else []
+        said = f"; of {owner.name!r} these can be given: {_closest_first(name, known)}" if known else ""
+        raise ValueError(f"{what} names {name!r}, and there is no such measure of positions or velocities{said}")
+    if value is not None and len(read.gauges) != np.size(value):
+        raise ValueError(f"{what}[{name!r}] must have {len(read.gauges)} components, not {np.size(value)}")
+    return read
+
+
+def _closest_first(name: str, known: Sequence[str]) -> str:
+    ranked = difflib.get_close_matches(name.lower(), known, n=len(known), cutoff=0.0)
+    return ", ".join([*ranked, *(each for each in known if each not in ranked)])
+
+
+def readable(element: Any) -> list[str]:
+    """The measures of positions and velocities of an element by name, each once and vectors whole."""
+    named = getattr(element, "measured_name", element.name)
+    if getattr(element, "dimension", 2) == 3:
+        own = [f"{named}.{each}" for each in (*quantities(element), *rates_of(element))]
+        return own + [f"{named}.{point}.{each}" for point in _points(element) for each in ("position", "velocity")]
+    rates = {"position": "velocity", "angle": "angular_velocity"}
+    found = []
+    for quantity in quantities(element):
+        is_coordinate = isinstance(element, Joint | Actuator) and quantity != "position"
+        rate = "speed" if is_coordinate else rates.get(quantity)
+        found += [f"{named}.{quantity}", *([f"{named}.{rate}"] if rate else [])]
+    found += [f"{named}.{point}.{quantity}" for point in _points(element) for quantity in ("position", "velocity")]
+    return found
+
+
+def quantities(element: Any) -> tuple[str, ...]:
+    """The positions that can be read of an element; all but lengths of springs have rates, too."""
+    if isinstance(element, SpaceJoint):
+        return (*element.coordinates, *(("position",) if is_at_point(element.row) else ()))
+    if isinstance(element, Body):
+        return ("position", "angle") if element.turns and element.dimension == 2 else ("position",)
+    if isinstance(element, Point):
+        return ("position",)
+    if isinstance(element, Joint):
+        place = ("position",) if is_hinge(element.row) else ()
+        return (element.coordinate, *place) if has_coordinate(element) else place
+    return ("length",) if isinstance(element, Spring | Actuator) else ()
+
+
+def has_coordinate(joint: Joint) -> bool:
+    """Whether a joint has a coordinate to be read; a hinge of a particle has none."""
+    return joint.coordinate is not None and (joint.coordinate != "angle" or all(body.turns for body in joint.bodies))

@@ -1,0 +1,162 @@
+"""The measures of a mechanism, as the core's table has them.
+
+They are made when they are first asked for: a run that nobody measures needs none of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..._gateway.mechanisms import Gauge, MechanismCore
+from ..._gateway.uses import Observed
+from ..._rotations import angles_of, quaternions_of
+from ...systems.watching import Watching
+from ..elements.bodies import Body, Link, Point
+from ..elements.forces import Actuator, Spring
+from ..elements.joints import holds_angle, is_hinge
+from ..elements.space_joints import SpaceJoint, acceleration_of, has_torque, is_at_point, speeds
+from . import transmission
+from .measure_names import has_coordinate
+from .space_tables import SpaceTables
+from .tables import Tables
+
+
+class Position(NamedTuple):
+    """A measure of positions, its first and second rate where these are measures, too, and what makes the gauges it reads."""
+
+    name: str | None        # None: what has a rate, and no value, as an angular velocity in space
+    unit: str
+    rate: str | None
+    second_rate: str | None
+    gauges: Callable[[], tuple[Gauge, ...]]
+
+
+def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismCore:
+    """The core's system with all measures; or with those of positions and velocities that `only` names, or components of."""
+    return tables.core(*read(tables, only))
+
+
+def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Gauge], list[Observed]]:
+    """The gauges of the tables and those that such measures read, and these measures."""
+    gauges, observed = list(tables.gauges), []
+    wanted = None if only is None else {*only, *(name.rpartition(".")[0] for name in only)}
+    for position in _positions(tables, wanted):
+        if wanted is not None and position.name not in wanted and position.rate not in wanted:
+            continue
+        reads = position.gauges()
+        if position.name:
+            observed.append(Observed(position.name, position.unit, "values", len(gauges), len(reads)))
+        if position.rate:
+            observed.append(Observed(position.rate, f"{position.unit}/s", "rates", len(gauges), len(reads)))
+        if position.second_rate and wanted is None:
+            observed.append(Observed(position.second_rate, f"{position.unit}/s^2", "accelerations", len(gauges), len(reads)))
+        gauges += reads
+    if wanted is None:
+        observed += [*_of_joints(tables), *tables.observed]
+    return gauges, observed
+
+
+def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Position]:
+    """What can be read of bodies, named points, joints and springs.
+
+    Transmission angles are looked for where they are wanted: each among all joints of two bodies.
+    """
+    if isinstance(tables, SpaceTables):
+        yield from _positions_in_space(tables)
+        return
+    for body in tables.drawing.of(Body):
+        if body is tables.drawing.ground:
+            continue
+        yield _place(tables, body.name, body)
+        if body.turns:
+            angle = partial(tables.angle_gauge, body)
+            yield Position(f"{body.name}.angle", "rad", f"{body.name}.angular_velocity", f"{body.name}.angular_acceleration",
+                           lambda angle=angle: (angle(),))
+            for point in (*((body.start, body.end) if isinstance(body, Link) else ()), body.center):
+                yield _place(tables, point.name, point)
+    for point in tables.drawing.of(Point):
+        yield _place(tables, point.name, point)
+    for i, joint in enumerate(tables.joints):
+        if has_coordinate(joint):
+            unit = "rad" if joint.coordinate == "angle" else "m"
+            yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
+                           lambda i=i: (tables.coordinate_gauge(i),))
+        between = f"{joint.name}.transmission_angle"
+        if (wanted is None or between in wanted) and transmission.has_one(joint, tables.joints_by_body):
+            yield Position(between, "rad", None, None,
+                           lambda joint=joint: (tables.transmission_gauge(joint),))
+        if is_hinge(joint.row):     # without a second rate: that name is the acceleration of its angle
+            yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
+    yield from _lengths(tables)
+
+
+def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
+    """The same in space."""
+    for body in tables.drawing.of(Body):
+        if body is tables.drawing.ground:
+            continue
+        yield _place(tables, body.name, body)
+        if body.turns:
+            yield Position(f"{body.name}.rotation", "", None, None, partial(tables.rotation_gauges, body))
+            yield Position(None, "rad", f"{body.name}.angular_velocity", f"{body.name}.angular_acceleration",
+                           partial(tables.spin_gauges, body))
+            for point in (*((body.start, body.end) if isinstance(body, Link) else ()), body.center):
+                yield _place(tables, point.name, point)
+    for point in tables.drawing.of(Point):
+        yield _place(tables, point.name, point)
+    for joint in tables.joints:
+        for speed, coordinate in speeds(joint.row).items():
+            unit = "m" if dict(joint.row.coordinates)[coordinate] == "along" else "rad"
+            yield Position(f"{joint.name}.{coordinate}", unit, f"{joint.name}.{speed}", f"{joint.name}.{acceleration_of(speed)}",
+                           lambda joint=joint, coordinate=coordinate: (tables.coordinate_gauge_of(joint, coordinate),))
+        if is_at_point(joint.row):
+            yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
+    yield from _lengths(tables)
+
+
+def _lengths(tables: Tables) -> Iterator[Position]:
+    for actuator in tables.drawing.of(Actuator):
+        yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
+                       lambda actuator=actuator: (tables.length_gauge(actuator),))
+    for spring in tables.drawing.of(Spring):
+        yield Position(f"{spring.name}.length", "m", None, None, lambda spring=spring: (tables.length_gauge(spring),))
+
+
+def _place(tables: Tables, name: str, of: Body | Point) -> Position:
+    return Position(f"{name}.position", "m", f"{name}.velocity", f"{name}.acceleration", partial(tables.place_gauges, of))
+
+
+def _of_joints(tables: Tables) -> Iterator[Observed]:
+    """The reactions of joints."""
+    for i, joint in enumerate(tables.joints):
+        yield Observed(f"{joint.name}.force", "N", "joint force", i, joint.dimension)
+        if isinstance(joint, SpaceJoint):
+            if has_torque(joint.row):
+                yield Observed(f"{joint.name}.torque", "N m", "joint torque", i, 3)
+        elif holds_angle(joint.row) or (has_coordinate(joint) and joint.coordinate == "angle"):
+            yield Observed(f"{joint.name}.torque", "N m", "joint torque", i)
+        if joint.row.tension:
+            yield Observed(f"{joint.name}.{joint.row.tension}", "N", "joint tension", i)
+
+
+def orientation(watching: Watching, name: Any, solution: Any) -> np.ndarray | None:
+    """What is called "body.rotation", (k, 3, 3), "body.quaternion", (k, 4), or "body.euler.zyx", (k, 3); None: nothing is."""
+    if not isinstance(name, str):
+        return None
+    body, _, quantity = name.partition(".")
+    word, _, order = quantity.partition(".")
+    if word not in ("rotation", "quaternion", "euler") or (word != "euler") == bool(order):
+        return None
+    cosines = watching.values(f"{body}.rotation", solution)
+    if cosines is None or (word == "euler" and not _is_order(order)):
+        return None
+    R = cosines.reshape(-1, 3, 3)
+    return R if word == "rotation" else quaternions_of(R) if word == "quaternion" else angles_of(R, order)
+
+
+def _is_order(order: str) -> bool:
+    return len(order) == 3 and set(order) <= set("xyz") and order[0] != order[1] != order[2]

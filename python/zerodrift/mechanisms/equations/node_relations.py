@@ -1,0 +1,45 @@
+"""What a mechanism prescribes between gauges, as nodes of a graph, in the plane and in space alike."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from ...symbolics.graph import Graph, Node
+from .function_calls import Laws
+
+
+class Relations:
+    """Rows and laws over what gauges read.
+
+    Attributes
+    ----------
+    graph : Graph
+    readings : sequence
+        Of each gauge its value and its rate.
+    laws : Laws
+    t : Node
+        Time.
+    """
+
+    graph: Graph
+    readings: Sequence[Any]
+    laws: Laws
+    t: Node
+
+    def _of(self, gauges: Iterable[int]) -> tuple[list[Node], list[Node]]:
+        """Values and rates."""
+        readings = [self.readings[gauge] for gauge in gauges]
+        return [reading.value for reading in readings], [reading.rate for reading in readings]
+
+    def _row(self, row: Any) -> Node:
+        graph = self.graph
+        if row.law >= 0:
+            return self._law(row.law, row.gauges)
+        values, rates = self._of(row.gauges)
+        sum_of = graph.dot(row.coefficients, rates if row.nonholonomic else values)
+        return graph.plus(sum_of, graph.minus(row.constant), graph.minus(graph.times(row.slope, self.t)))
+
+    def _law(self, law: int, gauges: Iterable[int]) -> Node:
+        values, rates = self._of(gauges)
+        return self.laws.rows[law].written(self, values, rates)

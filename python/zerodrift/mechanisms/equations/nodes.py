@@ -1,0 +1,233 @@
+"""The equations of a mechanism as nodes of a graph, from the plan that the core has made of its tables.
+
+What is known here is how bodies hang on each other and what gauges read, as in `csrc/mechanisms`: a joint that is made of these
+is written out without being known. Terms follow from kinetic and potential energy, forces and rows by `Derivation`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from ..._gateway import plans
+from ..._gateway.mechanisms import Gauge
+from ..._gateway.plans import Link, Plan
+from ..._gateway.uses import Effort, Relation
+from ...symbolics.derivation import Derivation, Given
+from ...symbolics.graph import Graph, Node
+from .function_calls import Laws
+from .node_relations import Relations
+
+HALF = Fraction(1, 2)
+Vector = tuple[Node, Node]
+
+
+class Numbering:
+    """Numbers as leaves of a graph, all but zero and one.
+
+    Numbers of one `place` that are equal or opposite are one leaf: a point of a body is the same wherever it is named, and what
+    cancels then does so before the equations are written.
+    """
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        self.values: list[float] = []
+        self._known: dict[tuple[Any, float], Node] = {}
+
+    def __call__(self, value: float, *place: Any) -> Node:
+        graph = self.graph
+        if value in (-1.0, 0.0, 1.0):
+            return graph.number(int(value))
+        for sign in (1, -1) if place else ():
+            if (known := self._known.get((place, sign * value))) is not None:
+                return graph.sum([(known, sign)])
+        leaf = self.new(value)
+        if place:
+            self._known[place, value] = leaf
+        return leaf
+
+    def new(self, value: float) -> Node:
+        """A leaf of its own, whatever the number is."""
+        self.values.append(value)
+        return self.graph.leaf("parameter", len(self.values) - 1)
+
+    def pair(self, vector: Sequence[float], *place: Any) -> Vector:
+        return self(vector[0], *place, "x"), self(vector[1], *place, "y")
+
+
+def with_nodes(plan: Plan, number: Numbering) -> Plan:
+    """The plan with nodes in place of its numbers."""
+    links = tuple(link._replace(
+        near=number.pair(link.near, link.inner), far=number.pair(link.far, i), axis=number.pair(link.axis, "axis", link.inner),
+        along=number(link.along), angle=number(link.angle), cosine=number(link.cosine), sine=number(link.sine),
+        mass=number(link.mass), inertia=number(link.inertia)) for i, link in enumerate(plan.links, 1))
+    gauges = tuple(gauge._replace(
+        point1=number.pair(gauge.point1, gauge.first), point2=number.pair(gauge.point2, gauge.second),
+        axis=number.pair(gauge.axis, "axis", gauge.first), zero=number(gauge.zero)) for gauge in plan.gauges)
+    rows = tuple(row_with_nodes(row, number) for row in plan.rows)
+    efforts = tuple(effort_with_nodes(effort, number) for effort in plan.efforts)
+    return Plan(links, gauges, rows, efforts, number.pair(plan.gravity))
+
+
+def row_with_nodes(row: Relation, number: Numbering) -> Relation:
+    return row._replace(coefficients=[number(factor) for factor in row.coefficients], constant=number(row.constant),
+                        slope=number(row.slope))
+
+
+def effort_with_nodes(effort: Effort, number: Numbering) -> Effort:
+    return effort._replace(stiffness=number(effort.stiffness), damping=number(effort.damping), value=number(effort.value))
+
+
+class Frame(NamedTuple):
+    """Where a body is: its mass centre, its angle and that angle's cosine and sine."""
+
+    at: Vector
+    angle: Node
+    cosine: Node
+    sine: Node
+
+
+class Reading(NamedTuple):
+    """What a gauge reads, and how fast that changes; what has a rate alone has the value zero."""
+
+    value: Node
+    rate: Node
+
+
+class Equations(Relations):
+    """Energies, forces and rows of a plan whose numbers are nodes.
+
+    Parameters
+    ----------
+    reader : Reader or Plain
+        Whose graph they are in; where laws are expressions, it has to be a Reader.
+    sizes : tuple of int
+        nq, nv, mh, mn.
+    parameters : dict of str to Node
+        The mechanism's own.
+
+    Attributes
+    ----------
+    values : dict of Node to Node
+        What leaves of the graph stand for: of these none.
+    """
+
+    def __init__(self, plan: Plan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
+                 parameters: Mapping[str, Node]) -> None:
+        self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
+        self.functions = reader     # its sin, cos and floor
+        self.values: dict[Node, Node] = {}
+        self.nq, _, self.mh, _ = sizes
+        graph = self.graph
+        self.t = graph.leaf("t", 0)
+        self.p, self.v = ([graph.leaf(kind, i) for i in range(self.nq)] for kind in "pv")
+        self.rate_of = graph.derivative_along({self.t: graph.one, **dict(zip(self.p, self.v, strict=True))})
+        self.frames = [Frame((graph.zero, graph.zero), graph.zero, graph.one, graph.zero)]
+        for link in plan.links:
+            self.frames.append(self._frame(link))
+        self.readings = [self._reading(gauge) for gauge in plan.gauges]
+
+    def terms(self) -> dict[str, list[Node]]:
+        """What there is of A, M, d, f, Phi, C, Phi_t, xi, V and power."""
+        return Derivation(self.graph, self._given()).terms()
+
+    def _given(self) -> Given:
+        rows = [self._row(row) for row in self.plan.rows]
+        return Given(self.nq, self.nq, kinetic=self._kinetic(), force=self._force(), potential=self._potential(),
+                     holonomic=rows[:self.mh], nonholonomic=rows[self.mh:])
+
+    # ---- vectors ----
+
+    def _plus(self, a: Vector, b: Vector) -> Vector:
+        return self.graph.plus(a[0], b[0]), self.graph.plus(a[1], b[1])
+
+    def _minus(self, a: Vector, b: Vector) -> Vector:
+        return tuple(self.difference(x, y) for x, y in zip(a, b, strict=True))
+
+    def difference(self, a: Node, b: Node) -> Node:
+        return self.graph.plus(a, self.graph.minus(b))
+
+    def _rotated(self, cosine: Node, sine: Node, a: Vector) -> Vector:
+        times = self.graph.times
+        return (self.difference(times(cosine, a[0]), times(sine, a[1])),
+                self.graph.plus(times(sine, a[0]), times(cosine, a[1])))
+
+    def _turned(self, frame: Frame, a: Vector) -> Vector:
+        """A vector of a body's axes in those of the drawing."""
+        return self._rotated(frame.cosine, frame.sine, a)
+
+    def _rates(self, a: Vector) -> Vector:
+        return self.rate_of(a[0]), self.rate_of(a[1])
+
+    # ---- the tree ----
+
+    def _frame(self, link: Link) -> Frame:
+        graph, k, inner = self.graph, link.coordinate, self.frames[link.inner]
+        turn = graph.zero, graph.one, graph.zero        # of particles
+        if link.hang in (plans.FREE, plans.TURNING):
+            angle = self.p[k + 2 if link.hang == plans.FREE else k]
+            turn = angle, graph.call(self.functions.cos, angle), graph.call(self.functions.sin, angle)
+        elif link.hang in (plans.SLIDING, plans.FIXED):
+            cosine, sine = self._rotated(link.cosine, link.sine, (inner.cosine, inner.sine))
+            turn = graph.plus(inner.angle, link.angle), cosine, sine
+        if link.hang in (plans.FREE, plans.FREE_POINT):
+            return Frame((self.p[k], self.p[k + 1]), *turn)
+        near = link.near
+        if link.hang == plans.SLIDING:
+            way = graph.plus(self.p[k], link.along)
+            near = self._plus(near, (graph.times(way, link.axis[0]), graph.times(way, link.axis[1])))
+        at = self._plus(inner.at, self._turned(inner, near))
+        return Frame(self._plus(at, self._rotated(turn[1], turn[2], link.far)), *turn)
+
+    # ---- gauges ----
+
+    def _reading(self, gauge: Gauge) -> Reading:
+        graph, first, second = self.graph, self.frames[gauge.first], self.frames[gauge.second]
+        if gauge.kind == "angle":
+            return self._read(self.difference(second.angle, first.angle), gauge.zero)
+        axis = gauge.axis if gauge.kind in ("along", "glide") else (graph.minus(gauge.axis[1]), gauge.axis[0])
+        there = self._plus(second.at, self._turned(second, gauge.point2))
+        if gauge.kind in ("glide", "skid"):
+            return Reading(graph.zero, graph.dot(self._turned(first, axis), self._rates(there)))
+        if gauge.kind in ("along", "across"):       # the first body's own point is at rest in its axes
+            value = graph.dot(self._turned(first, axis), self._minus(there, first.at))
+            return self._read(value, graph.plus(graph.dot(axis, gauge.point1), gauge.zero))
+        apart = self._minus(there, self._plus(first.at, self._turned(first, gauge.point1)))
+        if gauge.kind == "distance":
+            return self._read(graph.product([(graph.dot(apart, apart), HALF)]), gauge.zero)
+        return self._read(apart["xy".index(gauge.kind)], gauge.zero)
+
+    def _read(self, value: Node, zero: Node) -> Reading:
+        value = self.difference(value, zero)
+        return Reading(value, self.rate_of(value))
+
+    # ---- energies, forces, rows ----
+
+    def _kinetic(self) -> Node:
+        graph, terms = self.graph, []
+        for link, frame in zip(self.plan.links, self.frames[1:], strict=True):
+            terms += [graph.product([(link.mass, 1), (speed, 2)]) for speed in self._rates(frame.at)]
+            terms.append(graph.product([(link.inertia, 1), (self.rate_of(frame.angle), 2)]))
+        return graph.sum((term, HALF) for term in terms)
+
+    def _potential(self) -> Node:
+        graph = self.graph
+        weights = [(graph.times(link.mass, graph.dot(self.plan.gravity, frame.at)), -1)
+                   for link, frame in zip(self.plan.links, self.frames[1:], strict=True)]
+        springs = [(graph.product([(effort.stiffness, 1), (self.readings[effort.gauge].value, 2)]), HALF)
+                   for effort in self.plan.efforts if effort.kind == "spring"]
+        return graph.sum([*weights, *springs])
+
+    def _force(self) -> list[Node]:
+        """The generalized forces that the potential does not describe."""
+        graph, efforts = self.graph, []
+        for effort in self.plan.efforts:
+            rate = self.readings[effort.gauge].rate
+            if effort.kind == "spring":
+                efforts.append((graph.minus(graph.times(effort.damping, rate)), rate))
+            else:
+                law = effort.kind == "law"
+                efforts.append((self._law(effort.law, effort.inputs) if law else effort.value, rate))
+        along = [graph.derivative_along({v: graph.one}) for v in self.v]
+        return [graph.plus(*(graph.times(value, of(rate)) for value, rate in efforts if value is not graph.zero)) for of in along]

@@ -1,0 +1,219 @@
+"""Where bodies in space are and how they turn, as nodes of a graph, from the links of a plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from ..._gateway.space_plans import Link, Way
+from ...symbolics.graph import Graph, Node
+
+Vector = tuple[Node, Node, Node]
+
+
+class Vectors:
+    """What is done with the vectors of a graph."""
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        self.none: Vector = (graph.zero,) * 3
+
+    def plus(self, *vectors: Vector) -> Vector:
+        return tuple(self.graph.plus(*components) for components in zip(*vectors, strict=True))
+
+    def scaled(self, factor: Node, a: Vector) -> Vector:
+        return tuple(self.graph.times(factor, each) for each in a)
+
+    def minus(self, a: Vector, b: Vector) -> Vector:
+        return self.plus(a, tuple(map(self.graph.minus, b)))
+
+    def cross(self, a: Vector, b: Vector) -> Vector:
+        times, plus, minus = self.graph.times, self.graph.plus, self.graph.minus
+        return tuple(plus(times(a[i], b[k]), minus(times(a[k], b[i]))) for i, k in ((1, 2), (2, 0), (0, 1)))
+
+
+HALF = Fraction(1, 2)
+
+
+class Body(NamedTuple):
+    """Where a body is and how it turns; its own axes are not known of what does not turn."""
+
+    at: Vector
+    axes: tuple[Vector, Vector, Vector] | None
+    spin: Vector
+    own_spin: Vector        # the same in its own axes
+
+
+class Frames:
+    """Bodies by their numbers, and the vectors that turn with them.
+
+    Parameters
+    ----------
+    links : sequence of Link
+        With nodes in place of their numbers.
+    graph : Graph
+    functions : Reader or Plain
+        Its sin and cos.
+    nq, nv : int
+
+    Attributes
+    ----------
+    bodies : dict of int to Body
+    A : list of list of Node
+        The rates of p in v, (nq, nv), but for what follows other coordinates.
+    rate_of : Derivative
+        The derivative along the motion at constant v.
+    values : dict of Node to Node
+        What leaves of the graph stand for.
+    """
+
+    def __init__(self, links: Sequence[Link], graph: Graph, functions: Any, nq: int, nv: int) -> None:
+        self.graph, self.of, self._links, self._functions = graph, Vectors(graph), links, functions
+        self.p, self.v = ([graph.leaf(kind, i) for i in range(size)] for kind, size in (("p", nq), ("v", nv)))
+        self.values: dict[Node, Node] = {}
+        self._with_rates: set[Node] = set()
+        self.rate_of = graph.derivative_along({graph.leaf("t", 0): graph.one})
+        self.A = [[graph.zero] * nv for _ in range(nq)]
+        self._turned: dict[tuple[int, Vector], Vector] = {}
+        still = self.of.none
+        self.bodies = {0: Body(still, None, still, still)}
+        for i in range(1, len(links) + 1):
+            self._place(i)
+
+    def rates(self, a: Vector) -> Vector:
+        return tuple(map(self.rate_of, a))
+
+    def point(self, body: int, local: Vector) -> Vector:
+        """A point of a body, from the drawing's origin."""
+        return self.of.plus(self.bodies[body].at, self.turned(body, local))
+
+    # ---- parts: leaves that stand for nodes ----
+
+    def _part(self, value: Node) -> Node:
+        """A leaf in the place of a node; what is one, or a number that stays, is that."""
+        if value.kind in ("leaf", "number"):
+            return value
+        leaf = self.graph.leaf("part", len(self.values))
+        self.values[leaf] = value
+        return leaf
+
+    def _turn(self, parts: Vector, spin: Vector) -> None:
+        """Says the rates of a vector of a length that stays: spin x itself. Of leaves that were there before they are known."""
+        for leaf, rate in zip(parts, self.of.cross(spin, parts), strict=True):
+            if leaf in self.values and leaf not in self._with_rates:
+                self._with_rates.add(leaf)
+                self.rate_of.know(leaf, rate)
+
+    def turned(self, body: int, local: Vector) -> Vector:
+        """A vector of a body's axes in those of the drawing."""
+        of = self.bodies[body]
+        if of.axes is None:
+            return local
+        if (body, local) not in self._turned:
+            self._turned[body, local] = self._sum_along(of.axes, local, of.spin)
+        return self._turned[body, local]
+
+    def _sum_along(self, axes: Sequence[Vector], along: Vector, spin: Vector) -> Vector:
+        """Of one axis its multiple, which needs no leaves of its own."""
+        zero = self.graph.zero
+        found = [(axis, factor) for axis, factor in zip(axes, along, strict=True) if factor is not zero]
+        if len(found) == 1:
+            return self.of.scaled(found[0][1], found[0][0])
+        vector = tuple(map(self._part, self._combined(found))) if found else self.of.none
+        self._turn(vector, spin)
+        return vector
+
+    def _combined(self, found: Iterable[tuple[Vector, Node]]) -> Vector:
+        """The sum of vectors, each with its factor."""
+        return self.of.plus(*(self.of.scaled(factor, vector) for vector, factor in found))
+
+    # ---- bodies ----
+
+    def _place(self, i: int) -> None:
+        if i in self.bodies:
+            return
+        link = self._links[i - 1]
+        if link.ways is not None:
+            self._place(link.inner)
+        self.bodies[i] = self._free(link) if link.ways is None else self._hanging(i, link)
+
+    def _free(self, link: Link) -> Body:
+        at = tuple(self.p[link.p:link.p + 3])
+        for k in range(3):
+            self._moves(link.p + k, link.v + k)
+        if not link.turns:
+            return Body(at, None, self.of.none, self.of.none)
+        own = tuple(self.v[link.v + 3:link.v + 6])
+        axes = tuple(tuple(map(self._part, axis)) for axis in self._attitude(link.p + 3, link.v + 3))
+        spin = self._combined(zip(axes, own, strict=True))
+        for axis in axes:
+            self._turn(axis, spin)
+        return Body(at, axes, spin, own)
+
+    def _moves(self, p: int, v: int) -> None:
+        """A coordinate whose rate is a velocity."""
+        self.rate_of.know(self.p[p], self.v[v])
+        self.A[p][v] = self.graph.one
+
+    def _attitude(self, p: int, v: int) -> tuple[Vector, Vector, Vector]:
+        """The axes that a quaternion turns to, and its rows of A: half of it times its angular velocity."""
+        graph, (w, x, y, z) = self.graph, self.p[p:p + 4]
+        for i, row in enumerate(((x, y, z), (w, z, y), (z, w, x), (y, x, w))):
+            signs = ((-1, -1, -1), (1, -1, 1), (1, 1, -1), (-1, 1, 1))[i]
+            self.A[p + i][v:v + 3] = [graph.sum([(each, sign * HALF)]) for each, sign in zip(row, signs, strict=True)]
+        size = self._part(graph.product([(graph.plus(*(graph.times(each, each) for each in (w, x, y, z))), -1)]))
+
+        def entry(*terms: tuple[Node, Node, int]) -> Node:
+            return graph.times(size, graph.sum((graph.times(a, b), sign) for a, b, sign in terms))
+
+        return ((entry((w, w, 1), (x, x, 1), (y, y, -1), (z, z, -1)), entry((x, y, 2), (w, z, 2)), entry((x, z, 2), (w, y, -2))),
+                (entry((x, y, 2), (w, z, -2)), entry((w, w, 1), (x, x, -1), (y, y, 1), (z, z, -1)), entry((y, z, 2), (w, x, 2))),
+                (entry((x, z, 2), (w, y, 2)), entry((y, z, 2), (w, x, -2)), entry((w, w, 1), (x, x, -1), (y, y, -1), (z, z, 1))))
+
+    def _hanging(self, i: int, link: Link) -> Body:
+        """The joint's frame goes along its freedoms, from its point on the inner body to that on the outer one."""
+        inner = self.bodies[link.inner]
+        frame = [self.turned(link.inner, axis) for axis in link.near_axes]
+        at, spin = self.of.plus(inner.at, self.turned(link.inner, link.near)), inner.spin
+        for way in link.ways:
+            at, spin = self._go(way, frame, at, spin)
+        if not link.turns:
+            return Body(self.of.minus(at, link.far), None, self.of.none, self.of.none)
+        axes = tuple(self._sum_along(frame, own, spin) for own in zip(*link.far_axes, strict=True))
+        own_spin = tuple(self.graph.dot(axis, spin) for axis in axes)
+        body = self.bodies[i] = Body(at, axes, spin, own_spin)
+        return body._replace(at=self.of.minus(at, self.turned(i, link.far)))
+
+    def _go(self, way: Way, frame: list[Vector], at: Vector, spin: Vector) -> tuple[Vector, Vector]:
+        """Moves the frame by one freedom; returns its origin and its angular velocity."""
+        graph, of, e = self.graph, self.of, self.of.scaled(self.graph.number(way.sign), frame[way.direction])
+        if way.kind == "swings":
+            return at, self._swing(way, frame, spin)
+        self._moves(way.p, way.v)
+        if way.kind in ("slides", "advances"):
+            by = self.p[way.p] if way.kind == "slides" else graph.times(way.length, self.p[way.p])
+            at = of.plus(at, of.scaled(graph.plus(way.zero, by), e))
+        if way.kind in ("turns", "advances"):
+            spin = of.plus(spin, of.scaled(self.v[way.v], e))
+            self._turn_frame(way, frame, spin)
+        return at, spin
+
+    def _swing(self, way: Way, frame: list[Vector], spin: Vector) -> Vector:
+        """Turns the frame by a quaternion; returns its angular velocity, which is said in the axes that it then has."""
+        turned = [tuple(map(self._part, axis)) for axis in self._attitude(way.p, way.v)]
+        frame[:] = [tuple(map(self._part, self._combined(zip(frame, axis, strict=True)))) for axis in turned]
+        spin = self.of.plus(spin, self._combined(zip(frame, self.v[way.v:way.v + 3], strict=True)))
+        for axis in frame:
+            self._turn(axis, spin)
+        return spin
+
+    def _turn_frame(self, way: Way, frame: list[Vector], spin: Vector) -> None:
+        """About one of its directions, which stays."""
+        graph, of, i, k = self.graph, self.of, (way.direction + 1) % 3, (way.direction + 2) % 3
+        c, s = (graph.call(function, self.p[way.p]) for function in (self._functions.cos, self._functions.sin))
+        s, a, b = graph.sum([(s, way.sign)]), frame[i], frame[k]
+        turned = of.plus(of.scaled(c, a), of.scaled(s, b)), of.minus(of.scaled(c, b), of.scaled(s, a))
+        for place, value in zip((i, k), turned, strict=True):
+            frame[place] = tuple(map(self._part, value))
+            self._turn(frame[place], spin)

@@ -1,0 +1,245 @@
+"""The equations of a mechanism in space as nodes of a graph, from the plan that the core has made of its tables.
+
+A point or a direction of a body is a sum of the body's axes, which turn: of such a sum only its rate is ever needed, omega times
+it. So each is a leaf of the graph, of which is known what it is and what its rate is; and places, gauges and rows are sums and
+products of these. All else follows from them and from the places of mass centres: their rates, C as the derivatives of these
+by v, and xi by a second derivative along the motion (1) at constant v.
+
+    M = sum of m J^T J + W^T I W        d = sum of m J^T a + W^T (I alpha + omega x I omega)        f = sum of m J^T g + efforts
+
+with J and W what mass centres and angular velocities, in the axes of their body, have of v, and a and alpha their rates where no
+velocity changes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from math import pi
+from typing import Any, NamedTuple
+
+from ..._gateway.space import Gauge
+from ..._gateway.space_plans import Angle, Link, SpacePlan
+from ...symbolics.gradient import Gradient
+from ...symbolics.graph import Node
+from . import nodes
+from .function_calls import Laws
+from .node_relations import Relations
+from .space_frames import Frames, Vector
+
+XYZ = "x", "y", "z"
+HALF = nodes.HALF
+
+
+def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan:
+    """The plan with nodes in place of its numbers."""
+    def point(vector: Sequence[float], body: int) -> Vector:
+        return tuple(number(each, "point", body, axis) for each, axis in zip(vector, XYZ, strict=True))
+
+    def direction(vector: Sequence[float], body: int) -> Vector:
+        return tuple(number(each, "direction", body) for each in vector)
+
+    def hung(link: Link, i: int) -> Link:
+        link = link._replace(mass=number(link.mass), inertia=tuple(map(number, link.inertia)))
+        if link.ways is None:
+            return link
+        ways = tuple(way._replace(zero=number(way.zero), length=number(way.length)) for way in link.ways)
+        return link._replace(ways=ways, near=point(link.near, link.inner), far=point(link.far, i),
+                             near_axes=tuple(direction(each, link.inner) for each in link.near_axes),
+                             far_axes=tuple(direction(each, i) for each in link.far_axes))
+
+    def read(gauge: Gauge) -> Gauge:
+        shape = tuple(tuple(number(each, "shape", gauge.second) for each in row) for row in gauge.shape)
+        return gauge._replace(
+            point1=point(gauge.point1, gauge.first), point2=point(gauge.point2, gauge.second), a=direction(gauge.a, gauge.first),
+            o=direction(gauge.o, gauge.first), b=direction(gauge.b, gauge.second), shape=shape, zero=number(gauge.zero))
+
+    return plan._replace(
+        links=tuple(hung(link, i) for i, link in enumerate(plan.links, 1)), gauges=tuple(map(read, plan.gauges)),
+        rows=tuple(nodes.row_with_nodes(row, number) for row in plan.rows),
+        efforts=tuple(nodes.effort_with_nodes(effort, number) for effort in plan.efforts),
+        angles=tuple(Angle(read(angle.gauge), direction(angle.axis, angle.gauge.first), angle.place) for angle in plan.angles),
+        gravity=tuple(map(number, plan.gravity)))
+
+
+class Equations(Relations):
+    """The terms of a plan whose numbers are nodes; arguments are those of `nodes.Equations`.
+
+    Attributes
+    ----------
+    values : dict of Node to Node
+        What leaves of the graph stand for.
+    """
+
+    def __init__(self, plan: SpacePlan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
+                 parameters: Mapping[str, Node]) -> None:
+        self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
+        self.functions = reader     # its sin, cos, floor and atan2
+        self.nq, self.nv, self.mh, _ = sizes
+        self.t = self.graph.leaf("t", 0)
+        self.frames = frames = Frames(plan.links, self.graph, reader, self.nq, self.nv)
+        self.of, self.p, self.v, self.A, self.bodies = frames.of, frames.p, frames.v, frames.A, frames.bodies
+        self.rate_of, self.values, self._rates = frames.rate_of, frames.values, frames.rates
+        self._by_velocity = Gradient(self.graph, self.v)
+        self.readings = [self._reading(gauge) for gauge in plan.gauges]
+        self._follow()
+
+    def difference(self, a: Node, b: Node) -> Node:
+        return self.graph.plus(a, self.graph.minus(b))
+
+    # ---- gauges ----
+
+    def _follow(self) -> None:
+        """The rows of A of angles that follow."""
+        for angle in self.plan.angles:
+            if angle.place < self.nq - self.plan.followers:
+                continue
+            relative = self.of.minus(*(self.bodies[body].spin for body in (angle.gauge.second, angle.gauge.first)))
+            self.A[angle.place] = self._row_of(self.graph.dot(self.frames.turned(angle.gauge.first, angle.axis), relative))
+
+    def _row_of(self, rate: Node) -> list[Node]:
+        """What a rate has of v."""
+        slopes = self._by_velocity(rate)
+        return [slopes.get(v, self.graph.zero) for v in self.v]
+
+    def _reading(self, gauge: Gauge) -> nodes.Reading:
+        graph, of, first, second = self.graph, self.of, self.bodies[gauge.first], self.bodies[gauge.second]
+        Q = self.frames.point(gauge.second, gauge.point2)
+        a = self.frames.turned(gauge.first, gauge.a)
+        if gauge.kind == "glide":
+            return nodes.Reading(graph.zero, graph.dot(a, self._rates(Q)))
+        if gauge.kind in ("spin", "turn"):
+            spin = second.spin if gauge.kind == "spin" else of.minus(second.spin, first.spin)
+            return nodes.Reading(graph.zero, graph.dot(a, spin))
+        apart = of.minus(Q, self.frames.point(gauge.first, gauge.point1))
+        if gauge.kind in ("clearance", "slip"):
+            return self._contact(gauge, a, apart)
+        if gauge.kind in XYZ:
+            value = apart[XYZ.index(gauge.kind)]
+        elif gauge.kind == "along":
+            value = graph.dot(a, apart)
+        elif gauge.kind == "distance":
+            value = graph.product([(graph.dot(apart, apart), HALF)])
+        elif gauge.kind == "cosine":
+            value = graph.dot(a, self.frames.turned(gauge.second, gauge.b))
+        else:
+            return self._angle(gauge, a)
+        return self._read(value, gauge.zero)
+
+    def _read(self, value: Node, zero: Node) -> nodes.Reading:
+        return nodes.Reading(self.difference(value, zero), self.rate_of(value))
+
+    def _angle(self, gauge: Gauge, a: Vector) -> nodes.Reading:
+        """With as many turns as bring it nearest to the coordinate that counts them, which of a joint of the tree it is."""
+        graph = self.graph
+        counter = self.plan.angles[gauge.counted - 1].place if gauge.counted else None
+        if counter is not None and counter < self.nq - self.plan.followers:
+            return self._read(self.p[counter], gauge.zero)
+        b = self.frames.turned(gauge.second, gauge.b)
+        value = graph.call(self.functions.atan2, graph.dot(self.frames.turned(gauge.first, gauge.o), b), graph.dot(a, b))
+        reading = self._read(value, gauge.zero)
+        if counter is None:
+            return reading
+        away = self.difference(self.p[counter], value)
+        turns = graph.call(self.functions.floor, graph.sum([(away, 1 / (2 * pi)), (graph.one, HALF)]))
+        return reading._replace(value=graph.sum([(reading.value, 1), (turns, 2 * pi)]))
+
+    def _contact(self, gauge: Gauge, a: Vector, apart: Vector) -> nodes.Reading:
+        """C is against o from Q by S o over the root of o . S o, with S the shape in the second body's axes."""
+        graph, of, first, second = self.graph, self.of, self.bodies[gauge.first], self.bodies[gauge.second]
+        o = self.frames.turned(gauge.first, gauge.o)
+        own = o if second.axes is None else tuple(graph.dot(axis, o) for axis in second.axes)
+        S = tuple(graph.dot(row, own) for row in gauge.shape)
+        shaped = S if second.axes is None else of.plus(*(of.scaled(x, axis) for x, axis in zip(S, second.axes, strict=True)))
+        reach = graph.product([(graph.dot(own, S), HALF)])
+        way = of.scaled(graph.minus(graph.product([(reach, -1)])), shaped)
+        if gauge.kind == "clearance":
+            return self._read(graph.dot(o, of.plus(apart, way)), gauge.zero)
+        arm = self.frames.turned(gauge.first, gauge.point1)
+        there = of.minus(self._rates(of.plus(second.at, self.frames.turned(gauge.second, gauge.point2))), self._rates(first.at))
+        there = of.plus(there, of.cross(second.spin, way), of.cross(of.plus(arm, apart, way), first.spin))
+        return nodes.Reading(graph.zero, graph.dot(a, there))
+
+    # ---- terms ----
+
+    def terms(self) -> dict[str, list[Node]]:
+        """What there is of A, M, d, f, Phi, C, Phi_t, xi, V and power; what is zero throughout is left out where it may be."""
+        M, d = self._inertia()
+        A = [node for row in self.A for node in row] if self.plan.has_rates else []
+        terms = {"A": A, "M": M, "d": d, **self._efforts(), **self._constraints()}
+        always = ("M", "Phi", "C", "xi", "V")
+        return {name: entries for name, entries in terms.items()
+                if entries and (name in always or any(node is not self.graph.zero for node in entries))}
+
+    def _inertia(self) -> tuple[list[Node], list[Node]]:
+        """M and d, of which bodies each have what they move."""
+        graph, n = self.graph, self.nv
+        mass: dict[tuple[int, int], list[Node]] = {}
+        bias: list[list[Node]] = [[] for _ in range(n)]
+        for weight, moving in self._moving():
+            slopes = {v.content[1]: slope for v, slope in self._by_velocity(moving.rate).items()}
+            for i, a in slopes.items():
+                bias[i].append(graph.times(moving.force, a))
+                for j, b in slopes.items():
+                    if i <= j:
+                        mass.setdefault((i, j), []).append(graph.times(weight, a, b))
+        upper = {place: graph.plus(*terms) for place, terms in mass.items()}
+        M = [upper.get((min(i, j), max(i, j)), graph.zero) for i in range(n) for j in range(n)]
+        return M, [graph.plus(*terms) for terms in bias]
+
+    def _moving(self) -> Iterable[tuple[Node, Any]]:
+        """Of each velocity of a mass centre and about an own axis: its inertia, and with it what it takes where vdot is zero."""
+        graph = self.graph
+        for i, link in enumerate(self.plan.links, 1):
+            body = self.bodies[i]
+            for speed in self._rates(body.at):
+                yield link.mass, Moving(speed, graph.times(link.mass, self.rate_of(speed)))
+            if not link.turns:
+                continue
+            changes = self._rates(body.spin) if link.ways is not None else self.of.none
+            momentum = tuple(map(graph.times, link.inertia, body.own_spin))
+            gyroscopic = self.of.cross(body.own_spin, momentum)
+            for k in range(3):
+                change = graph.dot(body.axes[k], changes)
+                yield link.inertia[k], Moving(body.own_spin[k], graph.plus(graph.times(link.inertia[k], change), gyroscopic[k]))
+
+    def _efforts(self) -> dict[str, list[Node]]:
+        """f, V and the power of what V does not describe."""
+        graph, f = self.graph, [[] for _ in self.v]
+        V, power = [], []
+        for i, link in enumerate(self.plan.links, 1):
+            at = self.bodies[i].at
+            V.append(graph.minus(graph.times(link.mass, graph.dot(self.plan.gravity, at))))
+            for speed, g in zip(self._rates(at), self.plan.gravity, strict=True):
+                self._push(f, graph.times(link.mass, g), speed)
+        for effort in self.plan.efforts:
+            value, rate = self.readings[effort.gauge]
+            if effort.kind == "spring":
+                damping = graph.minus(graph.times(effort.damping, rate))
+                self._push(f, self.difference(damping, graph.times(effort.stiffness, value)), rate)
+                V.append(graph.sum([(graph.product([(effort.stiffness, 1), (value, 2)]), HALF)]))
+                power.append(graph.times(damping, rate))
+            else:
+                said = self._law(effort.law, effort.inputs) if effort.kind == "law" else effort.value
+                self._push(f, said, rate)
+                power.append(graph.times(said, rate))
+        return {"f": [graph.plus(*terms) for terms in f], "V": [graph.plus(*V)], "power": [graph.plus(*power)]}
+
+    def _push(self, f: list[list[Node]], effort: Node, rate: Node) -> None:
+        if effort is not self.graph.zero:
+            for v, slope in self._by_velocity(rate).items():
+                f[v.content[1]].append(self.graph.times(effort, slope))
+
+    def _constraints(self) -> dict[str, list[Node]]:
+        """(3), (5) and (6)."""
+        graph, rows = self.graph, [self._row(row) for row in self.plan.rows]
+        Psi = [*map(self.rate_of, rows[:self.mh]), *rows[self.mh:]]
+        at_rest = graph.substitution(dict.fromkeys(self.v, graph.zero))
+        return {"Phi": rows[:self.mh], "C": [entry for row in Psi for entry in self._row_of(row)],
+                "Phi_t": [at_rest(row) for row in Psi], "xi": [graph.minus(self.rate_of(row)) for row in Psi]}
+
+
+class Moving(NamedTuple):
+    """A velocity, and the force that it takes where no velocity of the mechanism changes."""
+
+    rate: Node
+    force: Node

@@ -1,0 +1,186 @@
+"""From a drawing in space to the tables of numbers that the core makes a system from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..._gateway import Variable, space
+from ..._gateway import mechanisms as rows
+from ..._gateway.space import AS_DRAWN, Gauge, SpaceCore
+from ..._gateway.space_tree import SpaceTreeCore
+from ..._rotations import AXES, quaternion_of
+from ..elements.bodies import Body, Particle, Point
+from ..elements.drawing import Drawing
+from ..elements.forces import Actuator, Force, SpaceBushing, Spring, Torque, TorsionSpring
+from ..elements.frames import triple
+from ..elements.numbers import Numbers
+from ..elements.space_bodies import SpaceInertias
+from ..elements.space_joints import SpaceJoint
+from . import space_tree
+from .tables import Tables
+from .tree import carriers
+
+
+class SpaceTables(Tables):
+    """The tables of a mechanism in space: those of the plane, with gauges, joints and bodies of space."""
+
+    joints: list[SpaceJoint]    # type: ignore[assignment]
+    inertias: SpaceInertias     # type: ignore[assignment]
+    gauges: list[Gauge]         # type: ignore[assignment]
+
+    def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool = False,
+                 starts: Mapping[str, float] | None = None) -> None:
+        super().__init__(drawing, numbers, in_tree=in_tree, starts=starts)
+
+    def _masses(self) -> Any:
+        return SpaceInertias(self.drawing, self.numbers)
+
+    def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[rows.Observed] = ()) -> SpaceCore:     # type: ignore[override]
+        """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
+        bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, carrier)
+                  for body, carrier in zip(self.parts, self.carrier, strict=True) for mass in [self.inertias.of[body.name]]]
+        tables = space.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations,
+                              self.efforts, observed, self._gravity())
+        made = SpaceCore if max(self.carrier, default=-1) < 0 else SpaceTreeCore
+        return made(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+
+    def joint_coordinates(self) -> int:
+        """How many velocities the bodies have along the tree."""
+        return len(self.velocities())
+
+    def tree(self, *, with_cut: bool = False) -> list[int]:
+        weights = [(float(body.turns), self.inertias.of[body.name].mass) for body in self.parts]
+        return carriers(len(self.parts), space_tree.edges(self.joints, self.number, with_cut=with_cut), weights)
+
+    def _carried(self) -> Iterator[tuple[Body, SpaceJoint | None]]:
+        """The bodies, each with the joint that carries it."""
+        for body, carrier in zip(self.parts, self.carrier, strict=True):
+            yield body, self.joints[carrier] if carrier >= 0 else None
+
+    def drawn(self) -> np.ndarray:
+        """Poses (bodies, 7) of the mass centres as drawn, with the principal axes."""
+        poses = []
+        for body in self.parts:
+            known = self.inertias.of[body.name]
+            poses.append([*body.pose.point(known.com), *quaternion_of(body.pose.rotation @ known.axes)])
+        return np.array(poses, dtype=float).reshape(-1, 7)
+
+    def coordinates(self) -> tuple[Variable, ...]:
+        """The entries of p: of free bodies the places of mass centres, and the quaternions that turn principal axes into the
+        drawing's; of others the coordinates of their joints; and angles of joints that carry no body, which follow and count
+        turns.
+        """
+        bodies = (each for body, carrier in self._carried() for each in space_tree.positions(body, carrier))
+        others = (joint for i, joint in enumerate(self.joints) if i not in self.carrier)
+        return (*bodies, *(Variable(f"{joint.name}.{angle}", "rad") for joint in others for angle in joint.angles))
+
+    def velocities(self) -> tuple[Variable, ...]:
+        """The entries of v: of free bodies velocities of mass centres, and angular velocities about their own principal axes."""
+        return tuple(each for body, carrier in self._carried() for each in space_tree.rates(body, carrier))
+
+    # ---- joints ----
+
+    def _place(self, point: Point) -> tuple[int, Any]:
+        return self.number[point.body.name], triple(self.inertias.local(point, self.numbers))
+
+    def _direction(self, body: Body, local: np.ndarray) -> Any:
+        return triple(self.inertias.direction(body, local))
+
+    def _joint(self, joint: SpaceJoint) -> space.Joint:     # type: ignore[override]
+        """A row of the table of joints."""
+        (first, point1), (second, point2) = self._place(joint.first), self._place(joint.second)
+        frames = (tuple(self._direction(body, row) for row in frame)
+                  for body, frame in zip(joint.bodies, joint.frames, strict=True))
+        along = joint.offset_as_drawn(self.numbers) if joint.row.axes else 0.0
+        return space.Joint(joint.row.number, first, second, point1, point2, *frames, triple(joint.semiaxes_with(self.numbers)),
+                           along, joint.length_with(self.numbers))
+
+    # ---- gauges ----
+
+    def _reading_of(self, name: str) -> Gauge:     # type: ignore[override]
+        owner, _, quantity = name.rpartition(".")
+        if quantity in AXES:
+            owner, _, vector = owner.rpartition(".")
+            element, _, end = owner.partition(".")
+            of = self.drawing.elements[element]
+            of = of.second if isinstance(of, SpaceJoint) else getattr(of, end) if end else of
+            found = self.place_gauges(of) if vector == "position" else self.spin_gauges(of)
+            return found[AXES.index(quantity)]
+        of = self.drawing.elements[owner]
+        return self.coordinate_gauge_of(of, quantity) if isinstance(of, SpaceJoint) else self.length_gauge(of)
+
+    def place_gauges(self, of: Body | Point) -> tuple[Gauge, ...]:     # type: ignore[override]
+        """What reads x, y and z of a point, or of the origin of a body's frame."""
+        if isinstance(of, Body):
+            of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, np.zeros(3))
+        body, local = self._place(of)
+        return tuple(Gauge(axis, 0, body, point2=local) for axis in AXES)
+
+    def spin_gauges(self, body: Body) -> tuple[Gauge, ...]:
+        """What reads the angular velocity of a body, in the drawing's axes."""
+        return tuple(Gauge("spin", 0, self.number[body.name], a=axis) for axis in AS_DRAWN)
+
+    def rotation_gauges(self, body: Body) -> tuple[Gauge, ...]:
+        """What reads the rotation of a body, row by row: the cosines of its axes to those of the drawing."""
+        own = [self._direction(body, axis) for axis in np.eye(3)]
+        return tuple(Gauge("cosine", 0, self.number[body.name], a=drawn, b=axis) for drawn in AS_DRAWN for axis in own)
+
+    def coordinate_gauge_of(self, joint: SpaceJoint, coordinate: str) -> Gauge:
+        """What reads a coordinate of a joint."""
+        number = self.joint_number[joint.name]
+        angles = sum(len(before.angles) for before in self.joints[:number])
+        return space.coordinate_gauge(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
+
+    def length_gauge(self, spring: Spring | Actuator) -> Gauge:     # type: ignore[override]
+        """What reads the length of a spring or an actuator."""
+        (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
+        return Gauge("distance", first, second, point1, point2)
+
+    # ---- drives and couplings ----
+
+    # ---- forces ----
+
+    def _torsion_spring(self, spring: TorsionSpring) -> None:
+        gauge = self.coordinate_gauge_of(spring.joint, "angle")
+        self._elastic(spring, self._gauge(spring.name, gauge._replace(zero=self.numbers(spring, "angle", spring.angle))))
+
+    def _bushing(self, bushing: SpaceBushing) -> None:     # type: ignore[override]
+        """Along each direction how far it is off, and about it how far the next one has turned, as seen along it."""
+        (first, point1), (second, point2) = self._place(bushing.first), self._place(bushing.second)
+        near, far = ([self._direction(side.body, row) for row in frame]
+                     for side, frame in zip((bushing.first, bushing.second), bushing.frames, strict=True))
+        self.observed.append(rows.Observed(f"{bushing.name}.force", "N", "effort force", len(self.efforts), 3))
+        self.observed.append(rows.Observed(f"{bushing.name}.torque", "N m", "effort torque", len(self.efforts) + 3, 3))
+        apart = bushing.frames[0] @ bushing.first.body.pose.local_direction(
+            bushing.second.drawn_with(self.numbers) - bushing.first.drawn_with(self.numbers))
+        gauges = [Gauge("along", first, second, point1, point2, a=near[i], zero=float(apart[i])) for i in range(3)]
+        gauges += [Gauge("angle", first, second, a=near[i - 2], o=near[i - 1], b=far[i - 2]) for i in range(3)]
+        quantities = [("stiffness", "damping")] * 3 + [("torsion", "torsion_damping")] * 3
+        for (stiffness, damping), gauge, axis in zip(quantities, gauges, (*AXES, *AXES), strict=True):
+            number = self._gauge(f"{bushing.name} {stiffness} {axis}", gauge)
+            values = (self.numbers(bushing, path, bushing.values[path]) for path in (f"{stiffness}.{axis}", f"{damping}.{axis}"))
+            self.efforts.append(rows.Effort("spring", number, *values))
+
+    def _force(self, force: Force) -> None:
+        body, local = self._place(force.point)
+        along = self._direction(force.frame, force.along)
+        gauge = self._gauge(force.name, Gauge("glide", self.number[force.frame.name], body, point2=local, a=along))
+        self._effort(force.name, "value", gauge, force)
+        self._observe_effort(force)
+
+    def _torque(self, torque: Torque) -> None:
+        """About an axis that turns with a frame on which nothing acts, or with the body on which the opposite acts."""
+        turns_with = torque.frame if torque.against is self.drawing.ground else torque.against
+        kind = "spin" if torque.against is self.drawing.ground else "turn"
+        axis = self._direction(turns_with, torque.axis)
+        gauge = self._gauge(torque.name, Gauge(kind, self.number[turns_with.name], self.number[torque.body.name], a=axis))
+        self._effort(torque.name, "value", gauge, torque)
+        self._observe_effort(torque)
+
+
+def tables_of(drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> Tables:
+    """The tables."""
+    return (SpaceTables if drawing.dimension == 3 else Tables)(drawing, numbers, in_tree=in_tree, starts=starts)

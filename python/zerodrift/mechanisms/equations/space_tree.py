@@ -1,0 +1,54 @@
+"""Joint coordinates in space: which joints can carry which body, and what coordinates that gives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from ..._gateway import Variable
+from ..._rotations import AXES
+from ..elements.bodies import Body
+from ..elements.space_joints import SpaceJoint, speeds
+from .tree import Edge
+
+QUATERNION = ("e0", "e1", "e2", "e3")
+SIZES = {"slides": 1, "turns": 1, "advances": 1, "swings": 3}      # velocities
+
+
+def edges(joints: Sequence[SpaceJoint], number: dict[str, int], *, with_cut: bool = False) -> list[Edge]:
+    """The joints that may be in the tree; with those that the user has cut, too, or without."""
+    return [Edge(i, *(number[body.name] for body in joint.bodies), freedoms(joint)) for i, joint in enumerate(joints)
+            if joint.row.freedoms is not None and (with_cut or not joint.cut)]
+
+
+def freedoms(joint: SpaceJoint) -> tuple[int, int]:
+    """How many velocities a joint needs to carry its first body, and to carry its second."""
+    return tuple(sum(SIZES[each.kind] for each in joint.row.freedoms if body.turns or each.kind != "swings")
+                 for body in joint.bodies)
+
+
+def positions(body: Body, carrier: SpaceJoint | None) -> Iterator[Variable]:
+    """The entries of p that are a body's own: of a free one its place and its quaternion, of the others those of its joint."""
+    if carrier is None:
+        yield from (Variable(f"{body.name}.{axis}", "m") for axis in AXES)
+        yield from (Variable(f"{body.name}.{each}", "") for each in (QUATERNION if body.turns else ()))
+        return
+    for each in carrier.row.freedoms:
+        if each.kind != "swings":
+            yield Variable(f"{carrier.name}.{each.name}", "m" if each.kind == "slides" else "rad")
+        elif body.turns:
+            yield from (Variable(f"{carrier.name}.{word}", "") for word in QUATERNION)
+
+
+def rates(body: Body, carrier: SpaceJoint | None) -> Iterator[Variable]:
+    """The entries of v that are a body's own; of a quaternion the angular velocity about the body's own axes."""
+    if carrier is None:
+        yield from (Variable(f"{body.name}.{axis}_dot", "m/s") for axis in AXES)
+        yield from (Variable(f"{body.name}.{axis}_spin", "rad/s") for axis in (AXES if body.turns else ()))
+        return
+    speed_of = {coordinate: speed for speed, coordinate in speeds(carrier.row).items()}
+    for each in carrier.row.freedoms:
+        if each.kind != "swings":
+            speed = speed_of.get(each.name, f"{each.name}_dot")
+            yield Variable(f"{carrier.name}.{speed}", "m/s" if each.kind == "slides" else "rad/s")
+        elif body.turns:
+            yield from (Variable(f"{carrier.name}.{axis}_spin", "rad/s") for axis in AXES)

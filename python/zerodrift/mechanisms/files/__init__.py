@@ -1,0 +1,1 @@
+"""Mechanisms as JSON, and from JSON."""

@@ -1,0 +1,280 @@
+"""A mechanism from its JSON: by the same verbs, so that they check it, and with the numbers that were saved."""
+
+from __future__ import annotations
+
+import inspect
+import json
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..building.table_force_verbs import NEEDED, taken
+from ..building.table_joint_verbs import verb
+from ..elements.immutable import amend
+from ..elements.joints import BY_ROW, Joint
+from ..elements.table_forces import FORCES_BY_ROW, MadeForce
+from .expressions_json import from_json
+from .space_from_json import IN_SPACE, keep_rotations
+from .to_json import VERSION, WHAT
+from .values_from_json import law_and_of, point_of_body, told_direction, told_place
+
+MOST_DIGITS = 400       # of a whole number in a file: doubles have at most 309
+
+
+def parsed(text: str, where: str) -> dict[str, Any] | None:
+    """The JSON of a mechanism; None where the text is something else."""
+    try:
+        found = json.loads(text, object_pairs_hook=lambda pairs: _once(pairs, where), parse_constant=_refused(where),
+                           parse_int=lambda digits: _whole(digits, where))
+    except json.JSONDecodeError:
+        return None
+    except RecursionError:
+        raise ValueError(f"{where} has lists within lists, deeper than they can be read") from None
+    return found if isinstance(found, dict) and found.get("zerodrift") == WHAT else None
+
+
+def _whole(digits: str, where: str) -> int:
+    if len(digits) > MOST_DIGITS:
+        raise ValueError(f"{where} has a whole number of {len(digits)} digits; there may be {MOST_DIGITS}")
+    return int(digits)
+
+
+def _once(pairs: list[tuple[str, Any]], where: str) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise ValueError(f"{where} has the key {key!r} twice in one place")
+        found[key] = value
+    return found
+
+
+def _refused(where: str) -> Callable[[str], Any]:
+    def refuse(number: str) -> Any:
+        raise ValueError(f"{where} has {number} where a finite number is needed")
+    return refuse
+
+
+def mechanism(make: Callable[..., Any], description: Any, where: str) -> Any:
+    """Mechanism, of the class `make`, from a description by `to_json.described`; errors name `where` and the place in it."""
+    version = description.get("version", VERSION)       # first, as a later version may have other keys
+    if type(version) is not int or version != VERSION:
+        raise ValueError(f"{where} is a mechanism of version {version!r}, and version {VERSION} is known here")
+    return _parts(make, where, **_fields(_parts, description, where, skip=("zerodrift", "version")))
+
+
+def _parts(make: Callable[..., Any], where: str, *, zerodrift: str = WHAT, version: int = VERSION, name: Any, dimension: Any,
+           gravity: Any, parameters: Any, elements: Any, start: Any, wish: Any, equilibrium: Any = False) -> Any:
+    m = _at(where, make, name, dimension=dimension, gravity=gravity, parameters=parameters)
+    for i, element in enumerate(_at(where, _check.instance, "elements", elements, list, "a list")):
+        _element(m, element, f"{where}, element {i}")
+    _at(f"{where}, start", m.start, start, wish=wish, equilibrium=equilibrium)
+    keep_rotations(m, start, wish)
+    return m
+
+
+def _element(m: Any, description: Any, where: str) -> None:
+    _at(where, _check.instance, "an element", description, dict, "a dict with kind and name")
+    kind, name = description.get("kind"), description.get("name")
+    made = MADE | IN_SPACE if m.dimension == 3 else MADE
+    if not isinstance(kind, str) or kind not in made:
+        raise ValueError(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(made)}")
+    where = f"{where} ({kind} {name!r})"
+    given = _fields(made[kind], description, where, skip=("kind", "name"))
+    _at(where, made[kind], m, name, **given)
+
+
+def _fields(function: Callable[..., Any], description: Any, where: str, skip: tuple[str, ...]) -> dict[str, Any]:
+    """What a description has, by the names that the function takes; all that it needs, and nothing else."""
+    wanted = {name: parameter for name, parameter in inspect.signature(function).parameters.items()
+              if parameter.kind is parameter.KEYWORD_ONLY}
+    known = [*skip, *(name for name in wanted if name not in skip)]
+    for key in description:
+        if key not in known:
+            raise ValueError(f"{where} has the key {key!r}, which is not known; there are {', '.join(known)}")
+    needed = [*skip, *(name for name, parameter in wanted.items() if parameter.default is parameter.empty)]
+    for key in needed:
+        if key not in description:
+            raise ValueError(f"{where} lacks the key {key!r}")
+    return {key: value for key, value in description.items() if key not in skip}
+
+
+def _at(where: str, function: Callable[..., Any], *given: Any, **named: Any) -> Any:
+    """What a function makes; its errors say where in the file it was."""
+    try:
+        return function(*given, **named)
+    except (ValueError, TypeError) as error:
+        raise ValueError(f"{where}: {error}") from error
+
+
+# ---- elements ----
+
+
+def _body(m: Any, name: str, *, mass: Any, inertia: Any, at: Any, angle: Any, com: Any) -> None:
+    m.body(name, mass, inertia, at=at, angle=angle, com=com)
+
+
+def _link(m: Any, name: str, *, start: Any, end: Any, mass: Any, length: Any = None, inertia: Any = None) -> None:
+    m.link(name, start, end, mass, length=length, inertia=inertia)
+
+
+def _particle(m: Any, name: str, *, mass: Any, at: Any) -> None:
+    m.particle(name, mass, at=at if isinstance(at, list) else told_place(m, at))
+
+
+def _point(m: Any, name: str, *, body: Any, local: Any) -> None:
+    m.point(name, body, local)
+
+
+def _revolute(m: Any, name: str, *, first: Any, second: Any, damping: Any, cut: Any) -> None:
+    m.revolute(name, told_place(m, first), told_place(m, second), damping=damping, cut=cut)
+
+
+def _prismatic(m: Any, name: str, *, first: Any, second: Any, axis: Any, damping: Any, cut: Any) -> None:
+    axis, sides = told_direction("axis", axis), (told_place(m, first), told_place(m, second))
+    joint = m.prismatic(name, *sides, axis=sides[0].body.pose.direction(axis), damping=damping, cut=cut)
+    amend(joint, axis=axis)
+
+
+def _weld(m: Any, name: str, *, first: Any, second: Any, cut: Any = False) -> None:
+    m.weld(name, told_place(m, first), told_place(m, second), cut=cut)
+
+
+def _rod(m: Any, name: str, *, first: Any, second: Any, length: Any = None) -> None:
+    m.rod(name, told_place(m, first), told_place(m, second), length=length)
+
+
+def _slot(m: Any, name: str, *, first: Any, second: Any, axis: Any) -> None:
+    axis, line = told_direction("axis", axis), point_of_body(m, first)
+    joint = m.slot(name, line.body, told_place(m, second), axis=line.body.pose.direction(axis))
+    amend(joint, first=line, axis=axis)
+
+
+def _rolling(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal: Any) -> None:
+    normal, line = told_direction("normal", normal), point_of_body(m, first)
+    joint = m.rolling(name, line.body, told_place(m, second), radius=radius, at=line.drawn,
+                      normal=line.body.pose.direction(normal))
+    amend(joint, first=line, axis=np.array([normal[1], -normal[0]]))
+
+
+def _knife_edge(m: Any, name: str, *, first: Any, second: Any, axis: Any) -> None:
+    axis, point = told_direction("axis", axis), point_of_body(m, second)
+    joint = m.knife_edge(name, point, along=point.body.pose.direction(axis))
+    amend(joint, first=point_of_body(m, first), axis=axis)
+
+
+def _by_row(joint: type[Joint]) -> Callable[..., None]:
+    """As those above, for a kind of joint whose verb is made from its row."""
+    sides = ("second",) if joint.is_of_one_body else ("first", "second")
+
+    def make(m: Any, name: str, **given: Any) -> None:
+        places = {side: given.pop(side) for side in ("first", "second")}
+        if axis := given.get("axis"):
+            axis = told_direction("axis", axis)
+            given["axis"] = point_of_body(m, places[sides[0]]).body.pose.direction(axis)
+        made = getattr(m, joint.kind)(name, *(told_place(m, places[side]) for side in sides), **given)
+        amend(made, axis=axis)
+        if joint.is_of_one_body:
+            amend(made, first=point_of_body(m, places["first"]))
+
+    words, needed = inspect.signature(verb(joint)).parameters, inspect.Parameter.empty
+    optional = {word: None for word in joint.takes if words[word].default is None}
+    make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
+        inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=optional.get(word, needed))
+        for word in ("first", "second", *joint.takes)])
+    return make
+
+
+def _gear(m: Any, name: str, *, first: Any, second: Any, ratio: Any) -> None:
+    m.gear(name, first, second, ratio=ratio)
+
+
+def _rack_pinion(m: Any, name: str, *, first: Any, second: Any, ratio: Any) -> None:
+    m.rack_pinion(name, first, second, ratio=ratio)
+
+
+def _coupler(m: Any, name: str, *, law: Any = None, sum: Any = None) -> None:
+    if (law is None) == (sum is None):
+        raise ValueError("it needs one of two, law or sum")
+    value, of = (sum, None) if law is None else law_and_of(law, "law")
+    m.coupler(name, value, of=of)
+
+
+def _cam(m: Any, name: str, *, cam: Any, follower: Any, profile: Any) -> None:
+    is_table = isinstance(profile, Mapping) and set(profile) == {"angles", "values"}
+    given = (profile["angles"], profile["values"]) if is_table else from_json(profile, "profile")
+    m.cam(name, cam, follower, profile=given)
+
+
+def _constraint(m: Any, name: str, *, law: Any) -> None:
+    value, of = law_and_of(law, "law")
+    m.constraint(name, value, of=of)
+
+
+def _nonholonomic(m: Any, name: str, *, law: Any) -> None:
+    value, of = law_and_of(law, "law")
+    m.nonholonomic(name, value, of=of)
+
+
+def _motor(m: Any, name: str, *, joint: Any, drives: Any, law: Any) -> None:
+    value, of = law_and_of(law, "law")
+    _check.choice("drives", drives, ("angle", "displacement", "speed", "torque", "force"))
+    m.motor(name, joint, of=of, **{drives: value})
+
+
+def _actuator(m: Any, name: str, *, first: Any, second: Any, drives: Any, law: Any) -> None:
+    value, of = law_and_of(law, "law")
+    _check.choice("drives", drives, ("length", "force"))
+    m.actuator(name, told_place(m, first), told_place(m, second), of=of, **{drives: value})
+
+
+def _spring(m: Any, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, length: Any = None) -> None:
+    m.spring(name, told_place(m, first), told_place(m, second), stiffness=stiffness, length=length, damping=damping)
+
+
+def _torsion_spring(m: Any, name: str, *, joint: Any, stiffness: Any, angle: Any, damping: Any) -> None:
+    m.torsion_spring(name, joint, stiffness=stiffness, angle=angle, damping=damping)
+
+
+def _bushing(m: Any, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, torsion: Any,
+             torsion_damping: Any) -> None:
+    m.bushing(name, told_place(m, first), told_place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
+              torsion_damping=torsion_damping)
+
+
+def _force(m: Any, name: str, *, point: Any, along: Any, frame: Any, value: Any) -> None:
+    along, frame, (value, of) = told_direction("along", along, m.dimension), m._body("frame", frame), law_and_of(value, "value")
+    force = m.force(name, told_place(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame)
+    amend(force, along=along)
+
+
+def _torque(m: Any, name: str, *, body: Any, against: Any, value: Any) -> None:
+    value, of = law_and_of(value, "value")
+    m.torque(name, body, value=value, of=of, against=against)
+
+
+def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
+    """As those above, for a kind of element whose verb is made from its row."""
+    def make(m: Any, name: str, **given: Any) -> None:
+        sides = given.pop("first"), given.pop("second")
+        if axis := given.get("axis"):
+            axis = told_direction("axis", axis)
+            given["axis"] = point_of_body(m, sides[0]).body.pose.direction(axis)
+        if "value" in given:
+            given["value"], given["of"] = law_and_of(given["value"], "value")
+        amend(getattr(m, force.kind)(name, *(told_place(m, side) for side in sides), **given), axis=axis)
+
+    initial = {"first": NEEDED, "second": NEEDED, **{word: value for word, value in taken(force).items() if word != "of"}}
+    make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
+        inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=value) for word, value in initial.items()])
+    return make
+
+
+MADE: dict[str, Callable[..., None]] = {
+    "body": _body, "link": _link, "particle": _particle, "point": _point, "revolute": _revolute, "prismatic": _prismatic,
+    "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _gear,
+    "rack_pinion": _rack_pinion, "coupler": _coupler, "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
+    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
+    "force": _force, "torque": _torque, **{kind: _by_row(joint) for kind, joint in BY_ROW.items()},
+    **{kind: _force_by_row(force) for kind, force in FORCES_BY_ROW.items()}}

@@ -1,0 +1,112 @@
+"""The elements of a mechanism in space from their JSON, where it is another than in the plane."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..elements.bodies import Point
+from ..elements.frames import Pose3, given_rotation
+from ..elements.immutable import amend
+from ..elements.space_joints import BY_KIND, SpaceJoint
+from .values_from_json import law_and_of, point_of_body, told_direction, told_place
+
+SAME = 1e-9         # how nearly both frames of a joint are one in the drawing
+
+
+def keep_rotations(m: Any, start: Any, wish: Any) -> None:
+    """Lets a start hold the rotations that were saved, to the last bit."""
+    for kept, told in ((m._held, start), (m._wished, wish)):
+        kept.update({name: np.array(value) for name, value in told.items() if name.endswith(".rotation")})
+
+
+def _matrix(what: str, given: Any) -> np.ndarray:
+    return _check.vector(what, np.ravel(given), 9).reshape(3, 3)
+
+
+def _rotation(what: str, given: Any) -> np.ndarray:
+    """A rotation, which is kept as it is."""
+    given_rotation(what, given)
+    return np.array(given, dtype=float)
+
+
+def _body(m: Any, name: str, *, mass: Any, inertia: Any, at: Any, rotation: Any, com: Any) -> None:
+    body = m.body(name, mass, _matrix("inertia", inertia), at=at, rotation=rotation, com=com)
+    amend(body, pose=Pose3(body.pose.origin, _rotation("rotation", rotation)))
+
+
+def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, length: Any, thickness: Any = None,
+          inertia: Any = None) -> None:
+    R = _rotation("rotation", rotation)
+    inertia = None if inertia is None else _matrix("inertia", inertia)
+    link = m.link(name, start, end, mass, length=length, thickness=thickness, inertia=inertia, normal=R[:, 2])
+    if np.abs(link.pose.rotation - R).max() > SAME:
+        raise ValueError("rotation must have the link along its first column")
+    amend(link, pose=Pose3(link.pose.origin, R))
+
+
+def _frames(m: Any, first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
+    """The frames (3, 3) of a joint, one in the drawing."""
+    if not isinstance(given, list) or len(given) != 2:
+        raise ValueError(f"frames must be two matrices, not {_check.shown(given)}")
+    frames = _rotation("frames[0]", given[0]), _rotation("frames[1]", given[1])
+    one, other = (frame @ side.body.pose.rotation.T for frame, side in zip(frames, (first, second), strict=True))
+    if np.abs(one - other).max() > SAME:
+        raise ValueError("frames must be the same in the drawing, that of the first body and that of the second")
+    return frames
+
+
+def _joint(kind: str) -> Callable[..., None]:
+    def make(m: Any, name: str, *, first: Any, second: Any, frames: Any, length: Any = None, damping: Any = 0.0,
+             cut: Any = False) -> None:
+        sides = m._different(name, *(m._point("a side", told_place(m, side)) for side in (first, second)))
+        both = _frames(m, *sides, frames)
+        if kind == "screw" and not _check.number("length", length):
+            raise ValueError("length must not be 0: it is the pitch")
+        made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), *sides, *(both[0][:2] @ sides[0].body.pose.rotation.T),
+                                     length=None if length is None else _check.number("length", length), damping=damping)
+        amend(made, frames=both, cut=_check.instance("cut", cut, bool, "True or False"))
+    return make
+
+
+def _rolling(m: Any, name: str, *, first: Any, second: Any, frames: Any, semiaxes: Any) -> None:
+    plane, centre = point_of_body(m, first), m._point("second", told_place(m, second))
+    given = tuple(_rotation(f"frames[{i}]", frame) for i, frame in enumerate(frames))
+    a, b, c = (float(each) for each in _check.vector("semiaxes", semiaxes, 3))
+    axle = centre.body.pose.direction(given[1][0])
+    shape = {"radius": b, "axle": axle} if not a else {"radius": a} if a == b == c else {"semiaxes": (a, b, c)}
+    joint = m.rolling(name, plane.body, centre, at=plane.drawn, normal=plane.body.pose.direction(given[0][0]), **shape)
+    amend(joint, first=plane, frames=given)
+
+
+def _knife_edge(m: Any, name: str, *, first: Any, second: Any, frames: Any, damping: Any = 0.0, length: Any = None,
+                cut: Any = False) -> None:
+    point = point_of_body(m, second)
+    frames = _frames(m, point_of_body(m, first), point, frames)
+    along, normal = (point.body.pose.direction(frames[1][i]) for i in (0, 2))
+    joint = m.knife_edge(name, point, along=along, normal=normal)
+    amend(joint, first=point_of_body(m, first), frames=frames)
+
+
+def _bushing(m: Any, name: str, *, first: Any, second: Any, frames: Any, stiffness: Any, damping: Any, torsion: Any,
+             torsion_damping: Any) -> None:
+    bushing = m.bushing(name, told_place(m, first), told_place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
+                        torsion_damping=torsion_damping)
+    amend(bushing, frames=_frames(m, bushing.first, bushing.second, frames))
+
+
+def _torque(m: Any, name: str, *, body: Any, against: Any, axis: Any, frame: Any, value: Any) -> None:
+    value, of = law_and_of(value, "value")
+    axis, against, frame = told_direction("axis", axis, 3), m._body("against", against), m._body("frame", frame)
+    turns_with = frame if against is m.ground else against
+    torque = m.torque(name, body, value=value, of=of, against=against, axis=turns_with.pose.direction(axis),
+                      frame=frame)
+    amend(torque, axis=axis)
+
+
+IN_SPACE: Mapping[str, Callable[..., None]] = {
+    **{kind: _joint(kind) for kind in BY_KIND}, "rolling": _rolling, "knife_edge": _knife_edge, "body": _body, "link": _link,
+    "bushing": _bushing, "torque": _torque}

@@ -1,0 +1,48 @@
+"""What of a mechanism in space is told in another way than in the plane: frames of bodies and joints, as they are kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ..elements.drawing import Drawing
+from ..elements.space_joints import BY_KIND
+from .values_to_json import numbers, sides, told_law
+
+
+def _body(body: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"mass": body.mass, "inertia": numbers(body.inertia), "at": numbers(body.pose.origin),
+            "rotation": numbers(body.pose.rotation), "com": numbers(body._com)}
+
+
+def _link(link: Any, drawing: Drawing) -> dict[str, Any]:
+    given = {"thickness": link.thickness if link._is_given_thickness else None,
+             "inertia": None if link._inertia is None else numbers(link._inertia)}
+    return {"start": numbers(link.pose.origin), "end": numbers(link.drawn_end), "rotation": numbers(link.pose.rotation),
+            "mass": link.mass, "length": link.length, **{key: value for key, value in given.items() if value is not None}}
+
+
+def _joint(joint: Any, drawing: Drawing) -> dict[str, Any]:
+    given = {"length": joint.length, "damping": joint.damping or None, "cut": joint.cut or None}
+    return {**sides(joint, drawing), "frames": [numbers(frame) for frame in joint.frames],
+            **{key: value for key, value in given.items() if value is not None}}
+
+
+def _rolling(joint: Any, drawing: Drawing) -> dict[str, Any]:
+    return {**sides(joint, drawing), "frames": [numbers(frame) for frame in joint.frames], "semiaxes": numbers(joint.semiaxes)}
+
+
+def _bushing(bushing: Any, drawing: Drawing) -> dict[str, Any]:
+    given = {quantity: [bushing.values[f"{quantity}.{axis}"] for axis in "xyz"]
+             for quantity in ("stiffness", "damping", "torsion", "torsion_damping")}
+    return {**sides(bushing, drawing), "frames": [numbers(frame) for frame in bushing.frames], **given}
+
+
+def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"body": torque.body.name, "against": torque.against.name, "axis": numbers(torque.axis), "frame": torque.frame.name,
+            "value": told_law(torque.law)}
+
+
+IN_SPACE: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
+    **dict.fromkeys(BY_KIND, _joint), "rolling": _rolling, "body": _body, "link": _link, "bushing": _bushing,
+    "torque": _torque}

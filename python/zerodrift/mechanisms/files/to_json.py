@@ -1,0 +1,165 @@
+"""A mechanism as JSON: what it was given, in the frames in which it keeps it, so that no number changes on the way."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..building.coupling_verbs import _Expression, _Follows, _Sum
+from ..building.periodic_spline import PeriodicSpline
+from ..elements.bodies import Body, Point
+from ..elements.drawing import Drawing
+from ..elements.joints import JOINTS, Coupling
+from ..elements.table_forces import FORCES_BY_ROW, MadeForce
+from .expressions_json import to_json
+from .space_to_json import IN_SPACE
+from .values_to_json import not_saved, numbers, place, sides, told_law
+
+WHAT = "mechanism"      # how a file is recognised: its first key says it
+VERSION = 1             # of the format
+
+
+def described(drawing: Drawing) -> dict[str, Any]:
+    """Everything of a mechanism; ValueError where a callable is in it, which it names."""
+    written = WRITTEN | IN_SPACE if drawing.dimension == 3 else WRITTEN
+    elements = [{"kind": _kind(element), "name": element.name, **written[_kind(element)](element, drawing)}
+                for element in drawing.elements.values() if element is not drawing.ground]
+    return {"zerodrift": WHAT, "version": VERSION, "name": drawing.name, "dimension": drawing.dimension,
+            "gravity": numbers(drawing.gravity), "parameters": dict(drawing.parameters), "elements": elements,
+            "start": {name: _plain(value) for name, value in drawing.held.items()},
+            "wish": {name: _plain(value) for name, value in drawing.wished.items()},
+            **({"equilibrium": True} if drawing.is_balanced else {})}
+
+
+def text(description: dict[str, Any]) -> str:
+    """JSON with each element in a line of its own."""
+    lines = []
+    for key, value in description.items():
+        if key == "elements" and value:
+            value = "[\n" + ",\n".join(f"  {json.dumps(element)}" for element in value) + "\n ]"
+        else:
+            value = json.dumps(value)
+        lines.append(f" {json.dumps(key)}: {value}")
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _kind(element: Any) -> str:
+    if isinstance(element, Body):
+        return element.what
+    return "point" if isinstance(element, Point) else element.kind
+
+
+def _plain(value: Any) -> Any:
+    return value if isinstance(value, float) else numbers(value)
+
+
+# ---- bodies ----
+
+
+def _body(body: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"mass": body.mass, "inertia": body.inertia, "at": numbers(body.pose.origin), "angle": body.pose.angle,
+            "com": numbers(body._com)}
+
+
+def _link(link: Any, drawing: Drawing) -> dict[str, Any]:
+    drawn = link.drawn_end - link.pose.origin
+    given = {"length": None if link.length == float(np.hypot(*drawn)) else link.length, "inertia": link._inertia}
+    return {"start": numbers(link.pose.origin), "end": numbers(link.drawn_end), "mass": link.mass,
+            **{key: value for key, value in given.items() if value is not None}}
+
+
+def _particle(particle: Any, drawing: Drawing) -> dict[str, Any]:
+    at = place(particle.carrier, drawing) if particle.carrier else numbers(particle.pose.origin)
+    return {"mass": particle.mass, "at": at}
+
+
+def _point(point: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"body": point.body.name, "local": numbers(point.local)}
+
+
+# ---- joints ----
+
+
+def _joint(joint: Any, drawing: Drawing) -> dict[str, Any]:
+    given = {word: getattr(joint, word) for word in joint.takes}
+    return {**sides(joint, drawing), **{word: numbers(value) if isinstance(value, np.ndarray) else value
+                                         for word, value in given.items() if value is not None}}
+
+
+# ---- couplings, drives and forces ----
+
+
+def _linear(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
+    first, second = (measure.rpartition(".")[0] for measure in coupling.of)
+    return {"first": first, "second": second, "ratio": coupling.ratio}
+
+
+def _coupling(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
+    law = coupling.law
+    if isinstance(law._function, _Sum):
+        return {"sum": dict(zip(coupling.of, law._function.coefficients, strict=True))}
+    return {"law": told_law(law)}
+
+
+def _cam(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
+    profile = coupling.law._function.profile if isinstance(coupling.law._function, _Follows) else None
+    if isinstance(profile, PeriodicSpline):
+        written: Any = {"angles": profile.angles.tolist(), "values": profile.values.tolist()}
+    elif isinstance(profile, _Expression):
+        written = to_json(profile._law.expression, coupling.law.what)
+    else:
+        raise not_saved(f"profile of {coupling.name!r}")
+    return {"cam": coupling.of[0].rpartition(".")[0], "follower": coupling.of[1], "profile": written}
+
+
+def _motor(motor: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"joint": motor.joint.name, "drives": motor.drives, "law": told_law(motor.law)}
+
+
+def _actuator(actuator: Any, drawing: Drawing) -> dict[str, Any]:
+    return {**sides(actuator, drawing), "drives": actuator.drives, "law": told_law(actuator.law)}
+
+
+def _spring(spring: Any, drawing: Drawing) -> dict[str, Any]:
+    length = {} if spring.free_length is None else {"length": spring.free_length}
+    return {**sides(spring, drawing), "stiffness": spring.stiffness, **length, "damping": spring.damping}
+
+
+def _torsion_spring(spring: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"joint": spring.joint.name, "stiffness": spring.stiffness, "angle": spring.angle, "damping": spring.damping}
+
+
+def _bushing(bushing: Any, drawing: Drawing) -> dict[str, Any]:
+    values = bushing.values
+    return {**sides(bushing, drawing), "stiffness": [values["stiffness.x"], values["stiffness.y"]],
+            "damping": [values["damping.x"], values["damping.y"]], "torsion": values["torsion"],
+            "torsion_damping": values["torsion_damping"]}
+
+
+def _force(force: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"point": place(force.point, drawing), "along": numbers(force.along), "frame": force.frame.name,
+            "value": told_law(force.law)}
+
+
+def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
+    return {"body": torque.body.name, "against": torque.against.name, "value": told_law(torque.law)}
+
+
+def _made_force(made: MadeForce, drawing: Drawing) -> dict[str, Any]:
+    axis = {} if made.axis is None else {"axis": numbers(made.axis)}
+    if made.law is not None:
+        return {**sides(made, drawing), **axis, "value": told_law(made.law)}
+    each = {quantity: [made.values[path] for path in made.paths(quantity)] for quantity in ("stiffness", "damping")}
+    length = {"length": made.values["length"]} if "length" in made.values else {}
+    return {**sides(made, drawing), **axis, **each, **length}
+
+
+WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
+    **dict.fromkeys(JOINTS, _joint), **dict.fromkeys(FORCES_BY_ROW, _made_force),
+    "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
+    "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
+    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
+    "force": _force, "torque": _torque}

@@ -1,0 +1,45 @@
+"""How parts of elements are read from JSON: points, directions, laws."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..elements.bodies import Point
+from .expressions_json import from_json
+
+UNIT = 1e-9         # how near the length of a direction is to one
+
+
+def told_place(m: Any, given: Any) -> Any:
+    """A point by its name, or by its body and where it is in that body's frame."""
+    if isinstance(given, str):
+        return m._named("a point", given)
+    if not isinstance(given, Mapping) or set(given) != {"body", "local"}:
+        raise ValueError(f"a point must be a name, or have a body and local coordinates, not {_check.shown(given)}")
+    return m._body("body", given["body"]).point(given["local"])
+
+
+def told_direction(what: str, given: Any, dimension: int = 2) -> np.ndarray:
+    """A direction (dimension,), which is kept as it is where its length is one."""
+    direction = _check.vector(what, given, dimension)
+    if abs(np.linalg.norm(direction) - 1) > UNIT:
+        raise ValueError(f"{what} must have length 1, not {_check.shown(given)}")
+    return direction
+
+
+def law_and_of(given: Any, what: str) -> tuple[Any, Any]:
+    """What a verb takes for a law, and for its `of`."""
+    if not isinstance(given, Mapping):
+        return given, None
+    if set(given) != {"expression", "of"}:
+        raise ValueError(f"{what} must be a number, or have an expression and of, not {_check.shown(given)}")
+    return from_json(given["expression"], what), given["of"]
+
+
+def point_of_body(m: Any, given: Any) -> Point:
+    """A point, of which the body is wanted, too."""
+    return _check.instance("a point", told_place(m, given), Point, "a point of a body")

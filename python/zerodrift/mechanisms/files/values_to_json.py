@@ -1,0 +1,52 @@
+"""How parts of elements are told in JSON: numbers, points, laws."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..elements.bodies import Particle, Point, _Center
+from ..elements.drawing import Drawing
+from ..elements.user_functions import Law
+from .expressions_json import to_json
+
+
+def numbers(array: Any) -> Any:
+    """A vector, or a matrix row by row, in plain floats."""
+    return np.asarray(array, dtype=float).tolist()
+
+
+def place(point: Point, drawing: Drawing) -> Any:
+    """How a point is told: by a name, such as ``"crank.end"``, or its body and where it is in that body's frame."""
+    body = point.body
+    if isinstance(body, Particle):
+        return body.name
+    for end in ("start", "end"):
+        if getattr(body, end, None) is point:
+            return f"{body.name}.{end}"
+    if isinstance(point, _Center):
+        return f"{body.name}.center"
+    if point.name is not None and drawing.elements.get(point.name) is point:
+        return point.name
+    return {"body": body.name, "local": numbers(point.local)}
+
+
+def sides(element: Any, drawing: Drawing) -> dict[str, Any]:
+    """The two points of an element."""
+    return {"first": place(element.first, drawing), "second": place(element.second, drawing)}
+
+
+def told_law(law: Law) -> Any:
+    """A number, or an expression and what its names are bound to."""
+    if law.constant is not None:
+        return law.constant
+    if law.expression is None:
+        raise not_saved(law.what)
+    bound = {name: measure for name, measure in law._bound.items() if "." not in name}
+    return {"expression": to_json(law.expression, law.what), "of": bound}
+
+
+def not_saved(what: str) -> ValueError:
+    """The error for what is a callable."""
+    return ValueError(f"{what} is a callable, which cannot be saved: a SymPy expression in its place can")

@@ -1,0 +1,51 @@
+"""Forces of a mechanism in a solution, with where they act: what pictures show as arrows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ..elements.drawing import Drawing
+from ..elements.forces import Actuator, Bushing, Force, Spring
+from ..elements.joints import Joint
+from ..elements.table_forces import MadeForce
+from .plane_pose import Posed
+from .space_pose import SpacePosed
+
+SHOWN = Joint, Bushing, Force       # where nothing is chosen
+HAVE_FORCES = (*SHOWN, Spring, Actuator, MadeForce)
+
+
+def chosen(drawing: Drawing, names: Any) -> list[Any]:
+    """The elements whose forces are asked for: by name, themselves, or, by True, all joints, bushings and forces."""
+    if names is True:
+        return drawing.of(SHOWN)
+    names = [names] if isinstance(names, str) or not isinstance(names, Iterable) else list(names)
+    known = {element.name: element for element in drawing.of(HAVE_FORCES)
+             if not isinstance(element, MadeForce) or element.row.effort == "force"}
+    return [known[_check.choice("each of forces", getattr(name, "name", name), list(known))] for name in names]
+
+
+def acting(element: Any, moments: Sequence[Posed] | Sequence[SpacePosed], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where a force acts, (k, d) in m, and what it is, (k, d) in N, from its measure at the moments, (k,) or (k, d)."""
+    point = element.point if isinstance(element, Force) else element.second
+    is_rolling = isinstance(element, Joint) and element.kind == "rolling"
+    places = np.array([posed.contact(element) if is_rolling else posed.at(point) for posed in moments])
+    if values.ndim == 2:
+        return places, values
+    return places, values[:, None] * np.array([_direction(element, posed) for posed in moments])
+
+
+def _direction(element: Any, posed: Posed | SpacePosed) -> np.ndarray:
+    """The direction (2,) or (3,) of a force on its second point whose measure is 1."""
+    if isinstance(element, Force):
+        return posed.direction(element.frame, element.along)
+    if isinstance(element, MadeForce) and element.axis is not None:
+        along = posed.direction(element.first.body, element.axis)
+        return along if element.row.gauges[0][0] != "across" else np.array([-along[1], along[0]])
+    apart = posed.at(element.second) - posed.at(element.first)
+    pulls = isinstance(element, Spring) or (isinstance(element, MadeForce) and element.row.sign < 0)
+    return (-apart if pulls else apart) / max(float(np.linalg.norm(apart)), 1e-300)

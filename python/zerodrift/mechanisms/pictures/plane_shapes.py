@@ -1,0 +1,164 @@
+"""What there is to draw of a mechanism in its poses, in m: shapes that `zerodrift.plot` has glyphs for.
+
+How a joint or a force element looks follows from its row in the core's table: from the gauges that it holds or acts along.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from ...systems.shapes import Shape
+from ..elements.bodies import Ground, Particle, Point
+from ..elements.drawing import Drawing
+from ..elements.joints import Joint, holds_angle
+from ..elements.numbers import Numbers
+from .coupling_shapes import Couplings
+from .force_shapes import forces, walls
+from .plane_outline import APART
+from .plane_pose import Parts, Posed
+
+ASSUMED = 0.35      # of the way to the end of its body: the length of a groove of which no motion is known
+
+Ranges = dict[str, tuple[float, float]]
+
+
+class Sketch:
+    """What is drawn of a mechanism, whatever its pose."""
+
+    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
+        self.parts = Parts(drawing, numbers)
+        self.couplings = Couplings(self.parts)
+        self.sliding = [joint for joint in drawing.of(Joint) if slides(joint)]
+        self.slotted = {joint.bodies[0].name for joint in self.sliding if has_groove(joint)}
+        self.guided = [*self.sliding, *(joint for joint in drawing.of(Joint) if joint.row.at_contact)]
+        self.has_shape = {joint.bodies[1].name for joint in self.guided} | self.couplings.wheels
+        self.held = _held_by_ground(self.parts)
+
+    def ranges(self, moments: Iterable[Posed]) -> Ranges:
+        """How far each slider and each wheel gets in all moments, from where its joint is on its first body."""
+        found: Ranges = {}
+        for posed in moments:
+            for joint in self.guided:
+                s = posed.displacement(joint)
+                low, high = found.get(joint.name, (s, s))
+                found[joint.name] = min(low, s), max(high, s)
+        for joint in self.sliding:
+            if has_groove(joint) and joint.name in found and np.ptp(found[joint.name]) <= APART:
+                found[joint.name] = self._assumed(joint, found[joint.name][0])
+        return found
+
+    def _assumed(self, joint: Joint, s: float) -> tuple[float, float]:
+        """The ends of a groove of which no motion is known: towards the ends of its body."""
+        start = joint.first.local_with(self.parts.numbers)
+        ends = [float((place - start) @ joint.axis) for place in self.parts.outline[joint.bodies[0].name]]
+        return s + ASSUMED * min(0.0, min(ends) - s), s + ASSUMED * max(0.0, max(ends) - s)
+
+    def shapes(self, posed: Posed, ranges: Ranges) -> list[Shape]:
+        """Everything."""
+        found = [*self._bodies(posed, ranges), *self._joints(posed, ranges), *forces(posed), *self.couplings.shapes(posed)]
+        return [*found, *(Shape("ground", posed.at(point)[None]) for point in self.held), *walls(posed, self.held)]
+
+    def _bodies(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
+        for body in self.parts.drawing.parts():
+            pose = posed.pose[body.name]
+            if isinstance(body, Particle):
+                if body.name not in self.has_shape:
+                    yield Shape("particle", pose.origin[None], body.name)
+                continue
+            places = [pose.point(place) for place in self.parts.outline[body.name]]
+            if body.name in self.slotted:
+                for joint in self.sliding:
+                    if joint.bodies[0] is body:
+                        places += [*posed.track(joint, ranges)]
+            if len(places) > 1:
+                yield Shape("link", np.array(places), body.name, float(body.name in self.slotted))
+            elif body.name not in self.has_shape:
+                yield Shape("disc", np.array([places[0], pose.direction(np.array([1.0, 0.0]))]), body.name)
+        for particle in self.parts.drawing.of(Particle):
+            if particle.carrier:
+                yield Shape("particle", posed.at(particle.carrier)[None], particle.name)
+        for point in self.parts.free:
+            yield Shape("mark", posed.at(point)[None], point.name or "")
+
+    def _joints(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
+        for joint in self.parts.drawing.of(Joint):
+            first, second = posed.at(joint.first), posed.at(joint.second)
+            if "distance" in gauges(joint):
+                yield Shape("rod", np.array([first, second]), joint.name)
+            elif joint.row.at_contact:
+                axis, radius = posed.direction(joint.bodies[0], joint.axis), joint.length_with(self.parts.numbers)
+                down = radius * np.array([axis[1], -axis[0]])
+                yield Shape("road", np.array([*(posed.track(joint, ranges) + down), axis]), joint.name)
+                yield Shape("wheel", np.array([second, posed.spoke(joint)]), joint.name, radius)
+            elif slides(joint):
+                yield from _slider(joint, posed, ranges, self.couplings.lifted.get(joint.name, 0.0))
+            elif joint.is_of_one_body:
+                yield Shape("blade", np.array([second, posed.direction(joint.bodies[1], joint.axis)]), joint.name)
+            elif {"x", "y", "angle"} <= gauges(joint):
+                yield Shape("weld", np.array([second, posed.spoke(joint)]), joint.name)
+            elif not is_pinned(joint):
+                yield Shape("coupled", np.array([first, second]), joint.name)
+            if is_pinned(joint):
+                yield Shape("pin", second[None], joint.name)
+
+
+def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterator[Shape]:
+    """A block on the ground, in a groove of a body where it turns, and around a rod of the body where it does not; further
+    along its axis where it would be in the way.
+    """
+    axis = posed.direction(joint.bodies[0], joint.axis)
+    second, track = posed.at(joint.second) + lifted * axis, posed.track(joint, ranges) + lifted * axis
+    if joint.bodies[0] is posed.parts.drawing.ground:
+        yield Shape("rail", np.array([*track, posed.parts.side(joint)]), joint.name)
+        yield Shape("slider", np.array([second, axis]), joint.name)
+    elif has_groove(joint):
+        yield Shape("groove", np.array([*track, axis]), joint.name)
+        yield Shape("block", np.array([second, axis]), joint.name)
+    else:
+        yield Shape("guide", np.array([*track, axis]), joint.name)
+        yield Shape("slider", np.array([second, axis]), joint.name)
+
+
+def _held_by_ground(parts: Parts) -> list[Point]:
+    """The points of the ground about which a body or a rod turns, each place once."""
+    ground, held = parts.drawing.ground, {}
+    for joint in parts.drawing.of(Joint):
+        if "distance" in gauges(joint) or (is_pinned(joint) and joint.axis is None):
+            for side in (joint.first, joint.second):
+                if side.body is ground:
+                    held.setdefault(tuple(np.round(side.local_with(parts.numbers) / APART)), side)
+    return list(held.values())
+
+
+def gauges(joint: Joint) -> set[str]:
+    """What the rows of a joint hold."""
+    return {row.gauge for row in joint.row.rows}
+
+
+def slides(joint: Joint) -> bool:
+    """Whether a joint guides a point along a line of its first body."""
+    return "across" in gauges(joint) and joint.axis is not None and not joint.row.at_contact
+
+
+def has_groove(joint: Joint) -> bool:
+    """Whether that line is a groove of a body that moves, in which the point may turn."""
+    return not holds_angle(joint.row) and not isinstance(joint.bodies[0], Ground)
+
+
+def is_pinned(joint: Joint) -> bool:
+    """Whether a joint holds a point about which the second body turns."""
+    return bool(gauges(joint) & {"x", "y", "across"}) and not holds_angle(joint.row) and not joint.row.at_contact
+
+
+def sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray],
+             motion: Iterable[np.ndarray] = ()) -> list[list[Shape]]:
+    """The shapes of a mechanism in each moment, whose mass centres are at poses (bodies, 3). Rails and grooves are as long as
+    these moments and those of a motion need.
+    """
+    sketch = Sketch(drawing, numbers)
+    posed = [Posed(sketch.parts, poses) for poses in moments]
+    others = [Posed(sketch.parts, poses) for poses in motion] if sketch.guided else []
+    ranges = sketch.ranges([*posed, *others])
+    return [sketch.shapes(each, ranges) for each in posed]

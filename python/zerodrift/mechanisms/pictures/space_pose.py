@@ -1,0 +1,39 @@
+"""A mechanism in space in a pose: where its points are. `arrows` asks for them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..._rotations import rotation_of
+from ..elements.bodies import Body, Point
+from ..elements.drawing import Drawing
+from ..elements.numbers import Numbers
+from ..elements.space_bodies import SpaceInertias
+from ..elements.space_joints import SpaceRolling
+
+
+class SpacePosed:
+    """A mechanism whose mass centres are at poses (bodies, 7), with principal axes."""
+
+    def __init__(self, drawing: Drawing, numbers: Numbers, inertias: SpaceInertias, poses: np.ndarray) -> None:
+        self._numbers, self._inertias = numbers, inertias
+        self._at = {"ground": (np.zeros(3), np.eye(3))}
+        for body, pose in zip(drawing.parts(), poses, strict=True):
+            self._at[body.name] = pose[:3], rotation_of(pose[3:])
+
+    def at(self, point: Point) -> np.ndarray:
+        """Where a point is, (3,)."""
+        centre, R = self._at[point.body.name]
+        return centre + R @ np.asarray(self._inertias.local(point, self._numbers))
+
+    def direction(self, body: Body, local: np.ndarray) -> np.ndarray:
+        """A direction of a body, (3,)."""
+        return self._at[body.name][1] @ np.asarray(self._inertias.direction(body, local))
+
+    def contact(self, joint: SpaceRolling) -> np.ndarray:
+        """Where what rolls touches its plane, (3,): the point of its ellipsoid that is farthest against the normal."""
+        normal = self.direction(joint.bodies[0], joint.frames[0][0])
+        axes = np.array([self.direction(joint.bodies[1], row) for row in joint.frames[1]])
+        scaled = axes * np.array(joint.semiaxes_with(self._numbers))[:, None]
+        shaped = scaled.T @ (scaled @ normal)
+        return self.at(joint.second) - shaped / np.sqrt(normal @ shaped)

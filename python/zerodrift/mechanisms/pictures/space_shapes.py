@@ -1,0 +1,182 @@
+"""What there is to draw of a mechanism in space in its poses, in m: shapes that `zerodrift.plot.space_picture` draws.
+
+A body is a bar between the two places at which it is held, a plate between three or more in a plane, a star of bars between
+others, and a disc or a box of its own inertia where it is held at less than two; what rolls is a disc or an ellipsoid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from ..._rotations import rotation_of
+from ...systems.shapes import Shape
+from ..elements.bodies import Body, Link, Particle, Point
+from ..elements.drawing import Drawing
+from ..elements.forces import Actuator, Bushing, Spring
+from ..elements.numbers import Numbers
+from ..elements.space_bodies import SpaceInertias
+from ..elements.space_joints import SpaceJoint, SpaceRolling
+
+APART = 1e-9        # m: places that are nearer are one
+FLAT = 1e-6         # of the extent of places: what lies in a plane
+ALIKE = 1e-6        # of the largest moment: by how much two differ that are one
+ROUND = np.linspace(0, 2 * np.pi, 49)
+CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+ALONG = ("prismatic", "cylindrical", "screw", "slot")       # joints that are drawn as sleeves
+
+
+class SpaceSketch:
+    """What is drawn of a mechanism in space, whatever its pose; places are from mass centres, in principal axes."""
+
+    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
+        self.drawing, self.numbers, self.inertias = drawing, numbers, SpaceInertias(drawing, numbers)
+        self.rolling = {joint.bodies[1].name for joint in drawing.of(SpaceRolling)}
+        self.held = self._held()
+
+    def _held(self) -> dict[str, np.ndarray]:
+        """By body, the places (n, 3) that its shape holds."""
+        points: dict[str, list[Point]] = {body.name: [] for body in self.drawing.of(Body)}
+        for link in self.drawing.of(Link):
+            points[link.name] += [link.start, link.end]
+        for point in [*self.drawing.joined_points(), *self.drawing.of(Point)]:
+            points[point.body.name].append(point)
+        for particle in self.drawing.of(Particle):
+            if particle.carrier:
+                points[particle.carrier.body.name].append(particle.carrier)
+        return {name: _different([self.local(point) for point in those]) for name, those in points.items()}
+
+    def local(self, point: Point) -> np.ndarray:
+        """A point from its body's mass centre."""
+        return np.asarray(self.inertias.local(point, self.numbers))
+
+    def shapes(self, poses: np.ndarray) -> list[Shape]:
+        """Everything, with the mass centres at poses (bodies, 7)."""
+        at = {body.name: (pose[:3], rotation_of(pose[3:])) for body, pose in zip(self.drawing.parts(), poses, strict=True)}
+        at["ground"] = np.zeros(3), np.eye(3)
+        bodies = [shape for body in self.drawing.parts() for shape in self._body(body, *at[body.name])]
+        joints = [shape for joint in self.drawing.of(SpaceJoint) for shape in self._joint(joint, at)]
+        return [*bodies, *joints, *self._forces(at)]
+
+    def _body(self, body: Body, centre: np.ndarray, R: np.ndarray) -> Iterator[Shape]:
+        if isinstance(body, Particle):
+            yield Shape("dot", centre[None], body.name)
+            return
+        for particle in self.drawing.of(Particle):
+            if particle.carrier and particle.carrier.body is body:
+                yield Shape("dot", (centre + R @ self.local(particle.carrier))[None], particle.name)
+        places = self.held[body.name]
+        if body.name in self.rolling and len(places) < 2:
+            return
+        if len(places) == 1 and np.linalg.norm(places[0]) > APART:
+            places = np.vstack([places, np.zeros(3)])       # the mass centre shows which way it hangs
+        if any(np.linalg.norm(place) < APART for place in places) and len(places) > 1 and not isinstance(body, Link):
+            yield Shape("dot", centre[None], body.name)
+        if len(places) < 2:
+            yield from self._by_inertia(body, centre, R)
+            return
+        plate = _around(places) if len(places) > 2 else None
+        if plate is not None:
+            yield Shape("plate", centre + plate @ R.T, body.name)
+        else:
+            middle = places.mean(axis=0) if len(places) > 2 else places[0]
+            for place in places if len(places) > 2 else places[1:]:
+                yield Shape("bar", centre + np.array([middle, place]) @ R.T, body.name)
+
+    def _by_inertia(self, body: Body, centre: np.ndarray, R: np.ndarray) -> Iterator[Shape]:
+        """The disc that has its mass and its largest moment, where the two others are alike; else the uniform box."""
+        known = self.inertias.of[body.name]
+        a, b, c = known.moments
+        axis = next((i for i in range(3) if _is_axial(*np.roll(known.moments, -i))), None)
+        if axis is not None and known.mass:
+            radius, one, other = np.sqrt(2 * known.moments[axis] / known.mass), R[:, (axis + 1) % 3], R[:, (axis + 2) % 3]
+            rim = centre + radius * (np.outer(np.cos(ROUND), one) + np.outer(np.sin(ROUND), other))
+            yield Shape("disc", rim, body.name)
+            yield Shape("rod", np.array([centre, rim[0]]), body.name)
+            return
+        squares = 6 * np.array([b + c - a, c + a - b, a + b - c]) / known.mass if known.mass else np.zeros(3)
+        yield Shape("box", centre + CORNERS * np.sqrt(np.maximum(squares, 0.0)) @ R.T, body.name)
+
+    def _joint(self, joint: SpaceJoint, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> Iterator[Shape]:
+        first, second = (self._placed(point, at) for point in (joint.first, joint.second))
+        axes = [self._turned(joint, i, at) for i in (0, 1)]
+        if isinstance(joint, SpaceRolling):
+            yield from self._rolled(joint, second, axes[1])
+        elif joint.kind == "rod":
+            yield Shape("rod", np.array([first, second]), joint.name)
+        elif joint.kind == "revolute":
+            yield Shape("pin", np.array([second, axes[0][0]]), joint.name)
+        elif joint.kind == "universal":
+            yield Shape("pin", np.array([second, axes[0][0]]), joint.name)
+            yield Shape("pin", np.array([second, axes[1][1]]), joint.name)
+        elif joint.kind in ALONG:
+            yield Shape("track", np.array([first, second]), joint.name)
+            yield Shape("sleeve", np.array([second, axes[0][0]]), joint.name)
+        elif joint.kind in ("planar", "knife_edge"):
+            yield Shape("patch", np.array([second, *axes[0][1 if joint.kind == "planar" else 0:][:2]]), joint.name)
+        else:
+            yield Shape("ball" if joint.kind == "spherical" else "weld", second[None], joint.name)
+        for side, place in ((joint.first, first), (joint.second, second)):
+            if side.body is self.drawing.ground and joint.kind not in ("rolling", "planar", "knife_edge"):
+                yield Shape("ground", place[None], joint.name)
+
+    def _rolled(self, joint: SpaceRolling, centre: np.ndarray, axes: np.ndarray) -> Iterator[Shape]:
+        """The rim of a disc with a spoke, or the three sections of an ellipsoid; rows of axes are the shape's in the drawing."""
+        semiaxes = np.array(joint.semiaxes_with(self.numbers))
+        flat = [i for i in range(3) if semiaxes[i] == 0]
+        for i in flat or range(3):
+            one, other = ((i + 1) % 3, (i + 2) % 3)
+            rim = np.outer(np.cos(ROUND), semiaxes[one] * axes[one]) + np.outer(np.sin(ROUND), semiaxes[other] * axes[other])
+            yield Shape("disc" if flat else "ring", centre + rim, joint.bodies[1].name)
+            if flat:
+                yield Shape("rod", np.array([centre, centre + rim[0]]), joint.bodies[1].name)
+
+    def _forces(self, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> Iterator[Shape]:
+        for spring in self.drawing.of((Spring, Actuator)):
+            ends = np.array([self._placed(spring.first, at), self._placed(spring.second, at)])
+            yield Shape("spring" if isinstance(spring, Spring) else "rod", ends, spring.name)
+        for bushing in self.drawing.of(Bushing):
+            yield Shape("bushing", self._placed(bushing.second, at)[None], bushing.name)
+            for side in (bushing.first, bushing.second):
+                if side.body is self.drawing.ground:
+                    yield Shape("ground", self._placed(side, at)[None], bushing.name)
+
+    def _placed(self, point: Point, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+        centre, R = at[point.body.name]
+        return centre + R @ self.local(point)
+
+    def _turned(self, joint: SpaceJoint, side: int, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
+        """The rows of a joint's frame on one of its bodies, in the drawing."""
+        body = joint.bodies[side]
+        own = np.array([self.inertias.direction(body, row) for row in joint.frames[side]])
+        return own @ at[body.name][1].T
+
+
+def _is_axial(own: float, one: float, other: float) -> bool:
+    """Whether a moment is the largest, and the two others are alike, as of a wheel."""
+    return abs(one - other) <= ALIKE * own and own > (1 + ALIKE) * one
+
+
+def _different(places: list[np.ndarray]) -> np.ndarray:
+    """Each place once, (n, 3)."""
+    found: list[np.ndarray] = []
+    for place in places:
+        if all(np.linalg.norm(place - other) > APART for other in found):
+            found.append(place)
+    return np.array(found).reshape(-1, 3)
+
+
+def _around(places: np.ndarray) -> np.ndarray | None:
+    """Places of a plane in the order in which they stand around their middle; None: of no plane, or on a line."""
+    arms = places - places.mean(axis=0)
+    _, sizes, rows = np.linalg.svd(arms)
+    if sizes[1] < FLAT * sizes[0] or (len(places) > 3 and sizes[2] > FLAT * sizes[0]):
+        return None
+    return places[np.argsort(np.arctan2(arms @ rows[1], arms @ rows[0]))]
+
+
+def space_sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray]) -> list[list[Shape]]:
+    """The shapes of a mechanism in each moment, whose mass centres are at poses (bodies, 7)."""
+    sketch = SpaceSketch(drawing, numbers)
+    return [sketch.shapes(poses) for poses in moments]

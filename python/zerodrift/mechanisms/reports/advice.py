@@ -1,0 +1,74 @@
+"""What a mechanism knows of errors that the core tells in numbers: which bodies, joints and motors are meant, and what helps."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ..._gateway import Variable
+from ..._gateway.mechanisms import MechanismCore
+from ..assembly import space_advice
+from ..assembly.nudge import OTHERWISE
+from ..assembly.start import Starting
+from ..elements.drawing import Drawing, Inertias
+from ..elements.forces import Actuator, Motor
+from ..elements.numbers import Numbers
+from ..equations.space_tables import SpaceTables
+from ..equations.tables import Tables
+
+NEAR = 0.2          # of the largest singular value of rows of length one: how nearly they depend on each other near a dead centre
+TAKES_PART = 0.2    # of a row in what depends
+MOST_ROWS = 300     # whose singular values take a moment
+
+
+def at_start(error: str, start: Starting, constraints: Sequence[Variable]) -> str | None:
+    """Of an error at the start: bodies without mass, or rows that are singular as drawn."""
+    drawing = start.drawing
+    if "mass matrix" in error:
+        return _of_mass(drawing, start.numbers)
+    said = r"(?:\brows? |, | and )(\d+)\b" if "a bifurcation:" in error else r"\brow (\d+)"     # one row, or several
+    rows = sorted(set(map(int, re.findall(said, error))))
+    if not rows or "follow" not in error:
+        return None
+    is_driven = any(isinstance(drawing.elements.get(constraints[row].name), Motor | Actuator) for row in rows)
+    helps = OTHERWISE if is_driven else start.way_out()
+    return f"in this pose {drawing.name!r} is singular, {_why(start)}: {helps}"
+
+
+def _why(start: Starting) -> str:
+    """What is drawn so that the pose is singular: a cross in the plane of its shafts, or likely links in line."""
+    tables, assembly, p = start.closed(0.0)
+    flat = space_advice.flat_crosses(tables, assembly.core, p) if isinstance(tables, SpaceTables) else []
+    return f"as {' and '.join(flat)}" if flat else "as links in line are"
+
+
+def _of_mass(drawing: Drawing, numbers: Numbers) -> str | None:
+    """Which bodies are without mass or inertia, and what helps."""
+    inertias = Inertias(drawing, numbers).of
+    without = [body.name for body in drawing.parts()
+               for mass, inertia, _ in [inertias[body.name]] if not (mass > 0 and (inertia > 0 or not body.turns))]
+    if not without:
+        return None
+    named, have = ", ".join(map(repr, without)), "has" if len(without) == 1 else "have"
+    return f"{named} {have} no mass or no inertia: give some, or take formulation='augmented'"
+
+
+def dead_centre(tables: Tables, core: MechanismCore, t: float, p: np.ndarray) -> str | None:
+    """Which motor has driven the mechanism to a dead centre, where it cannot move on; None: none has."""
+    motors: Mapping[str, Motor] = {motor.name: motor for motor in tables.drawing.of(Motor) if motor.prescribes}
+    if not motors or core.m > MOST_ROWS:
+        return None
+    C = core.evaluate(t, p, np.zeros(core.nv))["C"]
+    u, s, _ = np.linalg.svd(C / np.maximum(np.linalg.norm(C, axis=1, keepdims=True), 1e-300))
+    if len(C) <= core.nv and s[-1] > NEAR * s[0]:
+        return None
+    part = np.abs(u[:, -1])
+    for row, share in zip(core.rows, part, strict=True):
+        name = tables.relation_names[row.index] if row.owner == "relation" else None
+        if name in motors and share > TAKES_PART * part.max():
+            joint = motors[name].joint.name
+            return (f"near t = {t:g} the mechanism comes to a dead centre of motor {name!r}, where its joints do not let "
+                    f"{joint!r} move on: drive another joint, or end before it")
+    return None

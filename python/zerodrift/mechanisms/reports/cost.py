@@ -1,0 +1,194 @@
+"""What a step costs in joint and in absolute coordinates: `Mechanism.system` takes the cheaper by this count.
+
+An operation is a multiplication, with its addition, in the factors of a dense matrix; what else a step does is counted in as
+many of them as take its time. A step is a corrected one of "rk4" in "schur". What is counted follows from what a run will do:
+
+    joint       dense factors and solves, of n velocities and m rows that close loops; the bodies, those whose terms are not known
+                from sines and cosines alone once more; the sum of their depths in the tree, and that of the depths of both bodies
+                of each row that closes a loop, as these are passed inward joint by joint; the rows; the efforts
+    absolute    the multiplications in C M^-1 C^T, in its factors and in a solve, counted by the core in the order in which a run
+                eliminates, those in blocks that have a kernel of their size apart; the rows, at one rate where the system's own
+                products serve and at another where C is stored; the efforts. Rows cost more where bodies contribute unequally to
+                them, as solutions are compared then, and where there are so few that bifurcations are looked for, the more so the
+                smaller the least pivot is. Where it vanishes, rows follow from others, and all of it takes some times as long.
+
+Whether it does, and whether bodies contribute alike, is seen in the pose as drawn. Weights are fitted to measured times by
+tests/bench/bench_coordinates.py, in the plane and in space by themselves.
+
+What costs less is taken, but for loops in space that are closed by a joint of one freedom or none: as loops are cut where there
+are most freedoms, all their joints are such, and with fewer than seven of them they move only because rows follow from others.
+Where such a loop lies flat its rank falls: joint coordinates have stopped there with runs that absolute ones went through,
+Bennett's linkage among them, so absolute ones are taken up to some times the cost.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from ..equations.tables import Tables
+
+# Of parts_of_joint() and parts_of_absolute(), in the plane and in space
+JOINT = {2: (710.0, 5.0, 3.7, 360.0, 240.0, 44.0, 400.0, 0.0, 960.0),
+         3: (2400.0, 2.4, 62.0, 1200.0, 0.0, 215.0, 330.0, 1900.0, 2500.0)}
+ABSOLUTE = {2: (3300.0, 4.7, 29.0, 180.0, 460.0, 250.0, 67.0, 120.0, 840.0),
+            3: (3500.0, 4.9, 10.8, 270.0, 730.0, 560.0, 340.0, 55.0, 2150.0)}
+NANOSECONDS = 0.39      # of an operation, there
+MOST_HINGED = 200       # bodies whose terms the core knows from sines and cosines alone, where all of them turn
+GOOD, MOST_LOST = 2.0**-3, 20.0     # a least pivot that costs nothing; of a smaller one so many digits count, in base two
+REDUNDANT = 1e-12       # one that vanishes; and how many times as long it takes then, few rows and many
+TIMES_OF_FEW, TIMES_OF_MANY = 4.0, 15.0
+PASSES_FLAT_POSES = 8.0 # absolute coordinates may cost so many times as much where flat poses have stopped joint ones
+CLEARLY = 0.85          # and in space must cost less than so many times elsewhere: less certain is the count there
+ALIKE = 0.33            # the same where all bodies are free, and coordinates alike in both: dense matrices serve a few of them
+DEARER = 3.0            # so many times the operations are worth a sentence, and
+WORTH_A_WARNING = 10.0, 10.0, 0.01      # a warning, if it is so many times, and so many seconds of a run, or of a step
+
+
+class Cost(NamedTuple):
+    """Operations of a step in both coordinates."""
+
+    joint: float
+    absolute: float         # infinite where they cannot be taken: a body has no mass, or a row touches none
+    allowed: float = 1.0    # how many times the cost of joint coordinates absolute ones may have and still be taken
+
+    @property
+    def taken(self) -> str:
+        """The layout to take: absolute coordinates where they cost less than `allowed` times as much as joint ones."""
+        return "absolute" if self.absolute < self.allowed * self.joint else "joint"
+
+    @property
+    def ratio(self) -> float:
+        """How many times as much joint coordinates cost."""
+        return self.joint / self.absolute
+
+    @property
+    def in_words(self) -> str:
+        """Both, those that are taken first."""
+        counts = {"joint": self.joint, "absolute": self.absolute}
+        other = "joint" if self.taken == "absolute" else "absolute"
+        more = "" if counts[other] == np.inf else f", in {other} ones {counts[other]:.3g}"
+        return f"{counts[self.taken]:.3g} operations a step{more}"
+
+
+def cost(tables: Tables, exact: bool = False) -> Cost:
+    """Of a mechanism whose tables have a tree; `exact`: absolute ones are counted, too, where joint ones cost less anyhow."""
+    dimension = tables.drawing.dimension
+    joint, least = float(np.dot(JOINT[dimension], parts_of_joint(tables))), ABSOLUTE[dimension][0]
+    if not _has_mass(tables):
+        return Cost(joint, np.inf)
+    if joint <= least and not exact:
+        return Cost(joint, least)
+    parts, times = parts_of_absolute(tables)
+    absolute = times * float(np.dot(ABSOLUTE[dimension], parts)) if parts[1] else np.inf
+    return Cost(joint, absolute, _allowed(tables))
+
+
+def _allowed(tables: Tables) -> float:
+    """How many times the cost of joint coordinates absolute ones may have."""
+    if max(tables.carrier) < 0:
+        return ALIKE
+    return 1.0 if tables.drawing.dimension == 2 else PASSES_FLAT_POSES if _has_stiff_loops(tables) else CLEARLY
+
+
+def _has_stiff_loops(tables: Tables) -> bool:
+    """Whether a loop has joints of one freedom or none alone."""
+    return any(rows >= 5 for rows, _ in _loops(tables))
+
+
+def parts_of_absolute(tables: Tables) -> tuple[tuple[float, ...], float]:
+    """One; multiplications in blocks with a kernel, and in others; rows by the system's products, by a stored C, of unequal
+    bodies, where they are few, and these by the digits that their least pivot loses; efforts. And how many times all of them
+    count.
+    """
+    free = tables.absolute()
+    core = free.core()
+    work = core.structure_work(core.state(free.drawn())[0])
+    known, other = (work.products[i] + work.factors[i] + work.solves[i] for i in (0, 1))
+    few = 0.0 if work.is_of_many else float(work.rows)
+    is_redundant = work.share < REDUNDANT
+    lost = 0.0 if is_redundant else min(math.log2(GOOD / min(work.share, GOOD)), MOST_LOST)
+    times = 1.0 if not is_redundant else TIMES_OF_MANY if work.is_of_many else TIMES_OF_FEW
+    by_products = work.rows * bool(work.has_products)
+    return (1.0, known, other, by_products, work.rows - by_products, work.rows * (not work.is_alike), few, few * lost,
+            float(len(tables.efforts))), times
+
+
+def parts_of_joint(tables: Tables) -> tuple[float, ...]:
+    """One; factors, and solves; bodies, again unless all turn by hinges, and depths; depths of rows; rows; efforts."""
+    depth, loops, bodies = _depths(tables), _loops(tables), len(tables.parts)
+    n, m = tables.joint_coordinates(), sum(rows for rows, _ in loops) + len(tables.relations)
+    passed = sum(rows * (depth[first] + depth[second]) for rows, (first, second) in loops)
+    unhinged = bodies * (not _is_hinged(tables))
+    return (1.0, n**3 / 6 + n**2 * m / 2 + n * m**2, float(n**2 + n * m + m**2), float(bodies), float(unhinged),
+            float(sum(depth)), float(passed), float(m), float(len(tables.efforts)))
+
+
+def _is_hinged(tables: Tables) -> bool:
+    """Whether all bodies of a plane hang on hinges or are fixed to others."""
+    if tables.drawing.dimension == 3 or len(tables.parts) > MOST_HINGED:
+        return False
+    return all(carrier >= 0 and tables.joints[carrier].row.carrier in ("turns", "fixed") for carrier in tables.carrier)
+
+
+def _loops(tables: Tables) -> list[tuple[int, tuple[int, int]]]:
+    """Of each joint that closes a loop its rows, how many they are, and its bodies."""
+    carriers = {joint for joint in tables.carrier if joint >= 0}
+    return [(len(joint.row.rows), ends)
+            for i, (joint, ends) in enumerate(zip(tables.joints, _ends(tables), strict=True)) if i not in carriers]
+
+
+def _ends(tables: Tables) -> list[tuple[int, int]]:
+    """The bodies of each joint, by number."""
+    return [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
+
+
+def _depths(tables: Tables) -> list[int]:
+    """How many bodies there are from each down to the ground or a free root, itself included; of the ground none."""
+    ends, depth = _ends(tables), [0] + [-1] * len(tables.parts)
+    for body in range(1, len(depth)):
+        way = []
+        while depth[body] < 0:
+            way.append(body)
+            carrier = tables.carrier[body - 1]
+            body = 0 if carrier < 0 else sum(ends[carrier]) - body
+        for further, each in enumerate(reversed(way), depth[body] + 1):
+            depth[each] = further
+    return depth
+
+
+def _has_mass(tables: Tables) -> bool:
+    """Whether every body has, which absolute coordinates need."""
+    return all(tables.inertias.is_massive(body) for body in tables.parts)
+
+
+def seconds(operations: float) -> float:
+    """About how long they take."""
+    return 1e-9 * NANOSECONDS * operations
+
+
+def of_a_step(found: Cost) -> str:
+    """What a step in joint coordinates costs, where absolute ones cost much less; else nothing."""
+    if found.ratio < DEARER:
+        return ""
+    return f"a step takes about {in_words(seconds(found.joint))}, {found.ratio:.3g} times as long as in absolute coordinates"
+
+
+def of_a_run(found: Cost, steps: int | None) -> str | None:
+    """A warning of what so many steps in joint coordinates cost; None: it is not worth one. Steps may be unknown."""
+    times, run, step = WORTH_A_WARNING
+    each = seconds(found.joint)
+    if found.ratio < times or (each < step if steps is None else steps * each < run):
+        return None
+    whole = "" if steps is None else f", and {steps} steps about {in_words(steps * each)}"
+    return f"{of_a_step(found)}{whole}: system('absolute') has these"
+
+
+def in_words(time: float) -> str:
+    """Seconds, as people read them."""
+    for unit, size in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
+        if time >= size:
+            return f"{time / size:.3g} {unit}"
+    return f"{1e6 * time:.3g} us"

@@ -1,0 +1,146 @@
+"""Counting: velocities, rows and their rank; which rows follow from others, and which reactions that leaves undetermined."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..._gateway import Variable
+from ..._gateway.consistent import nearest_velocities, redundant_rows
+from ..assembly import space_advice
+from ..assembly.dense import Assembly
+from ..assembly.nudge import nudged
+from ..assembly.sparse import is_of_many
+from ..assembly.start import Starting
+from ..elements.drawing import Drawing
+from ..elements.forces import Actuator, Motor
+from ..elements.numbers import AS_GIVEN
+from ..equations.space_tables import SpaceTables, tables_of
+from ..equations.tables import constraint_names
+from .drawing_changes import differences
+
+DEPENDENT = 1e-9        # of a row's own size: what is left of a row that follows from others
+
+
+class Count(NamedTuple):
+    """The rows of absolute coordinates at the assembled start.
+
+    Attributes
+    ----------
+    velocities, rows, rank : int
+        How many there are, and how many rows are independent.
+    redundant : tuple of str
+        Rows that follow from others, here and in a pose nearby.
+    undetermined : tuple of str
+        Rows whose reactions are not determined because of that.
+    singular : tuple of str
+        Rows that follow from others in this pose alone.
+    is_of_many : bool
+        Whether there are so many rows that the core has decided which follow from others, and that it was not looked for which
+        reactions are not determined.
+    notes : tuple of str
+        Lines on the pose: joints that are drawn open, bodies that start elsewhere than drawn, universal joints
+        at a right angle, what makes it singular, and what helps then.
+    """
+
+    velocities: int
+    rows: int
+    rank: int
+    redundant: tuple[str, ...]
+    undetermined: tuple[str, ...]
+    singular: tuple[str, ...]
+    is_of_many: bool = False
+    notes: tuple[str, ...] = ()
+
+    @property
+    def freedom(self) -> int:
+        """Velocities that the rows leave free, drives included."""
+        return self.velocities - self.rank
+
+    @property
+    def gruebler(self) -> int:
+        """The same by the number of rows."""
+        return self.velocities - self.rows
+
+
+def count(drawing: Drawing) -> Count:
+    """The count of a mechanism at its assembled start."""
+    start = Starting(drawing, AS_GIVEN)
+    tables = tables_of(drawing, AS_GIVEN, in_tree=False, starts=start.drives)
+    assembly, p = start.assembled(0.0)
+    if is_of_many(assembly.core):
+        return _count_of_many(tables, assembly, p)
+    rows = assembly.scaled_rows(p)
+    names = [variable.name for variable in constraint_names(tables, assembly.core)]
+    here = dependent(rows)
+    there = dependent(assembly.scaled_rows(nudged(assembly, p, _driven(drawing, assembly)))) if here else set()
+    redundant = here & there
+    left = _left_null(rows) if redundant else np.zeros((len(rows), 0))
+    undetermined = np.flatnonzero(np.abs(left).max(axis=1, initial=0.0) > 1e-6)
+    singular = _named(names, here - there)
+    return Count(assembly.core.nv, len(rows), len(rows) - len(redundant), _named(names, redundant), _named(names, undetermined),
+                 singular, notes=_notes(start, tables, assembly, p, singular))
+
+
+def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, singular: tuple[str, ...]) -> tuple[str, ...]:
+    """What is to be said of the pose; a singular one is told first."""
+    in_space = isinstance(tables, SpaceTables)
+    notes = [*differences(tables, assembly, p), *(space_advice.at_right_angles(tables, assembly.core, p) if in_space else ())]
+    if singular:
+        why = space_advice.flat_crosses(tables, assembly.core, p) if in_space else []
+        told = f", as {' and '.join(why)}" if why else ""
+        return (f"a singular pose: {', '.join(singular)} follows from others as drawn, and not nearby{told}; {start.way_out()}",
+                *notes)
+    return tuple(notes)
+
+
+def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:
+    """By the core's decision, at a cost that follows the bodies; a pose that is singular is its error."""
+    core = assembly.core
+    named = _Named(constraint_names(tables, core))
+    core.name_rows(named)
+    v = nearest_velocities(core, assembly.t, p, np.zeros(core.nv))
+    redundant = redundant_rows(core, assembly.t, p, v)
+    names = [variable.name for variable in named.constraints]
+    return Count(core.nv, core.m, core.m - len(redundant), _named(names, set(redundant)), (), (), is_of_many=True,
+                 notes=tuple(differences(tables, assembly, p)))
+
+
+@dataclass(frozen=True)
+class _Named:
+    """Whoever has the names of rows for the core's errors."""
+
+    constraints: tuple[Variable, ...]
+
+
+def _driven(drawing: Drawing, assembly: Assembly) -> set[int]:
+    """The rows of drives."""
+    motors = {motor.name for motor in drawing.of((Motor, Actuator))}
+    return {i for i, (row, name) in enumerate(zip(assembly.core.rows, assembly.rows, strict=True))
+            if row.owner == "relation" and name in motors}
+
+
+def dependent(rows: np.ndarray) -> set[int]:
+    """Rows that follow from those before them: what is left of each when their part is taken out twice is only rounding."""
+    basis, found = np.zeros((0, rows.shape[1])), set()
+    for i, row in enumerate(rows):
+        left = row - basis.T @ (basis @ row)
+        left -= basis.T @ (basis @ left)
+        size = np.linalg.norm(left)
+        if size <= DEPENDENT * np.linalg.norm(row):
+            found.add(i)
+        else:
+            basis = np.vstack([basis, left / size])
+    return found
+
+
+def _left_null(rows: np.ndarray) -> np.ndarray:
+    """A basis (k, n) of the combinations of rows that are zero."""
+    u, s, _ = np.linalg.svd(rows)
+    return u[:, int((s > 1e-9 * s.max(initial=0.0)).sum()):]
+
+
+def _named(names: list[str], rows: set[int] | np.ndarray) -> tuple[str, ...]:
+    return tuple(names[i] for i in sorted(rows))

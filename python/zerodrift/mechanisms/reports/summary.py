@@ -1,0 +1,81 @@
+"""What `print(mechanism)` says."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...errors import ZerodriftError
+from ..elements.drawing import Drawing
+from ..elements.forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from ..elements.joints import Joint
+from ..elements.numbers import AS_GIVEN
+from ..elements.table_forces import MadeForce
+from ..equations.space_tables import tables_of
+from . import cost
+from .counting import Count, count
+
+MOST_NAMED = 40         # of rows or loops
+
+
+def headline(drawing: Drawing) -> str:
+    """One line: what there is."""
+    bodies, joints = len(drawing.parts()), len(drawing.of(Joint))
+    forces = [_several(len(drawing.of(kind)), word) for kind, word in (
+        (Spring, "spring"), (TorsionSpring, "torsion spring"), (Bushing, "bushing"), (Force, "force"), (Torque, "torque"),
+        (MadeForce, "other force"), (Motor, "motor"), (Actuator, "actuator")) if drawing.of(kind)]
+    gravity = f"gravity ({', '.join(f'{each:g}' for each in drawing.gravity)})" if drawing.gravity.any() else "no gravity"
+    said = f"{', '.join(forces)}, {gravity}" if forces else f"no forces but {gravity}" if drawing.gravity.any() else "no forces"
+    where = "space" if drawing.dimension == 3 else "plane"
+    return f"<Mechanism {drawing.name}: {where}, {_several(bodies, 'body', 'bodies')}, {_several(joints, 'joint')}; {said}>"
+
+
+def report(drawing: Drawing) -> str:
+    """What there is, what is free, what follows from what, what is driven, and which coordinates a simulation takes."""
+    if not drawing.parts():
+        return f"{headline(drawing)}\n nothing moves yet"
+    try:
+        counted = count(drawing)
+    except (ZerodriftError, ValueError) as error:
+        return f"{headline(drawing)}\n it cannot start: {error}"
+    lines = [headline(drawing), f" {_freedom(drawing, counted)}; {_rows(counted)}"]
+    if counted.is_of_many and counted.redundant:
+        lines.append(" which reactions that leaves undetermined was not looked for among so many rows")
+    if counted.undetermined:
+        lines.append(f" reactions not determined: {', '.join(counted.undetermined)}")
+    lines += [f" {note}" for note in counted.notes]
+    driven = [f"{motor.joint.name} by {motor.name} ({motor.drives})" for motor in drawing.of(Motor)]
+    driven += [f"{actuator.name} ({actuator.drives})" for actuator in drawing.of(Actuator)]
+    if driven:
+        lines.append(f" driven: {', '.join(driven)}")
+    found = cost.cost(tables_of(drawing, AS_GIVEN, in_tree=True), exact=True)
+    lines.append(f" a simulation takes {found.taken} coordinates: {found.in_words}")
+    return "\n".join(lines)
+
+
+def _freedom(drawing: Drawing, counted: Count) -> str:
+    """Freedom and coordinates of both kinds."""
+    tables = tables_of(drawing, AS_GIVEN, in_tree=True)
+    core = tables.core()
+    carriers = {joint for joint in tables.carrier if joint >= 0}
+    cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in carriers and not joint.is_of_one_body]
+    closing = f", {_several(core.m, 'row')}" + (f" closing {_several(len(cuts), 'loop')} at {_listed(cuts)}" if cuts else "")
+    return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); joint coordinates {core.nv}{closing}; "
+            f"absolute {counted.velocities}, {_several(counted.rows, 'row')}")
+
+
+def _rows(counted: Count) -> str:
+    if not counted.redundant:
+        return "no redundant rows"
+    follow = "follows" if len(counted.redundant) == 1 else "follow"
+    return f"{len(counted.redundant)} of {_several(counted.rows, 'row')} {follow} from others: {_listed(counted.redundant)}"
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names, not all of many."""
+    if len(names) <= MOST_NAMED:
+        return ", ".join(names)
+    return f"{', '.join(names[:MOST_NAMED])} and {len(names) - MOST_NAMED} others"
+
+
+def _several(number: int, word: str, plural: str = "") -> str:
+    return f"{number} {word if number == 1 else plural or word + 's'}"
