@@ -5,12 +5,12 @@
 #include "lane_numbers.h"
 
 #define REAL(pointer) ((zd_stored *)(pointer))
-#define HOLDS(pointer) (*REAL(pointer) != 0)        /* a condition that is kept as a number */
+#define HOLDS(pointer) (*REAL(pointer) != 0)        /* a condition stored as a number */
 #define AS_NUMBER(condition) ZD_WHERE(condition, ZD_SPLAT(1.0), ZD_SPLAT(0.0))
 #define LARGER(a, b) ZD_WHERE((a) > (b), a, b)
 #define SMALLER(a, b) ZD_WHERE((a) < (b), a, b)
 #define ZD_KERNEL ZD_ON_UNIT static
-#define ZD_SUMS 6       /* beside each other, as each waits for its own last product */
+#define ZD_SUMS 6       /* adjacent sums, whose fused multiply-adds overlap in time */
 
 static const double LARGE_PIVOT = 0x1p-3, SUFFICIENT_PIVOT = 0x1p-5, SMALL_PIVOT = 0x1p-6, SHRUNK_PIVOT = 0x1p-4; /* motion/direct.c */
 static const double TRUSTED_SHARE = 0.25, LONG_PATH = 0.25;      /* motion.h, guard.h */

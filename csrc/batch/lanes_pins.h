@@ -94,7 +94,7 @@ ZD_KERNEL void ZD_NAMED(add_pin)(const zd_lanes *self, int place)
     to[3] = diagonal[1] = yy;
 }
 
-/* Updates is_small and is_lost: lanes with a small pivot, and with one that is not positive. */
+/* Lanes with a pivot below GOOD_PIVOT, and below REPORTED_PIVOT. */
 typedef struct ZD_NAMED(judged) {
     zd_condition small, lost;
 } ZD_NAMED(judged);
@@ -290,7 +290,7 @@ ZD_KERNEL zd_real ZD_NAMED(spin_squared)(const zd_lane_pins *pins, int end, cons
     return spin * spin;
 }
 
-/* vdot and, if required, lambda; NAN if there is no solution. */
+/* vdot and, if required, lambda; NAN in lanes with is_lost. */
 ZD_KERNEL void ZD_NAMED(accelerate_pins)(const zd_lanes *self, const double *p, const double *v, double *vdot, double *lambda)
 {
     const zd_lane_pins *pins = self->pins;

@@ -1,4 +1,4 @@
-/* A run of a batch by itself: created, advanced and freed as any other. */
+/* Individual execution of a run of a batch: created, advanced and freed as any other run. */
 #include "single_run.h"
 
 #include <math.h>

@@ -147,7 +147,7 @@ const zd_formulation zd_augmented = {
         .name = "augmented",
         .summary = "Dependent variables; accelerations and multipliers at once from one symmetric matrix.",
         .equations = "(8), (25)",
-        .description = "Accelerations and multipliers come at once from one symmetric matrix with M, C and its transpose, "
+        .description = "Accelerations and multipliers are solved together from one symmetric matrix of M, C and its transpose, "
                        "which is factored with pivoting. M may be singular if the constraints leave no massless direction "
                        "free, so that systems may have massless parts. Positions and velocities both drift from their "
                        "constraints and are corrected with the same matrix.",

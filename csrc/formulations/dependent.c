@@ -1,4 +1,4 @@
-/* The state (p, v) of the dependent formulations and its rate, (1) beside the acceleration. */
+/* State (p, v) of the dependent formulations, and its rate: (1), and the acceleration. */
 #include "dependent.h"
 
 #include "../linalg/small.h"

@@ -28,7 +28,7 @@ static const double WORSE = 1.1;      /* growth of the derivative of p with resp
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
 {
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv, mh = (size_t)system->mh, k = nv - mh;
-    /* Entries of p are only chosen where nq is nv. K is made anew once q is chosen. */
+    /* Entries of p can be selected only if nq is nv. K is formed again after q is selected. */
     double *choice = zd_take_doubles(arena, nv * (nv + (size_t)zd_constraints(system)));
     return (zd_embedding){
         .nq = (int)nq,
@@ -159,7 +159,7 @@ static int find_violation(const zd_embedding *self, zd_point *point, double *siz
     return status;
 }
 
-/* Residual in units of rounding; infinite or excessive as long as q differs from its target. */
+/* Residual: the largest of |Phi|, in units of rounding, and of the errors of q. */
 static int residual(void *context, double *size)
 {
     problem *it = context;

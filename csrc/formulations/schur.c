@@ -294,7 +294,7 @@ const zd_formulation zd_schur = {
         .name = "schur",
         .summary = "Dependent variables; multipliers from the small matrix C M^-1 C^T, then accelerations.",
         .equations = "(13), (27)",
-        .description = "M is factored by Cholesky, then the small matrix C M^-1 C^T gives the multipliers, and these the "
+        .description = "M is factored by Cholesky, then the small matrix C M^-1 C^T yields the multipliers, and these the "
                        "accelerations. It is usually the fastest, and the default. M "
                        "must be positive definite. Large mass ratios cost no digits, as an error of C vdot = xi is "
                        "detected and corrected.",
