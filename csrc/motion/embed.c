@@ -27,6 +27,7 @@ void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system)
     path->p = zd_take_doubles(arena, (size_t)system->nq);
     path->v = zd_take_doubles(arena, nv);
     path->vdot = zd_take_doubles(arena, nv);
+    path->pdot_of_stage = zd_take_doubles(arena, (size_t)system->nq);
     path->Phi = zd_take_doubles(arena, mh);
     path->unbounded = zd_take_doubles(arena, mh);
     path->D = zd_take_doubles(arena, m * (nv - m));
@@ -147,7 +148,7 @@ int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *add
     double first = 0;
     for (int iteration = 0;; iteration++) {
         motion->statistics.evaluations++;
-        int status = path->order->embed(motion->system.data, &t, path->p, path->v, added, allowed, path->Phi, path->dp, to->D, path->pdot,
+        int status = path->order->embed(motion->system.data, &t, path->p, path->v, added, allowed, path->Phi, path->dp, to->D, to->pdot,
                                         to->vdot, to->lambda, to->power, to->pivots);
         if (finds_p && status == ZD_NO_CONVERGENCE) status = improve(motion, iteration, &first);
         else {
@@ -162,7 +163,7 @@ int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *add
 static int embed_point(zd_motion *motion, double t, int finds_p, const double *added)
 {
     zd_path *path = &motion->path;
-    const zd_embedded of_point = {path->D, motion->point->vdot, motion->point->lambda, motion->balance.input ? &path->power : NULL, path->pivots};
+    const zd_embedded of_point = {path->D, path->pdot, motion->point->vdot, motion->point->lambda, motion->balance.input ? &path->power : NULL, path->pivots};
     return zd_embed_entries(motion, t, finds_p, added, &of_point);
 }
 

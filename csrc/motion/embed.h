@@ -19,10 +19,10 @@ void zd_embed_read(zd_motion *motion, double t, const double *y);
 /* The state's entries of a p and v, or of their rates */
 void zd_embed_write(const zd_motion *motion, const double *p, const double *v, double *y);
 
-typedef struct zd_embedded {    /* what is wanted of an acceleration; but for vdot, NULL where it is not */
-    double *D, *vdot, *lambda, *power, *pivots;
+typedef struct zd_embedded {    /* results of an acceleration; D, lambda, power and pivots may be NULL */
+    double *D, *pdot, *vdot, *lambda, *power, *pivots;
 } zd_embedded;
-/* The road's v, and where it has to be found its p, too, from the entries that the state has; pdot and what else is wanted with them. */
+/* The road's v, and where it has to be found its p, too, from the entries that the state has, and the results at these. */
 int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to);
 /* embedded_rate.c */
 int zd_motion_embedded_rate(void *motion, double t, const double *y, double *ydot);

@@ -3,9 +3,9 @@
 
 #include "embed.h"
 
-static void write_rates(const zd_motion *motion, const double *v, const double *vdot, double power, double *ydot)
+static void write_rates(const zd_motion *motion, const double *v, const double *pdot, const double *vdot, double power, double *ydot)
 {
-    zd_embed_write(motion, motion->point->terms.A ? motion->path.pdot : v, vdot, ydot);
+    zd_embed_write(motion, motion->point->terms.A ? pdot : v, vdot, ydot);
     if (motion->balance.input) ydot[motion->rate.size - 1] = power;
 }
 
@@ -14,13 +14,13 @@ static int rate_of_point(zd_motion *motion, double t, double *ydot)
 {
     zd_path *path = &motion->path;
     zd_point *point = motion->point;
-    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.vdot = path->vdot});
+    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.pdot = path->pdot_of_stage, .vdot = path->vdot});
     if (status) return status;
     zd_point_move(point, t, path->p, path->v);
     if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
     status = zd_motion_accelerate(motion);
     if (status) return status;
-    write_rates(motion, point->v, point->vdot, path->power, ydot);
+    write_rates(motion, point->v, path->pdot, point->vdot, path->power, ydot);
     if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
     return ZD_DONE;
 }
@@ -44,11 +44,12 @@ int zd_motion_embedded_rate(void *context, double t, const double *y, double *yd
     zd_embed_read(motion, t, y);
     if (motion->is_stabilized) return rate_of_point(motion, t, ydot);
     if (is_known(motion, t)) {
-        write_rates(motion, motion->point->v, motion->point->vdot, path->power, ydot);
+        write_rates(motion, motion->point->v, path->pdot, motion->point->vdot, path->power, ydot);
         return ZD_DONE;
     }
     double power = 0;
-    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.vdot = path->vdot, .power = motion->balance.input ? &power : NULL});
-    if (!status) write_rates(motion, path->v, path->vdot, power, ydot);
+    const zd_embedded of_stage = {.pdot = path->pdot_of_stage, .vdot = path->vdot, .power = motion->balance.input ? &power : NULL};
+    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &of_stage);
+    if (!status) write_rates(motion, path->v, of_stage.pdot, of_stage.vdot, power, ydot);
     return status;
 }

@@ -82,6 +82,7 @@ typedef struct zd_path {
     double smallest;        /* of the pivots where a step has ended, in parts of what they are measured by; 0: not known */
     double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began. Those that no order has are 1 */
     double *pdot;           /* (nq,): at the point, of a system with A */
+    double *pdot_of_stage;  /* (nq,): at a stage, which leaves that of the point as it is: a step that is rejected begins with it again */
     double *dp;             /* (nq,): of an iteration onto the constraints */
     double *allowed;        /* (mh,): of Phi, so that the projection's tolerance is kept */
     int lands;              /* whether what ends a step is one function: its acceleration is then that of the end */
