@@ -10,7 +10,7 @@ TIMES = np.linspace(0, 2, 9)
 
 @pytest.fixture(scope="module")
 def stone():
-    """The rattleback: quaternions, pdot = A v, and independent velocities that are chosen anew often; with its exact positions."""
+    """The rattleback, whose quaternions have pdot = A v and whose independent velocities change often; its exact positions."""
     system = zd.models.rattleback().system("joint", compiled=True)
     exact = zd.simulate(system, 2.0, t_eval=TIMES, integrator="dop853", rtol=1e-13, atol=1e-13, formulation="schur", direct=False)
     return system, exact.p
