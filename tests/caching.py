@@ -10,7 +10,8 @@ import pytest
 @pytest.fixture
 def cache_folder(tmp_path, monkeypatch):
     """An empty cache, and nothing that this process remembers."""
-    from zerodrift.symbolics import cache, define
+    from zerodrift.symbolics import define
+    from zerodrift.symbolics.compile import cache
 
     folder = tmp_path / "cache"
     monkeypatch.setenv("ZERODRIFT_CACHE", str(folder))

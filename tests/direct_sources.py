@@ -6,7 +6,7 @@ import sympy
 
 from support import ROOT
 from symbolic_counterparts import OF_PARAMETERS
-from zerodrift.symbolics import direct
+from zerodrift.symbolics.emit import closed_form
 
 FOLDER = ROOT / "csrc" / "systems" / "direct"
 # Where in the doubles of a system those of its direct functions begin: behind its own, or with these where they are the same.
@@ -24,7 +24,7 @@ def sources():
         system = counterpart()
         symbol, count = f"zd_{name}_direct", len(system.parameters)
         heading = [HEADING, f'#include "{name}.h"', "", "#include <math.h>", '#include "../../include/zerodrift/units.h"']
-        texts[f"{name}.c"], constants = direct.write(
+        texts[f"{name}.c"], constants = closed_form.write(
             *system._direct._definition, offset=count, symbol=symbol, heading=heading, embeds=EMBEDS.get(name, (False, True)),
             file=f"{name}.c", lanes_header='"../../include/zerodrift/lanes.h"',
             data=f"(const double *)data + {BEGINS[name]} * ZD_LANES" if BEGINS[name] else "data")

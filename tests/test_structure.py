@@ -74,7 +74,7 @@ def test_no_folders_import_each_other_in_a_circle(files):
 
 
 def room_of(module):
-    """The room of `mechanisms` that a module is in: a sub-package, or a file directly in it; None for the package itself."""
+    """The sub-package of `mechanisms` or `symbolics` that a module is in, or its own name; None for the package itself."""
     parts = module.split(".")[2:]
     return parts[0] if parts else None
 
@@ -133,6 +133,30 @@ def test_no_two_modules_of_mechanisms_differ_in_an_ending():
     pairs = [(one, other) for one in names for other in names if one < other and differ_in_an_ending(one, other)]
     assert len(names) > 60
     assert pairs == []
+
+
+def test_no_two_modules_of_systems_and_symbolics_differ_in_an_ending():
+    files = [path for room in ("systems", "symbolics") for path in (PACKAGE / room).rglob("*.py")]
+    names = sorted({path.stem for path in files} - {"__init__"})
+    pairs = [(one, other) for one in names for other in names if one < other and differ_in_an_ending(one, other)]
+    assert len(names) > 45
+    assert pairs == []
+
+
+def test_no_rooms_of_symbolics_import_each_other_in_a_circle(files):
+    """A file that is directly in `symbolics` counts as a room."""
+    modules = [module for module in files if module.startswith("zerodrift.symbolics.")]
+    rooms = {room_of(module): set() for module in modules}
+    for module in modules:
+        rooms[room_of(module)] |= {room_of(other) for other in files[module] & set(modules)} - {room_of(module)}
+    assert {"graph", "elimination", "emit", "compile"} <= set(rooms)
+    assert circle(rooms) is None
+
+
+def test_no_room_of_symbolics_has_more_than_fifteen_files():
+    rooms = {path.parent for path in (PACKAGE / "symbolics").rglob("*.py")}
+    assert len(rooms) == 5
+    assert {room.name: len(list(room.glob("*.py"))) for room in rooms if len(list(room.glob("*.py"))) > 15} == {}
 
 
 def test_no_public_function_has_the_name_of_a_module():

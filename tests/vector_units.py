@@ -7,7 +7,7 @@ import pytest
 from zerodrift._core import ffi, lib
 
 from zerodrift import _gateway
-from zerodrift.symbolics.compiling import QUICKLY
+from zerodrift.symbolics.compile.shared_library import QUICKLY
 
 # The sets of csrc/include/zerodrift/units.h by their unit's number and how many trajectories they take at once
 SETS = {(0, 1): "BASELINE_1", (0, 2): "BASELINE_2", (1, 1): "AVX2_1", (1, 4): "AVX2_4", (2, 1): "AVX512_1", (2, 8): "AVX512_8"}

@@ -34,7 +34,11 @@ MEASURED = """
 import json, resource, sys, time
 import sympy, sympy.physics.mechanics
 import zerodrift as zd
-from zerodrift.symbolics import define, direct_functions
+from zerodrift.symbolics import define
+try:
+    from zerodrift.symbolics.compile import closed_form_library
+except ImportError:     # versions before sub-packages of symbolics
+    from zerodrift.symbolics import direct_functions as closed_form_library
 from zerodrift._gateway import PROCESSOR_UNIT
 zd.symbolic, zd.models.symbolic
 
@@ -66,9 +70,9 @@ def prepare(functions):
     prepared(functions)
     meanwhile.append(spent() - before)
 
-meanwhile, prepared = [], getattr(direct_functions.DirectFunctions, "prepare", None)
+meanwhile, prepared = [], getattr(closed_form_library.DirectFunctions, "prepare", None)
 if prepared:
-    direct_functions.DirectFunctions.prepare = prepare
+    closed_form_library.DirectFunctions.prepare = prepare
 define.Progress, marks = Stages, [("energies in SymPy", spent())]
 began = time.perf_counter()
 system = eval(sys.argv[2])
@@ -79,7 +83,7 @@ for (stage, before), (_, after) in zip(marks, marks[1:]):
     seconds[stage] = seconds.get(stage, 0) + after - before
 seconds["compiling"] -= sum(meanwhile)
 before = spent()
-system._direct.library(list(direct_functions.LANES)[PROCESSOR_UNIT])
+system._direct.library(list(closed_form_library.LANES)[PROCESSOR_UNIT])
 seconds["direct functions"] = spent() - before + sum(meanwhile)
 print(json.dumps([seconds, clock, time.perf_counter() - began]))
 """

@@ -19,13 +19,13 @@ from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
 from measuring import least, record
-from zerodrift.symbolics import compilers, compiling
-from zerodrift.symbolics.blocks import Blocks
-from zerodrift.symbolics.definition import Definition
-from zerodrift.symbolics.derivation import Derivation
-from zerodrift.symbolics.emission import CWriter
-from zerodrift.symbolics.fingerprint import fingerprint
-from zerodrift.symbolics.lowering import Lowering
+from zerodrift.symbolics.arguments import Definition
+from zerodrift.symbolics.cache_key import fingerprint
+from zerodrift.symbolics.compile import compilers, shared_library
+from zerodrift.symbolics.emit.writers import CWriter
+from zerodrift.symbolics.graph.blocks import Blocks
+from zerodrift.symbolics.graph.derivation import Derivation
+from zerodrift.symbolics.graph.lowering import Lowering
 
 HERE = Path(__file__).resolve().parent
 T = dynamicsymbols._t
@@ -84,7 +84,8 @@ def costs(n, relative, rounds=3):
         times.append(time.perf_counter())
         source, _, _ = CWriter(blocks).source([], len(definition.values))
         times.append(time.perf_counter())
-        compiling._build(source, compilers.find().line(compiling.SOURCE, compiling.PRODUCT, zd.get_include(), ["-O3"], []))
+        shared_library._build(source, compilers.find().line(
+            shared_library.SOURCE, shared_library.PRODUCT, zd.get_include(), ["-O3"], []))
         times.append(time.perf_counter())
         best = [min(a, after - before) for a, before, after in zip(best, times, times[1:], strict=False)]
     return *best, sum(1 for terms in blocks.users if terms)

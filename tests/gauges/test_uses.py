@@ -5,7 +5,7 @@ import pytest
 
 from zerodrift._gateway import mechanisms as plane
 from zerodrift._gateway import space
-from zerodrift._gateway.uses import Effort, Observed, Relation
+from zerodrift._gateway.element_tables import Effort, Observed, Relation
 
 BODIES = {plane: plane.Body(1.5, 1.0), space: space.Body(1.5, (1.0, 1.0, 1.0))}
 CORES = {plane: plane.MechanismCore, space: space.SpaceCore}

@@ -15,7 +15,8 @@ from mechanisms.test_files_of_space import everything
 from zerodrift._gateway.space import joint_kinds
 from zerodrift.mechanisms.elements.immutable import amend
 from zerodrift.mechanisms.equations import generated_code
-from zerodrift.symbolics import compiling, direct_emission
+from zerodrift.symbolics.compile import shared_library
+from zerodrift.symbolics.emit import closed_form_writer
 
 SAME = 1e-11        # of the largest value of a measure: some ten steps of other roundings, of spins of 150 rad/s
 
@@ -24,7 +25,7 @@ SAME = 1e-11        # of the largest value of a measure: some ten steps of other
 def _quickly_compiled():
     """Compile without optimization, as the code is evaluated only a few times."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(generated_code.compiling, "library", functools.partial(compiling.library, optimized=("-O0",)))
+        patch.setattr(generated_code.compiling, "library", functools.partial(shared_library.library, optimized=("-O0",)))
         yield
 
 
@@ -133,7 +134,7 @@ def test_callables_are_refused_by_the_name_of_their_element(layout):
 def test_many_bodies_in_absolute_coordinates_keep_the_road_of_the_tables():
     m = IN_SPACE["chain"](links=generated_code.MOST_VELOCITIES // 6 + 1)
     one, other = (zd.simulate(m.system("absolute", compiled=written), 0.002, step=1e-3) for written in (False, True))
-    assert direct_emission.TOO_LARGE in repr(other)
+    assert closed_form_writer.TOO_LARGE in repr(other)
     assert one.p.tobytes() == other.p.tobytes()
 
 

@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 
 import zerodrift as zd
 from zerodrift.mechanisms.building.periodic_spline import PeriodicSpline
-from zerodrift.systems.jets import Jet
+from zerodrift.systems.autodiff import Jet
 
 LAYOUTS = ("joint", "absolute")
 t = sp.Symbol("t")

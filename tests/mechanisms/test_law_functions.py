@@ -7,11 +7,11 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from zerodrift._gateway.uses import law_sizes
+from zerodrift._gateway.element_tables import law_sizes
 from zerodrift.errors import ZerodriftError
 from zerodrift.mechanisms.equations import function_code
 from zerodrift.mechanisms.equations.function_calls import Laws
-from zerodrift.symbolics import compilers, compiling
+from zerodrift.symbolics.compile import compilers, shared_library
 
 t, x, u, k = sp.symbols("t x u k")
 ROUNDING = 1e-12    # of sines and products in another order, over some hundred steps
@@ -116,7 +116,7 @@ def test_models_move_as_by_python(model, monkeypatch):
 def test_other_numbers_and_parameters_are_not_compiled_again(monkeypatch):
     first = scene(motion, 2).system()
     zd.simulate(first, 0.1, step=0.01)
-    monkeypatch.setattr(compiling, "library", lambda *a, **b: pytest.fail("compiled again"))
+    monkeypatch.setattr(shared_library, "library", lambda *a, **b: pytest.fail("compiled again"))
     changed = first.with_parameters(k=0.1)
     sol = zd.simulate(changed, 1.0, step=0.01)
     assert sol["guide.displacement"] == pytest.approx(0.3 * np.sin(2.5 * sol.t + 0.2) * np.exp(-0.4 * sol.t) + 0.1 * sol.t**2,

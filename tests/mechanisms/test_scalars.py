@@ -6,7 +6,7 @@ import sympy as sp
 
 from zerodrift.mechanisms.elements.user_functions import function_of
 from zerodrift.mechanisms.files.expressions_json import FUNCTIONS
-from zerodrift.systems.jets import Jet
+from zerodrift.systems.autodiff import Jet
 
 x, y = sp.symbols("x y", real=True)
 TWO = ("atan2", "Min", "Max", "Mod")

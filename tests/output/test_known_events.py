@@ -9,7 +9,7 @@ import zerodrift as zd
 from zerodrift import _gateway
 from zerodrift._gateway.known_events import COORDINATE, MEASURE, VELOCITY, Reading
 from zerodrift.errors import ZerodriftError
-from zerodrift.symbolics import compilers
+from zerodrift.symbolics.compile import compilers
 
 A1, A3, RATE, GRAVITY, T = sp.symbols("alpha1 alpha3 alpha1_dot gravity t")
 ROUNDING = 1e-13    # of an expression that SymPy or the compiler may write in another order

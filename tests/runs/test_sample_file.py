@@ -105,7 +105,7 @@ def test_measures_are_recorded_and_read_from_it(tmp_path, monkeypatch):
     pin = m.revolute("pin", m.ground, m.link("link", (0, 0), (1, 0), mass=1.0).start)
     options = {"step": 0.01, "outputs": [pin.force, pin.angle, "link.angle"]}
     here, there = (zd.simulate(m, 1.0, save_to=to, **options) for to in (None, str(tmp_path / "run.zd")))
-    monkeypatch.setattr("zerodrift.systems.watching.PART", 80)      # bytes: measures are evaluated at ten rows together
+    monkeypatch.setattr("zerodrift.systems.measure_values.PART", 80)      # bytes: measures are evaluated at ten rows together
     again = zd.load(tmp_path / "run.zd")
     for name in ("pin.force", "pin.force.y", "pin.angle", "link.angle", "link.end.velocity"):
         assert here[name].tobytes() == there[name].tobytes() == again[name].tobytes()

@@ -8,8 +8,8 @@ import pytest
 import zerodrift as zd
 from native_systems import needs_compiler
 from vector_units import DirectSet, direct_sets
-from zerodrift.symbolics import angles
-from zerodrift.symbolics.lowering import Lowering
+from zerodrift.symbolics.graph import angles
+from zerodrift.symbolics.graph.lowering import Lowering
 
 mpmath = pytest.importorskip("mpmath")
 sp = pytest.importorskip("sympy")

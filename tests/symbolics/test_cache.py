@@ -11,8 +11,10 @@ import sympy as sp
 
 import zerodrift as zd
 from cached_system import GIVEN, A, Q, elsewhere, made, said
-from zerodrift.symbolics import cache as kept
-from zerodrift.symbolics import compilers, compiling, define, direct, direct_emission
+from zerodrift.symbolics import define
+from zerodrift.symbolics.compile import cache as kept
+from zerodrift.symbolics.compile import compilers, shared_library
+from zerodrift.symbolics.emit import closed_form, closed_form_writer
 
 # ---- what is kept ----
 
@@ -115,7 +117,7 @@ def test_a_cache_that_cannot_be_written(tmp_path, cache_folder, monkeypatch):
         made()
     assert len(caught) == 1
     made()      # and once is enough
-    monkeypatch.setattr(compiling, "_build", None)
+    monkeypatch.setattr(shared_library, "_build", None)
     made()      # it is kept as long as the process lasts
 
 
@@ -135,11 +137,11 @@ def test_where_nothing_is_executed_from_temporary_folders(cache_folder, monkeypa
         loaded.append(path)
         return load(path)
 
-    monkeypatch.setattr(compiling._gateway.functions.ctypes, "CDLL", refusing)
-    monkeypatch.setattr(compiling._gateway.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library._gateway.functions.ctypes, "CDLL", refusing)
+    monkeypatch.setattr(shared_library._gateway.functions, "_loaded", {})
     made()
-    monkeypatch.setattr(compiling._gateway.functions, "_loaded", {})
-    monkeypatch.setattr(compiling, "_build", None)
+    monkeypatch.setattr(shared_library._gateway.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library, "_build", None)
     made()
     assert len(loaded) == 2
     assert all(path.startswith(kept.OPENED) for path in loaded)
@@ -183,8 +185,8 @@ def test_on_windows_files_are_reached_by_their_paths(as_windows):
 def test_on_windows_libraries_are_loaded_from_where_they_are_kept(as_windows, monkeypatch):
     """Windows locks a loaded library against changes, and a loaded copy could not be removed."""
     load, loaded = ctypes.CDLL, []
-    monkeypatch.setattr(compiling._gateway.functions.ctypes, "CDLL", lambda path: loaded.append(Path(path)) or load(path))
-    monkeypatch.setattr(compiling._gateway.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library._gateway.functions.ctypes, "CDLL", lambda path: loaded.append(Path(path)) or load(path))
+    monkeypatch.setattr(shared_library._gateway.functions, "_loaded", {})
     assert made().compiled
     assert loaded
     assert all(path.parent == as_windows for path in loaded)
@@ -217,11 +219,11 @@ def test_direct_functions_are_written_once(cache_folder, monkeypatch):
     system = made()
     source = system._direct.source
     assert source
-    monkeypatch.setattr(direct, "write", lambda *given, **options: pytest.fail("written again"))
+    monkeypatch.setattr(closed_form, "write", lambda *given, **options: pytest.fail("written again"))
     assert made()._direct.source == source
     assert made().with_parameters(a=3.0)._direct.constants == system._direct.constants
-    monkeypatch.setattr(direct, "write", lambda *given, **options: ("another", 0))
+    monkeypatch.setattr(closed_form, "write", lambda *given, **options: ("another", 0))
     other = zd.symbolic([Q], **(GIVEN | {"potential": A * sp.sin(Q)}))
     assert other._direct.source == "another"
-    monkeypatch.setattr(direct_emission, "MOST_STATEMENTS", 900)
+    monkeypatch.setattr(closed_form_writer, "MOST_STATEMENTS", 900)
     assert made()._direct.source == "another"

@@ -15,8 +15,8 @@ import pytest
 
 import zerodrift as zd
 from cached_system import elsewhere, made, said
-from zerodrift.symbolics import cache as kept
-from zerodrift.symbolics import compiling
+from zerodrift.symbolics.compile import cache as kept
+from zerodrift.symbolics.compile import shared_library
 
 pytestmark = pytest.mark.skipif(kept.AS_WINDOWS, reason="owners and permissions are those of POSIX")
 OTHER, OTHERS_GROUP = 12345, 12345
@@ -191,15 +191,15 @@ def test_a_link_that_is_changed_after_the_folder_was_looked_at(tmp_path, cache_f
 def test_what_is_loaded_is_what_was_looked_at(tmp_path, cache_folder, monkeypatch):
     """A library that is replaced between its being read and its being loaded."""
     made()
-    load = compiling._gateway.load_data
+    load = shared_library._gateway.load_data
 
     def replacing(data, otherwise=None):
         for path in cache_folder.glob("*.so"):
             path.write_bytes(b"not what was looked at")
         return load(data, otherwise)
 
-    monkeypatch.setattr(compiling._gateway, "load_data", replacing)
-    monkeypatch.setattr(compiling._gateway.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library._gateway, "load_data", replacing)
+    monkeypatch.setattr(shared_library._gateway.functions, "_loaded", {})
     made()
 
 
@@ -214,7 +214,7 @@ def test_a_file_under_the_name_of_another_is_not_taken(cache_folder):
 
 @needs_root
 def test_what_another_user_has_planted_is_not_executed(cache_folder, tmp_path, monkeypatch):
-    monkeypatch.setattr(compiling._gateway.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library._gateway.functions, "_loaded", {})
     made()
     planted = tmp_path / "planted"
     for path in cache_folder.glob("*.json"):
@@ -251,10 +251,10 @@ def test_root_makes_no_folders_in_those_of_others(tmp_path, cache_folder, monkey
 
 AS_ANOTHER = f"""
 import os, pwd, tempfile
-import sympy.physics.mechanics, zerodrift.symbolics.define as define, zerodrift.symbolics.compiling as compiling
+import sympy.physics.mechanics, zerodrift.symbolics.define as define, zerodrift.symbolics.compile.shared_library as shared_library
 define.fingerprint(dict(read=sympy.S.One))      # reads the package's sources, which the other user may not
 os.setgroups([]), os.setgid({OTHERS_GROUP}), os.setuid({OTHER})
-if not os.access(compiling.get_include() + "/zerodrift/system.h", os.R_OK):
+if not os.access(shared_library.get_include() + "/zerodrift/system.h", os.R_OK):
     print("nan")
     raise SystemExit
 """
@@ -344,7 +344,7 @@ def test_a_full_disk_leaves_nothing(cache_folder, compiler):
 
 def test_temporary_files_of_killed_processes_are_removed_and_no_others(cache_folder):
     kept.put("before", b"1")
-    killed = subprocess.run([sys.executable, "-c", "import os, zerodrift.symbolics.cache as kept\n"
+    killed = subprocess.run([sys.executable, "-c", "import os, zerodrift.symbolics.compile.cache as kept\n"
                              "kept.os.replace = lambda *a, **k: os.kill(os.getpid(), 9)\nkept.put('half', b'2')"], check=False)
     assert killed.returncode == -9
     (left,) = cache_folder.glob(".zerodrift-*.tmp")

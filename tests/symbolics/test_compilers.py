@@ -12,7 +12,7 @@ import pytest
 import zerodrift as zd
 from cached_system import made
 from core_objects import CC, needs_compiler
-from zerodrift.symbolics import compilers
+from zerodrift.symbolics.compile import compilers
 
 PATH = os.environ["PATH"]
 VSWHERE = Path("Microsoft Visual Studio", "Installer", "vswhere.exe")

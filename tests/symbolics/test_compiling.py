@@ -14,7 +14,7 @@ import sympy as sp
 import zerodrift as zd
 from cached_system import Q, made
 from support import assert_close
-from zerodrift.symbolics import compilers, compiling
+from zerodrift.symbolics.compile import compilers, shared_library
 
 on_posix = pytest.mark.skipif(os.name == "nt", reason="what stands for a compiler is a program of POSIX")
 
@@ -140,13 +140,13 @@ HANGING = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {LISTE
 
 def left_hanging(folder, monkeypatch):
     """The connection to the inner of two programs, the outer of which has been ended because it took too long."""
-    monkeypatch.setattr(compiling, "PATIENCE", 0.1)
+    monkeypatch.setattr(shared_library, "PATIENCE", 0.1)
     met = []
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.settimeout(60)
         line = [sys.executable, "-c", HANGING, str(server.getsockname()[1])]
         with pytest.raises(zd.CompilationFailed, match=r"did not end within 0.1 s"):
-            compiling._run(line, folder, None, lambda: met.append(server.accept()[0]))
+            shared_library._run(line, folder, None, lambda: met.append(server.accept()[0]))
     return met[0]
 
 
@@ -197,7 +197,7 @@ def test_flags_in_the_environment_are_not_looked_at(cache_folder, monkeypatch):
 
 
 def test_without_space_to_compile(cache_folder, tmp_path, monkeypatch):
-    monkeypatch.setattr(compiling.tempfile, "tempdir", str(tmp_path / "missing"))
+    monkeypatch.setattr(shared_library.tempfile, "tempdir", str(tmp_path / "missing"))
     assert "no room to compile" in refusal()
     assert "TMPDIR" in refusal()
 
@@ -205,7 +205,7 @@ def test_without_space_to_compile(cache_folder, tmp_path, monkeypatch):
 def test_what_is_in_the_cache_and_cannot_be_loaded_is_compiled_anew(cache_folder, compiler, monkeypatch):
     """As on another machine with the same compiler, but older libraries."""
     made()
-    load, calls = compiling._gateway.load_data, []
+    load, calls = shared_library._gateway.load_data, []
 
     def once(data, otherwise=None):
         calls.append(data)
@@ -213,7 +213,7 @@ def test_what_is_in_the_cache_and_cannot_be_loaded_is_compiled_anew(cache_folder
             raise OSError("version `GLIBC_9.9' not found")
         return load(data, otherwise)
 
-    monkeypatch.setattr(compiling._gateway, "load_data", once)
-    monkeypatch.setattr(compiling.cache, "place", lambda name, data: contextlib.nullcontext())
+    monkeypatch.setattr(shared_library._gateway, "load_data", once)
+    monkeypatch.setattr(shared_library.cache, "place", lambda name, data: contextlib.nullcontext())
     made()
     assert compiler.calls == 2

@@ -11,8 +11,8 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from random_symbolic import random_system
 from support import numbers
-from zerodrift.symbolics import direct, direct_emission
-from zerodrift.symbolics.lowering import Lowering
+from zerodrift.symbolics.emit import closed_form, closed_form_writer
+from zerodrift.symbolics.graph.lowering import Lowering
 
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler
@@ -238,11 +238,11 @@ def assert_says(system, sol, why):
 
 
 @pytest.mark.parametrize(("bound", "why", "scale"), [
-    ("MOST_OPERATIONS", f"they would take more than {direct_emission.MOST_OPERATIONS} operations", 1.0),
+    ("MOST_OPERATIONS", f"they would take more than {closed_form_writer.MOST_OPERATIONS} operations", 1.0),
     ("MOST_STATEMENTS", "a function would have more than 10 statements", 2.0)])
 def test_nothing_is_written_that_is_too_long(bound, why, scale, monkeypatch):
     """A fresh system for each bound, as the code of a system is kept."""
-    monkeypatch.setattr(direct_emission, bound, 10)
+    monkeypatch.setattr(closed_form_writer, bound, 10)
     system = redundant(scale)
     sol = zd.simulate(system, 0.1, step=0.01)
     assert not system._direct.source
@@ -252,8 +252,8 @@ def test_nothing_is_written_that_is_too_long(bound, why, scale, monkeypatch):
 
 def test_a_system_that_is_too_large_says_so_at_once(monkeypatch):
     """Its program is not kept."""
-    why = f"they would take more than {direct_emission.MOST_OPERATIONS} operations"
-    monkeypatch.setattr(direct_emission, "MOST_OPERATIONS", 3)
+    why = f"they would take more than {closed_form_writer.MOST_OPERATIONS} operations"
+    monkeypatch.setattr(closed_form_writer, "MOST_OPERATIONS", 3)
     x, vx = sp.symbols("x vx")
     system = zd.symbolic([x], speeds=[vx], kinetic=vx**2 / 2, potential=sp.sin(1.25 * x), parameters={}, p0=[0.0], v0=[1.0])
     assert repr(system).endswith(f"no direct functions: {why}>")
@@ -274,7 +274,7 @@ def test_nothing_is_written_with_functions_of_ones_own():
 
     lowering = Lowering(None)
     lowering.emit("call", Twice, lowering.emit("number", 1.0))
-    assert direct.as_json(lowering, {}) == "Twice is no function of SymPy's"
+    assert closed_form.as_json(lowering, {}) == "Twice is no function of SymPy's"
 
 
 def test_more_constraints_than_velocities_have_none():

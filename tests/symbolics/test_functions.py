@@ -8,7 +8,7 @@ import sympy as sp
 from sympy.codegen import cfunctions as c
 
 import zerodrift as zd
-from zerodrift.symbolics import functions
+from zerodrift.symbolics.graph import sympy_functions
 from zerodrift.symbolics.system import _compiled
 
 X, DX, Y, DY = sp.symbols("x dx y dy")
@@ -20,7 +20,7 @@ ARGUMENTS = [0.0, 1.0, -1.0, 0.5, -0.5, 1.5, -1.5, 2.0, -2.0, -3.0, 1e-10, -1e-1
 PAIRS = [(0.0, 1.0), (0.0, -1.0), (1.0, 0.0), (-1.0, 0.0), (-8.0, 0.7), (-8.0, 3.0), (-8.0, -3.0), (0.0, 0.5), (0.0, -0.5),
          (2.0, -2.0), (2.0, 2.0), (1000.0, 200.0), (-1000.0, 201.0), (-7.5, 2.0), (7.5, -2.0), (1e-200, 1e-200), (1e200, 1e200),
          *map(tuple, RANDOM.uniform(-4, 4, (20, 2)))]
-ONE = [f for f in (*functions.TOTAL, *functions.PARTIAL, *functions.REWRITTEN)
+ONE = [f for f in (*sympy_functions.TOTAL, *sympy_functions.PARTIAL, *sympy_functions.REWRITTEN)
        if f not in (sp.atan2, sp.Mod, sp.erf2, sp.adjoint, sp.transpose, sp.exp_polar, c.hypot, c.fma)]
 
 

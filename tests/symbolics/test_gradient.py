@@ -6,10 +6,10 @@ import sympy as sp
 
 import tolerances as tol
 from support import assert_close
-from zerodrift.symbolics import numeric
-from zerodrift.symbolics.gradient import Gradient, Hessian
-from zerodrift.symbolics.lowering import Lowering
-from zerodrift.symbolics.reading import Reader
+from zerodrift.symbolics.graph import numpy_evaluation
+from zerodrift.symbolics.graph.from_sympy import Reader
+from zerodrift.symbolics.graph.gradient import Gradient, Hessian
+from zerodrift.symbolics.graph.lowering import Lowering
 
 SIZE = 5
 X = sp.symbols(f"x:{SIZE}")
@@ -58,7 +58,7 @@ def read(expression):
 def values(graph, nodes, points=POINTS):
     """Values of nodes at points, (points, nodes)."""
     lowering = Lowering(graph)
-    evaluate = numeric.evaluator(lowering, {"of": [lowering.lower(node) for node in nodes]}, VALUES)
+    evaluate = numpy_evaluation.evaluator(lowering, {"of": [lowering.lower(node) for node in nodes]}, VALUES)
     return evaluate(np.zeros(len(points)), points)["of"]
 
 

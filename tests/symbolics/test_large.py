@@ -11,8 +11,8 @@ from sympy.physics.mechanics import dynamicsymbols
 import zerodrift as zd
 from support import assert_same_bits
 from symbolic_counterparts import four_bar, rolling_disc
-from zerodrift.symbolics import large
-from zerodrift.symbolics.rolling import element, number, plain, rolled
+from zerodrift.symbolics.emit import splitting
+from zerodrift.symbolics.emit.loops import element, number, plain, rolled
 
 T = dynamicsymbols._t
 
@@ -32,9 +32,9 @@ def coupled(n):
 def written_twice(make, monkeypatch):
     """The system in functions as long as they come, and in short ones."""
     one = make()
-    monkeypatch.setattr(large, "MOST_STATEMENTS", 0)
-    monkeypatch.setattr(large, "PIECE", 5)
-    monkeypatch.setattr(large, "LEAST", 2)
+    monkeypatch.setattr(splitting, "MOST_STATEMENTS", 0)
+    monkeypatch.setattr(splitting, "PIECE", 5)
+    monkeypatch.setattr(splitting, "LEAST", 2)
     monkeypatch.setattr(sys.modules["zerodrift.symbolics.define"], "fingerprint", lambda expressions: None)
     return one, make()
 
@@ -59,7 +59,7 @@ def test_no_function_of_a_long_chain_is_long():
     """Code that differs between links only in its data is emitted once, so that only the tables of the source grow."""
     system = zd.models.symbolic.closed_pendulum(24)
     counts = [text.count(";\n") for text in re.split(r"^}$", system.c_source, flags=re.MULTILINE)]
-    assert max(counts) <= large.MOST_STATEMENTS < len(system._code.python_source.splitlines())
+    assert max(counts) <= splitting.MOST_STATEMENTS < len(system._code.python_source.splitlines())
     assert zd.check(system)
 
 

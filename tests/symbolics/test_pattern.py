@@ -8,7 +8,7 @@ from sympy.physics.mechanics import dynamicsymbols
 import zerodrift as zd
 from support import assert_close, numbers
 from zerodrift.symbolics import define
-from zerodrift.symbolics.pattern import Pattern
+from zerodrift.symbolics.graph.pattern import Pattern
 
 N = 5       # rods
 
@@ -74,7 +74,7 @@ def test_the_motion_is_that_of_the_dense_system(request, direct):
 
 def test_without_a_compiler_it_is_packed_as_well(monkeypatch):
     system = rods()
-    monkeypatch.setattr("zerodrift.symbolics.compiling.library", lambda *arguments, **options: None)
+    monkeypatch.setattr("zerodrift.symbolics.compile.shared_library.library", lambda *arguments, **options: None)
     with pytest.warns(zd.NoCompilerWarning):
         slow = rods()
     assert slow.structure == system.structure

@@ -18,7 +18,8 @@ import tolerances as tol
 import zerodrift as zd
 from support import FORMULATIONS, SYSTEMS, assert_close, consistent_states, violated_states
 from symbolic_counterparts import GRAVITY, MASSES, VALUES, T, bar, chaplygin_sleigh, driven_four_bar, four_bar, rolling_disc
-from zerodrift.symbolics import blocks, progress
+from zerodrift.symbolics import progress_message
+from zerodrift.symbolics.graph import blocks
 
 WRITTEN = {function.__name__: functools.cache(function) for function in (
     four_bar, driven_four_bar, chaplygin_sleigh, rolling_disc)}
@@ -189,7 +190,7 @@ def test_only_what_there_is_is_computed():
 
 def test_parameters_are_changed_without_deriving_or_compiling(monkeypatch):
     system = four_bar()
-    for module, name in (("zerodrift.symbolics.define", "_derive"), ("zerodrift.symbolics.compiling", "library")):
+    for module, name in (("zerodrift.symbolics.define", "_derive"), ("zerodrift.symbolics.compile.shared_library", "library")):
         monkeypatch.setattr(sys.modules[module], name, None)
     heavy = system.with_parameters(m2=8.0)
     assert_close(heavy.evaluate().M, zd.systems.four_bar(masses=(1.5, 8.0, 3.0)).evaluate().M, tol.SAME)
@@ -274,7 +275,7 @@ def test_progress_is_shown_when_it_takes_long(monkeypatch, capsys):
     given = {"kinetic": DR**2 / 2, "potential": sp.cos(R), "name": "slow"}
     zd.symbolic([R], **given)
     assert capsys.readouterr().err == ""
-    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    monkeypatch.setattr(progress_message, "PATIENCE", 0.0)
     zd.symbolic([R], **(given | {"potential": sp.cos(R) / 2}))
     assert re.search(r"zerodrift: slow: compiling \(\d s so far\)", capsys.readouterr().err)
     zd.symbolic([R], **(given | {"potential": sp.cos(R) / 3}), progress=False)

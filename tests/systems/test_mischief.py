@@ -22,7 +22,7 @@ import zerodrift as zd
 from support import FORMULATIONS, assert_same_bits
 from watched import At, pendulum, throw
 from zerodrift.runs import branches
-from zerodrift.systems import jets
+from zerodrift.systems import autodiff
 
 EXAMPLES = int(os.environ.get("ZERODRIFT_EXAMPLES", "40"))
 
@@ -171,7 +171,7 @@ def each(change):
     def changed(value):
         array = np.array(value, dtype=object)
         for index in np.ndindex(array.shape):
-            if not isinstance(array[index], jets.Jet):
+            if not isinstance(array[index], autodiff.Jet):
                 array[index] = change(array[index])
         return array
     return changed

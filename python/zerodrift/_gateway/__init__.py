@@ -33,8 +33,8 @@ from .base import (
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .known_events import KnownEvent
 from .measures import Outputs
-from .packing import CONSTANT, DIAGONAL, PACKED, Packing
-from .perturbed import PerturbedCore, perturbed
+from .packed_layout import CONSTANT, DIAGONAL, PACKED, Packing
+from .perturbation import PerturbedCore, perturbed
 from .runs import (
     COUNTS,
     Record,

@@ -11,7 +11,7 @@ import numpy as np
 from .._core import ffi, lib
 from .base import CALLBACK, DONE, TERMS, Variable, doubles, lengths, set_quaternions
 from .known_events import known_table
-from .packing import Packing, declare
+from .packed_layout import Packing, declare
 from .systems import CoreSystem
 
 

@@ -11,10 +11,10 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, Card, card_of, doubles, text
+from .element_tables import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
 from .law_owner import Law, LawOwner, compiled_table
 from .measures import Components, components, given
 from .systems import CoreSystem
-from .uses import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
 
 GAUGES = {"x": lib.ZD_GAUGE_X, "y": lib.ZD_GAUGE_Y, "angle": lib.ZD_GAUGE_ANGLE, "along": lib.ZD_GAUGE_ALONG,
           "across": lib.ZD_GAUGE_ACROSS, "distance": lib.ZD_GAUGE_DISTANCE, "glide": lib.ZD_GAUGE_GLIDE,

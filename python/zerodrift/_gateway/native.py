@@ -10,7 +10,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, set_quaternions, text
-from .packing import Packing, declare
+from .packed_layout import Packing, declare
 from .systems import CoreSystem, Kind
 
 VERSION = lib.ZD_INTERFACE_VERSION

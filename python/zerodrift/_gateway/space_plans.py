@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._core import lib
+from .element_tables import Effort, Relation
 from .plans import efforts_of, rows_of_plan
 from .space import NAMES, Freedom, Gauge, Joint, SpaceCore, coordinate_gauge, joint_kinds
-from .uses import Effort, Relation
 
 COORDINATES, VELOCITIES = {"swings": 4}, {"swings": 3}      # of a freedom; of all others one each
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
+from .constraint_names import RowNames
 from .measures import Measuring
-from .packing import PACKED, Packing
-from .row_names import RowNames
+from .packed_layout import PACKED, Packing
 
 MOST_ROWS = 1000        # of a matrix that is made dense where it is packed
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
-from ..systems import jets
+from ..systems import autodiff
 
 NEAREST = 7
 
@@ -55,7 +55,7 @@ def prescribed(name: str, given: Any, t: np.ndarray | None, speed: float | None)
 def _of_function(name: str, given: Any, t: np.ndarray) -> Prescribed:
     function = _of_expression(name, given) if hasattr(given, "free_symbols") else given
     samples = [_jets(name, function, float(each)) for each in t]
-    value, rate, second = (np.array([jets.part(each, part, None) for each in samples], dtype=float) for part in PARTS)
+    value, rate, second = (np.array([autodiff.part(each, part, None) for each in samples], dtype=float) for part in PARTS)
     if not (np.isfinite(value).all() and np.isfinite(rate).all() and np.isfinite(second).all()):
         raise ValueError(f"{name} must be finite with its derivatives at all samples")
     return Prescribed(value, rate, second, 0.0)
@@ -67,12 +67,12 @@ PARTS = ("value", "first", "second")
 def _jets(name: str, function: Callable[[Any], Any], t: float) -> np.ndarray:
     """The values of a function (size,) with their derivatives with respect to time."""
     try:
-        found = np.atleast_1d(np.asarray(function(jets.Jet(t, 0.0, 1.0, 0.0)), dtype=object))
+        found = np.atleast_1d(np.asarray(function(autodiff.Jet(t, 0.0, 1.0, 0.0)), dtype=object))
     except Exception as error:
         _check.tell(error, f"in {name}, called at t = {t:g}: it must be written in NumPy's functions")
         raise
-    return np.array([each if isinstance(each, jets.Jet) else jets.Jet(_check.number(name, each)) for each in found.ravel()],
-                    dtype=object)
+    jets = [each if isinstance(each, autodiff.Jet) else autodiff.Jet(_check.number(name, each)) for each in found.ravel()]
+    return np.array(jets, dtype=object)
 
 
 def _of_expression(name: str, given: Any) -> Callable[[Any], Any]:
@@ -86,7 +86,7 @@ def _of_expression(name: str, given: Any) -> Callable[[Any], Any]:
     parts = [sympy.lambdify(symbol, [each.diff(symbol, order) for each in entries], "numpy") for order in range(3)]
 
     def function(t: Any) -> np.ndarray:
-        return np.array([jets.Jet(float(value), 0.0, float(rate), float(second))
+        return np.array([autodiff.Jet(float(value), 0.0, float(rate), float(second))
                          for value, rate, second in zip(*(part(t.value) for part in parts), strict=True)], dtype=object)
 
     return function

@@ -14,7 +14,7 @@ from ..runs.operations import assembly
 from ..runs.simulate import simulate, solution_of_rows
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of, direct_core_of, with_what_it_takes
-from ..systems.tables import NumberTables
+from ..systems.parameter_tables import NumberTables
 from .part import BY_CORE, IN_LANES, Part, nothing
 from .plan import OPTIONS, Plan
 

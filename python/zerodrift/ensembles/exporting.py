@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..systems.watching import AXES
+from ..systems.measure_values import AXES
 from .part import Part
 
 

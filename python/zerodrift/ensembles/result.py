@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..systems.watching import AXES
+from ..systems.measure_values import AXES
 from . import exporting, saving
 from .batch import made_again
 from .part import NOT_STARTED, ROADS, Part

@@ -15,7 +15,7 @@ from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
 from ..runs.operations import assemble
 from ..systems.base import BaseSystem, core_of, system_of
-from ..systems.tables import NumberTables
+from ..systems.parameter_tables import NumberTables
 
 
 class Grid(Mapping):

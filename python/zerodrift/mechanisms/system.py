@@ -13,10 +13,10 @@ from .._gateway import Variable
 from .._gateway import is_length as is_length_of
 from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError
-from ..symbolics.direct_functions import NO_COMPILER, DirectFunctions
+from ..symbolics.compile.closed_form_library import NO_COMPILER, DirectFunctions
 from ..systems.base import BaseSystem
+from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
-from ..systems.tables import NumberTables, refusals
 from .assembly import space_advice
 from .assembly.free_coordinates import is_driven
 from .assembly.start import Starting

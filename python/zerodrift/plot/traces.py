@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from .. import _check
 from .._gateway import Variable
 from ..mechanisms.elements.measures import name_of
-from ..tracing.traced import Trace
+from ..tracing.trace_result import Trace
 from . import style as _style
 from .drawing import drawing_axes, paths_of
 from .mechanism import Extras, Picture

@@ -76,11 +76,11 @@ class Event:
 def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
                 level: float) -> tuple[Callable[..., float] | None, _gateway.KnownEvent | None]:
     """The function that an expression is: one of Python, or where there is a compiler, one that the core knows."""
-    from ..symbolics import number  # slow to import, as SymPy is
+    from ..symbolics.compile import scalar_function  # slow to import, as SymPy is
     from . import expressions
 
     found = expressions.read(name, what, system, of)
-    compiled = number.compiled(name, found.expression, found.atoms) if found.readings else None
+    compiled = scalar_function.compiled(name, found.expression, found.atoms) if found.readings else None
     if compiled is None:
         read = expressions.in_python(found, system)
         return lambda t, p, v: read(t, p, v) - level, None

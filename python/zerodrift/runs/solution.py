@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, direct_core_of
-from ..systems.watching import AXES
+from ..systems.measure_values import AXES
 from .columns import to_csv, to_excel
 from .saving import write
 from .settings import core_settings

@@ -11,15 +11,16 @@ except ImportError as error:
     raise ImportError("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
 from ..systems.structure import Structure
-from . import cache, direct, large
-from .blocks import Blocks
-from .definition import Definition
-from .derivation import Derivation
-from .emission import PythonWriter
-from .fingerprint import fingerprint
-from .lowering import Lowering
-from .pattern import Pattern
-from .progress import Progress
+from .arguments import Definition
+from .cache_key import fingerprint
+from .compile import cache
+from .emit import closed_form, splitting
+from .emit.writers import PythonWriter
+from .graph.blocks import Blocks
+from .graph.derivation import Derivation
+from .graph.lowering import Lowering
+from .graph.pattern import Pattern
+from .progress_message import Progress
 from .system import Code, SymbolicSystem
 
 _derived: dict[str, Code] = {}
@@ -153,7 +154,7 @@ def _derive(definition: Definition, say: Progress) -> Code:
     structure = Pattern(terms, sizes, lambda node: node is reader.graph.zero).structure()
     blocks = Blocks(lowering, _stored(outputs, structure))
     say("writing C")
-    c_source, constants, scratch = large.source(blocks, definition.heading(), len(definition.values))
+    c_source, constants, scratch = splitting.source(blocks, definition.heading(), len(definition.values))
     drawing = definition.drawing(reader)
     sketch = Lowering(reader.graph)
     drawn = Blocks(sketch, {"points": [sketch.lower(node) for point in drawing for node in point]})
@@ -164,7 +165,7 @@ def _derive(definition: Definition, say: Progress) -> Code:
         timeless=all(operation.arguments[0] != "t" for operation in lowering.operations if operation.code == "leaf"),
         constants=constants, scratch=scratch, c_source=c_source, python_source=PythonWriter(blocks).source(),
         drawing=(len(drawing), len(drawing[0]) if drawing else 0), drawing_source=PythonWriter(drawn).source(),
-        program=direct.as_json(lowering, outputs))
+        program=closed_form.as_json(lowering, outputs))
 
 
 def _stored(outputs: dict[str, list[int]], structure: dict[str, Any] | None) -> dict[str, list[int]]:

@@ -16,13 +16,14 @@ from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from ..errors import NoCompilerWarning, UnsuitedIntegrator
 from ..systems.base import BaseSystem
+from ..systems.parameter_tables import NumberTables, not_finite, refusals
 from ..systems.structure import Structure, checked
-from ..systems.tables import NumberTables, not_finite, refusals
 from ..systems.variables import quaternion_places, with_units
-from . import compilers, compiling, perturbing
-from .direct_functions import DIRECT, NO_COMPILER, DirectFunctions
-from .plainness import is_plain_program
-from .series_functions import JacobianFunctions, SeriesFunctions
+from . import rounding_factors
+from .compile import compilers, shared_library
+from .compile.closed_form_library import DIRECT, NO_COMPILER, DirectFunctions
+from .compile.series_library import JacobianFunctions, SeriesFunctions
+from .graph.smoothness import is_plain_program
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class SymbolicSystem(BaseSystem):
         self._series = SeriesFunctions(code.program, code.sizes)
         self._jacobian = JacobianFunctions(code.program, code.sizes)
         self._perturbed: SeriesFunctions | None = None      # of the same off by rounding
-        self._library = compiling.library(code.c_source, progress, meanwhile=self._direct.prepare)
+        self._library = shared_library.library(code.c_source, progress, meanwhile=self._direct.prepare)
         self.compiled = self._library is not None
         if not self.compiled:
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is evaluated in Python, "
@@ -136,8 +137,8 @@ class SymbolicSystem(BaseSystem):
             return core
         parameters = self._values
         if self._perturbed is None:
-            program = perturbing.perturbed(self._code.program, core.shapes, len(parameters))
-            self._perturbed = SeriesFunctions(program, self._code.sizes, perturbing.NUMBERS)
+            program = rounding_factors.perturbed(self._code.program, core.shapes, len(parameters))
+            self._perturbed = SeriesFunctions(program, self._code.sizes, rounding_factors.NUMBERS)
         library = self._perturbed.library(vector)
         if library is None:
             return core

@@ -11,11 +11,11 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import Variable, known_events
 from .._gateway.known_events import Reading
+from .measure_values import Place, Watching
+from .parameter_tables import NumberTables
 from .shapes import Shape
 from .structure import Structure, of_core
-from .tables import NumberTables
 from .terms import Terms
-from .watching import Place, Watching
 
 FIRST_PRINTED, LAST_PRINTED = 18, 6     # of many names, parameters and rows
 

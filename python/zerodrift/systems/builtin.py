@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .base import BaseSystem
-from .tables import NumberTables, not_finite, refusals
+from .parameter_tables import NumberTables, not_finite, refusals
 
 _KINDS = _gateway.kinds()
 

@@ -12,9 +12,9 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
-from . import jets as _jets
+from . import autodiff
 from .base import BaseSystem
-from .packed import PackedWriter
+from .declared_structure import PackedWriter
 from .structure import Structure, checked
 from .variables import quaternion_places, with_units
 
@@ -221,12 +221,12 @@ class _Function:
     def evaluate_jets(self, shape: tuple[int, ...], t: Any, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """Its value with derivatives, an array of objects."""
         try:
-            returned, where = self._call(self._function, t, p, v), f" (at t = {_jets.value(t):g})"
+            returned, where = self._call(self._function, t, p, v), f" (at t = {autodiff.value(t):g})"
         except BaseException as error:
-            self._tell(error, _jets.value(t), " for its derivatives (forward-mode automatic differentiation)")
+            self._tell(error, autodiff.value(t), " for its derivatives (forward-mode automatic differentiation)")
             raise
         result = np.asarray(returned, dtype=object)
-        numbers = returned if _check.is_masked(returned) else _jets.numbers(result)
+        numbers = returned if _check.is_masked(returned) else autodiff.numbers(result)
         if _check.real(f"{self.name} must return", numbers, where, objects=True).shape != shape:
             raise ValueError(f"{self.name} must return shape {shape}, not {result.shape}{where}")
         return result
@@ -363,14 +363,14 @@ class _Writer:
         if "xi_NH" in derived:
             motion = self._motion_as_jets(t, arrays, gradients=False)
             jets = self.functions["nonholonomic"].evaluate_jets((self.mn, self.nv), *motion, v)
-            arrays["xi"][mh:] = -_jets.part(jets, "first") @ v              # (6): xi = -Cdot v
+            arrays["xi"][mh:] = -autodiff.part(jets, "first") @ v              # (6): xi = -Cdot v
 
     def _differentiate(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
         """Derivatives of the holonomic constraints, all that are wanted in one pass."""
         gradients = not derived.isdisjoint({"C_H", "Phi_t"})
         motion = self._motion_as_jets(t, arrays, gradients=gradients)
         jets = self.functions["constraints"].evaluate_jets((self.mh,), *motion, arrays["v"])
-        gradient = _jets.part(jets, "gradient", self.nq + 1) if gradients else None
+        gradient = autodiff.part(jets, "gradient", self.nq + 1) if gradients else None
         if "C_H" in derived:
             rows = gradient[:, :-1]
             arrays["C_H"][...] = rows @ arrays["A"] if "A" in arrays else rows      # (5)
@@ -378,18 +378,18 @@ class _Writer:
             arrays["Phi_t"][: self.mh] = gradient[:, -1]
             arrays["Phi_t"][self.mh :] = 0.0
         if "xi_H" in derived:
-            arrays["xi"][: self.mh] = -_jets.part(jets, "second")           # (6)
+            arrays["xi"][: self.mh] = -autodiff.part(jets, "second")           # (6)
 
     def _motion_as_jets(self, t: float, arrays: dict[str, np.ndarray], *, gradients: bool) -> tuple[Any, np.ndarray]:
         """(t, p) as jets: along the motion with vdot = 0, there pddot = Adot v, and with gradients in (p, t) if wanted."""
         p, v, A = arrays["p"], arrays["v"], arrays.get("A")
         velocity, curvature = (v, np.zeros(self.nq)) if A is None else (A @ v, self._curvature(t, p, v, A @ v))
         identity = np.eye(self.nq + 1) if gradients else None
-        time = _jets.Jet(t, identity[-1] if gradients else 0.0, 1.0, 0.0)
-        return time, _jets.seeds(p, velocity, curvature, identity)
+        time = autodiff.Jet(t, identity[-1] if gradients else 0.0, 1.0, 0.0)
+        return time, autodiff.seeds(p, velocity, curvature, identity)
 
     def _curvature(self, t: float, p: np.ndarray, v: np.ndarray, velocity: np.ndarray) -> np.ndarray:
         """Adot v along the motion."""
-        time, position = _jets.Jet(t, 0.0, 1.0, 0.0), _jets.seeds(p, velocity)
+        time, position = autodiff.Jet(t, 0.0, 1.0, 0.0), autodiff.seeds(p, velocity)
         jets = self.functions["kinematics"].evaluate_jets((self.nq, self.nv), time, position, v)
-        return _jets.part(jets, "first") @ v
+        return autodiff.part(jets, "first") @ v

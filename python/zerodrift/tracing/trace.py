@@ -14,7 +14,7 @@ from ..systems.base import system_of
 from . import walk
 from .curve import Knot, Segment
 from .motion import Motion
-from .traced import DeadPoint, Reach, Trace
+from .trace_result import DeadPoint, Reach, Trace
 
 
 def trace(system: Any, measure: Any, values: Any = None, *, hold: Any = (), through: bool = False, count: int = 361) -> Trace:

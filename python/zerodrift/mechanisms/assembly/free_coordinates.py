@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..._gateway.element_tables import Observed
 from ..._gateway.space import Gauge
-from ..._gateway.uses import Observed
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor

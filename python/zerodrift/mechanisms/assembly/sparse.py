@@ -12,8 +12,8 @@ from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 
-from ..._gateway.consistent import nearest_velocities
 from ..._gateway.mechanisms import MechanismCore
+from ..._gateway.sparse_state import nearest_velocities
 from ...errors import InconsistentStart
 from .contradictions import contradiction
 from .dense import ATTEMPTS, CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..._gateway.element_tables import Observed
 from ..._gateway.mechanisms import MechanismCore
-from ..._gateway.uses import Observed
-from ..._gateway.varied import Held, Varied
+from ..._gateway.parameter_variants import Held, Varied
 from ..elements.columns import Column, Varies, spread
 from ..elements.drawing import Drawing
 from ..elements.frames import turned

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ...systems import jets
+from ...systems import autodiff
 
 PERIOD = 2 * np.pi
 CLOSING = 1e-9      # rad, and of the largest value: how near the last point of a table is to its first where it closes the turn
@@ -70,9 +70,9 @@ class PeriodicSpline:
         return ends.reshape(n, 6) @ HERMITE
 
     def __call__(self, angle: Any) -> Any:
-        turns = np.floor((jets.value(angle) - self.angles[0]) / PERIOD)
+        turns = np.floor((autodiff.value(angle) - self.angles[0]) / PERIOD)
         angle = angle - turns * PERIOD
-        piece = min(int(np.searchsorted(self.angles, jets.value(angle), side="right")) - 1, len(self.angles) - 1)
+        piece = min(int(np.searchsorted(self.angles, autodiff.value(angle), side="right")) - 1, len(self.angles) - 1)
         s = (angle - self.angles[max(piece, 0)]) / self._widths[max(piece, 0)]
         value = 0.0
         for coefficient in self._coefficients[max(piece, 0)][::-1]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ...systems import jets
+from ...systems import autodiff
 
 BEYOND = 1e-9       # of the table's length: how far rounding may lead beyond its ends
 
@@ -68,7 +68,7 @@ class Table:
 
     def __call__(self, *given: Any, **named: Any) -> Any:
         at, = (*given, *named.values())
-        value = float(jets.value(at))
+        value = float(autodiff.value(at))
         if not self.x[0] - self._allowed <= value <= self.x[-1] + self._allowed:
             raise ValueError(f"the table goes from {self.argument} = {self.x[0]:g} to {self.x[-1]:g}, and is asked for {value:g}")
         piece = min(max(int(np.searchsorted(self.x, value, side="right")) - 1, 0), self.x.size - 2)

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ...symbolics.plainness import is_plain_expression
-from ...systems import jets
+from ...symbolics.graph.smoothness import is_plain_expression
+from ...systems import autodiff
 from ...systems.callables import arguments
 from .interpolation import recognised
 from .measures import name_of
@@ -77,7 +77,7 @@ class Law:
         try:
             return self._call(*(known[name] for name in self._names))
         except BaseException as error:
-            _check.tell(error, f"in {self.what}, called at t = {jets.value(t):g}")
+            _check.tell(error, f"in {self.what}, called at t = {autodiff.value(t):g}")
             raise
 
     def number(self, t: float, x: Iterable[float], parameters: Mapping[str, Any]) -> float:
@@ -87,7 +87,7 @@ class Law:
             return value
         return _check.number(f"what {self.what} returns at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
 
-    def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> jets.Jet:
+    def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> autodiff.Jet:
         """Value with derivatives; zero derivatives of a law that is constant along them."""
         x = tuple(x)
         try:
@@ -99,12 +99,12 @@ class Law:
                             "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none. zd.table(t, y) is a "
                             "smooth function through data") from error
         value = value[()] if isinstance(value, np.ndarray) else value
-        return value if isinstance(value, jets.Jet) else jets.Jet(_check.number(f"what {self.what} returns", value))
+        return value if isinstance(value, autodiff.Jet) else autodiff.Jet(_check.number(f"what {self.what} returns", value))
 
     def _has_value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> bool:
         """Success of an evaluation with floats instead of jets."""
         try:
-            self.value(jets.value(t), [jets.value(each) for each in x], parameters)
+            self.value(autodiff.value(t), [autodiff.value(each) for each in x], parameters)
         except Exception:
             return False
         return True
@@ -169,11 +169,11 @@ def _wanted(what: str, given: Callable[..., Any], allowed: list[str]) -> list[st
 
 
 def _floor(x: Any) -> float:
-    return float(math.floor(jets.value(x)))
+    return float(math.floor(autodiff.value(x)))
 
 
 def _ceiling(x: Any) -> float:
-    return float(math.ceil(jets.value(x)))
+    return float(math.ceil(autodiff.value(x)))
 
 
 def _remainder(x: Any, divisor: Any) -> Any:
@@ -181,7 +181,7 @@ def _remainder(x: Any, divisor: Any) -> Any:
 
 
 def _sign(x: Any) -> float:
-    return float(np.sign(jets.value(x)))
+    return float(np.sign(autodiff.value(x)))
 
 
 # By SymPy's names, as its printer of plain Python code writes them.

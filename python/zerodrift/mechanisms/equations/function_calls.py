@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ...systems.jets import Jet
+from ...systems.autodiff import Jet
 from ..elements.user_functions import Law
 from . import function_code
 

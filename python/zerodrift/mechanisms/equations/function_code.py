@@ -45,8 +45,8 @@ class _Equations:
     """What a law is written into: `reads` the one expression that is in it, whose numbers stand behind the parameters."""
 
     def __init__(self, template: Any, names: Sequence[str], numbers: int, k: int) -> None:
-        from ...symbolics.law import Leaves
-        from ...symbolics.reading import Reader  # slow to import, as SymPy is
+        from ...symbolics.compile.law_terms import Leaves
+        from ...symbolics.graph.from_sympy import Reader  # slow to import, as SymPy is
 
         self._reader, self._template = Reader(), template
         self.graph = self._reader.graph
@@ -66,10 +66,10 @@ class _Equations:
 
     def function_of(self, row: Any) -> tuple[int, Any] | None:
         """The function of a law; None: there is no compiler."""
-        from ...symbolics import law
+        from ...symbolics.compile import law_terms
 
         node = row.written(self, self.leaves.x, self.leaves.xdot)
-        return law.compiled(self.graph, row.said(self.leaves, node))
+        return law_terms.compiled(self.graph, row.said(self.leaves, node))
 
 
 def _without_numbers(expression: Any) -> tuple[Any, list[float]]:

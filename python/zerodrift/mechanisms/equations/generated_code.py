@@ -22,21 +22,21 @@ import numpy as np
 
 from ... import _gateway
 from ..._gateway import space_plans
+from ..._gateway.compiled_terms import WrittenTerms, with_functions
 from ..._gateway.mechanisms import MechanismCore
 from ..._gateway.plans import plan_of
 from ..._gateway.space import SpaceCore
-from ..._gateway.written import WrittenTerms, with_functions
 from ...errors import NoCompilerWarning
-from ...symbolics import cache as kept
-from ...symbolics import compilers, compiling
-from ...symbolics.direct_functions import DIRECT, DirectFunctions
-from ...symbolics.plain import Plain
-from ...symbolics.series_functions import JacobianFunctions
+from ...symbolics.compile import cache as kept
+from ...symbolics.compile import compilers, shared_library
+from ...symbolics.compile.closed_form_library import DIRECT, DirectFunctions
+from ...symbolics.compile.series_library import JacobianFunctions
+from ...symbolics.graph.plain_functions import Plain
 from . import nodes, space_nodes
 from .function_calls import Laws
 
 DATA = "*(const double *const *)data"       # the doubles that functions are handed: csrc/mechanisms/mechanism.h
-MOST_VELOCITIES = 400   # of six a body, each takes more than ten operations: see direct_emission.MOST_OPERATIONS
+MOST_VELOCITIES = 400   # of six a body, each takes more than ten operations: see closed_form_writer.MOST_OPERATIONS
 OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in lanes it is these alone that stand in groups
 
 
@@ -89,7 +89,7 @@ class Written:
                                   _described(laws.rows))
         equations = space_nodes.Equations if is_in_space else nodes.Equations
         self._code = _kept_code(self.key) or self._derive(lambda: equations(plan, reader, self._sizes, laws, own))
-        self._library = compiling.library(self._code.c_source) if self._has_terms else None
+        self._library = shared_library.library(self._code.c_source) if self._has_terms else None
         self.is_compiled = self._library is not None or (not self._has_terms and compilers.find() is not None)
         if not self.is_compiled:
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): the tables of {name} are interpreted",
@@ -106,29 +106,30 @@ class Written:
 
     def _direct_alone(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
         """What direct functions are written from, where there are not too many velocities to begin with."""
-        from ...symbolics import direct, direct_emission
-        from ...symbolics.lowering import Lowering
+        from ...symbolics.emit import closed_form, closed_form_writer
+        from ...symbolics.graph.lowering import Lowering
 
         if self._sizes[1] > MOST_VELOCITIES:
-            return Code([], False, 0, 0, "", direct_emission.TOO_LARGE)
+            return Code([], False, 0, 0, "", closed_form_writer.TOO_LARGE)
         equations = written()
         lowering = Lowering(equations.graph, equations.values)
         outputs = {name: [lowering.lower(node) for node in nodes] for name, nodes in equations.terms().items()}
-        return Code([], False, 0, 0, "", direct.as_json(lowering, outputs))
+        return Code([], False, 0, 0, "", closed_form.as_json(lowering, outputs))
 
     def _code_of(self, equations: nodes.Equations | space_nodes.Equations) -> Code:
-        from ...symbolics import direct, large
-        from ...symbolics.blocks import Blocks
-        from ...symbolics.lowering import Lowering
+        from ...symbolics.emit import closed_form, splitting
+        from ...symbolics.graph.blocks import Blocks
+        from ...symbolics.graph.lowering import Lowering
 
         terms, packing = equations.terms(), self._interpreted.packing
         lowering = Lowering(equations.graph, equations.values)
         outputs = {name: [lowering.lower(node) for node in nodes] for name, nodes in terms.items()}
         packed = {name: [outputs[name][place] for place in packing.places(name)] for name in ("M", "C")
                   if packing and name in outputs}
-        c_source, constants, scratch = large.source(Blocks(lowering, outputs | packed), ["A mechanism."], len(self._values), DATA)
+        blocks = Blocks(lowering, outputs | packed)
+        c_source, constants, scratch = splitting.source(blocks, ["A mechanism."], len(self._values), DATA)
         knows_time = any(operation.code == "leaf" and operation.arguments[0] == "t" for operation in lowering.operations)
-        return Code(list(terms), not knows_time, constants, scratch, c_source, direct.as_json(lowering, outputs))
+        return Code(list(terms), not knows_time, constants, scratch, c_source, closed_form.as_json(lowering, outputs))
 
     def _compiled(self, direct: DirectFunctions | None, vector: str = "baseline",
                   jacobian: Any = None) -> MechanismCore | SpaceCore:
@@ -167,7 +168,7 @@ def _reader(laws: Laws) -> Any:
     """What the graph is in: with SymPy where a law is an expression."""
     if not any(row.law.has_expression for row in laws.rows):
         return Plain()
-    from ...symbolics.reading import Reader
+    from ...symbolics.graph.from_sympy import Reader
 
     return Reader()
 
@@ -188,8 +189,8 @@ def _kept_code(key: str) -> Code | None:
 def _writing_code(reader: type) -> str:
     """The fingerprint of the code that writes: of SymPy's version, too, where it is taken."""
     version = "" if reader is Plain else metadata.version("sympy")
-    here = Path(__file__).parent
-    files = [*sorted((here.parent / "symbolics").glob("*.py")), *sorted(here.glob("*.py"))]
+    package = Path(__file__).parents[2]
+    files = [file for room in ("symbolics", "mechanisms") for file in sorted((package / room).rglob("*.py"))]
     return kept.digest_of(version, [file.read_text(encoding="utf-8") for file in files])
 
 

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..._gateway.element_tables import Observed
 from ..._gateway.mechanisms import Gauge, MechanismCore
-from ..._gateway.uses import Observed
 from ..._rotations import angles_of, quaternions_of
-from ...systems.watching import Watching
+from ...systems.measure_values import Watching
 from ..elements.bodies import Body, Link, Point
 from ..elements.forces import Actuator, Spring
 from ..elements.joints import holds_angle, is_hinge

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from ...symbolics.graph import Graph, Node
+from ...symbolics.graph.graph import Graph, Node
 from .function_calls import Laws
 
 

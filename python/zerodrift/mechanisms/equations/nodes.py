@@ -11,11 +11,11 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from ..._gateway import plans
+from ..._gateway.element_tables import Effort, Relation
 from ..._gateway.mechanisms import Gauge
 from ..._gateway.plans import Link, Plan
-from ..._gateway.uses import Effort, Relation
-from ...symbolics.derivation import Derivation, Given
-from ...symbolics.graph import Graph, Node
+from ...symbolics.graph.derivation import Derivation, Given
+from ...symbolics.graph.graph import Graph, Node
 from .function_calls import Laws
 from .node_relations import Relations
 

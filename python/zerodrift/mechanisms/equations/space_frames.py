@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from ..._gateway.space_plans import Link, Way
-from ...symbolics.graph import Graph, Node
+from ...symbolics.graph.graph import Graph, Node
 
 Vector = tuple[Node, Node, Node]
 

@@ -19,8 +19,8 @@ from typing import Any, NamedTuple
 
 from ..._gateway.space import Gauge
 from ..._gateway.space_plans import Angle, Link, SpacePlan
-from ...symbolics.gradient import Gradient
-from ...symbolics.graph import Node
+from ...symbolics.graph.gradient import Gradient
+from ...symbolics.graph.graph import Node
 from . import nodes
 from .function_calls import Laws
 from .node_relations import Relations

@@ -11,8 +11,8 @@ import numpy as np
 
 from ..._gateway import Variable
 from ..._gateway import mechanisms as rows
+from ..._gateway.element_tables import Observed
 from ..._gateway.mechanisms import Gauge, MechanismCore
-from ..._gateway.uses import Observed
 from ..elements import columns
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing, Inertias

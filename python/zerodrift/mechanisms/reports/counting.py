@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._gateway import Variable
-from ..._gateway.consistent import nearest_velocities, redundant_rows
+from ..._gateway.sparse_state import nearest_velocities, redundant_rows
 from ..assembly import space_advice
 from ..assembly.dense import Assembly
 from ..assembly.nudge import nudged

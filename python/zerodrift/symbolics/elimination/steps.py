@@ -17,8 +17,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from .arithmetic import Arithmetic, Matrix, Vector, adjugate
-from .lowering import Lowering
+from ..graph.arithmetic import Arithmetic, Matrix, Vector, adjugate
+from ..graph.lowering import Lowering
 from .reduced_mass import ReducedMass
 
 

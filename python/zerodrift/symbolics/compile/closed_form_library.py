@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from ..graph.plain_functions import NAMED
 from . import cache as kept
-from . import compiling
-from .plain import NAMED
+from . import shared_library
 
 LANES = {"baseline": 2, "avx2": 4, "avx512": 8}
 DIRECT = "zd_symbolic_direct"       # what they are called in their library
@@ -64,19 +64,19 @@ class DirectFunctions:
 
     def _key(self) -> str:
         """What is written is kept under: all that it depends on."""
-        from . import direct_emission
+        from ..emit import closed_form_writer
 
         program, sizes, values, p0, is_length = self._definition
         calls = {operation[1] for operation in program["operations"] if operation[0] == "call"}
-        limits = direct_emission.MOST_OPERATIONS, direct_emission.MOST_STATEMENTS
+        limits = closed_form_writer.MOST_OPERATIONS, closed_form_writer.MOST_STATEMENTS
         return kept.digest_of("direct functions", _writing_code(calls <= set(NAMED)), limits, program, sizes, values.tolist(),
                               None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data, self._embeds)
 
     def _written_anew(self) -> dict[str, Any]:
-        from . import direct
-        from .elimination import Unwritten
+        from ..elimination.steps import Unwritten
+        from ..emit import closed_form
         try:
-            source, constants = direct.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data,
+            source, constants = closed_form.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data,
                                              embeds=(self._embeds,))
         except Unwritten as reason:
             return {"source": "", "constants": 0, "why": str(reason)}
@@ -101,17 +101,17 @@ class DirectFunctions:
 
     def library(self, vector: str = "baseline") -> ctypes.CDLL | None:
         """The library of those for one trajectory and a vector unit; None: there are none."""
-        return self.library_of(f"ZD_SET_{vector.upper()}_1", compiling.QUICKLY)
+        return self.library_of(f"ZD_SET_{vector.upper()}_1", shared_library.QUICKLY)
 
     def library_in_lanes(self, vector: str) -> ctypes.CDLL | None:
         """The library of those for as many trajectories at once as the vector unit has lanes; None: there are none."""
         return self.library_of(f"ZD_SET_{vector.upper()}_{LANES[vector]}")
 
-    def library_of(self, sets: str, optimized: tuple[str, ...] = compiling.OPTIMIZED) -> ctypes.CDLL | None:
+    def library_of(self, sets: str, optimized: tuple[str, ...] = shared_library.OPTIMIZED) -> ctypes.CDLL | None:
         """The library of some sets of functions: C for their bits, as zerodrift/units.h names them."""
         if sets not in self._libraries and self.source:
             symbols = DIRECT, f"{DIRECT}_constants"
-            self._libraries[sets] = compiling.library(self.source, symbols=symbols, defined=[f"ZD_SETS={sets}"],
+            self._libraries[sets] = shared_library.library(self.source, symbols=symbols, defined=[f"ZD_SETS={sets}"],
                                                           optimized=optimized)
         return self._libraries.get(sets)
 
@@ -123,5 +123,5 @@ class DirectFunctions:
 @cache
 def _writing_code(is_plain: bool) -> str:
     """The fingerprint of the code that writes: of SymPy's version, too, whose printer writes what is no sine or cosine."""
-    files = sorted(Path(__file__).parent.glob("*.py"))
+    files = sorted(Path(__file__).parents[1].rglob("*.py"))
     return kept.digest_of("" if is_plain else metadata.version("sympy"), [file.read_text(encoding="utf-8") for file in files])

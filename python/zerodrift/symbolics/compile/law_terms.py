@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .. import _gateway
-from . import compiling
-from .emission import CWriter, indented, unwrapped
-from .graph import Graph, Node
-from .lowering import Lowering
-from .number import HEADING, Program, computed
+from ... import _gateway
+from ..emit.writers import CWriter, indented, unwrapped
+from ..graph.graph import Graph, Node
+from ..graph.lowering import Lowering
+from . import shared_library
+from .scalar_function import HEADING, Program, computed
 
 SYMBOL = "zd_symbolic_law"
 TAKES = "const double *k, double t, const double *p, const double *v, double *out"     # a `zd_law_function` of csrc/gauges/uses.h
@@ -49,7 +49,7 @@ class _LawWriter(CWriter):
 
 def compiled(graph: Graph, said: Sequence[Node]) -> tuple[int, Any] | None:
     """The address of a function that writes these, and the library that it lives in; None: there is no compiler."""
-    library = compiling.library(_source(graph, said), symbols=(SYMBOL,))
+    library = shared_library.library(_source(graph, said), symbols=(SYMBOL,))
     return None if library is None else (_gateway.address_of(library, SYMBOL), library)
 
 

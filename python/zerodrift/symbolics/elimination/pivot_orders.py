@@ -15,9 +15,9 @@ from itertools import combinations
 
 import numpy as np
 
-from . import numeric
-from .elimination import Order, Solve, Unwritten
-from .lowering import Lowering
+from ..graph import numpy_evaluation
+from ..graph.lowering import Lowering
+from .steps import Order, Solve, Unwritten
 
 MOST = 4                # orders, as the interface has it
 SAMPLES = 384
@@ -49,7 +49,7 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
         raise Unwritten("there are more constraints than velocities")
     try:
         C = _configurations(lowering, terms, sizes, parameters, p0, lengths)
-    except numeric.Unknown as unknown:
+    except numpy_evaluation.Unknown as unknown:
         raise Unwritten(f"{unknown} is no function of NumPy's") from None
     orders = _for_sets(C) if embeds else _for_places(C / _largest(C))
     if not orders:
@@ -116,7 +116,7 @@ def _configurations(lowering: Lowering, terms: dict[str, list[int]], sizes: tupl
     spread = np.repeat(SPREADS, SAMPLES // len(SPREADS))[:, None]
     p = start + np.concatenate([np.zeros((1, nq)), spread * chance.uniform(-1, 1, (SAMPLES, nq))]) * unit_p
     names = [name for name in ("A", "Phi", "C") if name in terms]
-    evaluate = numeric.evaluator(lowering, {name: terms[name] for name in names}, parameters)
+    evaluate = numpy_evaluation.evaluator(lowering, {name: terms[name] for name in names}, parameters)
     found = evaluate(t, p)
     is_open = _open(found, mh, unit_v)
     for _ in range(ITERATIONS if mh else 0):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from .emission import LONGEST, CWriter, turn_of, unwrapped
-from .lowering import Operation
+from ..graph.lowering import Operation
+from .writers import LONGEST, CWriter, turn_of, unwrapped
 
 REAL, CONDITION = "const zd_real ", "const zd_condition "
 CONDITIONS = ("comparison", "logic")

@@ -8,11 +8,11 @@ that, and 1 / delta and 1 / (D'^T M D') are made from the reciprocal of their pr
 
 from __future__ import annotations
 
-from .arithmetic import Matrix, Vector, adjugate
-from .elimination import Elimination, Order
-from .graph import FIXED
-from .lowering import Lowering
+from ..graph.arithmetic import Matrix, Vector, adjugate
+from ..graph.graph import FIXED
+from ..graph.lowering import Lowering
 from .reduced_mass import ReducedMass
+from .steps import Elimination, Order
 
 
 class Joint(Elimination):

@@ -14,10 +14,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from .elimination import Unwritten
-from .emission import indented
-from .jets import Jet
+from ..elimination.steps import Unwritten
 from .series import HEAD, TERMS, Writer
+from .taylor import Jet
+from .writers import indented
 
 JACOBIAN = "zd_symbolic_jacobian"       # what the descriptor is called in its library
 MOST_STATEMENTS = 4000

@@ -6,8 +6,9 @@ import ctypes
 from collections.abc import Callable
 from typing import Any, ClassVar
 
-from . import compiling, jacobian, series
-from .elimination import Unwritten
+from ..elimination.steps import Unwritten
+from ..emit import jacobian, series
+from . import shared_library
 
 OPTIMIZED = ("-O2",)      # with more, compilers take twice as long for the same speed
 UNITS = {"baseline": 0, "avx2": 1, "avx512": 2}     # as zerodrift/series.h counts them
@@ -43,7 +44,7 @@ class WrittenFunctions:
     def library(self, vector: str) -> ctypes.CDLL | None:
         """The library for a vector unit, whose bits are the same as those of any other; None: there is none."""
         if vector not in self._libraries and self.source:
-            self._libraries[vector] = compiling.library(self.source, symbols=(self.symbol,), optimized=OPTIMIZED,
+            self._libraries[vector] = shared_library.library(self.source, symbols=(self.symbol,), optimized=OPTIMIZED,
                                                         defined=[f"ZD_SERIES_UNIT={UNITS[vector]}"])
         return self._libraries.get(vector)
 

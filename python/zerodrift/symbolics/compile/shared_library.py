@@ -21,10 +21,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from .. import _gateway
-from .._fingerprint import fingerprint
-from ..errors import CompilationFailed
-from ..systems.native import get_include
+from ... import _gateway
+from ..._fingerprint import fingerprint
+from ...errors import CompilationFailed
+from ...systems.native import get_include
 from . import cache, compilers
 
 OPTIMIZED = ("-O3",)

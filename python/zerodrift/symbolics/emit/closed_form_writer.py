@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .elimination import Elimination, Order, Unwritten
-from .emission import CWriter, indented
-from .graph import FIXED
-from .lane_emission import LaneWriter, for_each_set
-from .lowering import SIMPLE, Lowering
+from ..elimination.steps import Elimination, Order, Unwritten
+from ..graph.graph import FIXED
+from ..graph.lowering import SIMPLE, Lowering
+from .lane_writer import LaneWriter, for_each_set
+from .writers import CWriter, indented
 
 MOST_OPERATIONS = 4000      # of the functions of one order
 TOO_LARGE = f"they would take more than {MOST_OPERATIONS} operations"

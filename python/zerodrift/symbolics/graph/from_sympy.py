@@ -11,8 +11,8 @@ import sympy
 from sympy.core.function import Application, AppliedUndef
 from sympy.logic.boolalg import BooleanFunction
 
-from .functions import REWRITTEN, STEPS, TOTAL, WITHIN, computable
 from .graph import Graph, Node
+from .sympy_functions import REWRITTEN, STEPS, TOTAL, WITHIN, computable
 
 SIGNS = {sympy.StrictLessThan: "<", sympy.LessThan: "<=", sympy.StrictGreaterThan: ">", sympy.GreaterThan: ">=",
          sympy.Equality: "==", sympy.Unequality: "!="}

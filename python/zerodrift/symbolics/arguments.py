@@ -10,9 +10,9 @@ import sympy
 from sympy.core.function import AppliedUndef
 
 from .. import _check
-from .derivation import Given
-from .graph import MOVING, Node
-from .reading import Reader, namesake
+from .graph.derivation import Given
+from .graph.from_sympy import Reader, namesake
+from .graph.graph import MOVING, Node
 
 
 class Definition:

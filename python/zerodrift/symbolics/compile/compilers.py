@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from ..errors import CompilationFailed
+from ...errors import CompilationFailed
 
 SYSTEM = sys.platform           # "linux", "darwin", "win32"
 QUIETLY = getattr(subprocess, "CREATE_NO_WINDOW", 0)    # or a console appears for each compiler, where Python itself has none

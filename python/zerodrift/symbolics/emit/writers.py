@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
-from .._gateway import TERMS
-from .blocks import Blocks
-from .lowering import Operation
-from .plain import Function
+from ..._gateway import TERMS
+from ..graph.blocks import Blocks
+from ..graph.lowering import Operation
+from ..graph.plain_functions import Function
 
 MANY = 16           # entries that are zero
 LONGEST = 100       # characters of an expression that is written in place

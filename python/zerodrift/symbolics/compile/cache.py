@@ -28,8 +28,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .._fingerprint import fingerprint
-from ..errors import CacheWarning
+from ..._fingerprint import fingerprint
+from ...errors import CacheWarning
 
 DIGITS = 40             # of the fingerprints that name files
 OLD = 3600.0            # s, after which nobody is still writing a temporary file

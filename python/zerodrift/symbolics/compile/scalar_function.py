@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .. import _gateway
-from . import compiling
-from .emission import CWriter, indented, unwrapped
-from .lowering import SIMPLE, Lowering
-from .reading import Reader
+from ... import _gateway
+from ..emit.writers import CWriter, indented, unwrapped
+from ..graph.from_sympy import Reader
+from ..graph.lowering import SIMPLE, Lowering
+from . import shared_library
 
 SYMBOL = "zd_symbolic_number"
 HEADING = ["/* Written by zerodrift. */", "#include <math.h>", "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>",
@@ -36,7 +36,7 @@ def compiled(what: str, expression: Any, atoms: Sequence[Any]) -> tuple[int, Any
     if key not in _compiled:
         reader = Reader()
         node = reader.read(what, expression, {atom: reader.graph.leaf("parameter", i) for i, atom in enumerate(atoms)})
-        library = compiling.library(_source(Lowering(reader.graph), node), symbols=(SYMBOL,))
+        library = shared_library.library(_source(Lowering(reader.graph), node), symbols=(SYMBOL,))
         if library is None:
             return None
         _compiled[key] = _gateway.address_of(library, SYMBOL), library

@@ -7,14 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from . import direct_emission, orders
-from .direct_emission import Bounded
-from .elimination import Elimination
-from .emission import mathematics
-from .joint import elimination
-from .lowering import Lowering
-from .plain import NAMED, Function
-from .restoring import restored
+from ..elimination import pivot_orders
+from ..elimination.cramer import elimination
+from ..elimination.steps import Elimination
+from ..graph.lowering import Lowering
+from ..graph.plain_functions import NAMED, Function
+from ..graph.reemit import restored
+from . import closed_form_writer
+from .closed_form_writer import Bounded
+from .writers import mathematics
 
 TERMS = ("A", "M", "d", "f", "Phi", "C", "Phi_t", "xi", "power")    # those that they follow from
 HEADING = ["/* Written by zerodrift.symbolic. */", "#include <zerodrift/system.h>", "#include <zerodrift/units.h>"]
@@ -23,8 +24,8 @@ VERSION = ["", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
 
 def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any] | str:
     """A program that can be kept; or why not: it is too large for direct functions, or has functions that are not SymPy's."""
-    if len(lowering.operations) > direct_emission.MOST_OPERATIONS:
-        return direct_emission.TOO_LARGE
+    if len(lowering.operations) > closed_form_writer.MOST_OPERATIONS:
+        return closed_form_writer.TOO_LARGE
     operations = []
     for code, arguments, _ in lowering.operations:
         if code == "call":
@@ -68,10 +69,10 @@ def write(program: dict[str, Any], sizes: tuple[int, int, int, int], parameters:
     terms = restored(lowering, program["operations"], program["terms"], _function)
     eliminations, functions = [], []
     for embedding in embeds:
-        chosen = orders.choose(lowering, terms, sizes, parameters, p0, lengths, embedding)
+        chosen = pivot_orders.choose(lowering, terms, sizes, parameters, p0, lengths, embedding)
         found = [elimination(lowering, terms, sizes, order) for order in chosen]
         functions += [(_embedding if embedding else _projecting)(each) for each in found]
         eliminations += found
-    return direct_emission.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
+    return closed_form_writer.source(lowering, functions, eliminations, offset=offset, symbol=symbol,
                                   heading=heading or [*HEADING, mathematics(lowering.operations), *VERSION], file=file,
                                   lanes_header=lanes_header, data=data)

@@ -6,9 +6,9 @@ end between any two statements, and nothing is on the stack. Statements that are
 
 from __future__ import annotations
 
-from .blocks import Blocks
-from .emission import LONGEST, CWriter, indented, turn_of, unwrapped, wanted
-from .rolling import element, number, plain, rolled
+from ..graph.blocks import Blocks
+from .loops import element, number, plain, rolled
+from .writers import LONGEST, CWriter, indented, turn_of, unwrapped, wanted
 
 MOST_STATEMENTS = 400       # of one function: compilers take the square of it; a run with loops takes 0.96 to 1.06 of one without
 LEAST = 8                   # statements alike that are worth a loop

@@ -10,13 +10,13 @@ from typing import Any
 import sympy
 from sympy.core.function import AppliedUndef
 
-from .cache import digest_of
+from .compile.cache import digest_of
 
 
 @cache
 def _deriving_code() -> str:
     """The fingerprint of the code that derives: SymPy's version, and the files of this package."""
-    files = sorted(Path(__file__).parent.glob("*.py"))
+    files = sorted(Path(__file__).parent.rglob("*.py"))
     return digest_of(sympy.__version__, [file.read_text(encoding="utf-8") for file in files])
 
 

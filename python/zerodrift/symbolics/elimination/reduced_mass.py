@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .arithmetic import Arithmetic, Matrix, Vector, adjugate
+from ..graph.arithmetic import Arithmetic, Matrix, Vector, adjugate
 
 
 class ReducedMass:

@@ -15,9 +15,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from .elimination import Unwritten
-from .emission import indented
-from .jets import Jet, Jets
+from ..elimination.steps import Unwritten
+from .taylor import Jet, Jets
+from .writers import indented
 
 TERMS = ("A", "M", "d", "f", "C", "xi", "power", "Phi_t")
 SERIES = "zd_symbolic_series"       # what the descriptor is called in its library

@@ -1,0 +1,1 @@
+"""Sources as functions of shared libraries, and the cache of both on disk."""
