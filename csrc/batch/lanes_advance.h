@@ -86,8 +86,8 @@ ZD_KERNEL zd_condition ZD_NAMED(is_due)(zd_lanes *self)
 {
     const zd_real magic = ZD_SPLAT(0x1p52), number = *REAL(self->number);
     const zd_real eights = (0.125 * (number + 1.0) - 0.4375 + magic) - magic, soon = 8.0 * (eights + 1.0);
-    const zd_real look = *REAL(self->next_check);
-    const zd_real next = ZD_WHERE(HOLDS(self->check_soon) & (soon < look), soon, look);
+    const zd_real due = *REAL(self->next_check);
+    const zd_real next = ZD_WHERE(HOLDS(self->check_soon) & (soon < due), soon, due);
     *REAL(self->next_check) = next;
     return (*REAL(self->t) >= *REAL(self->next_t)) | (number >= *REAL(self->next_number)) | (number >= next);
 }
@@ -112,7 +112,7 @@ ZD_KERNEL zd_condition ZD_NAMED(project)(zd_lanes *self, zd_condition accepted, 
     const zd_condition none = ZD_SPLAT(0.0) != 0.0;
     if (!self->m || !self->corrects) return none;
     if (self->every > 1) accepted &= ZD_NAMED(is_multiple)(*REAL(self->number) + 1.0, self->every) | (*REAL(t1) == self->end);
-    return ZD_ANY(accepted) ? ZD_NAMED(land)(self, t1, self->y1, accepted) & accepted : none;
+    return ZD_ANY(accepted) ? ZD_NAMED(correct_state)(self, t1, self->y1, accepted) & accepted : none;
 }
 
 /* Makes a step in each lane; returns the lanes that require attention. */
@@ -217,10 +217,10 @@ ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
 }
 
 /* Projects y_row onto the constraints at t_row; evaluates its multipliers if required. */
-ZD_KERNEL void ZD_NAMED(land_between)(zd_lanes *self, zd_condition inside, const double *t_row, int multipliers)
+ZD_KERNEL void ZD_NAMED(project_between)(zd_lanes *self, zd_condition inside, const double *t_row, int multipliers)
 {
     zd_condition failed = ZD_SPLAT(0.0) != 0.0;
-    if (self->m && self->corrects) failed = ZD_NAMED(land)(self, t_row, self->y_row, inside) & inside;
+    if (self->m && self->corrects) failed = ZD_NAMED(correct_state)(self, t_row, self->y_row, inside) & inside;
     ZD_NAMED(correct_rest)(self, inside & ~failed, t_row, self->y_row, 1);
     ZD_NAMED(take_where)(~inside, self->size, self->y, self->y_row);
     *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
@@ -237,7 +237,7 @@ ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
     const zd_stored t_row = ZD_WHERE(at.inside, *REAL(self->t_row), *REAL(self->t));
     if (self->has_polynomial) ZD_NAMED(evaluate)(self, ZD_WHERE(at.inside, at.part / ZD_WHERE(at.inside, at.h, ZD_SPLAT(1.0)), ZD_SPLAT(1.0)));
     else ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_row);
-    ZD_NAMED(land_between)(self, at.inside, (const double *)&t_row, multipliers);
+    ZD_NAMED(project_between)(self, at.inside, (const double *)&t_row, multipliers);
 }
 
 /* y_row at t_row by a shorter step. Its stages overwrite those of dense output, which is therefore computed before. */
@@ -246,7 +246,7 @@ ZD_KERNEL zd_condition ZD_NAMED(make_shorter)(zd_lanes *self)
     const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
     const zd_stored t_row = ZD_WHERE(at.inside, *REAL(self->t_row), *REAL(self->t));
     ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_row);
-    ZD_NAMED(land_between)(self, at.inside, (const double *)&t_row, 0);
+    ZD_NAMED(project_between)(self, at.inside, (const double *)&t_row, 0);
     return at.inside;
 }
 

@@ -95,17 +95,17 @@ ZD_KERNEL void ZD_NAMED(add_pin)(const zd_lanes *self, int place)
 }
 
 /* Lanes with a pivot below GOOD_PIVOT, and below REPORTED_PIVOT. */
-typedef struct ZD_NAMED(judged) {
+typedef struct ZD_NAMED(flags) {
     zd_condition small, lost;
-} ZD_NAMED(judged);
+} ZD_NAMED(flags);
 
 /* Inverts the diagonal block of this position: D_k^-1 as in zd_invert_two(). */
-ZD_KERNEL void ZD_NAMED(invert)(const zd_lane_pins *pins, int place, ZD_NAMED(judged) *judged)
+ZD_KERNEL void ZD_NAMED(invert)(const zd_lane_pins *pins, int place, ZD_NAMED(flags) *flags)
 {
     zd_stored *P = REAL(pins->S) + 4 * place, *diagonal = REAL(pins->diagonal) + 2 * place;
     const zd_real a = P[0], b = P[2], c = P[3], determinant = ZD_FNMA(b, b, a * c), other = a * diagonal[1];
-    judged->small |= ~(a >= GOOD_PIVOT * diagonal[0]) | ~(determinant >= GOOD_PIVOT * other);
-    judged->lost |= ~(a >= REPORTED_PIVOT * diagonal[0]) | ~(determinant >= REPORTED_PIVOT * other) | ~(determinant < INFINITY);
+    flags->small |= ~(a >= GOOD_PIVOT * diagonal[0]) | ~(determinant >= GOOD_PIVOT * other);
+    flags->lost |= ~(a >= REPORTED_PIVOT * diagonal[0]) | ~(determinant >= REPORTED_PIVOT * other) | ~(determinant < INFINITY);
     const zd_real scale = ZD_SPLAT(1.0) / determinant;
     P[0] = c * scale;
     P[1] = P[2] = -b * scale;
@@ -148,13 +148,13 @@ ZD_KERNEL void ZD_NAMED(factorize)(const zd_lanes *self, const double *p)
         for (int j = 0; j < 4; j++) REAL(pins->S)[pins->fill[i] + j] = ZD_SPLAT(0.0);
     for (int body = 0; body < pins->of->bodies; body++) ZD_NAMED(add_body)(self, body);
     for (int place = 0; place < pins->count; place++) ZD_NAMED(add_pin)(self, place);
-    ZD_NAMED(judged) judged = {ZD_SPLAT(0.0) != 0.0, ZD_SPLAT(0.0) != 0.0};
+    ZD_NAMED(flags) flags = {ZD_SPLAT(0.0) != 0.0, ZD_SPLAT(0.0) != 0.0};
     for (int place = 0; place < pins->count; place++) {
-        ZD_NAMED(invert)(pins, place, &judged);
+        ZD_NAMED(invert)(pins, place, &flags);
         ZD_NAMED(eliminate)(pins, place);
     }
-    *REAL(pins->is_small) = AS_NUMBER(judged.small | HOLDS(pins->refines));
-    *REAL(pins->is_lost) = AS_NUMBER(judged.lost);
+    *REAL(pins->is_small) = AS_NUMBER(flags.small | HOLDS(pins->refines));
+    *REAL(pins->is_lost) = AS_NUMBER(flags.lost);
     pins->is_factored = 1;
 }
 

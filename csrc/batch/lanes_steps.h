@@ -17,7 +17,7 @@ ZD_KERNEL zd_condition ZD_NAMED(is_open)(const zd_lanes *self, zd_real *residual
 }
 
 /* y <- its correction at t, (25) ... (27), in the `wanted` lanes. Returns the lanes in which it does not converge. */
-ZD_KERNEL zd_condition ZD_NAMED(land)(zd_lanes *self, const double *t, double *y, zd_condition wanted)
+ZD_KERNEL zd_condition ZD_NAMED(correct_state)(zd_lanes *self, const double *t, double *y, zd_condition wanted)
 {
     double *v = y + self->nq * ZD_LANES;
     zd_condition failed = ZD_SPLAT(0.0) != 0.0;

@@ -56,7 +56,8 @@ static int run_serves(const zd_run *run)
     if (!(motion->path.direct || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
     if (motion->formulation_size != motion->system.nq + motion->system.nv || motion->corrections_size) return 0;
     if (motion->corrections == 0) return 1;
-    return rest_serves(run) && target->positions && target->velocities && target->in_mass_metric && (target->every == 1 || motion->path.direct);
+    return rest_serves(run) && target->positions && target->velocities && target->in_mass_metric
+        && (target->every == 1 || motion->path.direct);
 }
 
 /* ---- memory ---- */

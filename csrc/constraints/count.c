@@ -52,7 +52,7 @@ static place take_place(zd_arena *arena, const zd_system *system)
 }
 
 /* Smallest relative pivot of S at p: a measure of the digits lost. */
-static int judge(zd_weighted *weighted, const zd_system *system, const double *p, place *at, zd_structure_work *work)
+static int measure_pivots(zd_weighted *weighted, const zd_system *system, const double *p, place *at, zd_structure_work *work)
 {
     double *W = at->terms.M;
     memset(at->v, 0, (size_t)system->nv * sizeof *at->v);
@@ -65,7 +65,7 @@ static int judge(zd_weighted *weighted, const zd_system *system, const double *p
     return ZD_DONE;
 }
 
-static int count_and_judge(zd_store *store, zd_arena *arena, const zd_system *system, const double *p, zd_structure_work *work)
+static int count_and_measure(zd_store *store, zd_arena *arena, const zd_system *system, const double *p, zd_structure_work *work)
 {
     zd_weighted *weighted = zd_weighted_create(store, zd_layout_take(arena, system));
     place at = take_place(arena, system);
@@ -74,7 +74,7 @@ static int count_and_judge(zd_store *store, zd_arena *arena, const zd_system *sy
     count_factors(weighted->blocks, work);
     work->has_products = zd_weighted_products(weighted, system) != NULL;
     work->is_of_many = zd_rank_is_of_many(system);
-    return judge(weighted, system, p, &at, work);
+    return measure_pivots(weighted, system, p, &at, work);
 }
 
 int zd_structure_count(const zd_system *system, const double *p, zd_structure_work *work)
@@ -87,7 +87,7 @@ int zd_structure_count(const zd_system *system, const double *p, zd_structure_wo
     zd_arena arena = {zd_allocate(counting.used), 0};
     if (!arena.base) return ZD_NO_MEMORY;
     zd_store store = {NULL};
-    const int status = count_and_judge(&store, &arena, system, p, work);
+    const int status = count_and_measure(&store, &arena, system, p, work);
     zd_store_release(&store);
     zd_release(arena.base);
     return status;

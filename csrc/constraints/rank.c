@@ -116,7 +116,7 @@ static int choose_row(const zd_selection *self, int begin, int end)
     return best;
 }
 
-static void take_out(zd_selection *self, int chosen, int rank)
+static void project_out(zd_selection *self, int chosen, int rank)
 {
     int n = self->n;
     double *q = self->Q + chosen * n, length = sqrt(zd_dot(n, q, q));
@@ -139,11 +139,11 @@ static int orthogonalize(const zd_point *point, const double *L)
     int rank = 0, chosen;
     set_rows(point, L);
     while (rank < self->rank->most_rows && rank < self->rank->most_holonomic && (chosen = choose_row(self, 0, self->mh)) >= 0) {
-        take_out(self, chosen, rank);
+        project_out(self, chosen, rank);
         self->row[rank++] = chosen;
     }
     while (rank < self->rank->most_rows && (chosen = choose_row(self, self->mh, self->m)) >= 0) {
-        take_out(self, chosen, rank);
+        project_out(self, chosen, rank);
         self->row[rank++] = chosen;
     }
     for (int k = 0, next = rank; k < self->m; k++)
@@ -187,7 +187,7 @@ static void orthogonalize_chosen(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
     set_rows(point, NULL);
-    for (int a = 0; a < self->independent; a++) take_out(self, self->row[a], a);
+    for (int a = 0; a < self->independent; a++) project_out(self, self->row[a], a);
 }
 
 /* Sets T in the dependent rows of G: T G_r = G_d, where G_r is triangular in the order of selection. */

@@ -24,10 +24,10 @@
 #include "../point/weighted.h"
 
 enum { PROJECTIONS = 6 };
-static const double LITTLE[] = {0x1p-20, 0x1p-30, 0x1p-40}; /* pivot thresholds relative to the squared row: candidates for dependent rows */
-static const double SHORT = 0x1p-20;    /* arm relative to the mechanism's length: a shorter one counts as zero */
-static const double MOVED = 0x1p-28;    /* residual relative to its terms: the projected velocity satisfies the row */
-static const double AGREES = 0x1p-20;   /* residual relative to the terms of (6) and to the largest: the accelerations satisfy it */
+static const double SMALL_PIVOTS[] = {0x1p-20, 0x1p-30, 0x1p-40}; /* relative to the squared row: candidates for dependent rows */
+static const double NEGLIGIBLE_ARM = 0x1p-20;               /* arm relative to the mechanism's length: a shorter one counts as zero */
+static const double SATISFIED_BY_VELOCITY = 0x1p-28;        /* residual relative to its terms: the row is satisfied */
+static const double SATISFIED_BY_ACCELERATION = 0x1p-20;    /* residual relative to the largest term of (6): the row is satisfied */
 
 typedef struct search {
     zd_store store;
@@ -78,7 +78,7 @@ static double find_arms(const zd_point *point, double *arm)
     for (int i = 0; i < system->nv; i++)
         if (is_length(system, i)) length = point->unit[i];
     for (int b = 0; b < layout->blocks; b++)
-        if (arm[b] > SHORT * length) shortest = fmin(shortest, arm[b]);
+        if (arm[b] > NEGLIGIBLE_ARM * length) shortest = fmin(shortest, arm[b]);
     return shortest < INFINITY ? shortest : 0;
 }
 
@@ -128,12 +128,12 @@ static int is_satisfied(const zd_row_of_C *row, const double *x, double target, 
 }
 
 /* Restores rows that the projected velocity violates; returns how many remain set aside. */
-static int judge(search *self, const zd_point *point, int *holonomic)
+static int restore_violated(search *self, const zd_point *point, int *holonomic)
 {
     int count = *holonomic = 0;
     for (int k = 0; k < zd_constraints(point->system); k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        if (!is_satisfied(&row, self->x, 0, MOVED, 0)) self->aside[k] = 0;
+        if (!is_satisfied(&row, self->x, 0, SATISFIED_BY_VELOCITY, 0)) self->aside[k] = 0;
         count += self->aside[k];
         *holonomic += self->aside[k] && k < point->system->mh;
     }
@@ -155,7 +155,7 @@ static int agree(search *self, zd_point *point, const double *v, int *they_do)
     *they_do = 1;
     for (int k = 0; k < zd_constraints(point->system) && *they_do; k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        *they_do = !self->aside[k] || is_satisfied(&row, self->x, point->terms.xi[k], AGREES, largest * point->size[k]);
+        *they_do = !self->aside[k] || is_satisfied(&row, self->x, point->terms.xi[k], SATISFIED_BY_ACCELERATION, largest * point->size[k]);
         if (!*they_do) point->failed_index = k;
     }
     return ZD_DONE;
@@ -179,7 +179,7 @@ static int classify(search *self, zd_point *point)
 static int note(search *self, zd_point *point)
 {
     zd_rank *rank = point->rank;
-    int holonomic, count = judge(self, point, &holonomic);
+    int holonomic, count = restore_violated(self, point, &holonomic);
     if (!count) return ZD_DONE;
     rank->left_out = zd_store_take(rank->store, take_note, point->system);
     if (!rank->left_out) return ZD_NO_MEMORY;
@@ -221,7 +221,7 @@ static int satisfies_all(const search *self, const zd_point *point)
     int does = 1;
     for (int k = 0; does && k < zd_constraints(point->system); k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        does = is_satisfied(&row, self->x, 0, MOVED, 0);
+        does = is_satisfied(&row, self->x, 0, SATISFIED_BY_VELOCITY, 0);
     }
     return does;
 }
@@ -230,8 +230,8 @@ static int find(search *self, zd_point *point)
 {
     set_metric(self, point);
     self->whole = *point->layout;
-    for (size_t i = 0, is_found = 0; i < sizeof LITTLE / sizeof *LITTLE && !is_found; i++) {
-        int any = 0, status = set_aside(self, point, LITTLE[i]);
+    for (size_t i = 0, is_found = 0; i < sizeof SMALL_PIVOTS / sizeof *SMALL_PIVOTS && !is_found; i++) {
+        int any = 0, status = set_aside(self, point, SMALL_PIVOTS[i]);
         if (status) return status;
         for (int k = 0; k < zd_constraints(point->system); k++) any |= self->aside[k];
         if (!any) return ZD_DONE;

@@ -17,7 +17,7 @@ static void *take_kept(zd_arena *arena, const void *system)
 }
 
 /* Keeps a selection of the maximum rank for later points if it is well conditioned, in the metric of M^-1 as well (`is_ill`). */
-static int keep_choice(zd_point *point, int is_ill)
+static int keep_selection(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;
     const int is_whole = self->is_started && point->rows == self->most_rows && self->most_rows < self->m && !self->lost && !is_ill;
@@ -49,7 +49,7 @@ static int reduce(zd_point *point)
     }
     int is_deficient = self->lost || point->rows < self->most_rows;
     self->was_deficient |= is_deficient;
-    if (!status) status = keep_choice(point, self->was_ill_conditioned);
+    if (!status) status = keep_selection(point, self->was_ill_conditioned);
     self->was_ill_conditioned |= was_ill_conditioned;
     if (is_deficient && !self->may_be_deficient) return ZD_BIFURCATION;
     if (!status) point->known |= ZD_RANKED;

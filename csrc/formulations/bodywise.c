@@ -34,7 +34,7 @@ static void *take(zd_arena *arena, const void *of)
         .inverse = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
         .unbalanced = zd_take_doubles(arena, n),
         .step = zd_take_doubles(arena, n),
-        .rest = zd_take_doubles(arena, m),
+        .residual = zd_take_doubles(arena, m),
         .lambda = zd_take_doubles(arena, m),
     };
     return zd_take_filled(arena, &self, sizeof self);
@@ -163,8 +163,8 @@ static double find_unbalanced(zd_bodywise *self, const double *force, const doub
     return worst > 0 ? worst / largest : 0;
 }
 
-/* rest <- rhs - C x. Returns its largest entry relative to the largest of its terms, in the metric W. */
-static double find_rest(zd_bodywise *self, const double *rhs, const double *x)
+/* residual <- rhs - C x. Returns its largest entry relative to the largest of its terms, in the metric W. */
+static double find_residual(zd_bodywise *self, const double *rhs, const double *x)
 {
     double largest = 0, worst = 0;
     for (int k = 0; k < zd_constraints(self->point->system); k++) {
@@ -174,25 +174,25 @@ static double find_rest(zd_bodywise *self, const double *rhs, const double *x)
             const double term = row.x[j] * x[row.column[j]];
             sum -= term, terms += fabs(term);
         }
-        self->rest[k] = sum;
+        self->residual[k] = sum;
         worst = fmax(worst, sum * sum * self->weight[k]);
         largest = fmax(largest, terms * terms * self->weight[k]);
     }
     return worst > 0 ? sqrt(worst / largest) : 0;
 }
 
-/* step <- (M + C^T W C)^-1 (unbalanced + C^T W rest), lambda <- lambda + W (C step - rest); rest NULL: zero */
-static void improve(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *rest)
+/* step <- (M + C^T W C)^-1 (unbalanced + C^T W residual), lambda <- lambda + W (C step - residual); residual NULL: zero */
+static void improve(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *residual)
 {
     const int m = zd_constraints(self->point->system);
-    for (int k = 0; rest && k < m; k++) {
+    for (int k = 0; residual && k < m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        for (int j = 0; j < row.count; j++) self->unbalanced[row.column[j]] += weight[k] * rest[k] * row.x[j];
+        for (int j = 0; j < row.count; j++) self->unbalanced[row.column[j]] += weight[k] * residual[k] * row.x[j];
     }
     zd_bodies_solve(bodies, self->unbalanced, self->step);
     for (int k = 0; k < m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        self->lambda[k] += weight[k] * (zd_row_times(&row, self->step) - (rest ? rest[k] : 0));       /* (8) */
+        self->lambda[k] += weight[k] * (zd_row_times(&row, self->step) - (residual ? residual[k] : 0));       /* (8) */
     }
 }
 
@@ -218,10 +218,10 @@ void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs
     memset(self->lambda, 0, (size_t)m * sizeof *x);
     double before = INFINITY;
     for (int i = 0; i < MAX_ITERATIONS; i++) {
-        const double left = fmax(find_unbalanced(self, force, x), find_rest(self, rhs, x));
+        const double left = fmax(find_unbalanced(self, force, x), find_residual(self, rhs, x));
         if (!(left > RESIDUAL_ROUNDING) || (i > 1 && !(left < 0.5 * before))) break;
         before = left;
-        improve(self, self->bodies, self->weight, self->rest);
+        improve(self, self->bodies, self->weight, self->residual);
         for (int j = 0; j < n; j++) x[j] += self->step[j];
     }
     if (!lambda) return;

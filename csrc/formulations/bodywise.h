@@ -14,7 +14,7 @@ typedef struct zd_bodywise {
     int is_least_known;     /* 1: it has been factored at this point */
     double *inverse;        /* stored as M: factors of M^-1, for these weights */
     double *unbalanced, *step;  /* (n,), (n,) */
-    double *rest, *lambda;  /* (m,), (m,) */
+    double *residual, *lambda;  /* (m,), (m,) */
     const double *C;        /* C of the point at the factorization */
     const zd_point *point;
 } zd_bodywise;

@@ -23,8 +23,8 @@ zd_complement zd_complement_take(zd_arena *arena, const zd_system *system, doubl
         .n = (int)n,
         .m = (int)m,
         .r = (int)r,
-        .room = (int)r,
-        .brought = own,
+        .columns = (int)r,
+        .is_provided = own,
         .own = own,
         .order = zd_take(arena, n * sizeof(int)),
         .pivots = zd_take(arena, n * sizeof(int)),
@@ -132,13 +132,13 @@ static void *take_D(zd_arena *arena, const void *of)
 }
 
 /* Allocates as many columns as there can be, once there are more than nv - m. */
-static int need_room(zd_complement *self, const zd_point *point)
+static int need_columns(zd_complement *self, const zd_point *point)
 {
-    if (self->r <= self->room) return ZD_DONE;
+    if (self->r <= self->columns) return ZD_DONE;
     double *D = zd_store_take(point->rank->store, take_D, self);
     if (!D) return ZD_NO_MEMORY;
     self->D = D;
-    self->room = self->n;
+    self->columns = self->n;
     return ZD_DONE;
 }
 
@@ -148,14 +148,14 @@ static int take_rows(zd_complement *self, const zd_point *point)
     self->m = point->rows;
     self->C = zd_dense_C(point, self->memory);
     self->r = self->n - self->m;
-    self->own = self->brought && zd_rank_is_full(point);
-    return need_room(self, point);
+    self->own = self->is_provided && zd_rank_is_full(point);
+    return need_columns(self, point);
 }
 
 int zd_complement_at(zd_complement *self, zd_point *point)
 {
     if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
-    int status = zd_point_need(point, self->brought ? ZD_C | ZD_COMPLEMENT : ZD_C);
+    int status = zd_point_need(point, self->is_provided ? ZD_C | ZD_COMPLEMENT : ZD_C);
     if (!status) status = zd_rows_find(point);
     if (!status) status = take_rows(self, point);
     if (!status) status = self->own ? adopt(self, point) : partition(self, point);

@@ -13,12 +13,12 @@
 
 typedef struct zd_complement {
     int n, m, r;
-    int brought;        /* 1: the system provides D */
+    int is_provided;        /* 1: the system provides D */
     int own;            /* 1: it is used, as all constraints are independent */
     int chosen;         /* 1: u has been selected */
     int *order;         /* (n,): indices of w in v, then of u */
     int *pivots;        /* (n,) */
-    int room;           /* number of columns of D allocated: nv - m, until fewer constraints are independent */
+    int columns;        /* number of columns of D allocated: nv - m, until fewer constraints are independent */
     double *memory;     /* (m, n): dense C, if the system's own is packed */
     const double *C;    /* (m, n): independent rows of C */
     double *D;          /* (n, r) */

@@ -26,7 +26,7 @@ zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *wor
         .complement = zd_complement_take(arena, system, workspace),
         .memory = zd_take_dense(arena, system, n * n),
         .Mu = zd_take_doubles(arena, r * r),
-        .room = (int)r,
+        .columns = (int)r,
         .size = (int)r,
         .u = zd_take_doubles(arena, n),
         .b = zd_take_doubles(arena, n),
@@ -52,13 +52,13 @@ static void *take_Mu(zd_arena *arena, const void *of)
 }
 
 /* Allocates Mu for the columns of the complement. */
-static int need_room(zd_minimal *self, const zd_point *point)
+static int need_columns(zd_minimal *self, const zd_point *point)
 {
-    if (self->complement.r <= self->room) return ZD_DONE;
+    if (self->complement.r <= self->columns) return ZD_DONE;
     double *Mu = zd_store_take(point->rank->store, take_Mu, self);
     if (!Mu) return ZD_NO_MEMORY;
     self->Mu = Mu;
-    self->room = self->complement.n;
+    self->columns = self->complement.n;
     return ZD_DONE;
 }
 
@@ -67,7 +67,7 @@ int zd_minimal_factor(void *memory, zd_point *point)
     zd_minimal *self = memory;
     if (self->many) return zd_structured_factor(self->many->structured, point, 0);
     int status = zd_complement_at(&self->complement, point);
-    if (!status) status = need_room(self, point);
+    if (!status) status = need_columns(self, point);
     if (status) return status;
     self->M = zd_dense_M(point, self->memory);
     zd_complement_mass(&self->complement, self->M, self->Mu);

@@ -105,7 +105,7 @@ zd_partition *zd_partition_take(zd_arena *arena, int nv, int rows, int independe
         .index = zd_take(arena, (size_t)independents * sizeof(int)),
         .left_out = zd_take(arena, n),
         .weight = zd_take_doubles(arena, m),
-        .rest = zd_take_doubles(arena, m),
+        .residual = zd_take_doubles(arena, m),
         .step = zd_take_doubles(arena, n),
         .b = zd_take_doubles(arena, n),
     };
@@ -187,9 +187,9 @@ int zd_partition_review(zd_partition *self, zd_point *point, int is_factored)
 
 /* ---- solution ---- */
 
-/* rest <- rhs - C x of the independent constraints; returns its largest entry relative to the largest terms, both scaled by the rows'
+/* residual <- rhs - C x of the independent constraints; returns its largest entry relative to the largest terms, both scaled by the rows'
  * sizes. */
-static double find_rest(zd_partition *self, const double *rhs, const double *x)
+static double find_residual(zd_partition *self, const double *rhs, const double *x)
 {
     double worst = 0, largest = 0;
     for (int k = 0; k < self->rows; k++) {
@@ -200,7 +200,7 @@ static double find_rest(zd_partition *self, const double *rhs, const double *x)
             sum -= term;
             size += fabs(term);
         }
-        self->rest[k] = sum;
+        self->residual[k] = sum;
         worst = fmax(worst, sum * sum * self->weight[k]);
         largest = fmax(largest, size * size * self->weight[k]);
     }
@@ -210,17 +210,17 @@ static double find_rest(zd_partition *self, const double *rhs, const double *x)
 int zd_partition_solve(zd_partition *self, const double *rhs, double *x)
 {
     const int n = self->bodies->blocks->rows;
-    double before = INFINITY, left = find_rest(self, rhs, x);
+    double before = INFINITY, left = find_residual(self, rhs, x);
     for (int i = 0; i < MAX_REFINEMENTS && left > RESIDUAL_ROUNDING && left < 0.5 * before; i++) {
         memset(self->b, 0, (size_t)n * sizeof *self->b);
         for (int k = 0; k < self->rows; k++) {
             const zd_row_of_C row = zd_packed_row(self->bodies->layout, self->C, k);
-            for (int j = 0; j < row.count; j++) self->b[row.column[j]] += row.x[j] * (self->weight[k] * self->rest[k]);
+            for (int j = 0; j < row.count; j++) self->b[row.column[j]] += row.x[j] * (self->weight[k] * self->residual[k]);
         }
         zd_bodies_solve(self->bodies, self->b, self->step);
         for (int j = 0; j < n; j++) x[j] += self->step[j];
         before = left;
-        left = find_rest(self, rhs, x);
+        left = find_residual(self, rhs, x);
     }
     return left <= FEW_DIGITS ? ZD_DONE : ZD_SINGULAR;
 }

@@ -16,7 +16,7 @@ typedef struct zd_partition {
     double share;           /* smallest pivot of a dependent velocity relative to its diagonal entry, at the last factorization, */
     double reference;       /* and the largest of these since the selection */
     double *weight;         /* (m,): W, zero for redundant constraints */
-    double *rest, *step, *b;    /* (m,), (nv,), (nv,) */
+    double *residual, *step, *b;    /* (m,), (nv,), (nv,) */
     const double *C;        /* C of the point at the factorization */
 } zd_partition;
 

@@ -40,7 +40,7 @@ typedef struct schur {
     const double *C;    /* (m, n): independent rows of C of the point */
     double *b;      /* (m,) */
     double *rows;   /* (4, n), for large systems: see orthogonal.h */
-    double *rest, *correction;  /* (m,), (n,): residual rhs - C x, and its correction */
+    double *residual, *correction;  /* (m,), (n,): residual rhs - C x, and its correction */
 } schur;
 
 static void take_matrices(zd_arena *arena, schur *self)
@@ -51,7 +51,7 @@ static void take_matrices(zd_arena *arena, schur *self)
     self->G = zd_take_doubles(arena, m * m);
     self->b = zd_take_doubles(arena, m);
     self->rows = n > ZD_UNROLLED ? zd_take_doubles(arena, 4 * n > m ? 4 * n : m) : NULL;
-    self->rest = n > ZD_UNROLLED ? self->rows : zd_take_doubles(arena, m);   /* rest is for solves, rows for factorizations */
+    self->residual = n > ZD_UNROLLED ? self->rows : zd_take_doubles(arena, m);   /* residual is for solves, rows for factorizations */
     self->correction = zd_take_doubles(arena, n);
 }
 
@@ -84,10 +84,10 @@ ZD_INLINE int factor_all(const int n, const int m, const schur *self)
     for (int k = 0; k < m; k++) {
         double *q = self->Q + k * n, *g = self->G + k * m;
         zd_forward(n, self->L, C + k * n, q);
-        double square = zd_metric_dot(n, self->L, q, q), rest = orthogonalize(n, m, k, 0, self, q, g);
-        if (rest < 0.01 * square) rest = orthogonalize(n, m, k, 1, self, q, g);    /* twice is enough */
-        if (!(rest > MIN_REMAINDER * MIN_REMAINDER * square) || !(rest < INFINITY)) return k;
-        g[k] = 1 / rest;
+        double square = zd_metric_dot(n, self->L, q, q), residual = orthogonalize(n, m, k, 0, self, q, g);
+        if (residual < 0.01 * square) residual = orthogonalize(n, m, k, 1, self, q, g);    /* twice is enough */
+        if (!(residual > MIN_REMAINDER * MIN_REMAINDER * square) || !(residual < INFINITY)) return k;
+        g[k] = 1 / residual;
     }
     return m;
 }
@@ -123,16 +123,16 @@ static int has_metric(const schur *self, const double *M)
 static int factor_large(schur *self, zd_point *point)
 {
     const zd_rank *rank = point->rank;
-    const int may_tell = !(point->known & ZD_RANKED) && rank->most_rows == rank->m && rank->m > ZD_FEW_ROWS && rank->m <= self->most
+    const int may_show_rank = !(point->known & ZD_RANKED) && rank->most_rows == rank->m && rank->m > ZD_FEW_ROWS && rank->m <= self->most
                        && !point->layout;
-    if (may_tell) {
+    if (may_show_rank) {
         zd_shares shares = orthogonalize_all(self, point, rank->m, point->terms.C);
-        const int tells = shares.rows == rank->m && shares.least > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
-        if (tells && has_metric(self, point->terms.M) && zd_rows_are_long(point)) zd_rows_use_all(point);
+        const int is_conclusive = shares.rows == rank->m && shares.least > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
+        if (is_conclusive && has_metric(self, point->terms.M) && zd_rows_are_long(point)) zd_rows_use_all(point);
     }
-    const int failed_index = point->failed_index, told = may_tell && (point->known & ZD_RANKED), status = zd_rows_find(point);
-    if (status || told) return status;
-    if (may_tell && zd_rank_is_full(point)) point->failed_index = failed_index;
+    const int failed_index = point->failed_index, is_known = may_show_rank && (point->known & ZD_RANKED), status = zd_rows_find(point);
+    if (status || is_known) return status;
+    if (may_show_rank && zd_rank_is_full(point)) point->failed_index = failed_index;
     else orthogonalize_all(self, point, point->rows, zd_dense_C(point, self->dense_C));
     return point->failed_index < self->m ? ZD_DEPENDENT_ROWS : ZD_DONE;
 }
@@ -241,8 +241,8 @@ ZD_INLINE void exchange(const int n, const schur *self, const double *force, dou
     ZD_ROWS(exchange_all, n, self->m, self, force, b, x);
 }
 
-/* rest <- rhs - C x; returns 1 if it exceeds the rounding of x */
-ZD_INLINE int is_any_left(const int n, const int m, const schur *self, const double *rhs, const double *x, double *rest)
+/* residual <- rhs - C x; returns 1 if it exceeds the rounding of x */
+ZD_INLINE int is_any_significant(const int n, const int m, const schur *self, const double *rhs, const double *x, double *residual)
 {
     int left = 0;
     for (int k = 0; k < m; k++) {
@@ -252,25 +252,25 @@ ZD_INLINE int is_any_left(const int n, const int m, const schur *self, const dou
             sum -= term;
             size += fabs(term);
         }
-        rest[k] = sum;
+        residual[k] = sum;
         left |= fabs(sum) > RESIDUAL_ROUNDING * size;
     }
     return left;
 }
 
-ZD_INLINE int is_left(const int n, const schur *self, const double *rhs, const double *x, double *rest)
+ZD_INLINE int is_residual_significant(const int n, const schur *self, const double *rhs, const double *x, double *residual)
 {
-    return ZD_ROWS(is_any_left, n, self->m, self, rhs, x, rest);
+    return ZD_ROWS(is_any_significant, n, self->m, self, rhs, x, residual);
 }
 
 static void refine(const schur *self, const double *rhs, double *x)
 {
-    double *rest = self->rest;
-    if (!ZD_SIZED(is_left, self->n, self, rhs, x, rest)) return;
-    ZD_SIZED(zd_forward, self->m, self->G, rest, rest);
-    ZD_SIZED(exchange, self->n, self, NULL, rest, self->correction);
+    double *residual = self->residual;
+    if (!ZD_SIZED(is_residual_significant, self->n, self, rhs, x, residual)) return;
+    ZD_SIZED(zd_forward, self->m, self->G, residual, residual);
+    ZD_SIZED(exchange, self->n, self, NULL, residual, self->correction);
     for (int i = 0; i < self->n; i++) x[i] += self->correction[i];
-    for (int k = 0; k < self->m; k++) self->b[k] += rest[k];
+    for (int k = 0; k < self->m; k++) self->b[k] += residual[k];
 }
 
 static void solve_dense(schur *self, const double *force, const double *rhs, double *x, double *lambda)

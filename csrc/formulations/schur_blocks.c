@@ -9,7 +9,7 @@
  * unequally. In either case the solution is verified with C vdot = xi and refined with the same factors until the residual is rounding.
  *
  * The smallest pivot of a long chain is small because of its length alone, and its solutions are accurate. Verification requires C,
- * which is not stored otherwise, and takes as long as all the rest: so systems with many constraints that were found accurate are
+ * which is not stored otherwise, and takes as long as everything else: so systems with many constraints that were found accurate are
  * verified again only after a number of factorizations that doubles each time, or as soon as the pivot has halved.
  */
 #include "schur_blocks.h"
@@ -46,7 +46,7 @@ zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system)
         .is_constant = zd_mass_is(system, ZD_CONSTANT),
         .force = zd_take_doubles(arena, n),
         .lambda = zd_take_doubles(arena, m),
-        .rest = zd_take_doubles(arena, m),
+        .residual = zd_take_doubles(arena, m),
         .step = zd_take_doubles(arena, n),
         .least = zd_rank_is_of_many(system) ? NULL : zd_take_doubles(arena, m),
         .has_redundant = has_redundant,
@@ -96,7 +96,7 @@ static int invert_mass(zd_schur_blocks *self, zd_point *point)
     if (status) return status;
     point->failed_index = zd_mass_factor(point, self->W);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
-    self->is_accurate = zd_weighted_is_alike(self->weighted, self->C, self->W, self->rest, self->lambda);
+    self->is_accurate = zd_weighted_is_alike(self->weighted, self->C, self->W, self->residual, self->lambda);
     self->is_known = 1;
     return ZD_DONE;
 }
@@ -189,8 +189,8 @@ static void find_least(zd_schur_blocks *self, const zd_point *point)
 
 int zd_schur_blocks_find_long_rows(zd_schur_blocks *self, zd_point *point)
 {
-    const int may_tell = self->least && self->is_diagonal && self->is_constant && !zd_weighted_has_welds(self->weighted);
-    if (may_tell && point->rank->is_started && !self->is_least_known) {
+    const int is_applicable = self->least && self->is_diagonal && self->is_constant && !zd_weighted_has_welds(self->weighted);
+    if (is_applicable && point->rank->is_started && !self->is_least_known) {
         find_least(self, point);
         return zd_schur_blocks_has_long_rows(self, point);
     }
@@ -227,21 +227,21 @@ static void finish(zd_schur_blocks *self, const double *force, double *x)
     times_W(self, self->force, x);                                                          /* (13), (27) */
 }
 
-/* rest <- rhs - C x; returns the largest entry relative to its terms, 0 if it is within the rounding of x. */
-static double find_rest(const zd_schur_blocks *self, const double *rhs, const double *x, double *rest)
+/* residual <- rhs - C x; returns the largest entry relative to its terms, 0 if it is within the rounding of x. */
+static double find_residual(const zd_schur_blocks *self, const double *rhs, const double *x, double *residual)
 {
     double left = 0;
     for (int k = 0; k < self->m; k++) {
         zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
         double sum = rhs[k], size = fabs(rhs[k]);
-        rest[k] = 0;
+        residual[k] = 0;
         if (self->chosen && self->without[self->weighted->row_groups.place[k]]) continue;
         for (int j = 0; j < row.count; j++) {
             double term = row.x[j] * x[row.column[j]];
             sum -= term;
             size += fabs(term);
         }
-        rest[k] = sum;
+        residual[k] = sum;
         if (fabs(sum) > RESIDUAL_ROUNDING * size && fabs(sum) > left * size) left = fabs(sum) / size;
     }
     return left;
@@ -249,21 +249,21 @@ static double find_rest(const zd_schur_blocks *self, const double *rhs, const do
 
 static void add_multipliers(zd_schur_blocks *self, double *lambda)
 {
-    zd_weighted_scatter(self->weighted, self->weighted->blocks->x, self->rest);
-    for (int k = 0; k < self->m; k++) lambda[k] += self->rest[k];
+    zd_weighted_scatter(self->weighted, self->weighted->blocks->x, self->residual);
+    for (int k = 0; k < self->m; k++) lambda[k] += self->residual[k];
 }
 
 static void refine(zd_schur_blocks *self, const double *rhs, double *x, double *lambda)
 {
-    double before = INFINITY, left = find_rest(self, rhs, x, self->rest);
+    double before = INFINITY, left = find_residual(self, rhs, x, self->residual);
     if (left > ACCURATE_RESIDUAL) self->wait = self->pause = 0;
     for (int i = 0; i < MAX_REFINEMENTS && left > 0 && left < 0.5 * before; i++) {
-        zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){NULL, self->rest, self->step}));
+        zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){NULL, self->residual, self->step}));
         finish(self, NULL, self->step);
         for (int j = 0; j < self->n; j++) x[j] += self->step[j];
         if (lambda) add_multipliers(self, lambda);
         before = left;
-        left = find_rest(self, rhs, x, self->rest);
+        left = find_residual(self, rhs, x, self->residual);
     }
 }
 

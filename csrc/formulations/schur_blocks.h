@@ -21,7 +21,7 @@ typedef struct zd_schur_blocks {
     double compared_share;  /* smallest pivot at the last verification */
     double *force;          /* (n,): force - C^T lambda */
     double *lambda;         /* (m,) */
-    double *rest, *step;    /* (m,), (n,): residual rhs - C x, and its correction */
+    double *residual, *step;    /* (m,), (n,): residual rhs - C x, and its correction */
     double *least;          /* (m,), in the order of S: diagonal entries above it prove that the row is not small; NULL: unused */
     int is_least_known;
     const zd_operations *products;      /* the system's own products with C; NULL: none */
