@@ -12,7 +12,7 @@
 typedef struct zd_lane_energy {
     int64_t corrections, skipped;
     double corrected;       /* J */
-    int skipped_since_row;
+    int skipped_since_sample;
 } zd_lane_energy;
 
 /* Event location in the step that a lane has just made. */
@@ -69,7 +69,7 @@ const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_u
 void zd_lanes_copy(zd_lanes *self, int from, int to);
 void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles);
 
-/* rows.c: saves the samples that are due at the end of the last step and within it. */
+/* lane_samples.c: saves the samples that are due at the end of the last step and within it. */
 void zd_lane_group_save(zd_lane_group *self);
 /* Sets the time and step number of the lane's next sample. */
 void zd_lane_group_set_next(zd_lane_group *self, int lane);

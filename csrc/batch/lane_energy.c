@@ -21,7 +21,7 @@ static int correct(zd_lane_group *self, int lane, double t, double *y, int force
     energy->corrections = statistics->energy_corrections;
     energy->skipped = statistics->energy_skipped;
     energy->corrected = statistics->energy_corrected;
-    energy->skipped_since_row += motion->tally->energy_skipped;
+    energy->skipped_since_sample += motion->tally->energy_skipped;
     if (motion->point->known & ZD_M) run->kinetic = fmax(run->kinetic, zd_point_kinetic(motion->point));
     for (int i = 0; i < lanes->nv; i++) zd_lane_set(lanes, y, lanes->nq + i, lane, motion->point->v[i]);
     return 1;

@@ -80,7 +80,7 @@ static int is_mixed(const zd_lane_group *self, const zd_lane_search *search)
     return !zd_lanes_may_spread(&self->lanes) || zd_bracket_leaps(&search->bracket[search->event]);
 }
 
-static void go_to_next(zd_lane_group *self, zd_lane_search *search)
+static void proceed_to_next(zd_lane_group *self, zd_lane_search *search)
 {
     search->event = next_reported(self, search, search->event);
     search->stage = search->event < 0 ? ZD_FOUND_ALL : is_mixed(self, search) ? ZD_GOES_BEFORE : ZD_GOES_BEHIND;
@@ -105,11 +105,11 @@ static zd_bracket bracket_of_step(const zd_lanes *lanes, const zd_lane_search *s
 
 /* Proceeds to the states, as all events are located. With dense output, the event that ends the run is located again by shorter steps,
  * near its time. */
-static void go_to_places(zd_lane_group *self, int lane)
+static void go_to_states(zd_lane_group *self, int lane)
 {
     zd_lane_search *search = &self->run_of[lane].search;
     if (!search->ended || search->is_cut || !zd_lanes_may_spread(&self->lanes)) {
-        go_to_next(self, search);
+        proceed_to_next(self, search);
         return;
     }
     search->event = search->ended - 1;
@@ -132,7 +132,7 @@ static void locate_from(zd_lane_group *self, int lane, int event)
         if (is_wide(lanes, lane, &search->bracket[i])) return;
         note_end(self, lane);
     }
-    go_to_places(self, lane);
+    go_to_states(self, lane);
 }
 
 /* Locates events again in the step that was repeated up to the end of the run, by its dense output. */
@@ -154,14 +154,14 @@ static void mix(const zd_lane_group *self, int lane, double share, double *mixed
     const zd_lanes *lanes = &self->lanes;
     const double *early = self->run_of[lane].search.early;
     for (int i = 0; i < lanes->size; i++) {
-        const double late = zd_lane_number(lanes, lanes->y_row, i, lane);
+        const double late = zd_lane_number(lanes, lanes->y_sample, i, lane);
         mixed[i] = share == 1 ? late : early[i] + share * (late - early[i]);
     }
     for (int i = 0; i < lanes->nq; i++) self->p[i] = mixed[i];
     for (int i = 0; i < lanes->nv; i++) self->v[i] = mixed[lanes->nq + i];
 }
 
-/* Finds the state at the event and records it; the states before and after are known, the latter in y_row. */
+/* Finds the state at the event and records it; the states before and after are known, the latter in y_sample. */
 static void find_state(zd_lane_group *self, int lane)
 {
     zd_lane_run *run = &self->run_of[lane];
@@ -220,8 +220,8 @@ static void resume(zd_lane_group *self, int lane)
     switch (search->stage) {
     case ZD_LOCATES:
     case ZD_LOCATES_END:
-        zd_lane_group_gather(self, lane, lanes->y_row);
-        zd_bracket_narrow(bracket, lanes->t_row[lane], evaluate(self, lane, search->event, lanes->t_row[lane]));
+        zd_lane_group_gather(self, lane, lanes->y_sample);
+        zd_bracket_narrow(bracket, lanes->t_sample[lane], evaluate(self, lane, search->event, lanes->t_sample[lane]));
         if (is_wide(lanes, lane, bracket)) return;
         if (search->stage == ZD_LOCATES_END) {
             search->stage = ZD_CUTS;
@@ -232,12 +232,12 @@ static void resume(zd_lane_group *self, int lane)
         return;
     case ZD_CUTS: locate_until_end(self, lane); return;
     case ZD_GOES_BEFORE:
-        for (int i = 0; i < lanes->size; i++) search->early[i] = zd_lane_number(lanes, lanes->y_row, i, lane);
+        for (int i = 0; i < lanes->size; i++) search->early[i] = zd_lane_number(lanes, lanes->y_sample, i, lane);
         search->stage = ZD_GOES_BEHIND;
         return;
     case ZD_GOES_BEHIND:
         find_state(self, lane);
-        go_to_next(self, search);
+        proceed_to_next(self, search);
         return;
     case ZD_FOUND_ALL: return;
     }
@@ -259,7 +259,7 @@ static int request(zd_lane_group *self, int lane, int way)
     const int is_checking = run->number >= 0 && lanes->leaves[lane] == 0 && run->search.stage != ZD_FOUND_ALL;
     const int requests = is_checking && way_of(&run->search) == way;
     lanes->is_wanted[lane] = requests;
-    lanes->t_row[lane] = requests ? time_requested(&run->search) : lanes->t[lane];
+    lanes->t_sample[lane] = requests ? time_requested(&run->search) : lanes->t[lane];
     return requests;
 }
 

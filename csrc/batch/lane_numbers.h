@@ -81,8 +81,8 @@ typedef struct zd_lanes {
     double *at_limit, *below_limit, *stiff;     /* number of steps at the stability limit, and below; counted as stiff */
     double *fastest;        /* largest speed at a full check */
     double *has_event;      /* 1: an event may have occurred in the last accepted step */
-    double *t_row, *is_wanted;      /* a time within the last step; 1: the state there is required */
-    double *y_row, *lambda_row;     /* (size,), (m,): state and multipliers there */
+    double *t_sample, *is_wanted;      /* a time within the last step; 1: the state there is required */
+    double *y_sample, *lambda_sample;     /* (size,), (m,): state and multipliers there */
     /* Work space of a step. */
     double *k;              /* (stages with those of the dense output, size): rates */
     double *stage, *y1;     /* (size,) */
@@ -105,7 +105,7 @@ typedef struct zd_lane_functions {
     void (*choose)(zd_lanes *self);
     /* Makes steps until a lane requires attention. */
     void (*advance)(zd_lanes *self);
-    /* y_row <- state at t_row in lanes with is_wanted, on the constraints; with `multipliers`, lambda_row, too. */
+    /* y_sample <- state at t_sample in lanes with is_wanted, on the constraints; with `multipliers`, lambda_sample, too. */
     void (*move_between)(zd_lanes *self, int multipliers);
     /* substep: the same by a shorter step, even if the method has dense output; cut: that step also replaces the last one. */
     void (*substep)(zd_lanes *self);

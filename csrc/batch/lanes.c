@@ -78,7 +78,7 @@ static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles)
 {
     const int nq = self->nq, nv = self->nv, size = self->size;
     double **const ones[] = {&self->is_active, &self->t, &self->h, &self->next_t, &self->t_before, &self->order, &self->speed,
-                             &self->is_corrected, &self->next_check, &self->check_pause, &self->t_row};
+                             &self->is_corrected, &self->next_check, &self->check_pause, &self->t_sample};
     self->data = take(self, arena, doubles);
     take_zeros(self, arena);
     for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = take(self, arena, 1);
@@ -98,8 +98,8 @@ static void take_workspace(zd_lanes *self, zd_arena *arena)
 {
     const int nq = self->nq, nv = self->nv, m = self->m, size = self->size;
     const zd_tableau *T = self->method.tableau;
-    self->y_row = take(self, arena, size);
-    self->lambda_row = take(self, arena, m);
+    self->y_sample = take(self, arena, size);
+    self->lambda_sample = take(self, arena, m);
     self->k = take(self, arena, (int64_t)(T->stages + 1 + T->more) * size);
     self->stage = take(self, arena, size);
     self->y1 = take(self, arena, size);
@@ -244,7 +244,7 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
     if (self->direct) load_direct(self, lane, run);
     else load_pins(self, lane, run, data);
     self->is_active[lane] = 1;
-    self->t[lane] = self->t_before[lane] = self->t_row[lane] = self->next_t[lane] = self->t0;
+    self->t[lane] = self->t_before[lane] = self->t_sample[lane] = self->next_t[lane] = self->t0;
     self->h[lane] = run->loop.control.h;
     set_first_check(self, lane);
 }

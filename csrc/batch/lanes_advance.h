@@ -196,7 +196,7 @@ ZD_KERNEL void ZD_NAMED(evaluate)(const zd_lanes *self, zd_real x)
     for (int i = 0; i < n; i++) {
         zd_real value = F[(coefficients - 1) * n + i];
         for (int k = coefficients - 2; k >= 0; k--) value = F[k * n + i] + (k % 2 ? x : z) * value;
-        REAL(self->y_row)[i] = REAL(self->y0)[i] + x * value;
+        REAL(self->y_sample)[i] = REAL(self->y0)[i] + x * value;
     }
 }
 
@@ -208,45 +208,45 @@ typedef struct ZD_NAMED(between) {
 
 ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
 {
-    const zd_real t = *REAL(self->t), before = *REAL(self->t_before), t_row = *REAL(self->t_row);
-    const zd_condition inside = HOLDS(self->is_wanted) & (t_row != t);
+    const zd_real t = *REAL(self->t), before = *REAL(self->t_before), t_sample = *REAL(self->t_sample);
+    const zd_condition inside = HOLDS(self->is_wanted) & (t_sample != t);
     const int may_spread = zd_lanes_may_spread(self);
     if (may_spread && !self->has_polynomial) ZD_NAMED(spread)(self, t == t, t - before);
     self->has_polynomial = may_spread;
-    return (ZD_NAMED(between)){inside, ZD_WHERE(inside, t - before, ZD_SPLAT(0.0)), ZD_WHERE(inside, t_row - before, ZD_SPLAT(0.0))};
+    return (ZD_NAMED(between)){inside, ZD_WHERE(inside, t - before, ZD_SPLAT(0.0)), ZD_WHERE(inside, t_sample - before, ZD_SPLAT(0.0))};
 }
 
-/* Projects y_row onto the constraints at t_row; evaluates its multipliers if required. */
-ZD_KERNEL void ZD_NAMED(project_between)(zd_lanes *self, zd_condition inside, const double *t_row, int multipliers)
+/* Projects y_sample onto the constraints at t_sample; evaluates its multipliers if required. */
+ZD_KERNEL void ZD_NAMED(project_between)(zd_lanes *self, zd_condition inside, const double *t_sample, int multipliers)
 {
     zd_condition failed = ZD_SPLAT(0.0) != 0.0;
-    if (self->m && self->corrects) failed = ZD_NAMED(correct_state)(self, t_row, self->y_row, inside) & inside;
-    ZD_NAMED(correct_rest)(self, inside & ~failed, t_row, self->y_row, 1);
-    ZD_NAMED(take_where)(~inside, self->size, self->y, self->y_row);
+    if (self->m && self->corrects) failed = ZD_NAMED(correct_state)(self, t_sample, self->y_sample, inside) & inside;
+    ZD_NAMED(correct_rest)(self, inside & ~failed, t_sample, self->y_sample, 1);
+    ZD_NAMED(take_where)(~inside, self->size, self->y, self->y_sample);
     *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
     if (!multipliers) return;
-    const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, self->lambda_row, NULL, NULL};
-    ZD_NAMED(accelerate)(self, t_row, self->y_row, self->y_row + self->nq * ZD_LANES, &to);
+    const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, self->lambda_sample, NULL, NULL};
+    ZD_NAMED(accelerate)(self, t_sample, self->y_sample, self->y_sample + self->nq * ZD_LANES, &to);
 }
 
-/* y_row at t_row by dense output, if the method has it and steps are adaptive, else by a shorter step. Orders of elimination may have
+/* y_sample at t_sample by dense output, if the method has it and steps are adaptive, else by a shorter step. Orders of elimination may have
  * changed since the start of the step; they are valid at its end. */
 ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
 {
     const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
-    const zd_stored t_row = ZD_WHERE(at.inside, *REAL(self->t_row), *REAL(self->t));
+    const zd_stored t_sample = ZD_WHERE(at.inside, *REAL(self->t_sample), *REAL(self->t));
     if (self->has_polynomial) ZD_NAMED(evaluate)(self, ZD_WHERE(at.inside, at.part / ZD_WHERE(at.inside, at.h, ZD_SPLAT(1.0)), ZD_SPLAT(1.0)));
-    else ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_row);
-    ZD_NAMED(project_between)(self, at.inside, (const double *)&t_row, multipliers);
+    else ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_sample);
+    ZD_NAMED(project_between)(self, at.inside, (const double *)&t_sample, multipliers);
 }
 
-/* y_row at t_row by a shorter step. Its stages overwrite those of dense output, which is therefore computed before. */
+/* y_sample at t_sample by a shorter step. Its stages overwrite those of dense output, which is therefore computed before. */
 ZD_KERNEL zd_condition ZD_NAMED(make_shorter)(zd_lanes *self)
 {
     const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
-    const zd_stored t_row = ZD_WHERE(at.inside, *REAL(self->t_row), *REAL(self->t));
-    ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_row);
-    ZD_NAMED(project_between)(self, at.inside, (const double *)&t_row, 0);
+    const zd_stored t_sample = ZD_WHERE(at.inside, *REAL(self->t_sample), *REAL(self->t));
+    ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_sample);
+    ZD_NAMED(project_between)(self, at.inside, (const double *)&t_sample, 0);
     return at.inside;
 }
 
@@ -259,7 +259,7 @@ ZD_KERNEL void ZD_NAMED(substep)(zd_lanes *self)
 ZD_KERNEL void ZD_NAMED(cut)(zd_lanes *self)
 {
     const zd_condition inside = ZD_NAMED(make_shorter)(self);
-    ZD_NAMED(take_where)(inside, self->size, self->y_row, self->y);
-    *REAL(self->t) = ZD_WHERE(inside, *REAL(self->t_row), *REAL(self->t));
+    ZD_NAMED(take_where)(inside, self->size, self->y_sample, self->y);
+    *REAL(self->t) = ZD_WHERE(inside, *REAL(self->t_sample), *REAL(self->t));
     ZD_NAMED(spread)(self, inside, *REAL(self->t) - *REAL(self->t_before));
 }

@@ -2,7 +2,7 @@
 #include "../run/explain.h"
 #include "../run/run.h"
 
-static int record_row(zd_run *run, double t, const double *p, const double *v, double input, zd_record *record)
+static int record_sample(zd_run *run, double t, const double *p, const double *v, double input, zd_record *record)
 {
     int status = zd_stepper_place(&run->stepper, t, p, v);
     if (run->motion.balance.input) run->stepper.y[run->motion.rate.size - 1] = input;
@@ -14,6 +14,6 @@ int zd_run_record_states(zd_run *run, int64_t rows, const double *t, const doubl
     const zd_system *system = &run->motion.system;
     int status = ZD_DONE;
     for (int64_t i = 0; i < rows && !status; i++)
-        status = record_row(run, t[i], p + i * system->nq, v + i * system->nv, input[i], record);
+        status = record_sample(run, t[i], p + i * system->nq, v + i * system->nv, input[i], record);
     return status ? zd_explain(run, status) : ZD_DONE;
 }

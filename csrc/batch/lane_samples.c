@@ -11,23 +11,23 @@ static void store(const zd_lanes *lanes, int lane, const double *from, int64_t c
     for (int64_t i = 0; i < count; i++) to[i] = zd_lane_number(lanes, from, i, lane);
 }
 
-/* Saves y_row at t_row as a sample of the run. */
-static void save_row(zd_lane_group *self, int lane)
+/* Saves y_sample at t_sample as a sample of the run. */
+static void save_sample(zd_lane_group *self, int lane)
 {
     const zd_batch *batch = self->batch;
     const zd_lanes *lanes = &self->lanes;
     zd_lane_run *run = &self->run_of[lane];
     if (run->rows == batch->capacity) return;
     const int64_t row = run->number * batch->capacity + run->rows++;
-    if (batch->t) batch->t[row] = lanes->t_row[lane];
-    if (batch->p) store(lanes, lane, lanes->y_row, lanes->nq, batch->p + row * entries_of_p(self));
-    if (batch->v) store(lanes, lane, lanes->y_row + entries_of_p(self) * lanes->lanes, lanes->nv, batch->v + row * lanes->nv);
-    if (batch->input) batch->input[row] = lanes->has_input ? zd_lane_number(lanes, lanes->y_row, lanes->size - 1, lane) : 0;
+    if (batch->t) batch->t[row] = lanes->t_sample[lane];
+    if (batch->p) store(lanes, lane, lanes->y_sample, lanes->nq, batch->p + row * entries_of_p(self));
+    if (batch->v) store(lanes, lane, lanes->y_sample + entries_of_p(self) * lanes->lanes, lanes->nv, batch->v + row * lanes->nv);
+    if (batch->input) batch->input[row] = lanes->has_input ? zd_lane_number(lanes, lanes->y_sample, lanes->size - 1, lane) : 0;
     if (batch->iterations) batch->iterations[row] = (int)lanes->most_iterations[lane];
-    if (batch->energy_skipped) batch->energy_skipped[row] = run->of_energy.skipped_since_row;
+    if (batch->energy_skipped) batch->energy_skipped[row] = run->of_energy.skipped_since_sample;
     lanes->most_iterations[lane] = 0;
-    run->of_energy.skipped_since_row = 0;
-    if (batch->multipliers) store(lanes, lane, lanes->lambda_row, lanes->m, batch->multipliers + row * lanes->m);
+    run->of_energy.skipped_since_sample = 0;
+    if (batch->multipliers) store(lanes, lane, lanes->lambda_sample, lanes->m, batch->multipliers + row * lanes->m);
 }
 
 static double next_time(const zd_lane_group *self, const zd_lane_run *run)
@@ -84,7 +84,7 @@ static int mark(zd_lane_group *self, int *is_within)
         double when = lanes->t[lane];
         const int due = is_due(self, lane, &when);
         lanes->is_wanted[lane] = due;
-        lanes->t_row[lane] = due ? when : lanes->t[lane];
+        lanes->t_sample[lane] = due ? when : lanes->t[lane];
         any |= due;
         *is_within |= due && when != lanes->t[lane];
     }
@@ -96,7 +96,7 @@ static void save_marked(zd_lane_group *self)
     zd_lanes *lanes = &self->lanes;
     for (int lane = 0; lane < lanes->lanes; lane++) {
         if (lanes->is_wanted[lane] == 0 || lanes->leaves[lane] != 0) continue;
-        save_row(self, lane);
+        save_sample(self, lane);
         self->run_of[lane].next++;
         self->run_of[lane].is_complete |= self->run_of[lane].search.is_at_end;
     }
@@ -109,7 +109,7 @@ void zd_lane_group_save(zd_lane_group *self)
     int is_within;
     while (mark(self, &is_within)) {
         if (is_within || multipliers) self->functions->move_between(lanes, multipliers);
-        else memcpy(lanes->y_row, lanes->y, (size_t)(lanes->size * lanes->lanes) * sizeof *lanes->y);
+        else memcpy(lanes->y_sample, lanes->y, (size_t)(lanes->size * lanes->lanes) * sizeof *lanes->y);
         save_marked(self);
     }
     for (int lane = 0; lane < lanes->lanes && !by_time; lane++) self->run_of[lane].next = 0;
