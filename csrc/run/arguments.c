@@ -1,5 +1,5 @@
-/* What the core refuses before it starts. People's arguments are checked in Python, by name; here it is made sure that nothing a
- * caller of zerodrift.h hands in makes the core crash or run for ever.
+/* Checks of arguments before a run starts. Users' arguments are checked in Python, by name; these checks ensure that no arguments passed
+ * through zerodrift.h make the core crash or run forever.
  */
 #include "arguments.h"
 
@@ -33,17 +33,18 @@ static const char *wrong_system(const zd_system *system)
     int nq = system->nq, nv = system->nv, mh = system->mh, mn = system->mn;
     const int largest = system->structure ? ZD_LARGEST_PACKED : ZD_LARGEST;
     const rule rules[] = {
-        {!(nq >= 1 && nq <= largest && nv >= 1 && nv <= largest), "a system has 1 to 8192 coordinates, and as many velocities; "
-         "1048576 where its structure is declared"},
-        {!(mh >= 0 && mh <= largest && mn >= 0 && mn <= largest), "a system has at most 8192 constraints of each kind; 1048576 where its structure "
-         "is declared"},
-        {!lacks(system, ZD_COMPLEMENT) && (double)mh + mn > nv, "a complement is for at most as many constraints as velocities"},
-        {system->scratch < 0 || system->scratch > ZD_LARGEST * ZD_LARGEST, "the scratch of a system is no size"},
-        {!system->evaluate || lacks(system, ZD_M), "a system has a function that evaluates it, and a mass matrix"},
-        {lacks(system, ZD_A) && nq != nv, "a system without kinematic matrix has as many velocities as coordinates"},
-        {mh > 0 && lacks(system, ZD_PHI), "a system with holonomic constraints provides Phi"},
-        {(mh > 0 || mn > 0) && lacks(system, ZD_C | ZD_XI), "a system with constraints provides C and xi"},
-        {lacks(system, ZD_COMPLEMENT) != lacks(system, ZD_GAMMA), "a complement D and gamma come together"},
+        {!(nq >= 1 && nq <= largest && nv >= 1 && nv <= largest), "a system must have 1 to 8192 coordinates and velocities; up to 1048576 "
+         "if it declares its structure"},
+        {!(mh >= 0 && mh <= largest && mn >= 0 && mn <= largest), "a system must have at most 8192 constraints of each kind; 1048576 if it "
+         "declares its structure"},
+        {!lacks(system, ZD_COMPLEMENT) && (double)mh + mn > nv, "a system with a complement D must not have more constraints "
+         "than velocities"},
+        {system->scratch < 0 || system->scratch > ZD_LARGEST * ZD_LARGEST, "the scratch of a system must be 0 to 8192^2 doubles"},
+        {!system->evaluate || lacks(system, ZD_M), "a system must have evaluate() and provide M"},
+        {lacks(system, ZD_A) && nq != nv, "a system without kinematic matrix must have as many velocities as coordinates"},
+        {mh > 0 && lacks(system, ZD_PHI), "a system with holonomic constraints must provide Phi"},
+        {(mh > 0 || mn > 0) && lacks(system, ZD_C | ZD_XI), "a system with constraints must provide C and xi"},
+        {lacks(system, ZD_COMPLEMENT) != lacks(system, ZD_GAMMA), "a system must provide both the complement D and gamma, or neither"},
     };
     return FIRST_BROKEN(rules);
 }
@@ -64,7 +65,7 @@ static int refuse(const char *wrong, char *message, int size)
     return wrong ? ZD_BAD_ARGUMENT : ZD_DONE;
 }
 
-/* A term that the correction requires and the system does not provide; NULL: there is none. */
+/* The first term that the correction requires and the system does not provide; NULL: none. */
 static const zd_term_row *lacking(const zd_system *system, const zd_correction *correction)
 {
     for (int row = 0; zd_term_at(row); row++)
@@ -81,7 +82,7 @@ static int check_correction(const zd_system *system, int row, const zd_given *gi
     return ZD_BAD_ARGUMENT;
 }
 
-/* The parameters of all rows that are chosen. */
+/* Parameters of the chosen formulation, integrator and corrections. */
 static int check_given(const zd_system *system, const zd_settings *settings, char *message, int size)
 {
     int status = zd_check_given(ZD_FORMULATIONS, settings->formulation, &settings->of_formulation, message, size);
@@ -95,9 +96,9 @@ static const char *wrong_events(const zd_system *system, const zd_events *events
 {
     if (!events) return NULL;
     const rule rules[] = {
-        {events->count < 0 || events->count > ZD_LARGEST, "a run has at most 8192 events"},
-        {!events->evaluate || !events->found, "events have a function that evaluates them and one that is told of them"},
-        {events->count > 0 && (!events->direction || !events->terminal), "each event has a direction, and whether it is terminal"},
+        {events->count < 0 || events->count > ZD_LARGEST, "a run must have at most 8192 events"},
+        {!events->evaluate || !events->found, "events must have both functions, evaluate() and found()"},
+        {events->count > 0 && (!events->direction || !events->terminal), "events must have the arrays direction and terminal"},
     };
     const char *wrong = FIRST_BROKEN(rules);
     return wrong ? wrong : zd_wrong_readings(events, system);
@@ -109,10 +110,10 @@ static const char *wrong_outputs(const zd_system *system, const zd_outputs *outp
     const zd_system *of = outputs->of ? outputs->of : system;
     const zd_measures *measures = of->measures;
     int alike = of->nq == system->nq && of->nv == system->nv && of->mh == system->mh && of->mn == system->mn;
-    if (!alike) return "outputs are measures of a system with the same coordinates, velocities and constraints";
-    if (!measures || outputs->count < 1 || outputs->count > ZD_LARGEST || !outputs->measure) return "there are 1 to 8192 outputs, of measures";
+    if (!alike) return "outputs must be measures of a system with the same numbers of coordinates, velocities and constraints";
+    if (!measures || outputs->count < 1 || outputs->count > ZD_LARGEST || !outputs->measure) return "outputs must be 1 to 8192 measures";
     for (int i = 0; i < outputs->count; i++)
-        if (outputs->measure[i] < 0 || outputs->measure[i] >= measures->count) return "every output is one of the measures";
+        if (outputs->measure[i] < 0 || outputs->measure[i] >= measures->count) return "every output must be the index of a measure";
     return NULL;
 }
 
@@ -132,16 +133,16 @@ static const char *wrong_course(const zd_settings *settings)
     double step = settings->step, resolved = 16 * 0x1p-52 * latest(settings);
     int chosen = step == 0;
     const rule times[] = {
-        {!isfinite(settings->t1 - settings->t0) || !(settings->t1 > settings->t0), "a run ends after it starts, both finite"},
-        {!chosen && !(step >= resolved && step < INFINITY), "the step is finite, and long enough to be seen in the time"},
+        {!isfinite(settings->t1 - settings->t0) || !(settings->t1 > settings->t0), "t1 must be after t0, both finite"},
+        {!chosen && !(step >= resolved && step < INFINITY), "step must be finite, and at least 16 roundings of the time"},
         {settings->t_eval && !is_increasing_within(settings->t_eval, settings->t_evals, settings->t0, settings->t1),
-         "the times to save at increase, within the run"},
-        {!settings->t_eval && settings->save_every < 1, "rows are saved every so many steps"},
-        {chosen && !zd_integrator_of(settings->integrator)->card.error_order, "this integrator needs a step: it estimates no error"},
-        {chosen && (is_bad(settings->rtol) || is_bad(settings->atol) || settings->atol == 0), "rtol and atol are finite, atol not 0"},
-        {chosen && (!(settings->first_step >= 0) || !(settings->max_step >= 0)), "first_step and max_step are at least 0"},
-        {chosen && !(settings->max_move >= 0), "max_move is at least 0"},
-        {settings->max_steps < 0, "max_steps is at least 0"},
+         "t_eval must increase, from t0 to t1"},
+        {!settings->t_eval && settings->save_every < 1, "save_every must be at least 1"},
+        {chosen && !zd_integrator_of(settings->integrator)->card.error_order, "this integrator must be given a step: it estimates no error"},
+        {chosen && (is_bad(settings->rtol) || is_bad(settings->atol) || settings->atol == 0), "rtol and atol must be finite, atol positive"},
+        {chosen && (!(settings->first_step >= 0) || !(settings->max_step >= 0)), "first_step and max_step must be at least 0"},
+        {chosen && !(settings->max_move >= 0), "max_move must be at least 0"},
+        {settings->max_steps < 0, "max_steps must be at least 0"},
     };
     const char *wrong = FIRST_BROKEN(times);
     if (wrong) return wrong;
@@ -155,7 +156,7 @@ int zd_check_system(const zd_system *system, char *message, int size)
     return wrong ? ZD_BAD_ARGUMENT : zd_check_interface(system, message, size);
 }
 
-/* A motion's series is that of p and v, with the constraints as they are. */
+/* A Taylor series of the motion is that of all of p and v, with unstabilized constraints. */
 int zd_check_methods_agree(const zd_settings *settings, char *message, int size)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);

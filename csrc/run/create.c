@@ -1,4 +1,4 @@
-/* A run is created: all its memory, its owners, and the checks of its start. */
+/* Creation of a run: its memory, its components, and the checks of its start. */
 #include "create.h"
 
 #include <stdio.h>
@@ -20,7 +20,7 @@ static const void *complete(zd_given *given, const zd_card *card)
     return given->value;
 }
 
-/* Methods that are stable at any step are implicit, and keep from step to step what they solve with: it would come from the other road. */
+/* Methods stable at any step size are implicit and reuse their matrix from step to step: it must come from one evaluation path. */
 int zd_takes_direct(const zd_settings *settings)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);

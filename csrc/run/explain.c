@@ -1,4 +1,4 @@
-/* What went wrong, in one sentence with its numbers. */
+/* Explanation of a failed run, in one sentence with numbers. */
 #include "explain.h"
 
 #include <inttypes.h>
@@ -31,7 +31,7 @@ static void describe_jacobian(const zd_run *run, char *to, size_t size)
              zd_name_row(&run->motion.system, found->row, row), of, found->given, found->found);
 }
 
-/* What the mass matrix or the constraints have; returns whether it was that. */
+/* Describes a failure of the mass matrix or the constraints; returns false for other statuses. */
 static int describe_matrices(const zd_run *run, int status, const char *rows, char *to, size_t size)
 {
     const zd_point *point = run->motion.point;
@@ -72,8 +72,8 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
     return 1;
 }
 
-/* Where steps were longer than the method is stable for, that is why; else what else may help. What has left the range of doubles
- * shows any omega h at last: there it takes several steps. */
+/* Appends the cause: instability if omega h exceeded the method's limit, else `otherwise`. After an overflow omega h itself proves
+ * nothing, so that `unstable` then requires several steps that were too long. */
 static void add_cause(const zd_run *run, int unstable, const char *otherwise, char *to, size_t size)
 {
     const zd_card *card = &run->stepper.integrator->card;
@@ -85,7 +85,7 @@ static void add_cause(const zd_run *run, int unstable, const char *otherwise, ch
     else snprintf(to + length, size - length, "%s", otherwise);
 }
 
-/* So many that the two ends of the span are told apart */
+/* Number of digits that distinguishes the two ends of the span. */
 static int digits_of(double from, double to)
 {
     double apart = fmax(fabs(from), fabs(to)) / (to - from);
@@ -111,7 +111,7 @@ static void describe_surplus(const zd_system *system, const char *formulation, c
              system->nv);
 }
 
-/* What the method cannot do with this system, or with the error asked for; returns whether it was that. */
+/* Describes a method that does not apply to this system, or cannot reach the tolerance; returns false for other statuses. */
 static int describe_method(const zd_run *run, int status, char *to, size_t size)
 {
     const zd_system *system = &run->motion.system;
@@ -202,8 +202,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
     }
 }
 
-/* Numbers that are not finite often show first as a failed factorization: their cause is named, and not that. */
-/* Whether an iteration failed that has no chance with a wrong Jacobian, as it is there, or where the step began. */
+/* True if an iteration has failed and the Jacobian is found wrong, at the present point or at the start of the step. */
 static int is_for_jacobians(zd_run *run, int status)
 {
     zd_consistency *consistency = &run->safeguards.consistency;
@@ -215,6 +214,7 @@ static int is_for_jacobians(zd_run *run, int status)
     return zd_consistency_jacobian(consistency, run->loop.step) == ZD_NOT_JACOBIAN;
 }
 
+/* The status to report, at *t: terms that are not finite often cause a failed factorization first; then the term is reported. */
 static int cause_of(zd_run *run, int status, double *t)
 {
     zd_point *point = run->motion.point;

@@ -1,5 +1,5 @@
-/* What a system brings besides its terms, each pointer of zd_system by itself: that its sizes fit those of the system, and that what it
- * says it has is there. Sentences count from 0, as all of the interface does.
+/* Checks of the optional members of zd_system, one function per pointer: their sizes must match those of the system, and declared arrays
+ * and functions must exist. Messages count from 0, as the interface does.
  */
 #include "interface.h"
 
@@ -23,7 +23,7 @@ static int refuse(text message, const char *sentence, ...)
     return ZD_BAD_ARGUMENT;
 }
 
-static const double LARGEST_MATRICES = 0x1p28;      /* so that places in them are ints */
+static const double LARGEST_MATRICES = 0x1p28;      /* entries; offsets of packed matrices are ints */
 
 static int is_no_size(int scratch) { return scratch < 0 || scratch > ZD_LARGEST * ZD_LARGEST; }
 
@@ -44,7 +44,7 @@ static int check_blocks(const zd_system *system, text message)
         if (p != v && !(system->provides & ZD_A))
             return refuse(message, "structure: block %d has %d coordinates and %d velocities: then there is a kinematic matrix", b, p, v);
         if (mass & ~(ZD_CONSTANT | ZD_DIAGONAL))
-            return refuse(message, "structure: the mass of block %d is %d, which is no sum of ZD_CONSTANT and ZD_DIAGONAL", b, mass);
+            return refuse(message, "structure: the mass of block %d is %d; it must be a sum of ZD_CONSTANT and ZD_DIAGONAL", b, mass);
         nq += p, nv += v;
     }
     if (nq == system->nq - system->followers && nv == system->nv) return ZD_DONE;
@@ -85,7 +85,7 @@ static int check_groups_of_rows(const zd_system *system, text message)
     return refuse(message, "structure: its groups have %d rows, and the system has %d", rows, m);
 }
 
-/* In all blocks of A, M and C; each may be larger than an int has room for. */
+/* Number of entries of all blocks of A, M and C, as a double: it may exceed the range of int. */
 static double numbers_in(const zd_structure *structure)
 {
     double numbers = 0;
@@ -109,7 +109,7 @@ static int check_structure(const zd_system *system, text message)
     return status;
 }
 
-/* ---- what else there is ---- */
+/* ---- other members ---- */
 
 static int check_operations(const zd_system *system, text message)
 {
@@ -119,7 +119,7 @@ static int check_operations(const zd_system *system, text message)
     return refuse(message, "operations: subtract_weighted and add_weighted go together, with times_C and a structure all of whose M is diagonal");
 }
 
-/* Rows are eliminated once each, for as many different velocities, in solves that are counted up. */
+/* Checks an order: each constraint is eliminated once, for as many different velocities, in solves numbered from 0. */
 static int is_an_elimination(const zd_system *system, const zd_elimination *order, int embeds)
 {
     int m = system->mh + system->mn, last = -1;
@@ -142,7 +142,7 @@ static int check_orders(const zd_system *system, int set, text message)
         const int embeds = i >= direct->orders;
         const zd_elimination *order = embeds ? direct->embedding + (i - direct->orders) : direct->order + i;
         if (!is_an_elimination(system, order, embeds))
-            return refuse(message, "direct: order %d of set %d is no elimination of %d rows, each once, for as many of %d velocities", i, set,
+            return refuse(message, "direct: order %d of set %d must eliminate %d rows, each once, for as many of %d velocities", i, set,
                           system->mh + system->mn, system->nv);
     }
     return ZD_DONE;
@@ -183,12 +183,12 @@ static int check_measures(const zd_system *system, text message)
     if (!measures) return ZD_DONE;
     if (is_no_count(measures->count) || (measures->count && (!measures->measure || !measures->evaluate)))
         return refuse(message, "measures: there are %d, at most 8192, and a function that evaluates them", measures->count);
-    if (is_no_size(measures->scratch)) return refuse(message, "measures: their scratch is no size: %d", measures->scratch);
+    if (is_no_size(measures->scratch)) return refuse(message, "measures: their scratch must be a size, not %d", measures->scratch);
     for (int i = 0; i < measures->count; i++) {
         const zd_measure *measure = &measures->measure[i];
-        if (!measure->name || !*measure->name || !measure->unit) return refuse(message, "measures: measure %d has a name and a unit", i);
+        if (!measure->name || !*measure->name || !measure->unit) return refuse(message, "measures: measure %d must have a name and a unit", i);
         if (measure->size < 1 || measure->size > ZD_LARGEST)
-            return refuse(message, "measures: %s has %d components, and has 1 to 8192", measure->name, measure->size);
+            return refuse(message, "measures: %s has %d components; it must have 1 to 8192", measure->name, measure->size);
         if ((int)measure->depends < ZD_OF_POSITIONS || (int)measure->depends > ZD_OF_ACCELERATIONS)
             return refuse(message, "measures: %s does not say what it depends on", measure->name);
     }
@@ -199,21 +199,21 @@ static int check_series(const zd_system *system, text message)
 {
     const zd_series *series = system->series;
     if (!series || (series->evaluate && !is_no_size(series->scratch))) return ZD_DONE;
-    return refuse(message, "series: there is a function that evaluates them, and a scratch that is a size, not %d", series->scratch);
+    return refuse(message, "series: they must have evaluate(), and a scratch that is a size, not %d", series->scratch);
 }
 
 static int check_jacobian(const zd_system *system, text message)
 {
     const zd_jacobian *jacobian = system->jacobian;
     if (!jacobian || (jacobian->evaluate && !is_no_size(jacobian->scratch))) return ZD_DONE;
-    return refuse(message, "jacobian: there is a function that evaluates it, and a scratch that is a size, not %d", jacobian->scratch);
+    return refuse(message, "jacobian: it must have evaluate(), and a scratch that is a size, not %d", jacobian->scratch);
 }
 
 static int check_residuals(const zd_system *system, text message)
 {
     const zd_residuals *residuals = system->residuals;
     if (!residuals || (residuals->derivative && !is_no_size(residuals->scratch))) return ZD_DONE;
-    return refuse(message, "residuals: there is a function for their derivative, and a scratch that is a size, not %d", residuals->scratch);
+    return refuse(message, "residuals: they must have derivative(), and a scratch that is a size, not %d", residuals->scratch);
 }
 
 static int check_magnitudes(const zd_system *system, text message)
@@ -228,13 +228,13 @@ static int check_inputs(const zd_system *system, text message)
         return refuse(message, "inputs: there are %d, at most 8192, each with its name, unit and initial value", system->inputs);
     for (int i = 0; i < system->inputs; i++) {
         const zd_input *input = &system->input[i];
-        if (!input->name || !*input->name || !input->unit) return refuse(message, "inputs: input %d has a name and a unit", i);
-        if (!isfinite(input->initial)) return refuse(message, "inputs: the initial value of %s is not finite", input->name);
+        if (!input->name || !*input->name || !input->unit) return refuse(message, "inputs: input %d must have a name and a unit", i);
+        if (!isfinite(input->initial)) return refuse(message, "inputs: the initial value of %s must be finite", input->name);
     }
     return ZD_DONE;
 }
 
-/* Groups of rows that can be switched: in order, and no row is in two. */
+/* Checks groups of constraints that can be switched: they must be in order and must not overlap. */
 static int check_switched_groups(const zd_system *system, text message)
 {
     int end = 0, m = system->mh + system->mn;
@@ -242,7 +242,7 @@ static int check_switched_groups(const zd_system *system, text message)
         return refuse(message, "groups: there are %d, and may be 64, each with its name and rows", system->groups);
     for (int i = 0; i < system->groups; i++) {
         const zd_group *group = &system->group[i];
-        if (!group->name || !*group->name) return refuse(message, "groups: group %d has a name", i);
+        if (!group->name || !*group->name) return refuse(message, "groups: group %d must have a name", i);
         if (group->rows < 1 || group->first < end || group->first > m - group->rows)
             return refuse(message, "groups: %s has %d rows from row %d on; it has at least one of the %d, behind those of the group before",
                           group->name, group->rows, group->first, m);
@@ -257,7 +257,7 @@ static int check_quaternions(const zd_system *system, text message)
     if (system->quaternions < 0 || system->quaternions > system->nq / 4 || (system->quaternions && !system->quaternion))
         return refuse(message, "quaternions: there are %d, and may be %d, each with where it begins", system->quaternions, system->nq / 4);
     if (system->quaternions && !(system->provides & ZD_A))
-        return refuse(message, "quaternions: their rates are no velocities, and so there is a kinematic matrix");
+        return refuse(message, "quaternions: a system with quaternions must have a kinematic matrix, since their rates are not velocities");
     for (int k = 0; k < system->quaternions; k++) {
         const int first = system->quaternion[k];
         if (first < end || first > system->nq - 4)

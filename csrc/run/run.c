@@ -1,4 +1,4 @@
-/* What a run tells of itself. */
+/* Queries of a run: progress, message, statistics. */
 #include "run.h"
 
 #include "../constraints/rank.h"
@@ -6,7 +6,7 @@
 double zd_run_progress(const zd_run *run)
 {
     const double span = run->loop.end - run->settings.t0;
-    const double t = run->output.is_open ? run->output.after.t : run->stepper.t;    /* the step is made, though rows within it are not */
+    const double t = run->output.is_open ? run->output.after.t : run->stepper.t;    /* the step is finished, its samples are not */
     return span > 0 ? (t - run->settings.t0) / span : 1;
 }
 

@@ -1,4 +1,4 @@
-/* What a run owns. */
+/* A run and its components. */
 #ifndef ZD_RUN_H
 #define ZD_RUN_H
 
@@ -12,7 +12,7 @@
 
 enum { ZD_MESSAGE = 500 };
 
-typedef struct zd_outcome { /* how the run has ended, if it has */
+typedef struct zd_outcome { /* the end of the run, once reached */
     int status;
     char message[ZD_MESSAGE];
 } zd_outcome;
@@ -24,7 +24,7 @@ struct zd_run {
     zd_safeguards safeguards;
     zd_step_loop loop;
     zd_recorder recorder;
-    zd_output output;       /* where something between steps is wanted */
+    zd_output output;       /* samples and events between steps, if requested */
     zd_watch watch;
     zd_tally tally;
     zd_outcome outcome;

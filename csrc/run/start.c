@@ -1,5 +1,5 @@
-/* Whether a run may begin: its start satisfies the constraints, its system and its tolerance are ones that something can be done with.
- * What only this needs is freed after it.
+/* Checks of the start of a run: it must satisfy the constraints, the system must be consistent, and the tolerance reachable. Memory that
+ * only these checks need is freed after them.
  */
 #include "start.h"
 
@@ -17,17 +17,17 @@
 #include "../registry.h"
 #include "../stepping/adaptive.h"
 
-static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start, in natural units, if the corrections' own is tighter */
-static const double ROUNDING = 0x1p-46;         /* of the largest row's size: some tens of roundings of what Phi is the difference of */
-static const double NEGATIVE_MASS = 1e-12;      /* of that on the diagonal, is rounding */
+static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start relative to sizes, if the corrections' own is tighter */
+static const double ROUNDING = 0x1p-46;         /* rounding of Phi relative to the largest size: tens of roundings of its terms */
+static const double NEGATIVE_MASS = 1e-12;      /* negative eigenvalue of the scaled M that may be rounding */
 
 typedef struct workspace {
     double *Psi;        /* (m,) */
-    double *factor;     /* stored as M is: to see whether it is positive definite */
-    double *states;     /* (3, size): for the choice of the first step */
+    double *factor;     /* stored as M is: its Cholesky factor, if M is positive definite */
+    double *states;     /* (3, size): states for the choice of the first step */
 } workspace;
 
-typedef struct violation {  /* the largest of all rows, and which has it */
+typedef struct violation {  /* the largest violation relative to a constraint's size, and that constraint */
     double size;
     int row;
 } violation;
@@ -37,8 +37,8 @@ static void note(violation *largest, double size, int row)
     if (!(size <= largest->size)) *largest = (violation){size, row};
 }
 
-/* Largest |Phi| in units of its rows' sizes. Where a row all but vanishes, as of links that are drawn in line, that would be a rounding of
- * lengths over next to nothing: what rounding leaves of the largest row is no violation of any. */
+/* Largest |Phi| relative to the sizes of constraints. A nearly vanishing gradient, as of links drawn in line, would magnify rounding: a
+ * residual within the rounding of the largest constraint is not counted as a violation. */
 static violation position_violation(const zd_point *point)
 {
     const int mh = point->system->mh;
@@ -52,7 +52,7 @@ static violation position_violation(const zd_point *point)
     return largest;
 }
 
-/* Largest |Psi|, in units of what the fastest velocity makes of its row, or what would move over the whole run by a row's size. */
+/* Largest |Psi|, relative to the constraint's size times the speed: the largest velocity in characteristic scales, plus one per run. */
 static violation velocity_violation(const zd_run *run, const double *Psi)
 {
     const zd_point *point = run->motion.point;
@@ -65,7 +65,7 @@ static violation velocity_violation(const zd_run *run, const double *Psi)
     return largest;
 }
 
-/* Refuses a violation of the constraints beyond the tolerance. */
+/* Checks that the start satisfies the constraints within the tolerance. */
 static int check_constraints(zd_run *run, double *Psi)
 {
     zd_point *point = run->motion.point;
@@ -85,7 +85,7 @@ static int check_constraints(zd_run *run, double *Psi)
     return ZD_BAD_START;
 }
 
-/* Refuses a tolerance that the rounding of p alone keeps Phi from reaching. */
+/* Checks that the tolerance of positions is above the rounding of Phi that follows from the rounding of p. */
 static int check_tolerance(zd_run *run)
 {
     const zd_constraint_target *target = &run->motion.target;
@@ -113,8 +113,8 @@ static double unit(const zd_point *point, int i)
     return M > 0 ? sqrt(M) : 1;
 }
 
-/* factor <- M in units that make its diagonal one where there is any mass, + the sum of `rows` rows of C in these units, each of length
- * one, times itself */
+/* factor <- M scaled to a unit diagonal (where it is positive) + sum c_k^T c_k over `rows` independent rows of C, scaled alike and
+ * normalized to length one */
 static void weigh(const zd_run *run, int rows, double *factor)
 {
     const zd_point *point = run->motion.point;
@@ -136,7 +136,7 @@ static void weigh(const zd_run *run, int rows, double *factor)
     }
 }
 
-/* M may be singular where constraints hold what has no mass: x^T M x > 0 for all other x that C x = 0 allows, and never negative. */
+/* Checks a singular M: it must be positive semidefinite, and x^T M x > 0 for all x != 0 with C x = 0. */
 static int check_singular_mass(zd_run *run, double *factor)
 {
     zd_point *point = run->motion.point;
@@ -154,7 +154,7 @@ static int check_singular_mass(zd_run *run, double *factor)
     return ZD_NOT_DEFINITE;
 }
 
-/* The same of a structure with many rows, whose leading matrix is definite where what has no mass is held. */
+/* The same for a structure with many constraints: its leading matrix is definite exactly if massless motions are constrained. */
 static int check_blocks(zd_run *run)
 {
     const zd_point *point = run->motion.point;
@@ -186,7 +186,7 @@ static int check_mass(zd_run *run, double *factor)
     return status;
 }
 
-/* Refuses kinematics that change the length of a unit quaternion: it would be brought back at every step, and hide what is wrong. */
+/* Checks that the kinematics preserve the length of unit quaternions: normalization after each step would hide an error in them. */
 static int check_quaternions(zd_run *run)
 {
     zd_point *point = run->motion.point;
@@ -200,12 +200,12 @@ static int check_quaternions(zd_run *run)
     return ZD_NOT_KEPT;
 }
 
-/* The first step, where steps are chosen. */
+/* First size of adaptive steps. */
 static int choose_step(zd_run *run, double *states, const double *p0, const double *v0)
 {
     if (run->settings.step > 0) return ZD_DONE;
     int status = zd_adaptive_start(&run->loop, states);
-    return status ? status : zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);     /* wherever that has looked */
+    return status ? status : zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);     /* it has evaluated other points */
 }
 
 static int check(zd_run *run, const workspace *work, const double *p0, const double *v0)
@@ -235,7 +235,7 @@ static workspace lay_out(zd_arena *arena, const zd_motion *motion)
 
 static int start(zd_run *run, int status, const workspace *work, const double *p0, const double *v0)
 {
-    if (status == ZD_BIFURCATION || status == ZD_CONTRADICTION) {       /* of a start that is none */
+    if (status == ZD_BIFURCATION || status == ZD_CONTRADICTION) {       /* an inconsistent start is reported first */
         int violated = check_constraints(run, work->Psi);
         return violated ? violated : status;
     }
@@ -246,10 +246,10 @@ static int start(zd_run *run, int status, const workspace *work, const double *p
     return status;
 }
 
-/* Whether so many rows count for certain, without being looked at, as those of the run do that it was created for. */
+/* True if pivots alone prove that the constraints independent at the creation of the run are independent at this start, too. */
 static int are_independent(const zd_motion *motion)
 {
-    const double LEAST = 0x1p-26;       /* of smaller pivots a run tells; those of rows that follow from others are much smaller */
+    const double LEAST = 0x1p-26;       /* smaller relative pivots are reported; those of redundant constraints are much smaller */
     return motion->point->rank->is_large && motion->statistics.smallest_pivot > LEAST;
 }
 
@@ -260,7 +260,7 @@ static int choose_step_directly(zd_run *run, double *states, const double *p0, c
     return zd_is_direct(&run->motion) ? choose_step(run, states, p0, v0) : ZD_SINGULAR;
 }
 
-/* What else is checked of a start follows from its pivots being large. */
+/* Checks of another start; the remaining ones are implied by large pivots. */
 static int check_elsewhere(zd_run *run, const workspace *work, const double *p0, const double *v0)
 {
     zd_motion *motion = &run->motion;
@@ -302,7 +302,7 @@ int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const do
     zd_point *point = run->motion.point;
     forget(run, data);
     zd_point_move(point, run->settings.t0, p0, v0);
-    int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T | ZD_M | ZD_POTENTIAL);      /* what will be asked for, in one call */
+    int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T | ZD_M | ZD_POTENTIAL);      /* all terms needed below, in one call */
     if (!status) status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);
     return status ? status : check_elsewhere(run, &work, p0, v0);
 }

@@ -13,5 +13,5 @@ const char *zd_sentence(int status)
 {
     for (int i = 0; i < ROWS; i++)
         if (rows[i].status == status) return rows[i].sentence;
-    return "a status that nobody knows";
+    return "an unknown status";
 }

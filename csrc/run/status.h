@@ -1,4 +1,4 @@
-/* What a status means. */
+/* Meaning of a status, as a sentence. */
 #ifndef ZD_STATUS_H
 #define ZD_STATUS_H
 
