@@ -1,8 +1,8 @@
-/* Values between steps: from where the step began, a shorter one of the same method is made to each time that is wanted, and
- * corrected like any other. So the values satisfy the constraints and have the error of the method, whichever it is.
+/* Values between steps: from the start of the step, a shorter step of the same method is made to each requested time, and corrected as any
+ * other. So the values satisfy the constraints and have the error of the method.
  *
- * A method that has a polynomial between the ends of a step does it for less where steps are chosen: its values, corrected alike, err by as
- * much as such steps do. Steps of fixed size may be too long for it.
+ * With adaptive steps, the dense output of a method that has one costs less: its values, corrected alike, have errors as small as those of
+ * such steps. Fixed steps may be too long for it.
  */
 #include "between.h"
 
@@ -53,7 +53,7 @@ static int return_to_end(zd_output *self)
     int status = self->aside.is_set ? zd_checkpoint_return(&self->aside, self->stepper, &self->after)
                                     : zd_stepper_return_to(self->stepper, &self->after);
     if (!status) zd_stepper_restore_rates(self->stepper, &self->rates);
-    /* A matrix that is factored for a right side is solved for that in other operations. */
+    /* A factorization that includes a right-hand side rounds differently from a later solve, so it is repeated. */
     return !status && self->is_factored ? zd_motion_factor(self->stepper->motion) : status;
 }
 
@@ -65,7 +65,7 @@ int zd_output_come_back(zd_output *self)
     return ZD_DONE;
 }
 
-/* Where the polynomial has failed. */
+/* Continues with shorter steps after dense output has failed. */
 static int go_on_with_shorter_steps(zd_output *self)
 {
     const int status = zd_output_come_back(self);
@@ -73,7 +73,7 @@ static int go_on_with_shorter_steps(zd_output *self)
     return status;
 }
 
-/* A polynomial serves until another step is made: rows may take that which events have taken. */
+/* Prepares the dense output of the step, unless events have done so: it is valid until the next step. */
 static int leave_for_polynomial(zd_output *self, int may_stay)
 {
     zd_stepper *stepper = self->stepper;
@@ -83,7 +83,7 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
     if (!self->is_short) keep_end(self);
     if (stepper->motion->formulation->settle) zd_checkpoint_set_variables(&self->aside, stepper);
     int status = self->is_spread ? ZD_DONE : zd_spread(stepper);
-    if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* the polynomial takes them where they are */
+    if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* dense output reads them in place */
     self->is_spread = !status;
     return !status || zd_callable_failed(stepper->motion, status) ? status : go_on_with_shorter_steps(self);
 }
@@ -123,7 +123,7 @@ static int is_wanted_before(const zd_output *self, double t)
     return !zd_output_is_complete(self) && self->t_eval[self->next] < t;
 }
 
-/* Takes the motion to the next time that lies within the step. */
+/* Moves to the next requested time within the step. */
 static int move_to_next(zd_output *self)
 {
     const double t = self->t_eval[self->next++];
@@ -131,7 +131,7 @@ static int move_to_next(zd_output *self)
     return status ? status : zd_output_go(self, t);
 }
 
-/* Saves those times that lie within the step. */
+/* Saves the samples within the step. */
 static int save_within(zd_output *self, zd_record *record)
 {
     int status = ZD_DONE;
@@ -143,7 +143,7 @@ static int save_within(zd_output *self, zd_record *record)
     return status;
 }
 
-/* The end of the step, to which the motion returns. */
+/* Returns to the end of the step, and saves it if requested. */
 static int save_end(zd_output *self, zd_record *record, int is_end)
 {
     const double t1 = self->after.t;

@@ -1,17 +1,16 @@
 /* Events: instants at which a function of the motion passes through zero.
  *
- * A step at whose ends the function has different signs brackets such an instant. It is narrowed down to the rounding of t on the values
- * that between.c has there: on the polynomial of a method that has one where steps are chosen, so that the event is a row of it; else by
- * shorter steps. All these points are corrected; so the ends of the step are corrected, too, when events look at them, even where the run
- * itself goes on uncorrected (a correction at every k-th step only): otherwise the function would leap at the ends, and be seen to change
- * its sign where it has no zero.
+ * A step at whose ends the function has different signs brackets such an instant. The bracket is narrowed to the rounding of t by values
+ * within the step, see between.c: of the dense output, with adaptive steps of a method that has one, or else of shorter steps. All these
+ * points are corrected. So the ends of the step are corrected, too, before events are evaluated, even if the run itself continues without
+ * correction (every k-th step only): otherwise the function would jump at the ends, and change its sign without a zero.
  *
- * A run ends with a step that is made to there. Near where the polynomial has the event, shorter steps find it, and the last of them is the
- * run's last step: its own polynomial has what else happens in it.
+ * A terminal event ends the run with a step to its instant. Shorter steps locate the event again, near the instant given by the dense
+ * output, and the last of them is the last step of the run; other events in it are located on its own dense output.
  *
- * What is left of leaps (corrections stop within their tolerance, energy corrections are left out near rest), and between shorter steps
- * of the rounding of t, is taken out at last: the states on both sides of the instant are mixed until the function of the mixture is zero.
- * Reported is that end of the bracket where the event has happened, so that a run which starts there does not meet it again.
+ * Remaining jumps (corrections stop within their tolerance, energy corrections are left out near rest) and the rounding of t between
+ * shorter steps are removed at last: the states on both sides of the instant are interpolated linearly to the zero of the function. The
+ * end of the bracket after the event is reported, so that a run that starts there does not find it again.
  */
 #include "events.h"
 
@@ -19,7 +18,7 @@
 
 #include "../point/quaternions.h"
 
-static const double RESOLUTION = 4 * 0x1p-52;   /* of the largest value in a bracket: its width when it is done */
+static const double RESOLUTION = 4 * 0x1p-52;   /* final width of a bracket, relative to its largest absolute value */
 
 zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *output)
 {
@@ -70,7 +69,7 @@ int zd_watch_start(zd_watch *self)
     return evaluate_all(self, self->before);
 }
 
-/* What is zero where the step begins has happened before, or it is the start. */
+/* True if the event occurs in the step. A function that is zero at the start of the step does not occur: it did before, or the run starts. */
 static int happens(const zd_watch *self, int event)
 {
     double before = self->before[event], now = self->now[event];
@@ -83,7 +82,7 @@ static int correct(zd_stepper *stepper)
     return zd_stepper_land(stepper, stepper->t, 0, 1);
 }
 
-/* To a time of the step, both ends included, as events see it: corrected. */
+/* Moves to a time within the step or at its ends, corrected. */
 static int move(zd_watch *self, double t)
 {
     zd_stepper *stepper = self->output->stepper;
@@ -111,7 +110,7 @@ static int locate(zd_watch *self, int event, zd_bracket *it)
     return ZD_DONE;
 }
 
-/* The brackets of those that happen in the step, at infinity for the others; and the first that has to end the run, unless it is known. */
+/* Locates all events in the step, with brackets at infinity for those that do not occur; and the first terminal one, unless it is known. */
 static int locate_all(zd_watch *self, double *end)
 {
     const zd_events *events = self->events;
@@ -131,7 +130,7 @@ static int locate_all(zd_watch *self, double *end)
     return ZD_DONE;
 }
 
-/* Makes the step again, to where an event ends the run near the zero that it has on the polynomial; and finds what happens until then. */
+/* Repeats the step up to a terminal event, located near its instant on the dense output, and locates the events before it. */
 static int cut(zd_watch *self, double *end)
 {
     zd_output *output = self->output;
@@ -153,7 +152,7 @@ static void mix_doubles(int n, const double *a, const double *b, double share, d
     for (int i = 0; i < n; i++) mixed[i] = a[i] + share * (b[i] - a[i]);
 }
 
-/* The mixture of the states at both sides of an event, at the time of the later one */
+/* Linear interpolation of the states on both sides of an event, at the time of the later one. */
 static const zd_state *mix(zd_watch *self, double share)
 {
     const zd_motion *motion = self->output->stepper->motion;
@@ -168,7 +167,7 @@ static const zd_state *mix(zd_watch *self, double share)
     return mixed;
 }
 
-/* Where the function of the mixture is zero */
+/* *there <- the interpolated state at which the event function is zero. */
 static int settle_between(zd_watch *self, int event, const zd_state **there)
 {
     const zd_bracket *found = &self->bracket[event];
@@ -184,7 +183,7 @@ static int settle_between(zd_watch *self, int event, const zd_state **there)
     return ZD_DONE;
 }
 
-/* Where the event happens, the motion being there or next to it. */
+/* *there <- the state at the event; the motion is moved to it or next to it. */
 static int settle(zd_watch *self, int event, const zd_state **there)
 {
     const zd_bracket *found = &self->bracket[event];
@@ -208,7 +207,7 @@ static int report_one(zd_watch *self, int event)
     return status || event != self->ended - 1 || there == &self->late ? status : zd_stepper_return_to(self->output->stepper, there);
 }
 
-/* The event that ends the run comes last: there the run stays. */
+/* Reports the events of the step, the terminal one last: the run ends at its state. */
 static int report(zd_watch *self, double end)
 {
     int status = ZD_DONE, last = self->ended - 1;
@@ -217,7 +216,7 @@ static int report(zd_watch *self, double end)
     return status || !self->ended ? status : report_one(self, last);
 }
 
-/* The motion is at the corrected end of the step. It is the step as it was made that has a polynomial. */
+/* Locates and reports the events of a step. Called at its corrected end; dense output belongs to the uncorrected step. */
 static int find_all(zd_watch *self, double *end)
 {
     zd_output *output = self->output;
@@ -232,7 +231,7 @@ static int find_all(zd_watch *self, double *end)
     return status;
 }
 
-/* Whether any happens between the last look and this one, at the corrected end of the step. */
+/* *happening <- true if any event occurs between the previous evaluation and this one, at the corrected end of the step. */
 static int find_happening(zd_watch *self, int *happening)
 {
     int status = evaluate_all(self, self->now);

@@ -6,22 +6,22 @@
 #include "between.h"
 #include "reading.h"
 
-typedef struct zd_watch {   /* where there are events, (events,) each */
-    const zd_events *events;    /* NULL: there are none */
+typedef struct zd_watch {
+    const zd_events *events;    /* NULL: none */
     zd_output *output;
-    zd_reader reader;       /* of those that the core knows */
-    double *before, *now;   /* their values at the ends of the step */
-    zd_bracket *bracket;    /* when they happen in it; at infinity where they do not */
-    zd_state end;           /* of the step, corrected */
-    zd_state early, late, mixed;    /* the states at both sides of an event, and between them where they are mixed */
-    int *found;             /* how often they have */
-    int failed;             /* which could not be evaluated, counted from 1 */
-    int ended;              /* which ended the run, counted from 1 */
+    zd_reader reader;       /* evaluates event functions without callbacks */
+    double *before, *now;   /* (events,) values at the start and the end of the step */
+    zd_bracket *bracket;    /* (events,) instants in the step; at infinity for events that do not occur */
+    zd_state end;           /* end of the step, corrected */
+    zd_state early, late, mixed;    /* states before and after an event; interpolated */
+    int *found;             /* (events,) number of occurrences */
+    int failed;             /* 1 + index of an event that could not be evaluated; 0: none */
+    int ended;              /* 1 + index of the event that ended the run; 0: none */
 } zd_watch;
 
 zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *output);
 int zd_watch_start(zd_watch *self);
-/* Finds those of the step just made, which was corrected or not; where one of them is terminal, the motion and `end` are taken to it. */
+/* Locates and reports the events of the last step; a terminal event moves the motion, and `end`, to its instant. */
 int zd_watch_after(zd_watch *self, int corrected, double *end);
 
 #endif

@@ -64,7 +64,7 @@ zd_recorder zd_recorder_take(zd_arena *arena, const zd_settings *settings, zd_mo
     return self;
 }
 
-/* The accelerations and multipliers at the point are known. */
+/* Requires the accelerations and multipliers at the point. */
 static int record_outputs(const zd_recorder *self, zd_record *record, int64_t row)
 {
     const zd_measures *measures = self->measured->measures;
@@ -87,7 +87,7 @@ int zd_recorder_add(zd_recorder *self, zd_record *record)
     zd_motion *motion = self->motion;
     int64_t row = record->rows;
     zd_point *point = motion->point;
-    /* What is wanted here besides comes in one evaluation with what the acceleration needs. */
+    /* All terms of the sample and of the acceleration come from one evaluation. */
     const int more = (point->known & ZD_ACCELERATED) || zd_is_direct(motion) ? 0 : motion->acceleration_needs;
     int status = zd_point_need(point, self->needs | more);
     if (!status) status = zd_motion_accelerate(motion);

@@ -1,23 +1,23 @@
-/* Which term is to blame where numbers are not finite. Nobody looks while all goes well: once a run has failed, the step that failed is
- * made again and watched, so that systems pay nothing for being told what is wrong with them.
+/* Search for the non-finite term after a failure. Terms are not checked during a run, at no cost to it: after a failure the last step is
+ * repeated with checks of every evaluation.
  */
 #include "nonfinite.h"
 
 #include "../linalg/norms.h"
 
-static const double IMMENSE = 1e75;     /* the state itself is at fault beyond: terms have up to its fourth power */
+static const double IMMENSE = 1e75;     /* larger states overflow by themselves: terms have up to their fourth power */
 
 static int is_moderate(const zd_system *system, const double *p, const double *v)
 {
     return zd_max_abs(system->nq, p) < IMMENSE && zd_max_abs(system->nv, v) < IMMENSE;
 }
 
-/* ---- a system that is watched ---- */
+/* ---- a system with checked evaluations ---- */
 
 typedef struct watched {
     zd_system system;
-    int term;       /* the first that was not finite though the state was */
-    double t;       /* where */
+    int term;       /* bit of the first non-finite term of a moderate state; 0: none */
+    double t;       /* s: time of that evaluation */
 } watched;
 
 static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
@@ -30,7 +30,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     return self->term ? ZD_CALLBACK : ZD_DONE;
 }
 
-/* Makes the last step again, from where it began. */
+/* Repeats the last step from its start; returns the term found. */
 static int watch_step(zd_run *run, double *t)
 {
     zd_motion *motion = &run->motion;

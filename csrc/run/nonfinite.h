@@ -3,7 +3,7 @@
 
 #include "run.h"
 
-/* The term that is to blame for a failure, and where; 0: none is. */
+/* Bit of the non-finite term that caused a failure, and *t <- its time; 0: there is none. */
 int zd_run_not_finite(zd_run *run, int status, double *t);
 
 #endif

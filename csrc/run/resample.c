@@ -1,7 +1,7 @@
-/* The step from a row to the row after it is made again, and its polynomial taken, as rows between chosen steps are made while a run goes
- * on: with the same bits, as long as a step depends on nothing but where it begins. Where those take shorter steps instead, so does this.
+/* Resampling: the step from one sample to the next is repeated and its dense output evaluated, as a run does with t_eval; if the run would
+ * take a shorter step instead, so does this. The bits are the same if a step depends on its start only.
  *
- * What a run measures its rows, energies and pivots by comes from its start, where this one has begun, too.
+ * Characteristic scales, the initial energy and the order of pivots come from the start of the run, which is the same here.
  */
 #include "resample.h"
 
@@ -10,7 +10,7 @@
 #include "../stepping/adaptive.h"
 #include "../stepping/spread.h"
 
-/* A row of one of the arrays, with `size` numbers in each row. */
+/* One sample of an array with `size` numbers per sample. */
 static const double *row_of(const zd_saved *saved, const double *array, int size, int64_t row)
 {
     return array + row * (saved->stride ? saved->stride : size);
@@ -23,7 +23,7 @@ static double time_of(const zd_saved *saved, int64_t row)
 
 static int64_t row_before(const zd_saved *saved, double t)
 {
-    int64_t low = 0, high = saved->rows;      /* it is in low ... high - 1 */
+    int64_t low = 0, high = saved->rows;      /* the sample searched for is one of low ... high - 1 */
     while (high - low > 1) {
         const int64_t middle = low + (high - low) / 2;
         if (time_of(saved, middle) <= t) low = middle;
@@ -61,7 +61,7 @@ static int is_at(const zd_resample *self, int64_t row)
         && !memcmp(point->v, row_of(saved, saved->v, nv, row), (size_t)nv * sizeof(double));
 }
 
-/* To the row, and onto the road that a step takes from there */
+/* Moves to a sample and chooses the evaluation path of a step from there. */
 static int begin(zd_resample *self, int64_t row, int is_general)
 {
     zd_motion *motion = &self->run->motion;
@@ -71,8 +71,8 @@ static int begin(zd_resample *self, int64_t row, int is_general)
     return status;
 }
 
-/* The same where a step of the direct road may have ended at the row: its end has the acceleration from another function, which may round
- * another way, so that step is made first. The step that an event has cut short was made from the row itself. */
+/* The same if a closed-form step may have ended at the sample: the acceleration at its end comes from another function, whose rounding may
+ * differ, so that step is repeated first. A step cut short by an event was made from the sample itself. */
 static int begin_from_before(zd_resample *self, int64_t row)
 {
     zd_motion *motion = &self->run->motion;
@@ -97,7 +97,8 @@ static int make_general_step(zd_resample *self, int64_t row)
     return status ? status : make_step(self, row);
 }
 
-/* A run may have left the direct road in the step: that road is taken which leads to the row after, to the last bit, if one does. */
+/* Repeats the step from a sample. The run may have left the closed-form path in it: the path is used that reproduces the next sample bit
+ * for bit, if one does. */
 static int make_again(zd_resample *self, int64_t row)
 {
     const int has_roads = self->run->motion.path.direct != NULL;
@@ -111,8 +112,8 @@ static int make_again(zd_resample *self, int64_t row)
     return status ? status : make_step(self, row);
 }
 
-/* Finds the road of the step from a row, and its polynomial if there is one; what fails is no matter, as a shorter step may do, but for
- * callables. */
+/* Finds the evaluation path of the step from a sample, and its dense output if available. Failures are ignored, since a shorter step may
+ * succeed; except those of callables, which are returned. */
 static int find_road(zd_resample *self, int64_t row)
 {
     zd_stepper *stepper = &self->run->stepper;
