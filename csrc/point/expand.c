@@ -4,7 +4,7 @@
 
 #include "terms.h"
 
-/* Copies a matrix (rows, columns) to a place of one whose rows are `stride` long. Returns what stands behind it. */
+/* Copies a matrix (rows, columns) into one with rows of length `stride`. Returns the end of the source. */
 static const double *copy_block(int rows, int columns, const double *from, double *to, int stride)
 {
     for (int i = 0; i < rows; i++)
@@ -31,7 +31,7 @@ static void expand_blocks(const zd_system *system, int term, const double *packe
     }
 }
 
-/* Where the velocities of a block begin. */
+/* First velocity of a block. */
 static int velocity_at(const zd_structure *structure, int block)
 {
     int at = 0;

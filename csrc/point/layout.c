@@ -1,4 +1,4 @@
-/* The offsets that follow from zd_structure: A and M block after block, C group after group, nothing else. */
+/* Offsets by zd_structure: A and M are stored block after block, C group after group. */
 #include "layout.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ static int size_of_mass(const zd_structure *structure, int b)
     return structure->mass && (structure->mass[b] & ZD_DIAGONAL) ? n : n * n;
 }
 
-/* How many entries each row of a group has. */
+/* Number of stored entries per row of a group. */
 static int width_of(const zd_structure *structure, int g)
 {
     int width = 0;
@@ -99,7 +99,7 @@ static void fill_groups(zd_layout *self, const zd_structure *structure)
     }
 }
 
-/* For each block the groups that touch it. */
+/* Fills the lists of groups that touch each block. */
 static void fill_touchers(zd_layout *self, const zd_structure *structure)
 {
     int *at = self->toucher_at;

@@ -1,7 +1,7 @@
-/* A point of the motion. Whoever moves it clears what the move made stale; whoever needs a term gets it computed once.
- * So the leading matrix of a velocity correction serves the first stage of the next step, and the multipliers that are
- * recorded cost nothing where that stage needs them anyway. Comparing values instead of trusting flags keeps this right
- * whatever integrator or correction is plugged in.
+/* A point of the motion. A move clears the quantities that it invalidates; each quantity is computed once, at its first request.
+ * So the leading matrix of a velocity correction serves the first stage of the next step, and the recorded multipliers
+ * cost nothing if that stage needs them anyway. A move compares values, and so is right with any integrator or
+ * correction, without flags from them.
  */
 #include "point.h"
 
@@ -76,7 +76,7 @@ int zd_point_need_missing(zd_point *point, int missing)
     const zd_system *system = point->system;
     point->statistics->evaluations++;
     int status = system->evaluate(system->data, missing | moved, point->t, point->p, point->v, &point->terms);
-    if (status) return ZD_CALLBACK;     /* whatever it returned: a positive number would mean that all is well */
+    if (status) return ZD_CALLBACK;     /* for any nonzero value: a positive status would mean success */
     point->known |= missing | moved;
     return ZD_DONE;
 }
@@ -90,7 +90,7 @@ void zd_point_force(const zd_point *point, double *force)
         for (int i = 0; i < nv; i++) force[i] = f ? f[i] : d ? -d[i] : 0;
 }
 
-/* Zero times what is not finite is not a number; the sum has no branches. */
+/* True if p and v are finite: 0 * x is NaN otherwise. The sum has no branches. */
 ZD_INLINE int are_finite(const int n, const double *p, const double *v)
 {
     double zero = 0;

@@ -1,4 +1,4 @@
-/* A point of the motion: all that is known at one (t, p, v), computed when it is first wanted and never twice. */
+/* A point of the motion: all quantities at one (t, p, v), each computed once, at its first request. */
 #ifndef ZD_POINT_H
 #define ZD_POINT_H
 
@@ -6,17 +6,17 @@
 #include "terms.h"
 
 #define ZD_BIT_OF_VELOCITY(name, bit, member, shape, depends, text) | ((depends) == ZD_OF_POSITIONS ? 0 : (bit))
-enum {                                  /* known beside the system's own terms */
-    ZD_FACTORED = 1 << 24,              /* the formulation's leading matrix, at this (t, p) */
+enum {                                  /* bits of `known` besides those of the system's terms */
+    ZD_FACTORED = 1 << 24,              /* factored leading matrix of the formulation, at this (t, p) */
     ZD_ACCELERATED = 1 << 25,           /* vdot and lambda, at this (t, p, v) */
-    ZD_COMPLEMENTED = 1 << 26,          /* the complement D and what goes with it, at this (t, p) */
-    ZD_RANKED = 1 << 27,                /* which rows of C count, at this (t, p) */
-    ZD_OF_VELOCITY = ZD_ACCELERATED ZD_TERM_LIST(ZD_BIT_OF_VELOCITY)    /* what is not known any more where v changes */
+    ZD_COMPLEMENTED = 1 << 26,          /* the complement D and the matrices computed from it, at this (t, p) */
+    ZD_RANKED = 1 << 27,                /* the selection of independent constraints, at this (t, p) */
+    ZD_OF_VELOCITY = ZD_ACCELERATED ZD_TERM_LIST(ZD_BIT_OF_VELOCITY)    /* all quantities that depend on v */
 };
 
 typedef struct zd_rank zd_rank;         /* constraints/rank.h */
 
-/* Of a solve of formulation.h, and where its x goes. */
+/* Right-hand sides (nv,), (m,) of a solve in formulation.h, and its solution x. */
 typedef struct zd_right_side {
     const double *force, *rhs;
     double *x;
@@ -25,25 +25,25 @@ typedef struct zd_right_side {
 typedef struct zd_point {
     const zd_system *system;
     zd_statistics *statistics;
-    const zd_layout *layout;    /* of A, M and C; NULL where they are dense */
-    int known;              /* what of all this is valid now */
-    int constant;           /* ZD_M, where it stays valid wherever the point moves */
+    const zd_layout *layout;    /* storage of A, M and C; NULL if they are dense */
+    int known;              /* bits of the quantities that are valid now */
+    int constant;           /* ZD_M if M is constant, so that it stays valid when the point moves */
     double t, *p, *v;
     zd_terms terms;
     double *vdot, *lambda;  /* (nv,), (m,) */
-    double *force, *rhs;    /* (nv,), (m,): right sides being put together */
-    zd_right_side awaited;  /* what a solve follows with, for a factorization that can begin with it; x NULL: it is not known */
-    zd_rank *rank;          /* NULL where the point only serves to evaluate terms */
-    int rows, holonomic;    /* rows of C that count (m, unless some follow from others), and the holonomic ones, which come first */
-    const double *C;        /* those that count: the system's own, stored as they are, or dense (rows, nv) */
-    double *unit, *inverse_unit;    /* (nv,): natural size of what each velocity is the rate of, see units.c; and 1 / unit */
-    double *inverse_unit_p;         /* (nq,): 1 / the same of the coordinates */
-    double *size;           /* (m,): of the rows of C, and so of Phi, in these units */
+    double *force, *rhs;    /* (nv,), (m,): right-hand sides under construction */
+    zd_right_side awaited;  /* right-hand side of the solve after a factorization, which can process it on the way; x NULL: not known */
+    zd_rank *rank;          /* NULL if the point only evaluates terms */
+    int rows, holonomic;    /* numbers of independent constraints (m without redundant ones), and of the holonomic ones, which come first */
+    const double *C;        /* independent rows of C: the system's own as stored, or dense (rows, nv) */
+    double *unit, *inverse_unit;    /* (nv,): characteristic scale of each velocity's displacement, see units.c; and 1 / unit */
+    double *inverse_unit_p;         /* (nq,): 1 / characteristic scale of each coordinate */
+    double *size;           /* (m,): size of each constraint: its largest derivative in these scales */
     double *inverse_size;       /* (m,): 1 / size */
-    double *rounding;       /* (m,): lengths of rows of C at and below which they are the rounding of terms that cancel; 0: not known */
-    int measured;           /* whether these are known */
-    int failed_index, failed_column;    /* the coordinate or row that a failed factorization names; of an asymmetric M, the column, too */
-    double residual_left;   /* what a failed iteration was left with */
+    double *rounding;       /* (m,): length of a row of C below which it is the rounding of terms that cancel; 0: not known */
+    int measured;           /* true if scales and sizes are computed */
+    int failed_index, failed_column;    /* velocity or constraint of a failed factorization; for an asymmetric M, the column, too */
+    double residual_left;   /* residual of a failed iteration */
 } zd_point;
 
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics);
@@ -53,9 +53,9 @@ void zd_point_move_velocity(zd_point *point, const double *v);
 int zd_point_need_missing(zd_point *point, int missing);
 void zd_point_force(const zd_point *point, double *force);          /* f - d */
 static inline double zd_point_potential(const zd_point *point) { return point->terms.V ? *point->terms.V : 0; }     /* needs V */
-int zd_point_is_finite(const zd_point *point);      /* its p and v */
+int zd_point_is_finite(const zd_point *point);      /* true if p and v are finite */
 
-/* Has the terms in `want` computed, those that the system has and that are not known yet. */
+/* Evaluates the terms in `want` that the system provides and that are not known yet. */
 static inline int zd_point_need(zd_point *point, int want)
 {
     int missing = want & point->system->provides & ~point->known;

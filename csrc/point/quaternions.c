@@ -1,8 +1,8 @@
-/* Unit quaternions. No row of C holds their length, as pdot = A v does not change it; but steps of finite size do, by their error. What
- * is taken out is along the quaternion, where it means no rotation: so the order of a method stays.
+/* Unit quaternions. Their length is not a constraint in C, since pdot = A v preserves it; steps of finite size change it by their error.
+ * Normalization removes a component along the quaternion, which is not a rotation: so the order of a method stays.
  *
- * One that is off by rounding alone is left as it is. What was normalised is then not changed again, and a run that goes on from a saved
- * state has the same bits as one that was not interrupted.
+ * A length within rounding of one is not changed. So normalization is idempotent, and a run continued from a saved state has the same bits
+ * as an uninterrupted one.
  */
 #include "quaternions.h"
 
@@ -10,10 +10,10 @@
 
 #include "matrices.h"
 
-static const double ROUNDING = 4 * 0x1p-52;     /* of the squared length */
-static const double WRITTEN = 1e-6;     /* of the length of a start: numbers with seven digits are meant to be what they nearly are */
-static const double KEPT = 1e-9;        /* of the largest entry of a column of A */
-enum { ENTRIES = 4, TRIES = 4 };        /* the first is nearly always enough, the next are for what its rounding leaves */
+static const double ROUNDING = 4 * 0x1p-52;     /* deviation of the squared length from 1 that is rounding */
+static const double WRITTEN = 1e-6;     /* deviation of a start's length from 1 that is accepted: numbers written with seven digits */
+static const double KEPT = 1e-9;        /* allowed rate of the length, relative to the largest entry of a column of A */
+enum { ENTRIES = 4, TRIES = 4 };        /* one normalization is nearly always enough, more remove the rounding of the first */
 
 static double squared_length(const double *q)
 {
@@ -70,7 +70,7 @@ int zd_quaternions_not_kept(const zd_point *point, int *velocity)
         const int first = system->quaternion[k];
         const int begin = layout ? layout->velocity_at[block_of_coordinate(layout, first)] : 0;
         const int end = layout ? layout->velocity_at[block_of_coordinate(layout, first + ENTRIES - 1) + 1] : system->nv;
-        for (int j = begin; j < end; j++) {     /* those of its blocks: no other changes it */
+        for (int j = begin; j < end; j++) {     /* velocities of its block: no others change it */
             double along = 0, largest = 0;
             for (int i = first; i < first + ENTRIES; i++) {
                 along += point->p[i] * zd_entry_of_A(point, i, j);

@@ -1,33 +1,33 @@
-/* Unit quaternions among the coordinates, kept at length one. */
+/* Normalization and checks of unit quaternions among the coordinates. */
 #ifndef ZD_QUATERNIONS_H
 #define ZD_QUATERNIONS_H
 
 #include "point.h"
 
-/* Brings those in p (nq,) to length one that are off by more than rounding; returns whether that changed p. */
+/* Normalizes the quaternions in p (nq,) whose length differs from one by more than rounding; returns true if p has changed. */
 int zd_quaternions_bring_back(const zd_system *system, double *p);
 static inline int zd_quaternions_normalise(const zd_system *system, double *p)
 {
     return system->quaternions ? zd_quaternions_bring_back(system, p) : 0;
 }
 
-/* Coordinates of the point that follow others are brought to these: what is known there stays. */
+/* Updates the coordinates of the point that are functions of others; known quantities stay valid. */
 static inline void zd_point_follow(zd_point *point)
 {
     if (point->system->followers) point->system->follow(point->system->data, point->p);
 }
 
-/* The same for where the point is. */
+/* Normalizes the point's quaternions, and updates its dependent coordinates. */
 static inline void zd_point_normalise(zd_point *point)
 {
     if (zd_quaternions_normalise(point->system, point->p)) point->known = 0;
     zd_point_follow(point);
 }
 
-/* The first quaternion in p whose length is none that a rotation can be given with, and that length; -1: there is none. With `any_length`
- * that is zero alone, else whatever is not within 1e-6 of one. */
+/* Index of the first quaternion in p that is not a rotation, and its length; -1: none. With `any_length` only zero length is refused,
+ * otherwise all lengths that differ from one by more than 1e-6. */
 int zd_quaternions_wrong_length(const zd_system *system, const double *p, int any_length, double *length);
-/* The first quaternion whose length would not stay one as pdot = A v, and the velocity with which; -1: there is none. Needs A. */
+/* Index of the first quaternion whose length pdot = A v changes, and the velocity that changes it; -1: none. Requires A. */
 int zd_quaternions_not_kept(const zd_point *point, int *velocity);
 
 #endif

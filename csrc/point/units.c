@@ -1,11 +1,11 @@
-/* Natural sizes, so that tolerances mean the same in any unit of length, mass and time.
+/* Characteristic scales, which make tolerances independent of the units of length, mass and time.
  *
- *     unit_i    of an angle, or any other pure number: 1; of a length: L
- *     size_k    max_i |C_ki| unit_i, the size of row k of Phi; where C_k is rounding, the same of the terms that cancel in it
+ *     unit_i    characteristic scale of coordinate i: 1 for an angle or any other pure number; L for a length
+ *     size_k    max_i |C_ki| unit_i, the size of constraint k; if C_k is rounding, the same of the terms that cancel in it
  *
- * L is the mechanism's own length: the largest there is among its coordinates, and in C wherever an angle and a length meet in a
- * row, whose ratio is a lever arm. A tolerance of 1e-12 on Phi in units of its size thus says that the error is as if coordinates
- * were off by 1e-12 rad, or by 1e-12 of the mechanism's length; multiplying Phi by a number changes nothing.
+ * L is the characteristic length of the mechanism: the largest length among its coordinates, and among the lever arms in C, the
+ * ratios of derivatives by angle and by length in one row. A tolerance of 1e-12 on Phi / size thus corresponds to errors of
+ * 1e-12 rad, or of 1e-12 L, in the coordinates; multiplying Phi by a number has no effect.
  */
 #include "units.h"
 
@@ -16,7 +16,7 @@
 #include "../workspace.h"
 #include "matrices.h"
 
-static const double NO_ROW = 0x1p-40;   /* of the largest row, or of the terms that a row is the sum of: a smaller row is rounding */
+static const double NO_ROW = 0x1p-40;   /* size below which a row is rounding, relative to the largest row, or to the terms of its sum */
 
 static int is_length(const zd_system *system, int i) { return system->lengths && system->lengths[i]; }
 
@@ -27,7 +27,7 @@ static int has_lengths(const zd_system *system)
     return any;
 }
 
-/* The lever arm of a row: its largest entry for an angle, over the largest for a length */
+/* Lever arm of a row: ratio of its largest entry for an angle to its largest for a length. */
 static double lever(const zd_point *point, int k)
 {
     const zd_system *system = point->system;
@@ -47,10 +47,10 @@ static double length_of(const zd_point *point)
     for (int i = 0; i < system->nq; i++)
         if (is_length(system, i)) length = fmax(length, fabs(point->p[i]));
     for (int k = 0; k < zd_constraints(system); k++) length = fmax(length, lever(point, k));
-    return length > 0 && length < INFINITY ? length : 1;     /* nothing has a length here: the unit itself */
+    return length > 0 && length < INFINITY ? length : 1;     /* without any length: its unit */
 }
 
-/* The magnitudes (m, 2) of the terms of all rows, in memory that is released by the caller; NULL: there are none, or `status` says why. */
+/* Magnitudes (m, 2) of the terms in each row of C, in memory that the caller releases; NULL: not provided, or failed with `status`. */
 static double *terms_of_rows(const zd_point *point, int *status)
 {
     const zd_system *system = point->system;
@@ -64,7 +64,7 @@ static double *terms_of_rows(const zd_point *point, int *status)
     return NULL;
 }
 
-/* Rows that are the rounding of larger terms are as large as these. */
+/* Rows that are the rounding of larger terms get the size of these terms. */
 static int compare_with_terms(zd_point *point, double length)
 {
     const zd_system *system = point->system;
@@ -81,7 +81,7 @@ static int compare_with_terms(zd_point *point, double length)
     return status;
 }
 
-/* A row that is nothing at the start, but for rounding, is as large as the largest. */
+/* Rows that vanish within rounding at the start get the size of the largest row. */
 static void settle_sizes(int m, double *size, double *inverse_size)
 {
     double largest = zd_max_abs(m, size);

@@ -1,10 +1,10 @@
-/* Natural units, in which tolerances are the same whatever units a system is written in. */
+/* Characteristic scales, which make tolerances independent of the units of a system. */
 #ifndef ZD_UNITS_H
 #define ZD_UNITS_H
 
 #include "point.h"
 
-int zd_point_measure(zd_point *point);              /* units and sizes, from where the point is */
-double zd_point_violation(const zd_point *point);   /* largest |Phi| in units of its row's size; needs Phi */
+int zd_point_measure(zd_point *point);              /* computes scales and sizes at the present point */
+double zd_point_violation(const zd_point *point);   /* largest |Phi| relative to the size of its constraint; requires Phi */
 
 #endif

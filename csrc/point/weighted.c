@@ -1,9 +1,9 @@
-/* The blocks of S(W) are those of groups of rows that touch a body both, S_gh = sum_b C_gb W_b C_hb^T.
+/* Blocks of S(W): S_gh = sum_b C_gb W_b C_hb^T, over the bodies b that both groups of constraints g and h touch.
  *
- * So all groups of a body are coupled with each other, and a body of many joints would cost the square of their number. It is taken as
- * several bodies of an equal part of its mass instead, each with some of the joints and welded to the next: the motion is the same, the welds
- * carry what they have to, and no block row of S is coupled with many. The rows of a weld are those of an identity on one part, and of its
- * opposite on the other; as both parts move alike, it has no right side.
+ * All groups on a body are coupled with each other, so that the cost would grow with the square of a body's number of joints. A body with
+ * many joints is therefore split into parts of equal mass, each with some of the joints and welded to the next: the motion is the same,
+ * the welds transmit the forces, and no block row of S has many blocks. A weld has the rows [I, -I] on its two parts; as these move alike,
+ * its right-hand side is zero.
  */
 #include "weighted.h"
 
@@ -13,7 +13,7 @@
 #include "../linalg/small.h"
 
 enum { TOUCHERS_OF_COPY = 4 };
-static const double UNEQUAL = 0x1p6;    /* what bodies contribute to a row, the largest to the smallest */
+static const double UNEQUAL = 0x1p6;    /* largest ratio of the contributions of two bodies to one diagonal entry of S */
 
 /* ---- symbolic ---- */
 
@@ -27,12 +27,12 @@ static int copies_of(const zd_layout *layout, int b)
 }
 static int velocities_of(const zd_layout *layout, int b) { return layout->velocity_at[b + 1] - layout->velocity_at[b]; }
 
-/* How much there is of what; a clique is a body or a copy of one. */
+/* Sizes of the pattern; a clique is a body or a part of one. */
 typedef struct counts {
     int rows, cliques, members, most_members, pairs, largest, largest_block;
 } counts;
 
-/* What touches copy i of a body: joints from `first` on, and up to two welds. */
+/* Constraints on part i of a body: joints from `first` on, and up to two welds. */
 typedef struct part {
     int first, joints, has_weld_before, has_weld_behind;
 } part;
@@ -164,7 +164,7 @@ static void fill(zd_weighted *self, const zd_pattern *pattern, int *piece)
     }
 }
 
-typedef struct plan {       /* what memory is laid out from */
+typedef struct plan {       /* sizes and pattern that determine the memory */
     const zd_layout *layout;
     counts all;
     zd_pattern pattern;
@@ -250,7 +250,7 @@ ZD_INLINE void add_row(const int columns, const int n, const double *restrict a,
     for (int j = 0; j < columns; j++) to[j] += zd_dot(n, weighted, B + j * stride);
 }
 
-/* Of the product of a piece with itself the lower triangle, which is all that is read of a block on the diagonal. */
+/* to <- to + A W B^T; for a piece with itself the lower triangle only, as no more is read of a diagonal block. */
 ZD_INLINE void add_weighted(const int is_square, const int rows, const int n, const double *A, int stride, const double *W, const double *B,
                             int stride_of_B, double *to)
 {
@@ -308,7 +308,7 @@ zd_pivots zd_weighted_factor(zd_weighted *self, const double *C, const double *W
     return zd_blocks_factor(self->blocks, NULL, 0, y);
 }
 
-/* Where a body is taken as several, the system's products would take it as one. */
+/* The system's own products do not know split bodies. */
 const zd_operations *zd_weighted_products(const zd_weighted *self, const zd_system *system)
 {
     const zd_operations *products = system->operations;
@@ -359,7 +359,7 @@ int zd_weighted_row(const zd_weighted *self, int place)
     return 0;
 }
 
-/* What a body contributes to the diagonal of S in a row: c W c^T; W is its diagonal. */
+/* Contribution c W c^T of a body to a diagonal entry of S; W is diagonal. */
 static double contribution(const zd_piece *piece, int row, const double *C, const double *W)
 {
     const double *c = C + piece->C + row * piece->stride, *w = W + piece->W;
