@@ -1,4 +1,4 @@
-/* Where everything stands in the factors of a matrix of blocks: found once, so that nothing is searched later. */
+/* Symbolic factorization: offsets of all blocks in the factors of a block matrix, computed once. */
 #include "blocks.h"
 
 #include <string.h>
@@ -10,9 +10,9 @@
 static int *take_ints(zd_arena *arena, int count) { return zd_take(arena, (size_t)count * sizeof(int)); }
 
 typedef struct counts {
-    int rows, largest;      /* of a block row */
-    int numbers;            /* of S */
-    int targets;            /* products of elimination that go to blocks beside the diagonal */
+    int rows, largest;      /* scalar rows; those of the largest block row */
+    int numbers;            /* size of S */
+    int targets;            /* number of products added to off-diagonal blocks in the elimination */
 } counts;
 
 static counts count_all(const zd_ordering *ordering)

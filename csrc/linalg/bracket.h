@@ -1,5 +1,5 @@
-/* Narrowing down a sign change by the ITP method: it converges like the secant method and takes at most one evaluation more than
- * bisection (Oliveira and Takahashi, ACM Trans. Math. Softw. 47 (2021) 5).
+/* Location of a sign change by the ITP method: it converges like the secant method and takes at most one evaluation more than bisection
+ * (Oliveira and Takahashi, ACM Trans. Math. Softw. 47 (2021) 5).
  */
 #ifndef ZD_BRACKET_H
 #define ZD_BRACKET_H
@@ -8,12 +8,12 @@
 
 typedef struct zd_bracket {
     double a, b;        /* the interval */
-    double ga, gb;      /* of different signs; gb may be zero */
-    double first_width, resolution;   /* its width at first, and that wanted */
-    double reach;       /* how far from the middle the next may be: half of what bisection would have left, doubled */
-    double slope;       /* of the secant at first */
-    double next;        /* while a zero is enclosed from where it was expected: where to look, */
-    int sides;          /* and which of its sides are known, 1 and 2; 3: it is enclosed */
+    double ga, gb;      /* values at a and b, of different signs; gb may be zero */
+    double first_width, resolution;   /* initial and requested width of the interval */
+    double reach;       /* the next point is within reach - (b - a) / 2 of the middle; halved in each evaluation, as by bisection */
+    double slope;       /* |slope| of the initial secant */
+    double next;        /* next point during the search from an expected zero */
+    int sides;          /* sides of the zero found by that search, bits 1 (before) and 2 (after); 3: the zero is enclosed */
 } zd_bracket;
 
 static inline zd_bracket zd_bracket_of(double a, double b, double ga, double gb, double resolution)
@@ -23,7 +23,7 @@ static inline zd_bracket zd_bracket_of(double a, double b, double ga, double gb,
     return it;
 }
 
-/* The same bracket of a zero that is expected at t */
+/* The same bracket, with a zero expected at t. */
 static inline zd_bracket zd_bracket_near(double t, zd_bracket it)
 {
     it.next = t;
@@ -31,13 +31,13 @@ static inline zd_bracket zd_bracket_near(double t, zd_bracket it)
     return it;
 }
 
-/* Whether the function leaps over zero: it changes by far more than its slope elsewhere and the resolution make it. */
+/* True if the function jumps over zero: its change in the final interval is far above the initial slope times the resolution. */
 static inline int zd_bracket_leaps(const zd_bracket *it)
 {
     return fabs(it->gb - it->ga) > 64 * it->slope * it->resolution;
 }
 
-/* Where to look next: by the secant, moved a little towards the middle, and no further from that than allowed. */
+/* The next point: the zero of the secant, shifted slightly towards the middle, within the reach. */
 static inline double zd_bracket_choose(const zd_bracket *it)
 {
     if (it->sides != 3) return it->next;
@@ -47,7 +47,8 @@ static inline double zd_bracket_choose(const zd_bracket *it)
     return fabs(t - middle) <= allowed ? t : middle - inwards * allowed;
 }
 
-/* Of what was found at `next`: on beyond the zero, twice as far as its slope says and then ever further, until it is enclosed. */
+/* Continues the search from an expected zero after the value g at `next`: first by twice the distance g / slope, then by growing strides,
+ * until the zero is enclosed. */
 static inline void zd_bracket_enclose(zd_bracket *it, double g, int is_before)
 {
     const double stride = it->sides ? 8 * it->reach : fmax(it->resolution, 2 * fabs(g) / it->slope);

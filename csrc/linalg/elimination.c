@@ -2,14 +2,14 @@
  *
  *     S_ij <- S_ij - B_i P B_j^T
  *
- * where each S_ij stands was found beforehand, see blocks.c. The B_i stay as they are, L being B P. Diagonal blocks are inverted by scalar
- * pivots: a row that is left out has none. Solutions take two products with each block, the first of which can be made as S is factored:
+ * with the offset of each S_ij from blocks.c. The B_i are stored, and L = B P is not. Diagonal blocks are inverted by scalar pivots, which
+ * omitted rows do not have. A solution takes two products with each block, the first of which can be computed during the factorization:
  *
  *     forward     x_k <- P x_k,    x_i <- x_i - B_i x_k
  *     backward    x_k <- x_k - P sum_i B_i^T x_i
  *
- * Kernels are told what the compiler is to know. `n` is the size of the pivot's block; `is_same`: of all blocks of its column, too;
- * `is_whole`: of all blocks of the matrix, so that where they stand follows from their numbers.
+ * Arguments of kernels known at compile time: `n` is the size of the pivot's block; `is_same`: all blocks of its column have this size;
+ * `is_whole`: all blocks of the matrix have it, so that offsets follow from indices.
  */
 #include <math.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@
 #include "blocks.h"
 #include "pivot.h"
 
-/* kernel(n, is_same, is_whole, ...), with sizes known to the compiler for which that is worth it */
+/* kernel(n, is_same, is_whole, ...), compiled for the common sizes */
 #define FOR_SIZE(kernel, size, is_whole, ...)             \
     switch (size) {                                       \
     case 1: kernel(1, 1, is_whole, __VA_ARGS__); break;   \
@@ -61,7 +61,7 @@ ZD_INLINE void invert(const int n, const zd_blocks *self, int row, double *P, un
         for (int k = i + 1; k < n; k++) {
             double sum = P[k * n + i];
             for (int j = 0; j < i; j++) sum -= P[k * n + j] * P[i * n + j];
-            P[k * n + i] = is_pivot ? sum : 0;      /* of L D, for now */
+            P[k * n + i] = is_pivot ? sum : 0;      /* entry of L D, until it is inverted */
         }
     }
     zd_invert(n, P);
@@ -169,7 +169,7 @@ ZD_INLINE void eliminate_twos(const int carries, const zd_blocks *self, double *
         }
         for (; entry < end; entry += 4) {
             const zd_two b0 = zd_two_of(entry[0], entry[2]), b1 = zd_two_of(entry[1], entry[3]);
-            const zd_two l0 = zd_sum_of_two(P.aa, b0, P.ab, b1), l1 = zd_sum_of_two(P.ab, b0, P.bb, b1);    /* of B P */
+            const zd_two l0 = zd_sum_of_two(P.aa, b0, P.ab, b1), l1 = zd_sum_of_two(P.ab, b0, P.bb, b1);    /* B P, unscaled */
             const ptrdiff_t at = *row++;
             if (carries) subtract_two(zd_sum_of_two(zd_first_of(y), b0, zd_second_of(y), b1), x + 2 * at);
             subtract_rows(P.scale, l0, l1, b0, b1, S + 4 * at);
@@ -242,7 +242,7 @@ ZD_INLINE void backward(const int n, const int is_same, const int is_whole, cons
     subtract_times(n, n, P, sum, own);
 }
 
-/* Of two rows, as eliminate_twos() */
+/* Forward substitution with blocks of two rows, as in eliminate_twos(). */
 static void forward_twos(const zd_blocks *self, double *restrict x)
 {
     const int count = self->count, *begin = self->begin, *row = self->row;

@@ -6,7 +6,7 @@
 
 enum { MOST_RETREATS = 10 };
 
-/* Armijo's rule: an improvement has to be one, or it is shortened. A residual that is no number is no improvement. */
+/* Armijo's rule: an iteration that does not reduce the residual is shortened. A residual that is NaN does not reduce it. */
 static int shorten(const zd_newton *newton, void *context, double before)
 {
     double now, share = 1;

@@ -1,19 +1,18 @@
-/* The one Newton loop: of the position correction and of implicit steps. */
+/* Newton iteration, for the position correction and for implicit steps. */
 #ifndef ZD_NEWTON_H
 #define ZD_NEWTON_H
 
 typedef struct zd_newton {
-    int (*residual)(void *context, double *size);   /* how far the unknown is from the solution, now */
-    int (*improve)(void *context);                  /* moves the unknown closer */
-    double tolerance;
+    int (*residual)(void *context, double *size);   /* *size <- norm of the residual at the present iterate */
+    int (*improve)(void *context);                  /* adds a Newton correction to the iterate */
+    double tolerance;       /* tolerance of the residual norm */
     int max_iterations;
-    double contraction;     /* the first improvement has to leave no more than this part; 0: any */
-    int (*retreat)(void *context);  /* goes back half of the last improvement; NULL: improvements are believed */
-    double nearly;                  /* a residual up to this is solved once an improvement no longer halves it: rounding is left; 0: never */
+    double contraction;     /* the first iteration must reduce the residual to this fraction; 0: not checked */
+    int (*retreat)(void *context);  /* takes back half of the last correction; NULL: corrections are not shortened */
+    double nearly;          /* a residual up to this is accepted once an iteration does not halve it, as it is rounding; 0: never */
 } zd_newton;
 
-/* Returns 0 with the number of iterations and the last residual; ZD_NO_CONVERGENCE; ZD_NOT_FINITE; or what a function
- * returned. */
+/* Returns 0 with the number of iterations and the last residual; ZD_NO_CONVERGENCE; ZD_NOT_FINITE; or the status of a function. */
 int zd_newton_solve(const zd_newton *newton, void *context, int *iterations, double *residual);
 
 #endif

@@ -30,7 +30,7 @@ int zd_is_finite(int n, const double *x)
 
 ZD_INLINE double largest_scaled(const int n, const double *x, const double *scale)
 {
-    double largest = 0, sum = 0;            /* of sizes, which is no number where one of them is none */
+    double largest = 0, sum = 0;            /* the sum is NaN if any entry is */
     for (int i = 0; i < n; i++) {
         double size = fabs(x[i]) * scale[i];
         largest = size > largest ? size : largest;

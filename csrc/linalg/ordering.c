@@ -1,10 +1,10 @@
-/* Multiple minimum degree: next are the block rows that are coupled with fewest others by then, all of them that are not coupled with each
- * other; those coupled with one of them wait, with their new degrees, until these are through (George and Liu, The evolution of the
- * minimum degree ordering algorithm, SIAM Review 31 (1989)). What is left of the matrix is kept as cliques: elimination of a block row
- * joins all cliques that it is in to one, which has its column of the factor as members. So there is no more to keep than the factor has.
+/* Multiple minimum degree ordering: the next block rows are an independent set of those with the fewest neighbours; their neighbours, with
+ * new degrees, are considered after all of these (George and Liu, The evolution of the minimum degree ordering algorithm, SIAM Review 31
+ * (1989)). The reduced matrix is stored as cliques: elimination of a block row merges all cliques that contain it into one, whose members
+ * are its column of the factor. So the memory does not exceed that of the factor's pattern.
  *
- * Of equal ones, that is taken which has waited longest. So what is not coupled is eliminated next to each other, a row of loops as a
- * chain from both ends at once: the machine then need not wait for one product before it begins the next.
+ * Ties are resolved in favour of the row that has had its degree longest. So rows that are not coupled are eliminated in succession, a
+ * chain of loops from both ends at once: consecutive products are then independent, and the processor overlaps them.
  */
 #include "ordering.h"
 
@@ -13,31 +13,31 @@
 #include "../workspace.h"
 
 enum {
-    LARGEST_DEGREE = 4095,      /* of which degrees are told apart */
-    TO_BE_FOUND,                /* of block rows that are coupled with one that has just been eliminated */
+    LARGEST_DEGREE = 4095,      /* larger degrees share one queue */
+    TO_BE_FOUND,                /* queue of the neighbours of eliminated block rows, whose degrees are not updated yet */
     QUEUES
 };
 
-/* Block rows by degree, in the order in which they came to it. */
+/* Queues of block rows, one per degree. */
 typedef struct queues {
-    int lowest;
-    int *first, *last;      /* (QUEUES,): -1: there is none */
+    int lowest;             /* no queue below this has entries */
+    int *first, *last;      /* (QUEUES,): -1: empty */
     int *before, *after;    /* (count,) */
 } queues;
 
 typedef struct search {
     const zd_pattern *pattern;
-    const int *given;       /* the order; NULL: it is looked for */
-    int *degree;            /* (count,): -1: it is eliminated */
-    int *in_at, *in;        /* (count + 1,), (members,): the cliques that each is in: given ones first, then those that eliminations make */
+    const int *given;       /* a given order; NULL: minimum degree */
+    int *degree;            /* (count,): -1: eliminated */
+    int *in_at, *in;        /* (count + 1,), (members,): cliques that contain each block row: given ones, then those from eliminations */
     int *in_count;          /* (count,) */
-    int *marked;            /* (count,): when it was last met */
-    int mark;
-    int *gone;              /* (cliques + count,): whether a clique has been joined to another */
+    int *marked;            /* (count,): mark of the last visit */
+    int mark;               /* mark of the present search */
+    int *gone;              /* (cliques + count,): true if a clique was merged into another */
     queues waiting;
-    int *members;           /* of the cliques that eliminations make, one behind the other */
+    int *members;           /* members of the cliques from eliminations, one clique after another */
     int used, capacity;
-    int *begin;             /* (count + 1,): of these */
+    int *begin;             /* (count + 1,): offsets of these cliques */
 } search;
 
 static int least(int a, int b) { return a < b ? a : b; }

@@ -1,15 +1,16 @@
-/* Gram and Schmidt's method, modified: from each row those before it are taken out one by one, once more where little is left.
+/* Modified Gram-Schmidt orthogonalization: the components along earlier rows are removed from each row one by one, and once more if the
+ * residual norm is small.
  *
- * Four rows go through that together, as each of them has to wait for its own sums only. In the metric of D^-1, with C L^-T = G Q, the
- * rows of Q are those of G E G^T = C M^-1 C^T, see formulations/schur.c. Each is compared with what it was when last called: it changes
- * its direction abruptly where a row comes to depend on those before it and goes on, and turns slowly elsewhere.
+ * Four rows are processed together, so that their sums overlap in the processor. In the metric of D^-1, with C L^-T = G Q, the rows of Q
+ * give G E G^T = C M^-1 C^T, see formulations/schur.c. Each row of Q is compared with that of the previous call: its direction changes
+ * abruptly when a constraint passes through dependence on earlier ones, and slowly otherwise.
  */
 #include "orthogonal.h"
 
 #include "small.h"
 
 enum { TOGETHER = 4 };
-static const double LITTLE = 0.01;      /* of a row's square: with less left it is done twice, which is enough */
+static const double LITTLE = 0.01;      /* squared relative residual norm below which a row is orthogonalized twice, which is enough */
 
 /* to <- D^-1 q */
 static void weigh(const zd_orthogonal *self, const double *q, double *to)
@@ -25,7 +26,7 @@ static double square_of(const zd_orthogonal *self, const double *q)
     return self->L ? zd_metric_dot(self->n, self->L, q, q) : zd_dot(self->n, q, q);
 }
 
-/* Takes row j of Q out of `count` rows from k on. */
+/* Removes the components along row j of Q from `count` rows, from row k on. */
 static void take_out(const zd_orthogonal *self, int j, int k, int count, double *rows)
 {
     const int n = self->n, m = self->m;

@@ -1,11 +1,11 @@
-/* Pivots of a matrix of blocks, and the inverse of a block of two rows. */
+/* Checks of pivots, and the inverse of a block of two rows. */
 #ifndef ZD_PIVOT_H
 #define ZD_PIVOT_H
 
 #include "blocks.h"
 #include "small.h"
 
-/* Whether this pivot is positive; keeps the smallest share. Compared by products, as divisions would be waited for. */
+/* True if this pivot is positive; updates the smallest relative pivot. Ratios are compared by products, to avoid divisions. */
 ZD_INLINE int zd_judge_pivot(zd_pivots *pivots, int row, double pivot, double diagonal, double rounding)
 {
     if (!(pivot > rounding * diagonal) || !(pivot < INFINITY)) {
@@ -16,13 +16,13 @@ ZD_INLINE int zd_judge_pivot(zd_pivots *pivots, int row, double pivot, double di
     return 1;
 }
 
-typedef struct zd_inverse_of_two {  /* symmetric, in registers: these entries times the scale, zero where there is none */
+typedef struct zd_inverse_of_two {  /* symmetric inverse, in registers: these entries times the scale; scale 0: singular */
     double aa, ab, bb, scale;
 } zd_inverse_of_two;
 
-/* Of a block whose lower triangle is given, by one division: both pivots would take one each, and the second would wait for the first. What
- * both are of their diagonal entries is at least the product of these shares; only where that is less than the smallest so far, they are
- * compared with it each, and judged where one of them is less. `row` is that of its first one. */
+/* Inverse of a block given by its lower triangle, with one division instead of two that depend on each other. Each relative pivot is at
+ * least the product of both; only if that product is below the smallest relative pivot so far, the pivots are compared individually, and
+ * checked if one is smaller. `row` is the first row of the block. */
 ZD_INLINE zd_inverse_of_two zd_invert_two(const double *diagonal, int row, const double *P, zd_pivots *pivots)
 {
     const double a = P[0], b = P[2], c = P[3], determinant = a * c - b * b, rounding = 2 * 0x1p-52;

@@ -46,7 +46,7 @@ ZD_INLINE void zd_exchange(double **a, double **b)
     *b = kept;
 }
 
-/* Of any size, many by one call */
+/* Copy of any size, large ones by memcpy() */
 ZD_INLINE void zd_copy_all(int n, const double *from, double *to)
 {
     if (n > ZD_UNROLLED) memcpy(to, from, (size_t)n * sizeof *to);
@@ -89,7 +89,7 @@ ZD_INLINE zd_two zd_sum_of_two(double a, zd_two x, double b, zd_two y) { return 
 
 ZD_INLINE void zd_store_pair(double a, double b, double *to) { zd_store_two(zd_two_of(a, b), to); }
 
-/* Whether each a_i is more than b_i */
+/* True if a_i > b_i for all i */
 ZD_INLINE int zd_all_exceed(int n, const double *a, const double *b)
 {
     int i = 0, all = 1;
@@ -193,7 +193,7 @@ ZD_INLINE int zd_cholesky_row(const int n, int i, int begin, const double *M, do
     for (int j = begin; j < i; j++) {
         double sum = M[i * n + j];
         for (int k = 0; k < j; k++) sum -= L[i * n + k] * L[j * n + k];
-        L[i * n + j] = sum;                 /* of L D, for now */
+        L[i * n + j] = sum;                 /* entry of L D, divided below */
     }
     for (int j = 0; j < i; j++) {
         double scaled = L[i * n + j];
@@ -212,7 +212,7 @@ ZD_INLINE int zd_cholesky(const int n, const double *M, double *L)
 {
     for (int i = 0, begin = 0; i < n; i++) {
         if (n > ZD_UNROLLED && i % 4 == 0) begin = i + 4 <= n ? i : 0;
-        for (int j = 0; n > ZD_UNROLLED && i == begin && j < begin; j++) {    /* what four rows have before these */
+        for (int j = 0; n > ZD_UNROLLED && i == begin && j < begin; j++) {    /* four rows at once: products of earlier columns */
             double sums[4];
             for (int r = 0; r < 4; r++) sums[r] = M[(i + r) * n + j];
             zd_subtract_four_dots(j, L + i * n, n, L + j * n, sums);

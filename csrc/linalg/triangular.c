@@ -1,9 +1,9 @@
-/* S = L D L^T scalar by scalar, in the blocks that blocks.c has: with L_k D_k L_k^T the diagonal block k and B_i those below it,
+/* S = L D L^T by scalar pivots, stored in the blocks of blocks.c: with L_k D_k L_k^T the diagonal block k and B_i those below it,
  *
  *     Y_i = B_i L_k^-T,        L_i = Y_i D_k^-1,        S_ij <- S_ij - Y_i L_j^T
  *
- * The inverse of a diagonal block would take the rounding of its largest entries into all of its products. In M + C^T W C these are 1 / M
- * of what constraints leave free, and are multiplied by W, where nothing of them is to be left.
+ * The inverse of a diagonal block would carry the rounding of its largest entries into all of its products. In M + C^T W C these entries
+ * are of the order 1 / M, in the directions that constraints leave free; multiplied by W they would have to cancel.
  */
 #include "triangular.h"
 
@@ -14,7 +14,7 @@
 
 static int size_at(const zd_blocks *self, int k) { return self->at[k + 1] - self->at[k]; }
 
-/* P (n, n) <- its factors, D in reciprocals on the diagonal. Returns n, or the row of which only rounding is left. */
+/* P (n, n) <- its factors, the reciprocals of D on the diagonal. Returns n, or the row whose pivot is only rounding. */
 static int factor_block(int n, const double *diagonal, double *P)
 {
     for (int i = 0; i < n; i++)

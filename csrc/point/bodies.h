@@ -19,8 +19,8 @@ zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_l
 void zd_bodies_add_mass(zd_bodies *self, const double *M);
 /* Adds C^T W C; W (m,) */
 void zd_bodies_add_rows(zd_bodies *self, const double *C, const double *W);
-/* Factors the matrix by rotations that stay accurate for any ratio of W to M. Returns the first velocity with a pivot that is not positive,
- * or -1. */
+/* Factors the matrix as in triangular.h, accurate for any ratio of W to M. Returns the first velocity with a pivot that is not positive, or
+ * -1. */
 int zd_bodies_factor(zd_bodies *self);
 /* As zd_blocks_factor(). */
 zd_pivots zd_bodies_leave_out(zd_bodies *self, unsigned char *left_out, double least);

@@ -163,10 +163,10 @@ def created(core, **changed):
 
 
 @pytest.mark.parametrize(("changed", "sentence"), [
-    ({"count": 0}, "there are 1 to 8192 outputs, of measures"), ({"measure": ffi.NULL}, "there are 1 to 8192 outputs"),
-    ({"measure": ffi.new("int[]", [-1])}, "every output is one of the measures"),
-    ({"measure": ffi.new("int[]", [9999])}, "every output is one of the measures"),
-    ({"of": zd.systems.pendulum()._core.c}, "measures of a system with the same coordinates"),
+    ({"count": 0}, "outputs must be 1 to 8192 measures"), ({"measure": ffi.NULL}, "outputs must be 1 to 8192 measures"),
+    ({"measure": ffi.new("int[]", [-1])}, "every output must be the index of a measure"),
+    ({"measure": ffi.new("int[]", [9999])}, "every output must be the index of a measure"),
+    ({"of": zd.systems.pendulum()._core.c}, "measures of a system with the same numbers of coordinates"),
 ], ids=["none", "nowhere", "negative", "beyond", "another"])
 def test_outputs_that_the_core_refuses(changed, sentence):
     with pytest.raises(zd.ZerodriftError, match=sentence):
@@ -174,7 +174,7 @@ def test_outputs_that_the_core_refuses(changed, sentence):
 
 
 def test_a_system_without_measures_has_no_outputs(bar):
-    with pytest.raises(zd.ZerodriftError, match="there are 1 to 8192 outputs, of measures"):
+    with pytest.raises(zd.ZerodriftError, match="outputs must be 1 to 8192 measures"):
         created(bar)
 
 
