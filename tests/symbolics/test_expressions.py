@@ -163,7 +163,7 @@ REFUSED = [
     ({"kinetic": None, "mass": [[Q.diff(T)]]}, "mass must not depend on velocities"),
     ({"kinetic": None, "mass": [[1]], "bias": [1, 2]}, "bias must have 1 entries, not 2"),
     ({"force": [1, 2]}, "force must have 1 entries, one for each velocity, not 2"),
-    ({"force": {U: 1}}, "force is given for u\\(t\\), which is no velocity"),
+    ({"force": {U: 1}}, "force must be given for velocities: u\\(t\\) is not one"),
     ({"constraints": {"stop": Q.diff(T)}}, "constraint 'stop' depends on velocities: such belong to nonholonomic"),
     ({"nonholonomic": {"slip": Q.diff(T) ** 2}}, "constraint 'slip' is not linear in the velocities"),
     ({"parameters": {A: 1.0, "a": 2.0}}, "there are two parameters named 'a'"),
@@ -181,7 +181,7 @@ REFUSED = [
     ({"points": [(Q, Q), (Q,)]}, "points must all have two or three coordinates"),
     ({"points": [(Q.diff(T), Q)]}, "point 0 has Derivative"),
     ({"time": 1.0}, "time must be a symbol, not 1.0"),
-    ({"time": sp.Symbol("tau")}, "coordinate q\\(t\\) is no function of tau alone"),
+    ({"time": sp.Symbol("tau")}, "coordinate q\\(t\\) must be a function of tau alone"),
     ({"p0": [1.0, 2.0]}, "p0 must have shape \\(1,\\)"),
 ]
 

@@ -127,7 +127,7 @@ AGAIN = r"Symbol\('x', real=True\), which to SymPy is another than the x that wa
 
 @pytest.mark.parametrize(("given", "why"), [
     ({"potential": REAL**2}, f"potential has x, {AGAIN}"),
-    ({"force": {REAL: 1}}, f"force is given for x, which is no velocity, {AGAIN}"),
+    ({"force": {REAL: 1}}, f"force must be given for velocities: x is not one, {AGAIN}"),
     ({"force": [sp.Symbol("dx", positive=True)]}, r"force has dx, Symbol\('dx', positive=True\), which to SymPy is another"),
     ({"constraints": [sp.Symbol("t", real=True) - X]}, r"constraints has t, Symbol\('t', real=True\), which to SymPy is another"),
 ])

@@ -1,4 +1,4 @@
-"""What the user handed to `symbolic`, checked and put into one form."""
+"""Arguments of `symbolic`: checked, and converted to one form."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Definition:
     def _check_times(self) -> None:
         for q in self.coordinates:
             if isinstance(q, AppliedUndef) and q.args != (self.time,):
-                raise ValueError(f"coordinate {q} is no function of {self.time} alone")
+                raise ValueError(f"coordinate {q} must be a function of {self.time} alone")
 
     def _speeds(self, speeds: Any, kinematics: Any) -> list[Any]:
         if speeds is not None:
@@ -84,7 +84,7 @@ class Definition:
         return list(self.rates)
 
     def _kinematics(self, given: Any) -> list[Any] | None:
-        """What pdot is, an expression in the speeds for each coordinate."""
+        """Expressions of pdot in the speeds, one for each coordinate; None: pdot is v."""
         if given is None:
             return None
         if isinstance(given, Mapping):
@@ -110,7 +110,7 @@ class Definition:
                 places = [i for names in (self.speeds, [] if kinematics is not None else self.coordinates)
                           for i, name in enumerate(names) if name == key]
                 if not places:
-                    raise ValueError(f"force is given for {key}, which is no velocity"
+                    raise ValueError(f"force must be given for velocities: {key} is not one"
                                      f"{namesake(key, [*self.speeds, *self.coordinates])}")
                 force[places[0]] = value
             return force
@@ -151,7 +151,7 @@ class Definition:
         return reader, given
 
     def _known(self, reader: Reader) -> dict[Any, Node]:
-        """What time, coordinates and parameters are."""
+        """Nodes of time, coordinates and parameters, by their symbols."""
         graph = reader.graph
         known: dict[Any, Node] = {self.time: graph.leaf("t", 0)}
         known |= {q: graph.leaf("p", i) for i, q in enumerate(self.coordinates)}
@@ -166,7 +166,7 @@ class Definition:
         return known
 
     def _for_energy(self, reader: Reader, moving: Mapping[Any, Node]) -> dict[Any, Node]:
-        """What `kinetic` may consist of: where there are kinematics, rates of coordinates and speeds defined by these."""
+        """Nodes of the symbols of `kinetic`; with `kinematics`, rates of coordinates and speeds defined by these."""
         if self.expressions["kinematics"] is None:
             return dict(moving)
         rates = {rate: reader.graph.leaf("rate", i) for i, rate in enumerate(self.rates) if rate is not None}
@@ -213,7 +213,7 @@ class Definition:
         return points
 
     def heading(self) -> list[str]:
-        """What the entries of p, v and the parameters are."""
+        """Comment of the C source: names of the entries of p, of v, and of the parameters."""
         rows = [("p", self.coordinate_names), ("v", self.velocity_names), ("k", tuple(self.values))]
         return [f"{letter}: {', '.join(names)}" for letter, names in rows if names]
 

@@ -32,12 +32,12 @@ def symbolic(
     time: sympy.Symbol | None = None, mass: Any = None, bias: Any = None, points: Iterable[Any] = (), quaternions: Any = (),
     units: Sequence[str] | None = None, p0: Any = None, v0: Any = None, name: str = "symbolic", progress: bool = True,
 ) -> SymbolicSystem:
-    """A system from expressions: its terms are derived, written as C, compiled and kept for the next time.
+    """System from SymPy expressions: its terms are derived, written as C, compiled and cached.
 
     Parameters
     ----------
     coordinates : sequence of Symbol or of functions of time
-        What p consists of: symbols, or what `sympy.physics.mechanics.dynamicsymbols` makes.
+        The coordinates p: symbols, or functions made by `sympy.physics.mechanics.dynamicsymbols`.
     kinetic : Expr
         Kinetic energy in J, in terms of coordinates and velocities: `speeds`, or the derivatives ``q.diff(t)`` of
         coordinates that are functions of time. It may depend on time, and need not be homogeneous in the velocities.
@@ -46,7 +46,7 @@ def symbolic(
     force : sequence of Expr (nv,) or dict, optional
         Generalized forces that V does not describe, one for each velocity; a dict has them by coordinate or speed.
     constraints : sequence of Expr (mh,) or dict
-        Phi of (3), what has to vanish; a dict has them by name. `sympy.Eq` will do.
+        Phi of (3), zero on the constraints; a dict gives them names. Instances of `sympy.Eq` are accepted.
     nonholonomic : sequence of Expr (mn,) or dict
         Constraints on velocities, linear in these: C v + Phi_t of (5).
     speeds : sequence of Symbol or functions of time, or dict
@@ -71,7 +71,7 @@ def symbolic(
     name : str
         For tables and plots.
     progress : bool
-        Whether to say on stderr what is being done, if it takes longer than two seconds.
+        If True, report the current stage on stderr when it takes longer than two seconds.
 
     Returns
     -------
@@ -80,26 +80,26 @@ def symbolic(
     Raises
     ------
     ValueError, TypeError
-        Where an expression has what is neither known nor to be had in C, which is then named.
+        If an expression contains an unknown symbol, or a function that C does not have; the message names it.
     CompilationFailed
-        Where CC cannot be run, or the compiler refuses the C source, or what it writes cannot be loaded.
+        If CC cannot be run, the compiler rejects the C source, or its output cannot be loaded.
     ImportError
         Without SymPy, the extra `symbolic`.
 
     Notes
     -----
-    Where there are `kinematics`, the kinetic energy T(p, pdot, t) has to be known in terms of the derivatives of coordinates, by
-    which it is differentiated; A then projects. So nothing symbolic is ever solved or inverted.
+    With `kinematics`, the kinetic energy T(p, pdot, t) must be given in terms of the derivatives of coordinates. It is
+    differentiated with respect to these, and A projects the result, so nothing symbolic is solved or inverted.
 
-    Jumps, such as those of `Heaviside` or `floor`, are taken to have no derivative.
+    Jumps, such as those of `Heaviside` or `floor`, have derivative zero.
 
-    What was derived and compiled is kept in the folder that the environment variable ZERODRIFT_CACHE names, or else the
-    user's cache folder. As what is in it is executed, folder and files have to belong to the user or to root, and nobody else may
-    write them; otherwise a `CacheWarning` says so, and the folder is left alone. Windows' own rights are not looked at: let
-    ZERODRIFT_CACHE name there what is closed to other users, as the user's cache folder is. Administrators may fill a folder for
-    everybody: as root, where all can read it. The compiler is the command in CC, or else cc, gcc or clang, on Windows Visual
-    Studio's or MinGW's, or that of the package ziglang; where there is none, the system is evaluated in Python, and a
-    `NoCompilerWarning` says so. CFLAGS is not looked at: flags can stand in CC.
+    Derived terms and compiled libraries are stored in the folder that the environment variable ZERODRIFT_CACHE names, or else the
+    user's cache folder. As its content is executed, folder and files must belong to the user or to root, and other users must not
+    have write access; otherwise a `CacheWarning` is issued, and the folder is not used. On Windows permissions are not checked:
+    there ZERODRIFT_CACHE must name a folder closed to other users, as the user's cache folder is. Administrators may fill a
+    folder for all users, as root and readable by all. The compiler is the command in CC, or else cc, gcc or clang, on Windows
+    Visual Studio's or MinGW's, or that of the package ziglang. Without a compiler the system is evaluated in Python, with a
+    `NoCompilerWarning`. CFLAGS is not read: flags can be part of CC.
 
     Examples
     --------
@@ -126,7 +126,7 @@ def symbolic(
 
 
 def _code(definition: Definition, say: Progress) -> Code:
-    """What was derived before from the same definition, else what is derived now."""
+    """Derived terms of the definition: from memory, from the cache, or derived now."""
     key = fingerprint(definition.expressions)
     code = _derived.get(key)
     if code is None and key is not None:
@@ -169,7 +169,7 @@ def _derive(definition: Definition, say: Progress) -> Code:
 
 
 def _stored(outputs: dict[str, list[int]], structure: dict[str, Any] | None) -> dict[str, list[int]]:
-    """Of each term what is stored of it."""
+    """Stored entries of each term; all of them if the system has no structure."""
     if structure is None:
         return outputs
     places = {name: Structure(**structure).places(name) for name in ("A", "M", "C") if name in outputs}

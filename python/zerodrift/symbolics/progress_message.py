@@ -1,4 +1,4 @@
-"""What a system is waiting for, said where it takes long."""
+"""Progress messages of derivations and compilations that take long."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PATIENCE = 2.0      # s
 
 
 class Progress:
-    """Says on stderr what is being done, from when it has taken two seconds; silent where `shown` is false."""
+    """Report the current stage on stderr once it has taken two seconds; nothing if `shown` is False."""
 
     def __init__(self, name: str, shown: bool) -> None:
         self._name, self._shown, self._what = name, shown, ""
@@ -22,7 +22,7 @@ class Progress:
         return self
 
     def __call__(self, what: str) -> None:
-        """Says what is being done from now on."""
+        """Set the stage that is reported from now on."""
         first, self._what = not self._what, what
         if first and self._shown:
             self._thread.start()

@@ -98,7 +98,7 @@ class SymbolicSystem(BaseSystem):
                                    packing=self._packing)
 
     def _data(self) -> np.ndarray:
-        """What the compiled function receives: the parameters, and the constants that follow from them."""
+        """Data of the compiled function: the parameters, the constants computed from them, and one spare double."""
         data = np.zeros(len(self._values) + self._code.constants + 1)
         data[:len(self._values)] = self._values
         self._library.zd_symbolic_constants(ctypes.c_void_p(data.ctypes.data))
@@ -278,7 +278,7 @@ def _compiled(source: str) -> Callable[..., None]:
 
 
 def _guarded(function: Callable[..., float]) -> Callable[..., float]:
-    """What C has where Python raises an error: no number, or an infinite one."""
+    """Wrap a function so that it returns NaN or an infinity, as in C, where Python raises an error."""
     def guarded(*arguments: float) -> float:
         try:
             return float(function(*arguments))

@@ -54,7 +54,7 @@ class Segment(NamedTuple):
 
     @property
     def sense(self) -> float:
-        """Whether the measure grows, 1, or falls, -1."""
+        """Direction of the measure: 1 if it grows along the segment, -1 if it falls."""
         return float(np.sign(self.last.value - self.first.value))
 
     def reversed(self) -> Segment:
@@ -174,7 +174,7 @@ class Curve:
         return Knot(_between(near, 0.5), tangent / np.linalg.norm(tangent), value, (first.slope + last.slope) / 2)
 
     def _dead_point(self, segment: Segment) -> Knot:
-        """Where the slope of the measure is zero inside a piece, by regula falsi (Illinois)."""
+        """Point of a segment where the slope of the measure vanishes, by regula falsi (Illinois)."""
         (low, below), (high, above), found = (0.0, segment.first.slope), (segment.arc, segment.last.slope), segment.last
         for _ in range(60):
             arc = (low * above - high * below) / (above - below)
@@ -190,8 +190,8 @@ class Curve:
 
     def positions(self, segments: list[Segment], values: np.ndarray,
                   aside: float = INTERPOLATION_DISTANCE) -> tuple[np.ndarray, np.ndarray]:
-        """Where the measure has given values, each in its piece: x (k, n), and dx by the measure (k, n); that is infinite at dead
-        points.
+        """Positions x (k, n) at given values of the measure, each in its segment, and dx/dmeasure (k, n), which is infinite
+        at dead points.
         """
         x = _guess(segments, values)
         best, slopes, inverse, error = x.copy(), np.full(x.shape, np.inf), np.full(len(x), np.inf), np.full(len(x), np.inf)
@@ -239,7 +239,7 @@ class Curve:
     @staticmethod
     def _take_dead_points(segments: list[Segment], values: np.ndarray, x: np.ndarray, slopes: np.ndarray,
                           *left: np.ndarray) -> None:
-        """Takes dead points as they were found, where they are asked for, with nothing left to be done."""
+        """Use the dead points already found for values that equal theirs, and mark these as converged."""
         for i, (segment, value) in enumerate(zip(segments, values, strict=True)):
             for knot in (segment.first, segment.last):
                 if knot.slope == 0 and touches(knot.value, value):
@@ -249,7 +249,7 @@ class Curve:
 
 
 def touches(dead: float, value: float) -> bool:
-    """Whether a value is that of a dead point, to rounding."""
+    """True if a value equals that of a dead point to rounding."""
     return abs(value - dead) <= 1e-13 * max(1.0, abs(dead))
 
 
@@ -277,7 +277,7 @@ def _cubic(segment: Segment) -> np.ndarray:
 
 
 def _turns_inside(segment: Segment) -> bool:
-    """Whether the measure has two turning points inside, as far as its cubic tells."""
+    """True if the cubic interpolant of the measure has a turning point inside the segment."""
     a, b, c, _ = _cubic(segment)
     discriminant = b * b - 3 * a * c
     if discriminant <= 0 or a == 0:

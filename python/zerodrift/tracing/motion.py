@@ -53,7 +53,7 @@ class Motion:
 
     @property
     def is_angle(self) -> bool:
-        """Whether the measure is an angle, which may turn."""
+        """True if the measure is an angle, which may make full turns."""
         return self.unit == "rad"
 
     @property
@@ -86,7 +86,7 @@ class Motion:
             raise ValueError(f"{what} must be a scalar, and {name!r} has components: {name}.x and {name}.y")
 
     def _held(self, hold: Any) -> dict[str, float | None]:
-        """What is held, by name; None: it stays where it starts."""
+        """Held measures and their values by name; None: the value at the start."""
         if isinstance(hold, Mapping):
             held = targets(hold, "hold")
         else:
@@ -177,7 +177,7 @@ def _driven(drawing: Any, tables: Tables, core: Any) -> list[int]:
 
 
 def _component(core: Any, name: str) -> Component:
-    """Where a scalar measure is found."""
+    """Index of a scalar measure and its component."""
     index = {row.name: i for i, row in enumerate(core.measures)}
     base, _, axis = name.rpartition(".")
     return Component(index[name], 0) if name in index else Component(index[base], "xy".index(axis))

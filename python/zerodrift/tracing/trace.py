@@ -85,7 +85,7 @@ def trace(system: Any, measure: Any, values: Any = None, *, hold: Any = (), thro
 
 
 def reach(system: Any, measure: Any, *, hold: Any = ()) -> Reach:
-    """How far a measure can go on the branch on which a mechanism starts: its range, which dead points end, or a full turn.
+    """Range of a measure on the assembly branch of the start: bounded by dead points, or a full turn.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What `trace` and `reach` return."""
+"""Results of `trace` and `reach`."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from ..mechanisms.system import MechanismSystem
 
 
 class DeadPoint(NamedTuple):
-    """Where a measure turns back while the mechanism goes on.
+    """Dead point: an extremum of the measure along the motion of the mechanism.
 
     Attributes
     ----------
     value : float
-        Of the measure, in rad or m.
+        The measure there, in rad or m.
     p : ndarray (nq,)
         The position, in the system's coordinates.
     before : int or None
-        The number of the traced position that comes next, or is the dead point itself.
+        Index of the traced position that follows the dead point or equals it.
     """
 
     value: float
@@ -128,7 +128,7 @@ class Trace:
         return self.system._measuring.measures[self._find(name).number].unit
 
     def _find(self, name: Any) -> Any:
-        """Where a measure of positions is found."""
+        """Index and component of a measure of positions."""
         name, watching = name_of(name, "name"), self.system._watching
         place = watching.find(name)
         if place is None:
@@ -152,15 +152,15 @@ class Trace:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Reach:
-    """How far a measure can go.
+    """Range of a measure.
 
     Attributes
     ----------
     measure, unit : str
     low, high : float
-        The least and the largest value on the branch; infinite where it turns fully.
+        Minimum and maximum on the assembly branch; infinite if the measure makes full turns.
     dead_points : tuple of DeadPoint
-        In the order in which they are met when the measure grows from the start; none where it turns fully.
+        In the order in which they are met when the measure grows from the start; empty if it makes full turns.
     """
 
     measure: str
@@ -171,7 +171,7 @@ class Reach:
 
     @property
     def turns_fully(self) -> bool:
-        """Whether there is no end, as of a crank in a four-bar of Grashof's kind."""
+        """True if the measure makes full turns, as the crank of a Grashof four-bar."""
         return not np.isfinite(self.high)
 
     def __contains__(self, value: float) -> bool:

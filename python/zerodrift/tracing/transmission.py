@@ -14,7 +14,7 @@ def transmission_angle(m: Mechanism, joint: Joint | str) -> Measure:
 
     It is the angle between two lines through the hinge. The line of a link goes to its other joint; where it has several, to that
     on the ground. If a link ends in a slider there, its line is the normal of the slide. At pi / 2 the push of one link
-    turns the other best; at 0 and at pi it does not at all, and designers stay between some 40 and 140 degrees.
+    turns the other best; at 0 and at pi it does not turn it at all. Common design rules keep it within 40 to 140 degrees.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def transmission_angle(m: Mechanism, joint: Joint | str) -> Measure:
     Raises
     ------
     ValueError
-        If the joint is no hinge of two moving links, or a link has several other joints and it is not clear which is meant.
+        If the joint is not a hinge of two moving links, or a link has several other joints and the choice is ambiguous.
 
     References
     ----------

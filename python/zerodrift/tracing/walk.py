@@ -31,7 +31,7 @@ def on_one_side(motion: Motion, values: np.ndarray) -> Met:
 
 
 def pick(pieces: list[Segment], values: np.ndarray) -> list[Segment]:
-    """Of pieces in which the measure grows, that for each value."""
+    """For each value, the segment that contains it, among segments in which the measure grows."""
     ends = np.array([segment.last.value for segment in pieces])
     return [pieces[place] for place in np.minimum(np.searchsorted(ends, values), len(pieces) - 1)]
 
@@ -100,7 +100,7 @@ def _first(motion: Motion, values: np.ndarray) -> Knot:
 
 
 def _ends_at(segment: Segment, value: float) -> bool:
-    """Whether a piece ends at a dead point of that value."""
+    """True if a segment ends at a dead point of that value."""
     return segment.last.slope == 0 and touches(segment.last.value, value)
 
 

@@ -1,16 +1,16 @@
-"""A folder in which what was derived and compiled is kept from one process to the next.
+"""Compile cache: a folder on disk with derived terms and compiled libraries, shared by processes.
 
-What is in it is executed, so it is only trusted where nobody but the user and root can have written it. The folder is opened
-first, then its owner and permissions are looked at, and its files are reached through what was opened: whoever can change a
-folder above it, or a symbolic link to it, cannot put another in its place meanwhile. Files are looked at in the same way. Where
-access control lists give others the right to write, the permissions of the group show it. What can be changed by others is left
-alone, and what this process makes is then kept in its memory.
+Its content is executed, so it is trusted only if no user except its owner and root can have written it. The folder is opened
+first, then its owner and permissions are checked, and files are opened relative to its descriptor: another user who can rename a
+parent folder, or change a symbolic link to it, cannot exchange the folder after the check. Files are checked in the same way.
+Write access by access control lists shows in the permissions of the group. A folder that other users can change is not used;
+results of this process then stay in its memory.
 
-On Windows none of this is looked at, and files are reached by their paths: the user's own place is closed to other users there.
-Whoever lets ZERODRIFT_CACHE name another folder has to see to that.
+On Windows owner and permissions are not checked, and files are opened by path: the default folder is private to the user there.
+If ZERODRIFT_CACHE names another folder, its permissions must be set by the user.
 
-Files are written beside their place and moved there, so that no process sees half of one; what a file holds is bound to its name
-by a digest, and what is damaged is made anew.
+Files are written under a temporary name and renamed, so that other processes never read part of a file. A digest binds the
+content of a file to its name; damaged files are written again.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from ..._fingerprint import fingerprint
 from ...errors import CacheWarning
 
 DIGITS = 40             # of the fingerprints that name files
-OLD = 3600.0            # s, after which nobody is still writing a temporary file
+OLD = 3600.0            # s: age from which a temporary file counts as abandoned
 TEMPORARY = re.compile(r"\.zerodrift-[0-9a-f]{16}\.tmp")
 OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
 AS_WINDOWS = os.name == "nt"        # nothing is reached through an open folder there, and its owners are not these
@@ -67,7 +67,7 @@ def put(name: str, data: bytes) -> None:
 
 
 def get(name: str) -> bytes | None:
-    """What a file holds; None where there is none that can be trusted."""
+    """Content of a file; None if there is no trusted file of that name."""
     if name in _memory:
         return _memory[name]
     with _usable() as folder:
@@ -99,7 +99,7 @@ def write(name: str, content: Any) -> None:
 
 
 def read(name: str, kind: type) -> Any:
-    """What was kept under that name; None where there is nothing, or what there is is damaged."""
+    """Stored object of that name; None if it is missing or damaged."""
     try:
         kept = json.loads(get(f"{name}.json") or b"")
         content = kept["content"]
@@ -112,7 +112,7 @@ def read(name: str, kind: type) -> Any:
 
 
 def _chosen() -> Path:
-    """What `ZERODRIFT_CACHE` names, or the platform's place."""
+    """Folder that `ZERODRIFT_CACHE` names, or the default folder of the platform."""
     given = os.environ.get("ZERODRIFT_CACHE")
     return Path(os.path.expanduser(given)) if given else _own()
 
@@ -166,7 +166,7 @@ def _make(path: Path) -> None:
 
 
 def _trusted(path: Path, descriptor: int | None) -> Folder | None:
-    """The open folder, if nobody else can write there; what others may write in the user's own place is mended."""
+    """The open folder, if only its owner and root can write to it. Write access of others to the default folder is removed."""
     if descriptor is None:
         return Folder(path, None)
     status = os.fstat(descriptor)
@@ -188,7 +188,7 @@ def _believed() -> tuple[int, ...]:
 
 
 def distrust(status: os.stat_result) -> str:
-    """Why what is at hand may have been written by somebody else than the user or root; nothing where it may not."""
+    """Reason why another user may have written a file or folder, for messages; "" if only the user and root can have."""
     if AS_WINDOWS:
         return ""
     if status.st_uid not in _believed():
@@ -216,7 +216,7 @@ def _say(sentence: str, about: str = "") -> None:
 
 
 def _depth() -> int:
-    """How many calls ago somebody else's code was left."""
+    """Number of frames between the caller and the nearest code outside this package."""
     depth, frame = 0, sys._getframe()
     while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in (__package__.partition(".")[0], "contextlib"):
         depth, frame = depth + 1, frame.f_back
@@ -239,7 +239,7 @@ class Folder(NamedTuple):
         return f"{OPENED}/{self.descriptor}" if os.path.isdir(OPENED) else None
 
     def read(self, name: str) -> bytes | None:
-        """What a file holds, whose owner and permissions were looked at when it was open."""
+        """Content of a file; its owner and permissions are checked after it is opened. None if it cannot be trusted."""
         try:
             with os.fdopen(os.open(self._at(name), os.O_RDONLY | FILE, dir_fd=self.descriptor), "rb") as file:
                 status = os.fstat(file.fileno())
@@ -266,7 +266,7 @@ class Folder(NamedTuple):
             os.replace(self._at(temporary), self._at(name), src_dir_fd=self.descriptor, dst_dir_fd=self.descriptor)
         except BaseException as error:
             self.remove(temporary)
-            # Windows replaces no file that somebody has loaded or reads. It mostly is the same, from another process.
+            # Windows does not replace a file that a process has open. It usually has the same content, from another process.
             if not (AS_WINDOWS and isinstance(error, PermissionError) and self.read(name) == data):
                 raise
 

@@ -1,4 +1,4 @@
-"""The direct functions of a symbolic system: written and compiled when they are first wanted."""
+"""Closed-form functions of a symbolic system: written and compiled at first use."""
 
 from __future__ import annotations
 
@@ -15,22 +15,21 @@ from . import cache as kept
 from . import shared_library
 
 LANES = {"baseline": 2, "avx2": 4, "avx512": 8}
-DIRECT = "zd_symbolic_direct"       # what they are called in their library
-NO_COMPILER = "there is no C compiler"      # why a system has none
+DIRECT = "zd_symbolic_direct"       # symbol of the functions in their library
+NO_COMPILER = "there is no C compiler"      # reason why a system has no closed-form functions
 
 
 class DirectFunctions:
-    """The direct functions of a system, and of those that differ from it in parameters and start alone.
+    """Closed-form functions of a system and of all that differ from it only in parameters and start.
 
-    They are written and compiled when they are first wanted. Orders of elimination are chosen with the values that the system was
-    made with. So what is written depends on nothing else; it is written before it is sent to another process, where there need be
-    no SymPy.
+    They are written and compiled at first use. Orders of elimination are chosen with the values that the system was created with,
+    so the source depends on these alone. The source is written before the object is pickled, as the other process may lack SymPy.
     """
 
     def __init__(self, program: dict[str, Any] | str, sizes: tuple[int, int, int, int], values: np.ndarray,
                  p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data", embeds: bool = False) -> None:
         self._definition = program, sizes, values, p0, is_length
-        self._embeds = embeds       # whether they are for formulations in independent velocities
+        self._embeds = embeds       # True: for formulations in independent velocities
         self._others: DirectFunctions | None = None
         self._offset, self._data = offset, data     # `data` is C for the doubles of a system
         self._libraries: dict[str, ctypes.CDLL | None] = {}
@@ -40,17 +39,17 @@ class DirectFunctions:
 
     @property
     def embedding(self) -> DirectFunctions:
-        """Those for formulations in independent velocities."""
+        """Closed-form functions for formulations in independent velocities."""
         if self._others is None:
             self._others = DirectFunctions(*self._definition, self._offset, self._data, embeds=True)
         return self._others
 
     def prepare(self) -> None:
-        """Write them, as long as there is nothing else to do; they are compiled when they are wanted."""
+        """Write the source, while a compiler of the terms is running; it is compiled at first use."""
         self._write()
 
     def _write(self) -> tuple[str, int] | None:
-        """The C source and how many constants it has; None: there is none."""
+        """The C source and its number of constants; None: there are no closed-form functions."""
         if not self._is_written:
             key = self._key()
             found = kept.read(key, dict)
@@ -63,7 +62,7 @@ class DirectFunctions:
         return self._written
 
     def _key(self) -> str:
-        """What is written is kept under: all that it depends on."""
+        """Key of the source in the cache: a digest of all data that it depends on."""
         from ..emit import closed_form_writer
 
         program, sizes, values, p0, is_length = self._definition
@@ -84,31 +83,31 @@ class DirectFunctions:
 
     @property
     def in_words(self) -> str:
-        """For the `repr` of a system: why it has none."""
+        """Part of the `repr` of a system: the reason why it has no closed-form functions."""
         return f", no direct functions: {self.why_none}" if self.why_none else ""
 
     @property
     def constants(self) -> int:
-        """How many doubles they need behind those of the terms."""
+        """Number of doubles that the functions need after the constants of the terms."""
         written = self._write()
         return written[1] if written else 0
 
     @property
     def source(self) -> str:
-        """The C code; empty: there are no direct functions."""
+        """The C source; empty: there are no closed-form functions."""
         written = self._write()
         return written[0] if written else ""
 
     def library(self, vector: str = "baseline") -> ctypes.CDLL | None:
-        """The library of those for one trajectory and a vector unit; None: there are none."""
+        """Library of the functions for one trajectory and a vector unit; None: there are none."""
         return self.library_of(f"ZD_SET_{vector.upper()}_1", shared_library.QUICKLY)
 
     def library_in_lanes(self, vector: str) -> ctypes.CDLL | None:
-        """The library of those for as many trajectories at once as the vector unit has lanes; None: there are none."""
+        """Library of the functions for SIMD lanes, one trajectory per lane of the vector unit; None: there are none."""
         return self.library_of(f"ZD_SET_{vector.upper()}_{LANES[vector]}")
 
     def library_of(self, sets: str, optimized: tuple[str, ...] = shared_library.OPTIMIZED) -> ctypes.CDLL | None:
-        """The library of some sets of functions: C for their bits, as zerodrift/units.h names them."""
+        """Library of some sets of functions, given as a C expression of the bits in zerodrift/units.h."""
         if sets not in self._libraries and self.source:
             symbols = DIRECT, f"{DIRECT}_constants"
             self._libraries[sets] = shared_library.library(self.source, symbols=symbols, defined=[f"ZD_SETS={sets}"],
@@ -122,6 +121,6 @@ class DirectFunctions:
 
 @cache
 def _writing_code(is_plain: bool) -> str:
-    """The fingerprint of the code that writes: of SymPy's version, too, whose printer writes what is no sine or cosine."""
+    """Fingerprint of the code generator, with SymPy's version if it prints functions that are not in `plain_functions`."""
     files = sorted(Path(__file__).parents[1].rglob("*.py"))
     return kept.digest_of("" if is_plain else metadata.version("sympy"), [file.read_text(encoding="utf-8") for file in files])

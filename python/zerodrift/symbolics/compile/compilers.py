@@ -31,7 +31,7 @@ AS_GNU = ("-std=c11", "-ffp-contract=off", "-Werror=implicit-function-declaratio
 ON_WINDOWS = ("-static-libgcc",)
 # Of all processors of a kind, as caches are shared: zig takes the one that it runs on. It also looks for undefined behaviour.
 ZIG_FLAGS = ("-mcpu=baseline", "-fno-sanitize=undefined")
-PATIENCE = 60.0         # s, for what is asked before anything is compiled
+PATIENCE = 60.0         # s: time limit of queries before a compilation
 
 
 class Compiler(NamedTuple):
@@ -42,7 +42,7 @@ class Compiler(NamedTuple):
 
     @property
     def is_like_msvc(self) -> bool:
-        """Whether its options are those of Microsoft's compiler."""
+        """True if the compiler takes the options of Microsoft's compiler."""
         return _called(self.command[0]) in OF_MSVC
 
     def line(self, source: str, product: str, include: str, optimized: Sequence[str], defined: Sequence[str]) -> list[str]:
@@ -63,7 +63,7 @@ def exporting(source: str, symbols: Sequence[str]) -> str:
 
 
 def find() -> Compiler | None:
-    """What `CC` says, or the first compiler there is; None: there is none.
+    """The compiler that `CC` names, or the first one that is installed; None: there is none.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def find() -> Compiler | None:
 
 
 def said() -> str:
-    """What `CC` says."""
+    """Value of the environment variable `CC`, stripped."""
     return os.environ.get("CC", "").strip()
 
 
@@ -94,13 +94,13 @@ def given() -> list[str]:
 
 
 def advice() -> str:
-    """What may stand in `CC`, for messages."""
+    """Rule for the value of `CC`, for messages."""
     return ("CC has to be the command of a C compiler that makes shared libraries for this machine, such as gcc or clang; "
             f"without it, the first of {_names()} is taken")
 
 
 def looked_for() -> str:
-    """Where `find` looks, and what may be installed, for messages."""
+    """Compilers that `find` searches for, and a way to install one, for messages."""
     if not said():
         return f"{_names()}; {INSTALLED.get(SYSTEM, IN_PACKAGES)} would bring one"
     program = Path(next(iter(given()), ""))
@@ -149,7 +149,7 @@ def _called(program: str) -> str:
 
 
 def _variables_of(program: str) -> dict[str, str] | None:
-    """Those that a compiler needs and this process has not; None: it needs none."""
+    """Environment variables that a compiler needs and this process does not have; None: it needs none."""
     if SYSTEM != "win32" or _called(program) != "cl" or "INCLUDE" in os.environ:
         return None
     found = _visual_studio()
@@ -179,7 +179,7 @@ def _visual_studio_of(vswhere: str) -> tuple[str, dict[str, str]] | None:
 
 
 def _answer(command: list[str]) -> str:
-    """What a program says; nothing where there is none, or where it fails."""
+    """Standard output of a program; empty if it is missing or fails."""
     try:
         line = command if command[0] != "cmd" else " ".join(command)    # which reads quotes in a way of its own
         result = subprocess.run(line, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False,

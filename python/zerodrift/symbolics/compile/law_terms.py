@@ -1,4 +1,4 @@
-"""What a law says as a compiled function of time, of measures and their rates, and of numbers of its own."""
+"""User functions given as expressions: compiled functions of time, measures, rates of measures, and parameters."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ TAKES = "const double *k, double t, const double *p, const double *v, double *ou
 
 
 class Leaves:
-    """What the nodes of a law of k measures depend on: the measures are the leaves p, their rates the leaves v."""
+    """Leaves of the expression of a user function of k measures: the measures are p, their rates are v."""
 
     def __init__(self, graph: Graph, k: int) -> None:
         self.graph, self.t = graph, graph.leaf("t", 0)
         self.x, self.xdot = ([graph.leaf(kind, i) for i in range(k)] for kind in "pv")
 
     def holonomic(self, g: Node) -> list[Node]:
-        """Of a row g(t, x) = 0: g, dg/dx_i, dg/dt, and what (6) has besides the measures' second derivatives."""
+        """Terms of a constraint g(t, x) = 0: g, dg/dx_i, dg/dt, and what (6) has without second derivatives of measures."""
         along = self._along()
         return [g, *self._slopes(g, self.x), self.graph.derivative_along({self.t: self.graph.one})(g), along(along(g))]
 
     def nonholonomic(self, h: Node) -> list[Node]:
-        """Of a row h = a_i(t, x) xdot_i + a_0(t, x) = 0: nothing, a_i, a_0, and da_i/dt xdot_i + da_0/dt."""
+        """Terms of a constraint h = a_i(t, x) xdot_i + a_0(t, x) = 0: zero, a_i, a_0, and da_i/dt xdot_i + da_0/dt."""
         at_rest = self.graph.substitution(dict.fromkeys(self.xdot, self.graph.zero))
         return [self.graph.zero, *self._slopes(h, self.xdot), at_rest(h), self._along()(h)]
 

@@ -17,7 +17,7 @@ HEADING = ["/* Written by zerodrift. */", "#include <math.h>", "#include <zerodr
 
 
 class Program:
-    """What a writer has to know: all operations are needed, and none is kept."""
+    """Program for a `CWriter`: all of its operations are needed, and none is stored between calls."""
 
     def __init__(self, lowering: Lowering, results: Sequence[int]) -> None:
         self.lowering, self.outputs, self.stored = lowering, {"results": list(results)}, {}

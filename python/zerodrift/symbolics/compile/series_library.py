@@ -1,4 +1,4 @@
-"""What follows from a symbolic system's expressions for some integrators alone: written and compiled when it is first wanted."""
+"""Functions of a symbolic system for Taylor and Radau integrators: written and compiled at first use."""
 
 from __future__ import annotations
 

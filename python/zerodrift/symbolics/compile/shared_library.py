@@ -111,9 +111,9 @@ def _digest(data: bytes) -> str:
 
 
 def _load(name: str, data: bytes) -> ctypes.CDLL:
-    """A library that is these bytes, from a copy in a folder of this process alone, else from the cache.
+    """Load a library from its bytes, by a copy in a folder private to this process, else from the cache.
 
-    On Windows nobody changes a file that is loaded, and nobody could remove the copy.
+    On Windows a loaded file can neither be changed nor removed, so the file in the cache is loaded there.
     """
     if cache.AS_WINDOWS:
         with cache.place(name, data) as path:
@@ -196,7 +196,7 @@ def _taskkill() -> str:
 
 
 def _complaint(line: list[str], status: int, said: str, source: str) -> CompilationFailed:
-    """What the compiler says first, with the line it says it of."""
+    """Error with the compiler's first complaint and the source line that it refers to."""
     spoken = said.strip().splitlines()
     first = next((each for each in spoken if "error" in each), spoken[-1] if spoken else f"status {status}")
     if not status:

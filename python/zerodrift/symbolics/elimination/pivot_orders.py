@@ -1,10 +1,10 @@
-"""Which orders of elimination are written: those whose pivots stay large over the start and configurations around it.
+"""Choice of orders of elimination: their pivots are large at the start and at configurations around it.
 
-Configurations are drawn at random and brought onto the constraints by Newton's method. An order is found greedily: of the
-solves whose determinants are large in all configurations that are left, the one of the fewest rows that fills in the fewest
-entries is next. Where none is large in all of them, configurations are given up for the next order to serve; the start is not.
-Two or three rows that move are solved at once where that serves as many configurations: one division takes less time than two, of
-which the second waits for the first.
+Configurations are random and projected onto the constraints by Newton's method. The search for an order is greedy: among the
+solves whose determinants are large in all configurations that remain, the next one has the fewest constraints, then the least
+fill-in. If no determinant is large in all of them, some configurations are left to the next order; the start never is. Two or
+three varying constraints are solved together if that serves as many configurations, as one division takes less time than two
+consecutive ones.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
     try:
         C = _configurations(lowering, terms, sizes, parameters, p0, lengths)
     except numpy_evaluation.Unknown as unknown:
-        raise Unwritten(f"{unknown} is no function of NumPy's") from None
+        raise Unwritten(f"NumPy has no function {unknown}") from None
     orders = _for_sets(C) if embeds else _for_places(C / _largest(C))
     if not orders:
         raise Unwritten("constraints depend on each other at the start, or nearly")
@@ -106,7 +106,7 @@ def _dependent(C: np.ndarray) -> np.ndarray:
 
 def _configurations(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, int, int, int], parameters: np.ndarray,
                     p0: np.ndarray | None, lengths: np.ndarray) -> np.ndarray:
-    """C (k, m, nv) in natural units, at the start and around it."""
+    """C (k, m, nv) in characteristic scales, at the start and at random configurations around it."""
     nq, nv, mh, _ = sizes
     chance = np.random.default_rng(20)
     start = np.zeros(nq) if p0 is None else p0
@@ -169,7 +169,7 @@ class _Search:
         return tuple(order), self.served
 
     def _best(self) -> Solve | None:
-        """Of the fewest rows, a solve that is large everywhere; else the one that is so in the most configurations."""
+        """The smallest solve whose determinant is large in all configurations; else the one that is large in the most of them."""
         partial: list[tuple[int, Solve, np.ndarray]] = []
         for size in self._sizes():
             full = []
@@ -188,7 +188,7 @@ class _Search:
         return solve if count else None
 
     def _sizes(self) -> list[int]:
-        """How many rows are solved at once, in order of preference."""
+        """Numbers of constraints solved together, in order of preference."""
         sizes = list(range(1, min(3, len(self.rows)) + 1))
         moving = np.ptp(self.C[:, sorted(self.rows)], axis=0).any(axis=1)
         return sizes[::-1] if self.at_once and len(self.rows) <= 3 and moving.all() else sizes
@@ -203,7 +203,7 @@ class _Search:
                 yield Solve(rows, chosen), np.abs(np.linalg.det(self.C[:, rows][:, :, chosen]))
 
     def _fill(self, solve: Solve) -> int:
-        """How many entries an elimination touches at most."""
+        """Maximum number of entries that an elimination fills in."""
         others = [k for k in self.rows if k not in solve.rows and self.entries[0, k, list(solve.columns)].any()]
         width = self.entries[0, list(solve.rows)].any(axis=0).sum() - len(solve.columns)
         return int(len(others) * width)

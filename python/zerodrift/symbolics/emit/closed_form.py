@@ -1,4 +1,4 @@
-"""Direct functions written from the operations of a system's terms."""
+"""Closed-form functions written from the operations of a system's terms."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any]
         if code == "call":
             name = arguments[0].__name__
             if not isinstance(arguments[0], Function) and getattr(_sympy(), name, None) is not arguments[0]:
-                return f"{name} is no function of SymPy's"
+                return f"SymPy has no function {name}"
             arguments = (name, *arguments[1:])
         operations.append([code, *arguments])
     return {"operations": operations, "terms": {name: outputs[name] for name in TERMS if name in outputs}}

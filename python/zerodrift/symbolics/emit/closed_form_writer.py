@@ -39,7 +39,7 @@ class Bounded(Lowering):
 
 @dataclass
 class _Program:
-    """What a writer has to know of one function: its operations, and those that are stored with the parameters."""
+    """Program of one function for a writer: its operations, and those whose values are stored with the parameters."""
 
     lowering: Lowering
     outputs: dict[str, list[int]]
@@ -52,7 +52,7 @@ class _Program:
             self.users[number] = True
 
     def needed(self, names: object) -> list[int]:
-        """The operations behind these outputs, in order, but for what is stored and what that follows from."""
+        """Operations that these outputs depend on, in order, except stored ones and the operands of these."""
         found, waiting = set(), [number for name in names for number in self.outputs[name]]
         while waiting:
             number = waiting.pop()
@@ -155,7 +155,7 @@ def _whole(head: list[str], body: list[str]) -> list[str]:
 
 
 def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[str]:
-    """What is written where it is wanted."""
+    """Statements that store optional outputs, each inside a check of its pointer."""
     body = []
     for names in OPTIONAL:
         names = [name for name in names if program.outputs.get(name)]

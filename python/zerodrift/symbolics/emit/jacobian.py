@@ -107,7 +107,7 @@ class _Slopes(Writer):
         return f"J[{row} * {self.nq + self.nv} + {leaf[1] if leaf[0] == 'p' else self.nq + leaf[1]}]"
 
     def _products(self, leaf: Leaf, *factors: tuple[str, int, str]) -> list[str]:
-        """Of the derivatives of entries with what stays."""
+        """Products of the derivatives of entries with their constant factors."""
         slopes = [(self._of_entry(name, place, leaf), by) for name, place, by in factors]
         return [_times(by, slope) for slope, by in slopes if slope is not None]
 
@@ -132,7 +132,7 @@ class _Slopes(Writer):
         return lines
 
     def _of_power(self, leaf: Leaf, is_solved: bool) -> list[str]:
-        """Of that of (28): of forces, and of moving constraints, whose multipliers change, too."""
+        """Derivative of the power in (28): of forces, and of moving constraints with their multipliers."""
         parts = self._products(leaf, ("power", 0, "1.0"), *(("Phi_t", k, f"lambda[{k}]") for k in range(self.m)))
         moving = [(k, self._entry("Phi_t", k)) for k in range(self.m)] if is_solved else []
         parts += [f"x[{self.nv + k}] * z{entry}" for k, entry in moving if entry is not None]

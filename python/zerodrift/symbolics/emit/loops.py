@@ -26,7 +26,7 @@ def number(text: str) -> str:
 
 
 def plain(text: str) -> str:
-    """What C is meant by a text with marks."""
+    """C text of a statement whose marks are replaced by array elements and numbers."""
     return MARK.sub(lambda mark: f"{mark[1]}[{mark[2]}]" if mark[1] else mark[2], text)
 
 

@@ -41,7 +41,7 @@ class _Sums:
         self.pairs: dict[tuple[Row, Row], int] = {}
 
     def of(self, x: Row, y: Row) -> str:
-        """What such a sum is called."""
+        """C name of the sum of products of the coefficients of x and y."""
         if x[0] != "weighted" and y < x:
             x, y = y, x
         return f"sum[{self.pairs.setdefault((x, y), len(self.pairs))}]"
@@ -200,7 +200,7 @@ class Writer:
         return "0.0" if entry is None else f"z{entry}"
 
     def right_sides(self) -> list[str]:
-        """Those of one order, from what is known of it and of all orders before."""
+        """Right sides of one order, from its known part and from all lower orders."""
         n, lines = self.nv, []
         for i in range(n):
             known = [f"{sign} y{entry}" for sign, name in (("+", "f"), ("-", "d"))
@@ -255,7 +255,7 @@ class Writer:
     # ---- rows ----
 
     def stored(self) -> list[str]:
-        """What the sums of later orders need of this one."""
+        """Statements that store the coefficients of this order that sums of higher orders need."""
         return [f"{array}[order * ROWS + {place}] = {self._stored(row)};"
                 for pair, place in self.sums.pairs.items() for array, row in zip("XY", pair, strict=True)]
 
@@ -289,7 +289,7 @@ def write(program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data:
 
 
 def _of_beginning(writer: Writer) -> list[str]:
-    """What is computed once: all values, the inverse, and the coefficients of the lowest orders."""
+    """Statements that are executed once: all values, the inverse, and the coefficients of the lowest orders."""
     n, m = writer.nv, writer.m
     size = n + m
     next_ones = [*(f"V[{n + i}] = x[{i}];" for i in range(n)), *writer.power(True), *writer.rates_of_positions(True)]

@@ -38,7 +38,7 @@ class LargeWriter(CWriter):
         self._pieces: list[str] = []
 
     def _new(self, count: int = 1) -> int:
-        """Where so many values go."""
+        """Index of the first of `count` new values in the current array."""
         first = self._ends[self._array]
         self._ends[self._array] += count
         return first

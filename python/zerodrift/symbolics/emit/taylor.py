@@ -58,7 +58,7 @@ class Jets:
         return self._numbers[key]
 
     def _of(self, wanted: int) -> int:
-        """What an operation of the program has become; those that it needs come first."""
+        """Number of the Taylor operation of an operation of the program; its operands are converted first."""
         waiting = [wanted]
         while waiting:
             code, *arguments = self._program[waiting[-1]]

@@ -47,7 +47,7 @@ class Writer:
         return uses
 
     def value(self, number: int) -> str:
-        """What an operation's value is called, or its expression where it is used but once."""
+        """C or Python text of an operation's value: its name, or its expression if it is used only once."""
         operation = self.operations[number]
         if operation.code == "leaf":
             return self.leaf(*operation.arguments)
@@ -282,7 +282,7 @@ class CWriter(Writer):
         return f"{term}[{place}]"
 
     def is_zero(self, value: str) -> bool:
-        """Whether the text of a value is that of zero."""
+        """True if the text of a value is that of zero."""
         return value == "0.0"
 
 

@@ -47,12 +47,12 @@ def sums(operations: Operations, needed: Iterable[int]) -> dict[int, Sum]:
 
 
 def is_turn(operation: list[Any]) -> bool:
-    """Whether it is a sine or a cosine."""
+    """True if the operation is a sine or a cosine."""
     return operation[0] == "call" and operation[1] in ("sin", "cos")
 
 
 def _way(form: Form, angle: int, with_form: Form, known: dict[Form, int]) -> Sum | None:
-    """How an angle of this form follows from another and at most one more of those that are known."""
+    """The angle of this form as a sum of a given angle and at most one other known angle; None if there is no such sum."""
     for sign in (1, -1):
         rest = _added(form, _times(-sign, with_form))
         if not rest:
@@ -76,7 +76,7 @@ def _added(*forms: Form) -> Form:
 
 
 class _Forms:
-    """Operations as sums of whole multiples of what is no sum."""
+    """Operations as sums of integer multiples of operations that are not sums."""
 
     def __init__(self, operations: Operations) -> None:
         self._operations = operations

@@ -21,7 +21,7 @@ class Arithmetic:
         self.zero, self.one, self._minus_one = (lowering.emit("number", value) for value in (0.0, 1.0, -1.0))
 
     def depth(self, number: int) -> int:
-        """How long a processor waits for a value from the leaves on, in cycles or so."""
+        """Latency of a value, from the leaves on, in approximate processor cycles."""
         waiting = [number]
         while waiting:
             operation = self.lowering.operations[waiting[-1]]
@@ -34,7 +34,7 @@ class Arithmetic:
         return self._depths[number]
 
     def _negated(self, a: int) -> int | None:
-        """What an operation is the negative of."""
+        """The operand of a negation; None for other operations."""
         operation = self.lowering.operations[a]
         return operation.arguments[0] if operation.code == "negative" else None
 

@@ -1,8 +1,9 @@
-"""Which operations are computed when: each with the smallest set of wanted terms that need it.
+"""Schedule of operations: each is computed with the smallest set of requested terms that need it.
 
-Operations on parameters alone are done once, when the parameters are set. Those on t and p that several terms share are kept in
-the scratch while t and p stay, by groups: a group is all that the same set of terms needs, and is computed when first one of them
-is asked for. What depends on v and is shared is computed at each call that wants one of its terms.
+Operations on parameters alone are executed once, when the parameters are set. Values of t and p that several terms share are
+stored in the scratch memory until t or p changes. They form groups: a group holds all operations needed by the same set of terms,
+and is computed when the first of these is requested. Shared values that depend on v are computed at each call that requests one
+of their terms.
 """
 
 from __future__ import annotations

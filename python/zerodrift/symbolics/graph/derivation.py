@@ -25,7 +25,7 @@ Matrix = list[list[Node]]
 
 @dataclass
 class Given:
-    """What a system is, as nodes; `A` None: the identity, and rates are velocities."""
+    """Definition of a system as nodes. If `A` is None, it is the identity, and pdot = v."""
 
     nq: int
     nv: int
@@ -53,7 +53,7 @@ class Derivation:
         self.moving = graph.derivative_along({self.t: graph.one, **dict(zip(self.p, self.pdot, strict=True))})
 
     def terms(self) -> dict[str, list[Node]]:
-        """What there is of A, M, d, f, Phi, C, Phi_t, xi, V, power; what is zero throughout is left out where it may be."""
+        """Nodes of A, M, d, f, Phi, C, Phi_t, xi, V and power, by name; without optional terms that vanish identically."""
         given, graph = self.given, self.graph
         M, d = self._of_kinetic_energy() if given.mass is None else (given.mass, given.bias or [])
         terms = {"A": _flat(given.A or []), "M": _flat(M), "d": d, "f": self._force(), **self._constraints()}

@@ -21,7 +21,7 @@ UNDEFINED = math.nan         # one object, so that there is one node of it
 
 
 def namesake(e: Any, others: Iterable[Any]) -> str:
-    """How something differs from another that is written like it, as the end of a sentence; nothing where there is none."""
+    """End of an error message that names a different symbol with the same text; empty if there is none."""
     other = next((x for x in others if str(x) == str(e) and x != e), None)
     return "" if other is None else (
         f", {sympy.srepr(e)}, which to SymPy is another than the {other} that was given, {sympy.srepr(other)}: make it once, "
@@ -62,7 +62,7 @@ class Reader:
 
 
     def compared(self, condition: Node) -> list[Node]:
-        """What a condition compares."""
+        """Nodes that a condition compares."""
         if condition.kind == "logic":
             return [operand for part in condition.content[1] for operand in self.compared(part)]
         if condition.kind == "choice":
@@ -72,7 +72,7 @@ class Reader:
         return list(condition.content[1:]) if condition.kind == "comparison" else []
 
     def partial(self, node: Node) -> bool:
-        """Whether a node may be no number where its leaves are numbers: it has roots, quotients, logarithms and the like."""
+        """True if a node may be NaN for finite leaves, as with roots, quotients and logarithms."""
         if node not in self._partial:
             self._partial[node] = self._is_partial(node)
         return self._partial[node]
@@ -198,7 +198,7 @@ class _Reading:
         return [(self._graph.logic("or", *wrong) if len(wrong) > 1 else wrong[0], self._graph.number(UNDEFINED))]
 
     def _extreme(self, e: Any) -> Node:
-        """Max and Min, which C's fmax and fmin take of the others where one is no number."""
+        """Max and Min that are NaN if one argument is NaN; C's fmax and fmin ignore a NaN."""
         best, *others = map(self, e.args)
         for other in others:
             case = self._graph.comparison(">" if isinstance(e, sympy.Max) else "<", best, other), best

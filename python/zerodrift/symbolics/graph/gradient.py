@@ -61,7 +61,7 @@ class Gradient:
             parts[leaf].append((self._graph.times(by_inner, slope), factor))
 
     def _of_choice(self, node: Node) -> Slopes:
-        """Where there is no value, there is no derivative either."""
+        """Slopes of a piecewise node; the derivative is NaN in cases whose value is NaN."""
         graph, (cases, otherwise) = self._graph, node.content
         leaves = dict.fromkeys(leaf for value in (*(value for _, value in cases), otherwise) for leaf in self(value))
 
@@ -107,7 +107,7 @@ class Hessian:
         return not any(self._gradient(slope) for slope in self._gradient(node).values())
 
     def _add_product(self, rest: Node, a: Node, b: Node, factor: Number) -> None:
-        """Of rest times a times b, both linear."""
+        """Add the second derivatives of rest * a * b, where a and b are linear forms."""
         of_a, of_b = self._form(a), self._form(b)
         for leaf, (slope, coefficient) in of_a.items():
             front, number = _scaled(self._graph.times(rest, slope))

@@ -54,7 +54,7 @@ class Graph:
     # ---- sums and products ----
 
     def sum(self, terms: Iterable[tuple[Node, Number]]) -> Node:
-        """Of coefficient times node."""
+        """Node of a sum of terms (node, coefficient); sums within it are merged."""
         collected: dict[Node, Number] = {}
         for node, factor in terms:
             if node.kind == "sum":
@@ -94,7 +94,7 @@ class Graph:
         return terms
 
     def product(self, factors: Iterable[tuple[Node, Number]]) -> Node:
-        """Of node to the exponent."""
+        """Node of a product of factors (node, exponent)."""
         coefficient, collected = self._factors(factors)
         if coefficient == 0:
             return self.zero
@@ -249,7 +249,7 @@ class Derivative(_NodeFunction):
                 return graph.zero
 
     def _of_case(self, value: Node) -> Node:
-        """Where there is no value, there is no derivative either."""
+        """Derivative of one case of a piecewise node; NaN if the value is NaN."""
         undefined = value.kind == "number" and value.content[0] != value.content[0]
         return value if undefined else self(value)
 

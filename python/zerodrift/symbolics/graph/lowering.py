@@ -25,7 +25,7 @@ class Operation(NamedTuple):
 
 
 LONGEST = 300       # terms of a sum in which shared factors are looked for, as that takes the square of it
-SIMPLE = ("leaf", "number")     # their arguments are no operations
+SIMPLE = ("leaf", "number")     # their arguments are not operations
 
 
 class Lowering:

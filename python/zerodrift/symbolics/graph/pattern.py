@@ -73,13 +73,13 @@ class Pattern:
         return ends
 
     def _cost(self, one: tuple[int, int], other: tuple[int, int], rows: set[int], others: set[int]) -> int:
-        """What merging two blocks stores in addition, less what it saves."""
+        """Additional entries that merging two blocks stores, minus the savings."""
         n, m, both = one[1] - one[0], other[1] - other[0], len(rows | others)
         mass = 0 if all(self._diagonal[one[0] : other[1]]) else 2 * n * m
         return mass + (n + m) * both - n * len(rows) - m * len(others) + PART * (both - len(rows) - len(others))
 
     def _coordinates(self, ends: list[tuple[int, int]]) -> list[int] | None:
-        """How many coordinates each block has; None where they are not in the order of the blocks."""
+        """Number of coordinates of each block; None if they are not in the order of the blocks."""
         owners = list(self._owners(ends)) if "A" in self._terms else [b for b, pair in enumerate(ends) for _ in range(*pair)]
         counts = [owners.count(b) for b in range(len(ends))]
         return counts if owners == sorted(owners) and all(counts) else None

@@ -1,6 +1,6 @@
-"""The functions that mechanisms need without expressions, and their derivatives: no SymPy.
+"""Elementary functions of mechanisms without user expressions, and their derivatives, independent of SymPy.
 
-In a graph they stand where SymPy's functions of the same names stand otherwise. `Writer` and `direct` know both by these names.
+In a graph they replace SymPy's functions of the same names. `emit.writers` and `emit.closed_form` find both by name.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from .graph import Graph, Node
 
 
 class Function:
-    """What a node calls; its name is SymPy's."""
+    """A function that a node calls, under SymPy's name."""
 
     def __init__(self, name: str) -> None:
         self.__name__ = name
@@ -25,7 +25,7 @@ NAMED = {function.__name__: function for function in FUNCTIONS}
 
 
 class Plain:
-    """A graph whose functions are these, as `Reader` has one whose functions are SymPy's.
+    """Reader with a graph of these functions, in place of the `Reader` with SymPy's.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Plain:
         self.graph = Graph(self._slope)
 
     def read(self, what: str, expression: Any, known: Any) -> Node:
-        """Nothing is read here."""
+        """Raise TypeError, as expressions need the `Reader` of SymPy."""
         raise TypeError(f"{what} is an expression, which takes a Reader: {expression}")
 
     def _slope(self, function: Function, k: int, arguments: tuple[Node, ...]) -> Node:

@@ -1,4 +1,4 @@
-"""The operations of a program that was kept, emitted again: those that are needed, with as few sines as there may be."""
+"""Operations of a stored program emitted again: only needed ones, with as few sines as possible."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class _Emission:
         self._emitted: dict[Key, int] = {}
 
     def of(self, wanted: int) -> int:
-        """What an operation's number has become."""
+        """Number of the new operation for one of the program; its operands are emitted first."""
         waiting: list[Key] = [wanted]
         while waiting:
             more = [key for key in self._behind(waiting[-1]) if key not in self._emitted]

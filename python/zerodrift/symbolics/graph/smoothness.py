@@ -1,6 +1,6 @@
-"""Laws in which nothing narrow can hide: polynomials, sines and cosines.
+"""Expressions without narrow features: polynomials, sines and cosines.
 
-Of other functions, an exponential or a quotient, values and derivatives in some places do not tell what they are in others.
+Values and derivatives of other functions, such as an exponential or a quotient, at some points do not bound those between them.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ SUMS = ("leaf", "number", "+", "-", "*", "negative")
 
 
 def is_plain_program(program: dict[str, Any] | str) -> bool:
-    """Whether all operations on the state and on time are of that kind; False where they could not be kept."""
+    """True if all operations on the state and on time are polynomials, sines and cosines; False if the program was not stored."""
     if isinstance(program, str):
         return False
     varies: list[bool] = []
@@ -36,7 +36,7 @@ def _is_plain(code: str, arguments: list[Any], operands: list[int], varies: list
 
 
 def is_plain_expression(expression: Any, names: set[str]) -> bool:
-    """The same of a SymPy expression, as a function of these names."""
+    """True if a SymPy expression is polynomial, sine and cosine in the symbols of these names."""
     if not any(str(symbol) in names for symbol in expression.free_symbols):
         return True
     is_sum = expression.is_Symbol or expression.is_Add or expression.is_Mul or expression.is_Pow

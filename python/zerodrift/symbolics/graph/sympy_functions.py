@@ -1,8 +1,7 @@
-"""Which of SymPy's functions there are, and what they are in terms of others.
+"""Supported functions of SymPy, and the expressions that replace some of them.
 
-For real arguments, a function here has SymPy's value where that is real, and is no number (NaN) where it is complex or undefined;
-at poles it is not finite. Nothing that is no number gets lost in a comparison. One convention is that of C instead:
-atan2(0, 0) is 0, where SymPy has no value.
+For real arguments, a function has SymPy's value if that is real, and NaN if it is complex or undefined; at poles it is not
+finite. A NaN in a comparison makes the result NaN. One convention is C's: atan2(0, 0) is 0, where SymPy has no value.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from typing import Any
 import sympy
 from sympy.codegen import cfunctions
 
-STEPS = (sympy.floor, sympy.ceiling)      # their derivative is zero but for jumps
+STEPS = (sympy.floor, sympy.ceiling)      # their derivative is zero except at jumps
 TOTAL = (sympy.sin, sympy.cos, sympy.atan, sympy.atan2, sympy.sinh, sympy.cosh, sympy.tanh, sympy.asinh, sympy.exp, sympy.Abs,
          sympy.erf, sympy.erfc, *STEPS, cfunctions.expm1, cfunctions.hypot)    # have a value wherever arguments have
 PARTIAL = (sympy.tan, sympy.asin, sympy.acos, sympy.acosh, sympy.atanh, sympy.log, sympy.gamma, sympy.loggamma, cfunctions.log1p,
@@ -38,5 +37,5 @@ REWRITTEN: dict[Any, Callable[..., Any]] = {
 
 
 def computable(function: Any) -> bool:
-    """Whether C has a function, or it says itself what it is in C."""
+    """True if C has the function, or it has a method that prints C."""
     return function in TOTAL or function in PARTIAL or hasattr(function, "_ccode")
