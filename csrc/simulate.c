@@ -1,9 +1,9 @@
-/* The story: a step in time, back onto the constraints, keep what is wanted; again until the end. */
+/* The outer loop of a run: one step, events within it, samples that are due; again until the end. */
 #include "run/explain.h"
 #include "run/run.h"
 #include "stepping/clock.h"
 
-enum { CLOCK_EVERY = 16 };      /* steps between looks at the clock */
+enum { CLOCK_EVERY = 16 };      /* steps between readings of the clock */
 
 static int take_step(zd_run *run)
 {
@@ -34,7 +34,7 @@ static int is_over(const zd_run *run)
     return run->stepper.t == run->loop.end || (settings->t_eval && !settings->events && zd_output_is_complete(&run->output));
 }
 
-/* Saves the start, or what the record before had no room for. */
+/* Saves the sample of the start, or the one for which the previous record had no room. */
 static int begin(zd_run *run, zd_record *record)
 {
     if (run->tally.start_saved && !run->output.is_waiting) return ZD_DONE;
@@ -45,7 +45,7 @@ static int begin(zd_run *run, zd_record *record)
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     double deadline = zd_seconds_now() + seconds;
-    const int64_t first = run->loop.step;    /* no slice is so short that nothing happens in it */
+    const int64_t first = run->loop.step;    /* each slice makes at least one step */
     int status = run->outcome.status;
     if (!status) status = begin(run, record);
     while (!status && !is_over(run)) {

@@ -1,5 +1,5 @@
-/* Baumgarte's stabilization: the violations are fed back into the right side of (6), and so, if asked for, is the time integral
- * of the position violation, as the paper's reference [16] proposes. The integral is part of the integrated state.
+/* Baumgarte's stabilization: the violations are fed back into the right side of (6) and, with an integral gain, also the time
+ * integral of the position violation, as the paper's reference [16] proposes. The integral is part of the integrated state.
  */
 #include <stdio.h>
 

@@ -1,12 +1,12 @@
-/* The energy error is taken out of the velocities by scaling them, once the constraints hold:
+/* Correction of the energy by scaling the velocities, after the constraints have been corrected:
  *
  *     v <- sqrt(1 - Psi_E / T) v      (29)
  *
- * Where constraints move, only what v has besides the motion they enforce may be scaled. With vn = solve(0, -Phi_t), which is
- * M-orthogonal to it, T splits into that of vn and that of v - vn, and the latter takes the place of T.
+ * With moving constraints only v - vn may be scaled, where vn = solve(0, -Phi_t) is the motion they enforce. It is M-orthogonal to
+ * v - vn, so T is the sum of the kinetic energies of both, and that of v - vn takes the place of T.
  *
- * Where T is small (a turning point) no bounded factor removes the error: such a step is left alone, counted, and told from the
- * others in the record.
+ * Where T is small (a turning point) no bounded factor removes the error: such a step is not corrected, but counted and marked in
+ * the record.
  */
 #include <math.h>
 
@@ -14,8 +14,8 @@
 #include "../motion/motion.h"
 #include "../point/matrices.h"
 
-static const double LARGEST_SHARE = 0.5;    /* of T that a correction may be: then the factor is between 0.7 and 1.3 */
-static const double ROUNDING = 8 * 0x1p-52;     /* of the energies: a violation so small needs no correction */
+static const double LARGEST_SHARE = 0.5;    /* largest correction relative to T: the factor is then between 0.7 and 1.3 */
+static const double ROUNDING = 8 * 0x1p-52;     /* violation relative to the energies below which it is rounding error */
 
 typedef struct given_energy {
     double every;

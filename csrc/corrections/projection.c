@@ -1,4 +1,4 @@
-/* Back onto the constraint manifold after a step: positions by iteration, then velocities in one solve.
+/* Projection onto the constraint manifold after a step: positions by iteration, then velocities in one solve.
  *
  *     p <- p - A solve(0, [Phi; 0])       (25a), (26a), (27a)     until every |Phi| <= tolerance, in units of its size
  *     v <- v - solve(0, Psi)              (25b), (26b), (27b)
@@ -32,7 +32,7 @@ static const zd_parameter parameters[] = {
      "angles are off by about that many rad, and lengths by that part of the mechanism's length.", 1, ZD_POSITIVE,
      (const double[]){1e-12}},
     {"max_iterations", "", "The largest number of iterations. A correction that needs more is tried again with shortened iterations, then "
-     "with the step in up to eight parts (or shorter, where steps are chosen); `Solution.stats` counts all of them. Where none of this "
+     "with the step in up to eight parts (or shorter, with adaptive steps); `Solution.stats` counts all of them. Where none of this "
      "helps, the run fails.", 1, ZD_COUNT, (const double[]){10}},
     {"every", "", "Steps between corrections; the last step is always corrected.", 1, ZD_COUNT, (const double[]){1}},
     {"metric", "", "mass identity: What the correction is orthogonal in: the mass matrix, or (for comparison) the identity of the paper's "
@@ -42,20 +42,20 @@ static const zd_parameter parameters[] = {
 };
 
 typedef struct projection {
-    double *p, *v;      /* (nq,), (nv,): the corrected ones */
+    double *p, *v;      /* (nq,), (nv,): corrected p and v */
     double *landed;     /* (nq,): p before its correction */
     double *rhs, *x;    /* (m,), (nv,) */
-    double *from, *change;  /* (nq,), (nq,): p before an iteration, and what that has done to it so far; NULL until steps are shortened */
-    double *identity;   /* M of that metric, stored as the system's is */
-    void *plain;        /* (13) with it */
+    double *from, *change;  /* (nq,), (nq,): p before an iteration, and its change so far; NULL until iterations are shortened */
+    double *identity;   /* M of the identity metric, stored as the system's M */
+    void *plain;        /* solver of (13) with it */
 } projection;
 
 extern const zd_formulation zd_schur;
 
-typedef struct position_problem {   /* what Newton's loop is handed */
+typedef struct position_problem {   /* context of Newton's iteration */
     projection *self;
     zd_motion *motion;
-    int has_moved;          /* whether an iteration has moved p */
+    int has_moved;          /* true if an iteration has changed p */
 } position_problem;
 
 static int every(const void *memory)
@@ -88,7 +88,7 @@ static void *take(zd_arena *arena, const zd_system *system, const void *memory)
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-/* M and C are wanted at this point in any case, here or for the velocities: so they come with Phi in one evaluation. */
+/* M and C are needed at this point in any case, here or for the velocities, so they are evaluated together with Phi. */
 static int position_residual(void *context, double *size)
 {
     const zd_motion *motion = ((position_problem *)context)->motion;
@@ -286,7 +286,7 @@ static int after_step(void *memory, zd_motion *motion)
         zd_point *point = motion->point;
         if (motion->path.lands) return zd_direct_land(motion, point->t, point->p, point->v);
         status = correct_directly(self, motion, positions, velocities);
-        /* What is corrected next goes by the velocities that follow from these positions. */
+        /* The next correction needs the dependent velocities at these positions. */
         return !status && zd_is_embedded(motion) && motion->corrections > 1 ? zd_embed_settle(motion) : status;
     }
     if (positions && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);

@@ -20,7 +20,7 @@ void zd_differences_resize(zd_differences *self, int size)
     memset(self->scale, 0, (size_t)size * sizeof(double));
 }
 
-/* How much of y_i to vary: what a difference resolves best, also where y_i itself is zero. */
+/* Increment of y_i for a difference: about the square root of the rounding error of its size, also if y_i is zero. */
 static double increment(const zd_differences *self, int i, double y, double change)
 {
     double size = fmax(fabs(y), fmax(fabs(change), fmax(self->scale[i], self->least_size)));

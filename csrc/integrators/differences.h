@@ -1,4 +1,4 @@
-/* df/dy of a rate by differences, as implicit methods want it: in units in which the entries of a state compare. */
+/* df/dy of a rate by finite differences, for implicit methods, in units that make the entries of a state comparable. */
 #ifndef ZD_DIFFERENCES_H
 #define ZD_DIFFERENCES_H
 
@@ -6,14 +6,14 @@
 
 typedef struct zd_differences {
     int size;
-    double *scale;          /* (size,): largest terms seen in each equation: these have units of their own */
-    double *unit;           /* (size,): powers of two near scale when the matrix was made, which is in these units: pivots compare */
+    double *scale;          /* (size,): largest terms so far in each equation, which has a unit of its own */
+    double *unit;           /* (size,): unit of each entry of the matrix, a power of two near its scale when the matrix was made */
     double *varied;         /* (size,): f at a varied y */
-    double least_size;      /* of y_i, for the choice of differences: where y_i and f_i are rounding, they do not show their size */
+    double least_size;      /* smallest size of y_i assumed for increments: y_i and f_i may be rounding errors only */
 } zd_differences;
 
 zd_differences zd_differences_take(zd_arena *arena, int size);
-/* The state has become one of another size. */
+/* Adapts to a state of another size. */
 void zd_differences_resize(zd_differences *self, int size);
 void zd_differences_choose_units(zd_differences *self);
 /* J (size, size) <- share df/dy at (t, y), where f is known, in the units that were chosen: its entry (i, j) times unit_j / unit_i. A

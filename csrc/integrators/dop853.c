@@ -45,10 +45,11 @@ static const double e3[STAGES + 1] = {
     -0.1521609496625161, 0.20136540080403034, 0.02265179219836082, 0,
 };
 
-/* Of the stages for values between, and of the polynomial. With the three of the book it has order seven. These two meet all conditions of
- * order six and the quadrature of order seven, and miss the others of order seven, which two cannot all meet, by 8e-8 at most: root of the
- * sum of squares over the trees. Those of order eight they miss by 1.3e-5, where those of the book miss them by 3.8e-5. So they err by
- * less than those in steps of h L > 0.003; and where the term in h^7 would show in shorter ones, it is far below rounding.
+/* Coefficients of the additional stages and of the polynomial for dense output. With the three stages of the book it has order seven. These
+ * two satisfy all conditions of order six and the quadrature of order seven; the other conditions of order seven, which two stages cannot all
+ * satisfy, have a residual of at most 8e-8 (root of the sum of squares over the trees). Those of order eight have a residual of 1.3e-5, and
+ * of 3.8e-5 with the stages of the book. Errors are therefore smaller than those for h L > 0.003; in shorter steps the term in h^7 is far
+ * below rounding.
  */
 static const double more_a[MORE * ALL] = {
     [0 * ALL + 0] = 0.06425056847867465, [0 * ALL + 6] = 0.42843873933159243, [0 * ALL + 7] = -0.39968173097686277,
@@ -93,8 +94,8 @@ const zd_integrator zd_dop853 = {
         .equations = "Hairer et al., section II.5",
         .order = 8, .error_order = 7, .stability = 5.97,
         .description = "Order eight with error estimates of orders five and three, blended, by which it can choose its steps. "
-                       "Twelve evaluations for each step, which are soon made up for where the error is to be below 1e-6. Between chosen "
-                       "steps its polynomial, of two evaluations more, errs as one of order seven: what it lacks of that is below rounding.",
+                       "Twelve evaluations for each step, which are soon made up for where the error is to be below 1e-6. Its dense "
+                       "output takes two more evaluations and errs as a polynomial of order seven does, up to rounding.",
         .reference = "E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
                      "1993, section II.5",
     },

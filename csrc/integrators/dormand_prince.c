@@ -16,8 +16,8 @@ static const double c[] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1};
 
 static const double e[] = {-71.0 / 57600, 0, 71.0 / 16695, -71.0 / 1920, 17253.0 / 339200, -22.0 / 525, 1.0 / 40};
 
-/* Of the polynomial of order four: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, 1993,
- * section II.6 */
+/* Polynomial of order four for dense output: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd edition,
+ * 1993, section II.6 */
 static const double d[] = {
     -12715105075.0 / 11282082432, 0, 87487479700.0 / 32700410799, -10690763975.0 / 1880347072, 701980252875.0 / 199316789632,
     -1453857185.0 / 822651844, 69997945.0 / 29380423,
@@ -36,7 +36,7 @@ const zd_integrator zd_dormand_prince = {
         .equations = "Dormand and Prince, 1980",
         .order = 5, .error_order = 4, .stability = 1.7,
         .description = "Order five with an error estimate of order four, by which it can choose its steps: the method of SciPy's "
-                       "RK45 and of ode45. For errors of 1e-3 to 1e-6. Between chosen steps its polynomial has order four.",
+                       "RK45 and of ode45. For errors of 1e-3 to 1e-6. Its dense output has order four.",
         .reference = "J. R. Dormand, P. J. Prince, A family of embedded Runge-Kutta formulae, Journal of Computational and "
                      "Applied Mathematics 6 (1980) 19-26",
     },

@@ -90,7 +90,7 @@ ZD_INLINE int zd_runge_kutta_spread(const zd_tableau *T, zd_runge_kutta *self, c
                                  : zd_spread_any(size, T, self, rate, t, h, y0);
 }
 
-/* What h k_j counts for at a share x of the step, (all,) */
+/* weight (all,) <- weights of the rates k_j, times h, at a fraction x of the step */
 ZD_INLINE void zd_weigh_stages(const zd_tableau *T, double h, double x, double *weight)
 {
     const int all = T->stages + 1 + T->more, sums = T->coefficients - ZD_OF_ENDS;

@@ -20,25 +20,25 @@
 enum { STAGES = ZD_RADAU_STAGES };
 
 static const double *const c = zd_radau_c;
-/* Of the error's estimate, in the stages: (-13 - 7 sqrt(6)) / 3, (-13 + 7 sqrt(6)) / 3, -1 / 3 */
+/* Weights of the stages in the error estimate: (-13 - 7 sqrt(6)) / 3, (-13 + 7 sqrt(6)) / 3, -1 / 3 */
 static const double e[STAGES] = {-10.048809399827415562, 1.3821427331607488952, -1.0 / 3};
 
-static const double SLOW = 0.001;               /* J is made anew for the next step when an iteration has left more of the one before */
-static const double ROUNDING = 4 * 0x1p-52;     /* of the state: with no more, a step of fixed size is solved */
-static const double LEAST = 1e-3;               /* of the largest entry of the state: the others are varied by no less */
-static const double WORTH_STAGES = 2;           /* times the bound: a step so much longer is worth a J for each stage */
-static const double LONGER = 2;                 /* times the step before: where its polynomial still leads near enough to solve with J there */
-static const double SHORTER = 0.5;              /* the bound, of a step that was too long for the iteration with one J, */
-static const double GROWTH = 0.005;             /* and by how much more it grows with each step after that */
+static const double SLOW = 0.001;               /* contraction of an iteration above which J is computed anew for the next step */
+static const double ROUNDING = 4 * 0x1p-52;     /* change relative to the state below which a fixed step is solved */
+static const double LEAST = 1e-3;               /* smallest increment of any entry, relative to that of the largest entry of the state */
+static const double WORTH_STAGES = 2;           /* ratio of the step to the bound above which each stage gets its own J */
+static const double LONGER = 2;                 /* ratio to the previous step up to which its polynomial predicts the stages for J */
+static const double SHORTER = 0.5;              /* ratio of the bound to a step that was too long for the iteration with one J */
+static const double GROWTH = 0.005;             /* relative growth of the bound with each step after that */
 
 typedef struct radau {
-    zd_radau_newton newton; /* with the step last made: its beginning, its size and its stages */
-    double *f0;             /* (size,): the rate where the step begins */
-    double *before;         /* (STAGES, size): z of the step before, by which an iteration starts */
-    double before_h;        /* 0: there was no step before */
-    double *seen_before;    /* (size,): what the iteration had seen before the step, which may lead it anywhere */
-    double bound;           /* s: of steps with one J, from one that was too long for the iteration, and growing since; 0: there was none */
-    int steps_since;        /* that */
+    zd_radau_newton newton; /* with start, size and stages of the last step */
+    double *f0;             /* (size,): rate at the start of the step */
+    double *before;         /* (STAGES, size): z of the previous step, from which iterations are started */
+    double before_h;        /* size of the previous step; 0: none */
+    double *seen_before;    /* (size,): newton.seen before the step, restored if it fails */
+    double bound;           /* s: upper bound of steps with one J, set by one that was too long for the iteration; 0: none */
+    int steps_since;        /* steps since the bound was set */
 } radau;
 
 static int suits(const zd_system *system)
@@ -62,7 +62,7 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
 
 /* ---- a step ---- */
 
-/* z from where the step before leads, or from nothing */
+/* z <- extrapolation of the previous step's polynomial, or 0 */
 static void start(radau *self)
 {
     zd_radau_newton *it = &self->newton;
@@ -187,7 +187,8 @@ static void estimate(const radau *self, const double *f, double *error)
     zd_radau_solve_real(&it->matrices, error);
 }
 
-/* Where the step is long for the fastest parts, what it damps is taken for error at first: what follows if that is added at the beginning. */
+/* Error estimate. In a step that is long for the fastest components, the estimate contains what the method damps; if it is too large, it is
+ * computed again from the rate at y0 + error, which filters that part. */
 static int error(void *memory, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
                  double *lambda_h)
 {
@@ -208,7 +209,8 @@ static int error(void *memory, const zd_rate *rate, double t1, double h, const d
     return ZD_DONE;
 }
 
-/* What the iteration contracts by is not known beforehand, as J changes within a step: so it is tried. */
+/* Largest step for which the iteration is expected to converge. Its contraction is not known before, as J changes within a step, so bounds
+ * are learned from steps that failed. */
 static double fit(const void *memory, double h)
 {
     const radau *self = memory;
@@ -217,7 +219,7 @@ static double fit(const void *memory, double h)
     return zd_radau_stages_serve(&it->matrices) && h > WORTH_STAGES * self->bound ? fmin(h, LONGER * it->h) : self->bound;
 }
 
-/* The polynomial that the stages lie on */
+/* The collocation polynomial through the stages needs no preparation. */
 static int spread(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
 {
     (void)self, (void)rate, (void)t, (void)h, (void)y0, (void)y1;

@@ -1,4 +1,4 @@
-/* What Newton's iteration in radau.c keeps: J = df/dy, and the factors of gamma / h - J and (alpha - i beta) / h - J. */
+/* Matrices of Newton's iteration in radau.c: J = df/dy, and the factors of gamma / h - J and (alpha - i beta) / h - J. */
 #ifndef ZD_RADAU_MATRICES_H
 #define ZD_RADAU_MATRICES_H
 
@@ -6,16 +6,16 @@
 #include "radau_coefficients.h"
 
 typedef struct zd_radau_matrices {
-    int size, pairs;        /* of the rate */
+    int size, pairs;        /* copies of the rate's */
     zd_differences differences;
-    double *inverse_unit;   /* (size,): of the differences' unit, */
-    double *inverse_slope;  /* (pairs,): in which dv/d(pdot) is this */
+    double *inverse_unit;   /* (size,): inverse of differences.unit */
+    double *inverse_slope;  /* (pairs,): dv/d(pdot) in these units */
     double *J;              /* (size, size): df/dy in the units of the differences */
     double *real, *re, *im; /* gamma / h - J, (alpha - i beta) / h - J in these units, factored: (size, size), or as radau_pairs.c has it, */
-    double *weight;         /* (size,): after each row has been multiplied by this and its unit */
+    double *weight;         /* (size,): factor by which each row is multiplied before factoring, besides its unit */
     int *real_order, *complex_order;
     double *scaled, *right; /* (size,): working space */
-    double h, complex_h;    /* that the real ones and the others are factored for; 0: the factors are of another J */
+    double h, complex_h;    /* step sizes for which the real and the complex matrix are factored; 0: factors of another J */
     int has_J;
 } zd_radau_matrices;
 

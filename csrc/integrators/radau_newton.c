@@ -9,16 +9,16 @@
 
 enum {
     STAGES = ZD_RADAU_STAGES,
-    MOST_ITERATIONS = 40,   /* to rounding; */
-    WORTHWHILE = 10,        /* where an error is allowed, shorter steps are cheaper than more of them */
+    MOST_ITERATIONS = 40,   /* iterations to rounding */
+    WORTHWHILE = 10,        /* iterations to a tolerance: shorter steps are cheaper than more */
 };
 
-static const double SMALL = 0.0001;             /* of the error that is allowed: what the iteration may leave, which adds up over steps */
-static const double ROUNDING = 4 * 0x1p-52;     /* of the state: with no more, a step of fixed size is solved */
-static const double NEARLY = 1e-12;             /* of the state: a change so small that no longer shrinks is rounding; */
-static const double NEVER = 1e-9;               /* of the state: a larger change is never taken for rounding */
-static const double MOST_ROUNDING = 16;         /* times what a disturbance of the last bit makes of the change: a larger one is not rounding */
-static const double STALLED = 0.5;              /* of the change before: an iteration that changes more has stalled */
+static const double SMALL = 0.0001;             /* error of the iteration relative to the tolerance of the step: it adds up over steps */
+static const double ROUNDING = 4 * 0x1p-52;     /* change relative to the state below which a fixed step is solved */
+static const double NEARLY = 1e-12;             /* change relative to the state: a smaller one that no longer shrinks is rounding error */
+static const double NEVER = 1e-9;               /* change relative to the state: a larger one is never taken for rounding error */
+static const double MOST_ROUNDING = 16;         /* ratio of the change to that by a disturbance of the last bit: rounding error below */
+static const double STALLED = 0.5;              /* ratio of two successive changes above which the iteration has stalled */
 
 zd_radau_newton zd_radau_newton_take(zd_arena *arena, int size)
 {
@@ -48,7 +48,7 @@ static void see_sizes(zd_radau_newton *self)
     for (int k = 0; k < STAGES * n; k++) seen[k % n] = fmax(seen[k % n], fabs(z[k]) + fabs(change[k]));
 }
 
-/* In units of what an iteration may leave */
+/* Norm of the change, in units of its tolerance */
 static double measure(const zd_radau_newton *self)
 {
     const int n = self->size;
@@ -64,7 +64,7 @@ static double measure(const zd_radau_newton *self)
     return self->has_scale ? sqrt(sum / (STAGES * n)) / SMALL : largest / ROUNDING;
 }
 
-/* change <- what an iteration adds to w */
+/* change <- Newton's correction of w */
 static void solve(zd_radau_newton *self)
 {
     const int n = self->size;
@@ -92,7 +92,7 @@ static int add_change(void *context)
     return ZD_DONE;
 }
 
-/* f <- the rates at all stages, whose entries are made larger and smaller by turns, by a relative disturbance; 0: by none. */
+/* f <- rates at all stages, with entries changed by a relative disturbance of alternating sign. */
 static int evaluate_stages(zd_radau_newton *self, double disturbance)
 {
     const int n = self->size;
@@ -104,8 +104,8 @@ static int evaluate_stages(zd_radau_newton *self, double disturbance)
     return ZD_DONE;
 }
 
-/* Whether the iteration no longer converges because it has reached the rounding error of the rates, which grows with stiffness. Then stages
- * that differ in their last bit give a change that differs by about as much as it is large. Changes are compared with the largest entry of
+/* Test whether the iteration no longer converges because it has reached the rounding error of the rates, which grows with stiffness. Stages
+ * that differ in their last bit then give a change that differs by about its own size. Changes are compared with the largest entry of
  * the state, as an entry that is itself only rounding error does not show how large it should be. */
 static int test_for_rounding(zd_radau_newton *self, double norm, int *is_rounding)
 {
@@ -123,7 +123,7 @@ static int test_for_rounding(zd_radau_newton *self, double norm, int *is_roundin
     return ZD_DONE;
 }
 
-/* `size` is what w will miss once the change has been added, as the iteration contracts. */
+/* size <- error of w after the change has been added, estimated from the contraction. */
 static int residual(void *context, double *size)
 {
     zd_radau_newton *self = context;

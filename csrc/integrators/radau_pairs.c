@@ -1,4 +1,4 @@
-/* Newton's matrices of radau_matrices.c where the state is (p, v) with pdot = v, and what is integrated along with it. Of
+/* Newton's matrices of radau_matrices.c where the state is (p, v) with pdot = v, and of its other entries. Of
  *
  *     (mu - J) [x_p; x_v; x_e] = [a; b; c],    J = [[0, 1, 0], [J_p, J_v, 0], [e_p, e_v, 0]]
  *
@@ -13,7 +13,7 @@
 #include "../linalg/complex_lu.h"
 #include "../linalg/lu.h"
 
-/* Of a row of the matrix, so that rows compare: a power of two near its largest entry, for a mu of size 1 / h. */
+/* Size of row i of the matrix: a power of two near its largest entry, for a mu of size 1 / h. */
 static double size_of_row(const zd_radau_matrices *self, int i, double mu)
 {
     const int n = self->pairs;
@@ -55,7 +55,7 @@ int zd_radau_pairs_factor_complex(zd_radau_matrices *self, double h)
     return zd_complex_lu_factor(n, self->re, self->im, self->complex_order) == n;
 }
 
-/* right <- what b + (mu - J_v) a has of J_v, b and the real part of mu */
+/* right <- b + (mu - J_v) a for the real part of mu */
 static void combine(const zd_radau_matrices *self, double mu, const double *x, double *right)
 {
     const int n = self->pairs;
@@ -70,7 +70,7 @@ static void combine(const zd_radau_matrices *self, double mu, const double *x, d
     }
 }
 
-/* What is integrated along with (p, v), times mu: x_e <- c + e_p x_p + e_v x_v */
+/* mu times the entries of the state after (p, v): x_e <- c + e_p x_p + e_v x_v */
 static void follow(const zd_radau_matrices *self, double *x)
 {
     const int n = 2 * self->pairs;

@@ -1,6 +1,6 @@
-/* Where a stiff force turns with the bodies it acts on, J changes within a step: of a bushing of stiffness k on a part of mass m that turns
- * at omega by k omega h. With one J for all stages, the iteration contracts by some (k / m) omega^2 h^4, and so bounds steps that the motion
- * would allow to be longer. With that of each stage it does not.
+/* J changes within a step if a stiff force rotates with the bodies it acts on: for a bushing of stiffness k on a body of mass m that rotates
+ * at omega, by k omega h. With one J for all stages, the iteration contracts by about (k / m) omega^2 h^4, which bounds the step more than
+ * the motion does. With one J for each stage it does not.
  *
  * Where the state is (p, v) with pdot = v, and B = A^-1 / h, its equations for changes of the stages (x_i, y_i), and right sides (a_i, b_i),
  *
@@ -133,7 +133,7 @@ static void combine(const zd_radau_stages *self, const zd_radau_matrices *matric
         }
 }
 
-/* What is integrated along with (p, v): the right side of (A^-1 / h) x_e = c + e_p x_p + e_v x_v */
+/* Entries of the state after (p, v): the right side of (A^-1 / h) x_e = c + e_p x_p + e_v x_v */
 static void follow(const zd_radau_stages *self, const zd_radau_matrices *matrices, double *x)
 {
     const int size = matrices->size, n = 2 * matrices->pairs;

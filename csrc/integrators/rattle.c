@@ -6,11 +6,11 @@
  *
  * with N = (M0 + M1) / 2 and F = f + dT/dp. These are the discrete Euler-Lagrange equations of the trapezoidal discrete Lagrangian
  * h/2 (L(p0, w) + L(p1, w)): Marsden and West, Discrete mechanics and variational integrators, Acta Numerica 10 (2001), sections
- * 2.6.1 and 3.5. For constant M they are RATTLE, H. C. Andersen, J. Comput. Phys. 52 (1983) 24. Where f is no gradient, the
- * step still is symmetric and of second order.
+ * 2.6.1 and 3.5. For constant M they are RATTLE, H. C. Andersen, J. Comput. Phys. 52 (1983) 24. If f is not a
+ * gradient, the step is still symmetric and of second order.
  *
  * (2) has d = Mdot v - dT/dp, so that F = f - d + Mdot v: Mdot, along the motion, comes from differences of M. Their error,
- * (RESOLUTION h w)^4, is far below what it is needed for. Where M does not vary, F = f and N = M.
+ * (RESOLUTION h w)^4, is far below what it is needed for. For constant M, F = f and N = M.
  *
  * w is found by Newton's iteration with the leading matrix of the formulation at p0, that of the acceleration there,
  *
@@ -31,26 +31,26 @@
 #include "integrator.h"
 
 enum { MAX_ITERATIONS = 60, MOST_LEARNT = 16 };
-static const double RESOLUTION = 1.0 / 64;      /* of the step: between the points that Mdot is found from */
-static const double LEAST = 0.1;                /* of s^T s, that s^T H y is: else nothing is learned from it */
-static const double ROUNDING = 2 * 0x1p-52;     /* of w: nothing to be changed */
-static const double SMALL = 1e-12;              /* of w + p / h: a change that may be rounding, if it does not shrink any more */
+static const double RESOLUTION = 1.0 / 64;      /* distance of the points for Mdot, relative to the step */
+static const double LEAST = 0.1;                /* ratio of s^T H y to s^T s: below, the update is skipped */
+static const double ROUNDING = 2 * 0x1p-52;     /* change relative to w below which the iteration has converged */
+static const double SMALL = 1e-12;              /* change relative to w + p / h: a smaller one that no longer shrinks is rounding error */
 
 typedef struct rattle {
     int n, m, varies;
-    zd_point *probe;        /* wherever terms are wanted, but for p0, whose leading matrix is in use */
+    zd_point *probe;        /* point for terms elsewhere than at p0, where the leading matrix is in use */
     double *p0, *p, *moved; /* (n,) */
     double *v0, *w, *x;     /* (n,) */
-    double *s, *y;          /* (n,), (n,): the last change s of w took y out of x */
-    int learnt;             /* how many factors I + u s^T H has, */
-    double *u_of_H, *s_of_H;    /* (MOST_LEARNT, n) each, and these */
+    double *s, *y;          /* (n,), (n,): last change of w, and by how much it reduced x */
+    int learnt;             /* number of factors I + u s^T of H */
+    double *u_of_H, *s_of_H;    /* (MOST_LEARNT, n) each: u and s of these factors */
     double *start, *mean;   /* (n,): M0 v0 and N w */
     double *F, *Mdot;       /* (n,), stored as M is */
-    int stored;             /* how many entries of M are */
+    int stored;             /* number of stored entries of M */
     double *product;        /* (n,) */
     double *rhs;            /* (m,) */
-    double *rate0, *rate1;  /* (size,): for what is integrated along */
-    zd_motion *motion;      /* of the step being solved, as are the next four */
+    double *rate0, *rate1;  /* (size,): rates at both ends, for entries after the formulation's */
+    zd_motion *motion;      /* current step, also the next four */
     double *state;          /* (size,) */
     double t0, t1, h;
     double before;          /* the last iteration's change */
@@ -196,9 +196,9 @@ static int find_positions(rattle *self)
 {
     const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL, 0};
     zd_motion *motion = self->motion;
-    int iterations, status = zd_motion_accelerate(motion);    /* what is recorded there, and needed for a first w */
+    int iterations, status = zd_motion_accelerate(motion);    /* for samples, and for the first estimate of w */
     double left;
-    if (!status) status = zd_motion_factor(motion);     /* the acceleration may be one that was kept, and its matrix another */
+    if (!status) status = zd_motion_factor(motion);     /* a restored acceleration may come without its factors */
     if (status) return status;
     times_mass(self, 1, motion->point->terms.M, self->v0, 0, self->start);
     for (int i = 0; i < self->n; i++) self->w[i] = self->v0[i] + self->h / 2 * motion->point->vdot[i];
@@ -251,7 +251,7 @@ static int solve_step(rattle *self)
     return status ? status : find_velocities(self);
 }
 
-/* What corrections and (28) integrate along follows by the trapezoidal rule. */
+/* Entries of the state for corrections and (28) are integrated by the trapezoidal rule. */
 static int step_of_motion(void *memory, zd_motion *motion, double t, double h, double *y)
 {
     rattle *self = memory;
@@ -262,7 +262,7 @@ static int step_of_motion(void *memory, zd_motion *motion, double t, double h, d
     self->t0 = t;
     self->t1 = t + h;
     self->probe->statistics = &motion->statistics;
-    self->probe->known = 0;     /* the step may be one made again, to be watched */
+    self->probe->known = 0;     /* the step may be a repeated one */
     motion->state = y;
     status = motion->formulation->enter(motion->solver, motion->point, t, y);
     if (!status && along) status = zd_motion_rate(motion, t, y, self->rate0);

@@ -20,8 +20,8 @@ const zd_integrator zd_rk4 = {
         .summary = "The classical explicit Runge-Kutta method.",
         .equations = "section 4",
         .order = 4, .stability = 2.785,
-        .description = "Four evaluations for each step, order four: the method of the paper's examples, and the one that is "
-                       "taken where nothing else is asked for. Its steps are of fixed size.",
+        .description = "Four evaluations for each step, order four: the method of the paper's examples, and the "
+                       "default. Its steps are fixed.",
         .reference = "W. Kutta, Beitrag zur naeherungsweisen Integration totaler Differentialgleichungen, Zeitschrift fuer "
                      "Mathematik und Physik 46 (1901) 435-453",
     },

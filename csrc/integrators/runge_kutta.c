@@ -6,7 +6,7 @@
  */
 #include "runge_kutta.h"
 
-static const double ROUNDING = 0x1p-42;     /* of a state: so small a difference of two is what accelerations leave near a bifurcation */
+static const double ROUNDING = 0x1p-42;     /* relative difference of states that errors of accelerations near a bifurcation cause */
 
 void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {

@@ -7,7 +7,7 @@
 #include "../linalg/small.h"
 #include "integrator.h"
 
-enum { ZD_MOST_STAGES = 16 };   /* of any method, with the rate at the end of a step and those for values between its ends */
+enum { ZD_MOST_STAGES = 16 };   /* largest number of rates of a method, including those at the end of a step and for dense output */
 
 /* Butcher's table, a strictly lower triangular (stages, stages):   c | a
  *                                                                    | b
@@ -17,17 +17,17 @@ typedef struct zd_tableau {
     const double *a, *b, *c;
     const double *e;        /* NULL: there is none */
     const double *e3;       /* weights of a second estimate that DOP853 blends in; NULL: there is none */
-    int more;               /* stages more that values between the ends of a step need */
-    int coefficients;       /* how many vectors their polynomial has, at least three; 0: there is none */
+    int more;               /* additional stages for dense output */
+    int coefficients;       /* vectors of its polynomial, at least three; 0: the method has none */
     const double *more_a, *more_c, *d;      /* (more, all), (more,), (coefficients - 3, all), all of them being stages + 1 + more */
 } zd_tableau;
 
 typedef struct zd_runge_kutta {
     int size;
-    int calls;      /* of the error estimate */
-    double *k;      /* (stages, size), and for an error estimate one more, and those for values between */
-    double *stage, *end;    /* (size,): the last stage, the end of the step; one, where no error is estimated */
-    double h, *change;      /* (size,): of the step, and of the state in it, for values between its ends */
+    int calls;      /* number of error estimates so far */
+    double *k;      /* (stages, size): rates; one more for an error estimate, and those for dense output */
+    double *stage, *end;    /* (size,): the last stage, the end of the step; the same array if no error is estimated */
+    double h, *change;      /* size of the step; (size,): change of the state in it, for dense output */
 } zd_runge_kutta;
 
 /* A loop over stages, of which there are at most 13: written out, so that weights are constants, and those that are zero take no time. */
@@ -85,7 +85,7 @@ ZD_INLINE void zd_combine_pairs(const int begin, const int n, const int size, co
     if (copy) copy[n - 1] = to[begin + n - 1];
 }
 
-/* Of n coordinates whose rates are the n velocities, and of these by a direct function alone. */
+/* Step of a state (p, v) with n coordinates, pdot = v, and accelerations by a closed-form function alone. */
 ZD_INLINE int zd_runge_kutta_direct_step(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
                                          double *y)
 {

@@ -16,14 +16,14 @@
 #include "integrator.h"
 
 enum { LEAST_ORDER = 2 };
-static const double RESIDUAL = 10;      /* times the order and the error that is allowed: h times the difference of rates may be so large */
+static const double RESIDUAL = 10;      /* bound of h times the difference of rates, in units of the order times the tolerance */
 
 typedef struct given_taylor {
     double order;
 } given_taylor;
 
 static const zd_parameter parameters[] = {
-    {"order", "", "Of steps of fixed size; where steps are chosen, the highest, and lower where the tolerance does with less.", 1, ZD_COUNT,
+    {"order", "", "Order of the series with fixed steps; with adaptive steps the highest, lowered if the tolerance allows.", 1, ZD_COUNT,
      (const double[]){20}},
 };
 
@@ -31,13 +31,13 @@ typedef struct taylor {
     const zd_system *system;
     int size, order;
     int highest;            /* order */
-    int is_known;           /* whether the coefficients are those from t0, y0 on */
+    int is_known;           /* true if the coefficients are those at (t0, y0) */
     double t0;
     double *y0;             /* (size,) */
     double *p, *v, *work;   /* (order + 1, nq), (order + 1, nv), (order + 1,): coefficients */
     double *scratch;
     double *rate;           /* (size,) at the end of a step */
-    int found;              /* series that no statistics have yet */
+    int found;              /* series not yet counted in the statistics */
 } taylor;
 
 static int suits(const zd_system *system)
@@ -134,7 +134,7 @@ static double squares(int n, const double *x, const double *scale)
     return sum;
 }
 
-/* Of the coefficients of an order, root mean square in units of scale */
+/* RMS of the coefficients of order k, in units of scale */
 static double size_of(const taylor *self, int k, const double *scale)
 {
     const int nq = self->system->nq, nv = self->system->nv;

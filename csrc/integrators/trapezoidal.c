@@ -15,24 +15,24 @@
 #include "differences.h"
 
 enum { MAX_ITERATIONS = 20 };
-static const double SLOW = 0.01;                /* a matrix is made anew when an iteration leaves more of the defect */
-static const double ROUNDING = 4 * 0x1p-52;     /* of the terms that a defect is summed from: with no more, the step is solved */
-static const double NEARLY = 1e-12;             /* of these terms: a defect so small that no longer shrinks is rounding */
-static const double STALLED = 0.5;              /* of the defect: an iteration that leaves more has stalled */
+static const double SLOW = 0.01;                /* contraction of the residual above which the matrix is computed anew */
+static const double ROUNDING = 4 * 0x1p-52;     /* residual relative to its terms below which the step is solved */
+static const double NEARLY = 1e-12;             /* residual relative to its terms: a smaller one that no longer shrinks is rounding error */
+static const double STALLED = 0.5;              /* contraction of the residual above which the iteration has stalled */
 
 typedef struct trapezoidal {
     int size;
     double *y0, *f0;    /* (size,) */
     double *y1, *f1;    /* (size,) */
-    double *g;          /* (size,): the defect, then Newton's step */
+    double *g;          /* (size,): residual, then Newton's step */
     zd_differences differences;
     double *J;          /* (size, size): I - h/2 df/dy in the units of the differences, factored */
     int *order;         /* (size,) */
     int factored;
     double factored_h;
-    const zd_rate *rate;    /* of the step being solved, as are the next three */
+    const zd_rate *rate;    /* current step, also the next three */
     double t1, h;
-    double defect, before;  /* among its terms, now and an iteration ago */
+    double defect, before;  /* residual relative to its terms, now and in the previous iteration */
 } trapezoidal;
 
 static int suits(const zd_system *system)
@@ -93,10 +93,10 @@ static int residual(void *context, double *size)
         largest = fmax(largest, fabs(g));
         scale = fmax(scale, seen[i]);
     }
-    /* Where y and f have been zero so far, what a solve has left there is its rounding of all others. */
+    /* Entries whose y and f have been zero so far: a residual there is rounding error of the other entries. */
     if (from_nothing > 0) self->defect = fmax(self->defect, from_nothing / scale);
-    /* What f is summed from may be larger than f: its rounding is then what is left. Where next to nothing is left of f, and of y,
-     * the size of all has to do. */
+    /* f may be a difference of larger terms, whose rounding error then remains. Where f and y almost vanish, the residual is measured
+     * by the largest entry. */
     int stalled = self->defect > STALLED * self->before && self->defect < INFINITY;
     *size = !stalled ? self->defect : self->defect < NEARLY ? 0 : largest / scale;
     return ZD_DONE;

@@ -14,7 +14,7 @@ static void stabilize(zd_motion *motion)
     }
 }
 
-/* By the direct functions, with all that may be wanted at a point. As a step ends, that is the first stage of the next one. */
+/* Accelerations by the closed-form functions, with multipliers, power and pivots: at the end of a step, the first stage of the next. */
 static int accelerate_directly(zd_motion *motion)
 {
     zd_point *point = motion->point;
@@ -39,7 +39,7 @@ static int accelerate_directly(zd_motion *motion)
     return ZD_DONE;
 }
 
-/* f - d, which is f itself where there is no d */
+/* f - d; f itself if the system has no d */
 static const double *find_force(const zd_point *point)
 {
     if (point->terms.f && !point->terms.d) return point->terms.f;
@@ -78,7 +78,7 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     zd_motion *motion = context;
     int status = motion->formulation->enter(motion->solver, motion->point, t, y);
     motion->state = y;
-    if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;     /* vdot depends on them, too */
+    if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;     /* vdot depends on the corrections' own state, too */
     if (!status) status = zd_motion_accelerate(motion);
     if (!status) status = motion->formulation->rate(motion->solver, motion->point, ydot);
     if (status) return status;
@@ -87,7 +87,7 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     return ZD_DONE;
 }
 
-/* Of the point, to which the state is brought. */
+/* Rate of the state y after the point has been moved to it. */
 static int direct_rate_of_point(zd_motion *motion, double t, const double *y, double *ydot)
 {
     zd_point *point = motion->point;
@@ -103,7 +103,7 @@ static int direct_rate_of_point(zd_motion *motion, double t, const double *y, do
     return ZD_DONE;
 }
 
-/* Stages of a step do without the point: it stays where the step began, whose acceleration is that of the first stage. */
+/* Stages of a step do not move the point: it stays at the start of the step, whose acceleration is that of the first stage. */
 int zd_motion_direct_rate(void *context, double t, const double *y, double *ydot)
 {
     zd_motion *motion = context;

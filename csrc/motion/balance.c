@@ -14,7 +14,7 @@ int zd_has_input(const zd_system *system)
     return zd_has_energy(system) && (system->provides & (ZD_POWER | ZD_PHI_T));
 }
 
-/* What comes in besides V: from forces, and through moving constraints, whose force -C^T lambda does work as C v = -Phi_t. */
+/* Power put in besides V: by forces, and by moving constraints, whose force -C^T lambda does work because C v = -Phi_t. */
 double zd_motion_power(const zd_motion *motion)
 {
     const zd_point *point = motion->point;
@@ -39,5 +39,5 @@ int zd_motion_start_energy(zd_motion *motion)
 {
     double kinetic;
     if (!zd_has_energy(&motion->system)) return ZD_DONE;
-    return zd_motion_energy_violation(motion, &motion->balance.initial, &kinetic);     /* E0 of (28), as it stands at 0 */
+    return zd_motion_energy_violation(motion, &motion->balance.initial, &kinetic);     /* E0 of (28), which is 0 here */
 }

@@ -1,4 +1,4 @@
-/* A row of the table of corrections: something done to the right side of (6), or to the state after a step. */
+/* Entry of the table of corrections: a change of the right side of (6), or of the state after a step. */
 #ifndef ZD_CORRECTION_H
 #define ZD_CORRECTION_H
 
@@ -6,28 +6,28 @@
 
 typedef struct zd_motion zd_motion;     /* motion.h */
 
-/* How well the constraints hold after a step, as a correction sees to it; all 0: nothing does. */
+/* Accuracy to which a correction satisfies the constraints after a step; all 0: no correction does. */
 typedef struct zd_constraint_target {
-    int positions, velocities;      /* which of the two are held */
-    int every;                      /* how many steps */
-    int in_mass_metric;             /* whether nothing is moved along the manifold of the constraints */
-    double tolerance;               /* of every |Phi|, in units of its row's size, zd_run_sizes() */
+    int positions, velocities;      /* true for each of the two that is corrected */
+    int every;                      /* steps between corrections */
+    int in_mass_metric;             /* true if corrections are M-orthogonal to the constraint manifold */
+    double tolerance;               /* largest |Phi| of each constraint, in units of its size, zd_run_sizes() */
     int max_iterations;
 } zd_constraint_target;
 
-/* `given` are its parameters, the doubles that its card lists, one after the other. */
+/* `given`: its parameters, as doubles in the order of its card. */
 typedef struct zd_correction {
     zd_card card;
     int requires;           /* terms that the system has to provide */
-    int needs;              /* terms it needs beside those of the acceleration */
-    /* Whether parameters do not go together, each of which keeps to its rule: then it says so. NULL: they always do. */
+    int needs;              /* terms it needs in addition to those of the acceleration */
+    /* True if parameters that are valid individually contradict each other, with a message. NULL: they never do. */
     int (*clash)(const void *given, char *message, size_t size);
-    int (*every)(const void *given);    /* how many steps it is made; NULL: in each */
-    zd_constraint_target (*target)(const void *given);     /* NULL: it does not hold the constraints */
+    int (*every)(const void *given);    /* steps between two applications; NULL: in each step */
+    zd_constraint_target (*target)(const void *given);     /* NULL: it does not correct the constraints */
     void *(*take)(zd_arena *arena, const zd_system *system, const void *given);
-    /* NULL: what is not done. */
+    /* Functions; NULL if the correction has none of this kind. */
     int (*after_step)(void *self, zd_motion *motion);
-    /* xi -> xi_stab, with what the correction has integrated along with the state, if it does */
+    /* xi -> xi_stab; `extra`: the correction's own part of the integrated state */
     void (*stabilize)(void *self, const zd_point *point, const double *extra, double *rhs);
     int (*extra_size)(const zd_system *system, const void *given);
     void (*extra_rate)(const zd_point *point, double *rate);

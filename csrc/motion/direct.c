@@ -1,11 +1,11 @@
-/* Which road a step takes: that of the system's direct functions, in which the constraints are eliminated in closed form, or the general one.
+/* Evaluation path of a step: the closed-form path, by the system's closed-form functions, or the matrix path.
  *
- * Direct functions know no rank, no bifurcation and no pivoting: they divide by what they were written to divide by. All of these show in the
- * pivots. A step takes the direct road where those of one order of elimination are large enough at its beginning, and it is believed
- * where they have kept their signs and, but for a factor, their sizes until its end. Otherwise it is made on the general road, where
- * matrices are ranked and factored, and where orientations are compared.
+ * Closed-form functions eliminate the constraints along a fixed order, without rank decisions and without pivoting. Loss of rank and
+ * bifurcations show in their pivots. A step takes the closed-form path if the pivots of one elimination order are large enough at its
+ * start; it is accepted if until its end they have kept their signs and have not shrunk by more than a factor. Otherwise the step takes
+ * the matrix path, where C is ranked, matrices are factored, and orientations are compared.
  *
- * The pivots of the rows are measured by the sizes that these rows of C had at the start, in natural units.
+ * Pivots of constraints are measured by the sizes that these rows of C had at the start of the run, in characteristic scales.
  */
 #include <math.h>
 #include <string.h>
@@ -15,13 +15,13 @@
 #include "embed.h"
 #include "pivots.h"
 
-static const double LARGE = 0x1p-3;     /* the first order with such pivots is taken, */
-static const double LARGE_ENOUGH = 0x1p-5;  /* or else, for a step to begin with, the first with these; x0 + D a then loses some five bits in
-                                             * D and ten in M */
-static const double SMALL = 0x1p-6;         /* for a step to end with: the general road counts less of a row as ill-conditioned, too */
-static const double SHRUNK = 0x1p-4;    /* within a step: what lies between its ends is then no longer known from them */
-static const double LIGHT = 0x1p-20;        /* of the diagonal of D^T M D: less of it has lost too many of its 53 bits */
-static const double LONG = 1;               /* in natural units: a longer path is looked at in between, on the general road */
+static const double LARGE = 0x1p-3;     /* pivots: the first order with none below is preferred */
+static const double LARGE_ENOUGH = 0x1p-5;  /* pivots at the start of a step: otherwise the first order with none below; x0 + D a then loses
+                                             * about five bits in D and ten in M */
+static const double SMALL = 0x1p-6;         /* pivots at the end of a step: below, the matrix path is ill-conditioned, too */
+static const double SHRUNK = 0x1p-4;    /* ratio of a pivot to that at the start of the step: below, its values in between are unknown */
+static const double LIGHT = 0x1p-20;        /* pivots of D^T M D, relative to its diagonal: below, too many of 53 bits are lost */
+static const double LONG = 1;               /* displacement in characteristic scales: longer steps need the checks of the matrix path */
 
 const zd_direct *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
 {
@@ -61,8 +61,8 @@ static double *scale_of(const zd_motion *motion, const zd_elimination *order)
     return motion->path.scale + (order - motion->path.first) * motion->system.nv;
 }
 
-/* A determinant is a product of an entry from each of its rows and columns, and so is what it is measured by. Pivots of D^T M D are shares
- * already: they are weighed so that LARGE means LIGHT. */
+/* Scale of each pivot. A determinant is a sum of products of one entry from each row and column, and so is its scale. Pivots of D^T M D are
+ * relative already; their factor makes LARGE mean LIGHT. */
 static void measure(const zd_motion *motion, const zd_elimination *order)
 {
     const zd_point *point = motion->point;
@@ -77,7 +77,7 @@ void zd_direct_measure(zd_motion *motion)
     for (int i = 0; i < motion->path.direct->orders; i++) measure(motion, motion->path.direct->order + i);
 }
 
-/* The smallest pivot of the rows at the point, in parts of what it is measured by; 0: D^T M D has lost too much, or one is no number */
+/* Smallest relative pivot of the constraints at the point; 0 if D^T M D has lost too many bits, or a pivot is NaN */
 static double smallest_pivot(const zd_motion *motion)
 {
     const zd_elimination *order = motion->path.order;
@@ -98,7 +98,7 @@ static int count_pivots(const zd_motion *motion)
     return motion->path.order->solves + motion->system.nv - zd_constraints(&motion->system);
 }
 
-/* Whether a step ends with the projection, after which the energy may be corrected, and nothing else is integrated or added. */
+/* True if a step ends with the projection, optionally followed by the energy correction, and nothing else is integrated or added. */
 static int ends_with_projection(const zd_motion *motion)
 {
     const zd_constraint_target *target = &motion->target;
@@ -113,9 +113,9 @@ static uint64_t bits_of(double x)
     return bits;
 }
 
-static const zd_range NOWHERE = {UINT64_MAX, 0};    /* but at a number that is none */
+static const zd_range NOWHERE = {UINT64_MAX, 0};    /* contains no finite number */
 
-/* Of another order: a glance says nothing of them until they have been compared. */
+/* Clears pivots and ranges after a change of the order: the quick check fails until a full comparison has set them. */
 static void forget_pivots(zd_motion *motion)
 {
     motion->path.ranges = count_pivots(motion);
@@ -125,8 +125,8 @@ static void forget_pivots(zd_motion *motion)
     }
 }
 
-/* Where those of the next step may be for a glance to be enough, if the order is the first: large, and within a factor of four, so that of
- * two steps none has shrunk by more than sixteen in the second. */
+/* Ranges in which pivots of the next step pass the quick check, if the order is the first: large, and within a factor of four, so that none
+ * has shrunk by more than sixteen from one step to the next. */
 static void remember_pivots(zd_motion *motion)
 {
     zd_path *path = &motion->path;
@@ -174,7 +174,7 @@ void zd_direct_forget_energy(zd_motion *motion)
     motion->tally->energy_skipped = motion->path.skipped_since_row;
 }
 
-/* A step that begins at the point. */
+/* Saves pivots and energy counters at the start of a step. */
 static void begin(zd_motion *motion)
 {
     zd_copy_all(count_pivots(motion), motion->path.pivots, motion->path.before);
@@ -182,7 +182,7 @@ static void begin(zd_motion *motion)
     if (motion->path.embeds) zd_embed_begin(motion);
 }
 
-/* Whether the pivots of an order are so large at the point. */
+/* Selects the order and returns true if its relative pivots at the point are at least `enough`. */
 static int takes(zd_motion *motion, const zd_elimination *order, double enough)
 {
     if (!(*scale_of(motion, order) > 0)) measure(motion, order);
@@ -192,7 +192,7 @@ static int takes(zd_motion *motion, const zd_elimination *order, double enough)
     return 1;
 }
 
-/* The first order whose pivots are so large at the point, if there is one. */
+/* Selects the first order whose relative pivots at the point are at least `enough`; 0 if there is none. */
 static int find_order(zd_motion *motion, double enough)
 {
     const zd_path *path = &motion->path;
@@ -201,7 +201,7 @@ static int find_order(zd_motion *motion, double enough)
     return 0;
 }
 
-/* For a state in independent velocities there is one at most. */
+/* Selects the order for a state in independent velocities: at most one fits. */
 static int find_embedding(zd_motion *motion)
 {
     const zd_elimination *order = zd_embed_find(motion);
@@ -212,7 +212,7 @@ void zd_direct_choose(zd_motion *motion)
 {
     const zd_path *path = &motion->path;
     int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
-    /* Mostly it is the one of the step before, whose end this is. */
+    /* Usually the order of the previous step, which ended at this point. */
     if (all_count && path->order == path->first && (motion->point->known & ZD_ACCELERATED) && path->smallest >= LARGE) begin(motion);
     else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH)))
         use(motion, NULL);
@@ -226,7 +226,7 @@ int zd_direct_compare(zd_motion *motion, double moved)
     const double smallest = smallest_pivot(motion);
     if (!(moved <= LONG * LONG) || !(smallest >= SMALL)) return ZD_SINGULAR;
     const int count = count_pivots(motion);
-    for (int k = 0; k < count; k++)     /* one that has changed its sign has shrunk, too */
+    for (int k = 0; k < count; k++)     /* a pivot that has changed its sign fails, too */
         if (!(path->pivots[k] * path->before[k] >= SHRUNK * path->before[k] * path->before[k])) return ZD_SINGULAR;
     if (path->embeds && zd_embed_is_steep(motion)) return ZD_SINGULAR;
     path->smallest = smallest;

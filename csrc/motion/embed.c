@@ -1,10 +1,11 @@
-/* The direct road of formulations in independent velocities. The state has entries of p and v, and a system's embed() finds all others:
+/* Closed-form path of formulations in independent velocities. The state consists of entries of p and v; a system's embed() computes the
+ * dependent ones and the accelerations:
  *
- *     w = -W^-1 (U u + Phi_t)                 (14), (16): velocities w that are solved for, C = [U W]
- *     p <- p - dp until every |Phi| is small  (18), where p is not part of the state; dp moves what is solved for
+ *     w = -W^-1 (U u + Phi_t)                 (14), (16): dependent velocities w, C = [U W]
+ *     p <- p - dp until every |Phi| is small  (18), if p is not part of the state; dp changes dependent coordinates only
  *
- * and the accelerations with them. Which entries the state has is for the formulation to choose, on the general road: a step whose end has
- * one of those that are solved for follow more steeply than that allows is made there.
+ * The formulation chooses the independent entries, on the matrix path: a step at whose end a dependent velocity depends more steeply on
+ * the independent ones than the formulation allows is repeated there.
  */
 #include "embed.h"
 
@@ -17,8 +18,8 @@
 #include "../point/units.h"
 
 enum { MAX_ITERATIONS = 8 };
-static const double ROUNDING = 16 * 0x1p-52;    /* of the sizes of Phi and p: what is left of Phi then */
-static const double LEAST_TERMS = 16;           /* of a row, for whose rounding that is enough */
+static const double ROUNDING = 16 * 0x1p-52;    /* residual of Phi after convergence, relative to the sizes of Phi and p */
+static const double LEAST_TERMS = 16;           /* number of terms of a constraint up to which ROUNDING suffices */
 
 void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system)
 {
@@ -80,16 +81,16 @@ int zd_embed_is_steep(const zd_motion *motion)
     return !(steepest <= motion->path.state.steepest);
 }
 
-/* ---- between the state and p, v ---- */
+/* ---- conversion between the state and p, v ---- */
 
-/* How many entries of p the state has */
+/* Number of entries of p in the state */
 static int positions(const zd_motion *motion)
 {
     const zd_system *system = &motion->system;
     return motion->path.state.q ? system->nv - system->mh : system->nq;
 }
 
-/* p where the motion leads from the point, where nothing is nearer. */
+/* p <- estimate at time t, by extrapolation from the point. */
 static void predict(const zd_motion *motion, double t, double *p)
 {
     const zd_point *point = motion->point;
@@ -104,7 +105,7 @@ void zd_embed_read(zd_motion *motion, double t, const double *y)
     const int k = positions(motion), r = system->nv - zd_constraints(system);
     if (path->state.q) predict(motion, t, path->p);
     for (int i = 0; i < k; i++) path->p[path->state.q ? path->state.q[i] : i] = y[i];
-    /* Those that are solved for begin at zero, so that they follow from the others to the last bit. */
+    /* Dependent velocities start from zero, so that their bits depend on the independent ones only. */
     for (int j = 0; j < system->nv; j++) path->v[j] = 0;
     for (int j = 0; j < r; j++) path->v[path->state.u[j]] = y[k + j];
 }
@@ -127,9 +128,9 @@ void zd_embed_write(const zd_motion *motion, const double *p, const double *v, d
     for (int j = 0; j < r; j++) y[k + j] = v[state->u[j]];
 }
 
-/* ---- what follows from the state ---- */
+/* ---- dependent coordinates, velocities and accelerations ---- */
 
-/* Whether an iteration may follow, and p after it */
+/* One iteration p <- p - dp; ZD_NO_EMBEDDING if it does not converge. */
 static int improve(zd_motion *motion, int iteration, double *first)
 {
     zd_path *path = &motion->path;
@@ -159,7 +160,7 @@ int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *add
     }
 }
 
-/* The same with all that the point has of its acceleration */
+/* The same with D, accelerations, multipliers, power and pivots of the point. */
 static int embed_point(zd_motion *motion, double t, int finds_p, const double *added)
 {
     zd_path *path = &motion->path;
@@ -179,7 +180,7 @@ static void move_there(zd_motion *motion, double t)
 {
     zd_point_move(motion->point, t, motion->path.p, motion->path.v);
     if (!motion->is_stabilized) motion->point->known |= ZD_ACCELERATED;
-    else motion->point->known &= ~ZD_ACCELERATED;       /* what is added to (6) is missing */
+    else motion->point->known &= ~ZD_ACCELERATED;       /* it lacks the stabilization terms of (6) */
 }
 
 int zd_embed_enter(zd_motion *motion, double t, const double *y)

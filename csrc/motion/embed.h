@@ -1,28 +1,28 @@
-/* The direct road of formulations in independent velocities: embed.c */
+/* Closed-form path of formulations in independent velocities: embed.c */
 #ifndef ZD_EMBED_H
 #define ZD_EMBED_H
 
 #include "motion.h"
 
-/* Memory of the road that this takes besides */
+/* Allocates the fields of the path that only these formulations need. */
 void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system);
-/* The order that solves for all velocities but those of the state, which the road notes; NULL: there is none. */
+/* The elimination order whose dependent velocities are those not in the state, which it saves in the path; NULL: there is none. */
 const zd_elimination *zd_embed_find(zd_motion *motion);
-/* A step that begins at the point. */
+/* Sets the tolerance of Phi for a step that begins at the point. */
 void zd_embed_begin(zd_motion *motion);
-/* Whether, at the point, a velocity that is solved for follows the others more steeply than the formulation keeps them for. */
+/* True if, at the point, an entry of D exceeds the bound up to which the formulation keeps its independent velocities. */
 int zd_embed_is_steep(const zd_motion *motion);
 /* The acceleration at the point */
 int zd_embed_accelerate(zd_motion *motion, const double *added);
-/* p and v of the road from the state, as far as that has them: where it has not, they are estimates. */
+/* p and v of the path from the state; entries that the state does not have are estimates. */
 void zd_embed_read(zd_motion *motion, double t, const double *y);
-/* The state's entries of a p and v, or of their rates */
+/* y <- the independent entries of p and v, or of their rates */
 void zd_embed_write(const zd_motion *motion, const double *p, const double *v, double *y);
 
-typedef struct zd_embedded {    /* results of an acceleration; D, lambda, power and pivots may be NULL */
+typedef struct zd_embedded {    /* outputs of an evaluation; D, lambda, power and pivots are NULL if not requested */
     double *D, *pdot, *vdot, *lambda, *power, *pivots;
 } zd_embedded;
-/* The road's v, and where it has to be found its p, too, from the entries that the state has, and the results at these. */
+/* Dependent entries of the path's v and, with finds_p, of its p, from the independent ones; with them the requested outputs. */
 int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to);
 /* embedded_rate.c */
 int zd_motion_embedded_rate(void *motion, double t, const double *y, double *ydot);

@@ -1,4 +1,4 @@
-/* The rate of a state in independent velocities on the direct road: the entries of pdot and vdot that it has of p and v. */
+/* Rate of a state in independent velocities on the closed-form path: the independent entries of pdot and vdot. */
 #include <string.h>
 
 #include "embed.h"
@@ -9,7 +9,7 @@ static void write_rates(const zd_motion *motion, const double *v, const double *
     if (motion->balance.input) ydot[motion->rate.size - 1] = power;
 }
 
-/* Of the point, to which the state is brought: what is added to the right side of (6) depends on its p and v. */
+/* Rate after the point has been moved to the state: the stabilization terms of (6) depend on its p and v. */
 static int rate_of_point(zd_motion *motion, double t, double *ydot)
 {
     zd_path *path = &motion->path;
@@ -25,7 +25,7 @@ static int rate_of_point(zd_motion *motion, double t, double *ydot)
     return ZD_DONE;
 }
 
-/* Whether what was read of the state at this time is where the point is, and its acceleration known. */
+/* True if the state that was read is that of the point, and the acceleration there is known. */
 static int is_known(const zd_motion *motion, double t)
 {
     const zd_point *point = motion->point;

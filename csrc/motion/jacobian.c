@@ -30,7 +30,7 @@ zd_chain zd_chain_take(const zd_motion *motion, zd_arena *arena)
     return chain;
 }
 
-/* J (rows, columns) <- J (rows, rows), where nothing depends on the last entries of the state */
+/* J (rows, columns) -> J (rows, rows): columns of zeros for entries of the state on which no rate depends */
 static void widen(int rows, int columns, double *J)
 {
     if (rows == columns) return;
@@ -40,7 +40,7 @@ static void widen(int rows, int columns, double *J)
     }
 }
 
-/* The system's, at the point */
+/* J <- the system's own Jacobian at the point */
 static int evaluate(zd_motion *motion, const double *p, const double *v, double t, double *J)
 {
     const zd_system *system = &motion->system;
@@ -48,7 +48,7 @@ static int evaluate(zd_motion *motion, const double *p, const double *v, double 
     return system->jacobian->evaluate(system->data, t, p, v, J, motion->chain.scratch);
 }
 
-/* T at the point, which is brought to the state */
+/* T at the point, after it has been moved to the state */
 static int find_tangents(zd_motion *motion, double t, const double *y)
 {
     const zd_system *system = &motion->system;
@@ -78,7 +78,7 @@ static int apply_chain(zd_motion *motion, double t, const double *y, double *J)
         for (int i = 0; i < width + size - entries; i++) chain->rates[i] = zd_dot(width, chain->J + i * width, chain->T + j * width);
         motion->formulation->pick(motion->solver, point, chain->rates, chain->rates + nq, chain->picked);
         for (int i = 0; i < entries; i++) J[i * size + j] = chain->picked[i];
-        if (size > entries) J[entries * size + j] = chain->rates[width];        /* of the energy input */
+        if (size > entries) J[entries * size + j] = chain->rates[width];        /* derivative of the energy input */
     }
     for (int i = 0; i < size && size > entries; i++) J[i * size + entries] = 0;
     return ZD_DONE;

@@ -1,9 +1,9 @@
-/* The end of a step on the direct road, where nothing but the projection is made there: positions are iterated onto the constraints,
+/* Projection at the end of a step on the closed-form path. Positions are iterated onto the constraints,
  *
- *     p <- p - dp     (25a), (26a), (27a)     until every |Phi| is small enough
+ *     p <- p - dp     (25a), (26a), (27a)     until every |Phi| is at most its tolerance
  *
- * and the call that finds them there takes out of the velocities what violates (5), as (25b) ... (27b) do, and has the acceleration of the
- * next step's first stage. Sines and pivots are so computed once for all three.
+ * and the call that finds them converged also projects the velocities, (25b), (26b), (27b), and computes the acceleration for the first
+ * stage of the next step. Sines and pivots are so computed once for all three.
  */
 #include <math.h>
 
@@ -12,7 +12,7 @@
 #include "../point/units.h"
 #include "motion.h"
 
-/* Whether an iteration may follow, and p after it */
+/* One iteration p <- p - dp; ZD_NO_CONVERGENCE or ZD_NOT_FINITE if none may follow. */
 static int improve(zd_motion *motion, int iteration, double *first, double *p)
 {
     zd_point *point = motion->point;

@@ -1,5 +1,4 @@
-/* The motion of a system: its equations in one formulation, with the corrections that are on. It is all that integrators and
- * corrections see.
+/* The motion of a system: its equations in one formulation, with the enabled corrections. Integrators and corrections use nothing else.
  */
 #ifndef ZD_MOTION_H
 #define ZD_MOTION_H
@@ -7,30 +6,30 @@
 #include "../formulations/formulation.h"
 #include "correction.h"
 
-/* A correction that is on. */
+/* An enabled correction. */
 typedef struct zd_active {
     const zd_correction *row;
     void *self;
-    int every;              /* how many steps it is made */
-    int extra;              /* where, behind the formulation's part of the state, that stands which it integrates along */
+    int every;              /* steps between two applications */
+    int extra;              /* offset of its own entries in the state, counted from the end of the formulation's part */
     int extra_size;
 } zd_active;
 
-/* The rate of the integrated state, of which integrators know nothing else. */
+/* Rate of the integrated state, the interface that integrators use. */
 typedef struct zd_rate {
     int (*evaluate)(void *context, double t, const double *y, double *ydot);
     void *context;
-    int size;               /* of the state */
-    int pairs;              /* n where it begins with p (n,) and v (n,), pdot = v, and nothing depends on what follows these; else 0 */
-    /* Where the state is (p, v) and nothing but a direct function is behind it, that function; else NULL. */
+    int size;               /* entries of the state */
+    int pairs;              /* n if the state begins with p (n,) and v (n,), pdot = v, and no rate depends on other entries; else 0 */
+    /* The closed-form functions, if they alone give the rate of a state (p, v); otherwise NULL. */
     const zd_elimination *direct;
     const zd_system *system;
-    const double *vdot;     /* (nv,): where it is known already for the state at which a step begins; else NULL */
-    /* J (size, size) <- its derivatives by the state; not 0: they are not known here. NULL: they never are. */
+    const double *vdot;     /* (nv,): acceleration at the start of a step, if known; otherwise NULL */
+    /* J (size, size) <- derivatives with respect to the state; nonzero: not available at this state. NULL: never available. */
     int (*jacobian)(void *context, double t, const double *y, double *J);
 } zd_rate;
 
-/* The rate of the state at which a step begins, and of a stage between its ends */
+/* Rates at the start of a step, and at a stage within it. */
 static inline int zd_rate_of_beginning(const zd_rate *rate, double t, const double *restrict y, double *restrict ydot)
 {
     if (!rate->vdot) return rate->evaluate(rate->context, t, y, ydot);
@@ -50,112 +49,112 @@ static inline int zd_rate_of_stage(const zd_rate *rate, double t, const double *
     return status ? ZD_CALLBACK : ZD_DONE;
 }
 
-/* What has happened since the last saved row, and what is known of all of them. */
+/* Counters since the last sample, and maxima over all samples. */
 typedef struct zd_tally {
-    int iterations;         /* most position iterations of a step */
-    int energy_skipped;     /* energy corrections left out */
-    int start_saved;        /* whether the row of the start has been saved, if it is wanted, or waits for room */
-    double energy_error;    /* J: the largest |Psi_E| of the saved rows; not a number if one of them is not */
+    int iterations;         /* largest number of position iterations of a step */
+    int energy_skipped;     /* skipped energy corrections */
+    int start_saved;        /* true if the sample of the start has been saved, is not requested, or waits for room */
+    double energy_error;    /* J: largest |Psi_E| of all samples; NaN if one of them is NaN */
 } zd_tally;
 
-/* (28): what the energy is compared with. */
+/* (28): reference of the energy balance. */
 typedef struct zd_balance {
     double initial;         /* E0, J */
-    const double *input;    /* J, integrated along as the last number of the state; NULL where none comes in */
+    const double *input;    /* J: energy input, the last entry of the state; NULL if the system has none */
 } zd_balance;
 
-/* Of a number's bits, which without signs lie as the numbers do */
+/* Range of the bit patterns of doubles of one sign, which as integers are ordered as the magnitudes are. */
 typedef struct zd_range {
     uint64_t least, width;
 } zd_range;
 
-/* The direct road: a step whose accelerations and corrections come from the system's direct functions. The general road, by the formulation's
- * leading matrix, is all that there is where `direct` is NULL, and what is taken in any doubt: see direct.c. */
+/* Evaluation path of the current step. On the closed-form path accelerations and projections come from the system's closed-form functions; on
+ * the matrix path, from the formulation's leading matrix. The latter always exists and is taken in any doubt: direct.c. */
 typedef struct zd_path {
     const zd_direct *direct;
-    const zd_elimination *order;    /* that this step is made with; NULL: it takes the general road */
-    int was_taken;          /* whether steps have been made so since the safeguards of the general road last looked */
-    int continues;          /* whether a glance at the end of a step has found that the next may be made likewise */
-    double *scale;          /* (orders, nv): of each pivot, to be compared with its rows' sizes; none is 0 once they are known */
-    zd_range *range;        /* (nv,): pivots within are large, of the same sign, and within a factor of four of what they were */
-    int ranges;             /* how many of these: pivots of the order, at least one */
-    double smallest;        /* of the pivots where a step has ended, in parts of what they are measured by; 0: not known */
-    double *pivots, *before;    /* (nv,): at the point, once its acceleration is known; where the step began. Those that no order has are 1 */
+    const zd_elimination *order;    /* elimination order of the current step; NULL: it takes the matrix path */
+    int was_taken;          /* true if steps were made in closed form since the last checks of the matrix path */
+    int continues;          /* true if the quick check has passed, so that the next step may reuse this elimination order */
+    double *scale;          /* (orders, nv): factor that makes each pivot relative, from zd_direct_measure(); 0 until then */
+    zd_range *range;        /* (nv,): a pivot in its range is large, of the same sign, and within a factor of four of its last value */
+    int ranges;             /* number of ranges: pivots of the order, at least one */
+    double smallest;        /* smallest relative pivot at the end of the last step; 0: not known */
+    double *pivots, *before;    /* (nv,): at the point, with its acceleration; at the start of the step. Unused ones are 1 */
     double *pdot;           /* (nq,): at the point, of a system with A */
-    double *pdot_of_stage;  /* (nq,): at a stage, which leaves that of the point as it is: a step that is rejected begins with it again */
-    double *dp;             /* (nq,): of an iteration onto the constraints */
-    double *allowed;        /* (mh,): of Phi, so that the projection's tolerance is kept */
-    int lands;              /* whether what ends a step is one function: its acceleration is then that of the end */
-    int64_t energy_skipped; /* where the step began, as the statistics have them: a step that leaves the road is made again */
+    double *pdot_of_stage;  /* (nq,): at a stage; that of the point stays, as a rejected step begins with it again */
+    double *dp;             /* (nq,): position correction of one iteration */
+    double *allowed;        /* (mh,): largest |Phi| that meets the projection's tolerance */
+    int lands;              /* true if one function projects and computes the acceleration at the end of a step */
+    int64_t energy_skipped; /* counters at the start of the step, restored if it is repeated on the matrix path */
     int64_t energy_corrections;
     double energy_corrected;
     int skipped_since_row;
     double power;           /* W: at the point, of a system with energy input */
-    const zd_elimination *first;    /* of the orders that serve the formulation, and how many there are */
+    const zd_elimination *first;    /* (orders,): elimination orders for this formulation */
     int orders;
-    int embeds;             /* whether the state is in independent velocities; all that follows is for that: embed.c */
-    zd_entries state;       /* what it has of p and v */
-    double *p, *v, *vdot, *Phi;     /* (nq,), (nv,), (nv,), (mh,): of the state that is looked at; the point may be another */
-    double *unbounded;      /* (mh,): what is allowed of Phi where p is what it is */
-    double *D;              /* (m, nv - m): at the point, of the velocities that are solved for */
+    int embeds;             /* true if the state is in independent velocities, for which all fields below are: embed.c */
+    zd_entries state;       /* entries of p and v in the state */
+    double *p, *v, *vdot, *Phi;     /* (nq,), (nv,), (nv,), (mh,): of the state being evaluated, which may differ from the point */
+    double *unbounded;      /* (mh,): infinite bounds of |Phi|, for a given p */
+    double *D;              /* (m, nv - m): at the point, derivatives of dependent by independent velocities */
 } zd_path;
 
-/* Memory for the Jacobian of the rate, by the chain rule from the derivatives that the system brings */
+/* Memory for the Jacobian of the rate, by the chain rule from the system's own derivatives. */
 typedef struct zd_chain {
-    double *scratch;        /* of the system's functions */
-    double *J;              /* (nq + nv + 1, nq + nv): the system's, and all that follows, for states in independent velocities */
-    double *Psi_p;          /* (m, nq): derivatives of (5) by p */
-    double *T;              /* (size, nq + nv): of p and v by each entry of the formulation's part of the state */
-    double *rates;          /* (nq + nv + 1,): of p, v and the energy input, by one of them, */
-    double *picked;         /* (size,): and those that the state has */
+    double *scratch;        /* work array of the system's functions */
+    double *J;              /* (nq + nv + 1, nq + nv): the system's; this and all fields below are for states in independent velocities */
+    double *Psi_p;          /* (m, nq): derivatives of (5) with respect to p */
+    double *T;              /* (size, nq + nv): derivatives of p and v with respect to each entry of the formulation's part of the state */
+    double *rates;          /* (nq + nv + 1,): derivatives of pdot, vdot and power with respect to one entry */
+    double *picked;         /* (size,): the independent entries of `rates` */
 } zd_chain;
 
 struct zd_motion {
     zd_system system;
     zd_statistics statistics;
-    zd_tally *tally;        /* of the run */
-    zd_point *point;        /* where the motion is */
+    zd_tally *tally;        /* counters of the run */
+    zd_point *point;        /* quantities at the current (t, p, v) */
     const zd_formulation *formulation;
-    void *solver;           /* the formulation's memory, */
-    zd_span memory_of_chosen;   /* and all that was laid out for that of the settings */
-    int drifts_from;        /* what the projection has to correct: the formulation's, or outside a run, everything */
-    int corrects;           /* ZD_PHI, ZD_C: which of the two corrections after a step are made for */
-    zd_constraint_target target;            /* what they promise of both */
-    int corrections_need;   /* terms behind the corrections that are on */
-    int matrices;           /* ZD_M, ZD_C: what the formulation's factorization does not have evaluated itself */
-    int acceleration_needs; /* terms behind (8), (9), (13) with the corrections that are on */
+    void *solver;           /* memory of the formulation */
+    zd_span memory_of_chosen;   /* memory span of the formulation chosen in the settings */
+    int drifts_from;        /* ZD_PHI, ZD_C: constraints that drift in this formulation; all of them outside a run */
+    int corrects;           /* ZD_PHI, ZD_C: constraints that are corrected after a step */
+    zd_constraint_target target;            /* accuracy of the constraints after corrections */
+    int corrections_need;   /* terms that the enabled corrections need */
+    int matrices;           /* ZD_M, ZD_C: terms to evaluate before the formulation factors */
+    int acceleration_needs; /* terms that (8), (9), (13) need with the enabled corrections */
     zd_active active[ZD_CORRECTIONS_MAX];
-    int corrections;        /* how many are on */
-    int is_stabilized;      /* whether one of them changes the right side of (6) */
+    int corrections;        /* number of enabled corrections */
+    int is_stabilized;      /* true if one of them changes the right side of (6) */
     zd_rate rate;
-    const double *state;    /* the point's: that of the step's end, or a stage of the integrator */
-    int formulation_size;   /* of the state's first part: the formulation's. Corrections' and the energy input (28) follow */
-    int corrections_size;   /* of what corrections integrate along */
+    const double *state;    /* integrated state of the point: at the end of the step, or at a stage */
+    int formulation_size;   /* entries of the formulation's part of the state; those of corrections and the energy input (28) follow */
+    int corrections_size;   /* entries of the corrections' part of the state */
     zd_balance balance;
     zd_path path;
     zd_chain chain;
-    zd_store store;         /* what is taken once something rare has happened */
-    int in_run;             /* whether steps begin where the constraints are known to hold */
+    zd_store store;         /* memory allocated on demand, after rare events */
+    int in_run;             /* true if steps begin at states that satisfy the constraints */
 };
 
-/* take.c: lays out the motion in place. `independent` has the system's sizes with as many constraints as count. */
+/* take.c: initializes the motion in place. `independent` has the system's sizes with the number of independent constraints. */
 void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
                     const zd_formulation *formulation, const void *given);
 /* Adds a correction with its parameters. */
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given);
-/* Gives the motion the state (rate.size,), whose sizes are known once all corrections are. */
+/* Attaches the state (rate.size,), after all corrections have been enabled. */
 void zd_motion_attach(zd_motion *motion, double *state);
-/* Once the formulation and all corrections are there: see zd_rate. */
+/* Sets rate.pairs, after the formulation and all corrections are known. */
 void zd_motion_count_pairs(zd_motion *motion);
 
 /* solve.c */
 int zd_motion_factor_anew(zd_motion *motion);
-/* The leading matrix at the point. */
+/* Factors the leading matrix at the point. */
 static inline int zd_motion_factor(zd_motion *motion)
 {
     return motion->point->known & ZD_FACTORED ? ZD_DONE : zd_motion_factor_anew(motion);
 }
-/* The same, where this is solved for next, with nothing in it changed. */
+/* The same, if the next solve has this right side and result, unchanged. */
 static inline int zd_motion_factor_for(zd_motion *motion, const double *force, const double *rhs, double *x)
 {
     motion->point->awaited = (zd_right_side){force, rhs, x};
@@ -163,57 +162,56 @@ static inline int zd_motion_factor_for(zd_motion *motion, const double *force, c
     motion->point->awaited.x = NULL;
     return status;
 }
-/* Which rows count at the point, also by factoring, where that tells. */
+/* Selects the independent constraints at the point, by factoring where the formulation does so. */
 int zd_motion_find_rows(zd_motion *motion);
-/* The formulation's solve, with right sides and multipliers of all rows, whichever of them count at the point. */
+/* The formulation's solve, with right sides and multipliers of all constraints, redundant ones included. */
 void zd_solve_with(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force, const double *rhs,
                    double *x, double *lambda);
-/* With what was factored. */
+/* Solves with the factors at the point. */
 void zd_motion_solve(zd_motion *motion, const double *force, const double *rhs, double *x, double *lambda);
 
 /* accelerate.c */
 int zd_motion_accelerate_anew(zd_motion *motion);
-/* vdot, lambda at the point. */
+/* vdot and lambda at the point. */
 static inline int zd_motion_accelerate(zd_motion *motion)
 {
     return motion->point->known & ZD_ACCELERATED ? ZD_DONE : zd_motion_accelerate_anew(motion);
 }
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
-int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same along the direct road */
-void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* of what corrections integrate along */
+int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same on the closed-form path */
+void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* rates of the corrections' part of the state */
 
-/* jacobian.c: the derivatives of the rate where the system brings its own, with constraints as they are; of (8) where M is regular, which
- * those of all formulations follow from. */
+/* jacobian.c: derivatives of the rate from the system's own, for (8) with a regular M, from which those of all formulations follow. */
 zd_chain zd_chain_take(const zd_motion *motion, zd_arena *arena);
 int zd_motion_jacobian(void *motion, double t, const double *y, double *J);
 
 /* direct.c */
-/* Those for one trajectory, and not several at once, of the last unit up to this one; NULL: the system brings none for such formulations. */
+/* Closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this formulation. */
 const zd_direct *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
-/* Lays out the direct road, where the system brings one for the formulation and this vector unit or one before it. */
+/* Initializes the closed-form path, if the system has one for the formulation and this vector unit or a narrower one. */
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
-/* Which road a step takes that begins at the point. */
+/* Chooses the evaluation path of a step that begins at the point. */
 void zd_direct_choose(zd_motion *motion);
 void zd_direct_leave(zd_motion *motion);
-/* What the energy correction has counted in a step goes with it: as it stands where the step begins. */
+/* Save and restore the counters of the energy correction at the start of a step. */
 void zd_direct_remember_energy(zd_motion *motion);
 void zd_direct_forget_energy(zd_motion *motion);
-/* By what the pivots of all orders are measured. */
+/* Computes the scales of the pivots of all orders. */
 void zd_direct_measure(zd_motion *motion);
-/* Whether the pivots at the end of the step, in which the motion has moved by so much, are what they were where it began: else that is
- * ZD_SINGULAR, and the step has to be made on the general road. */
+/* Compares the pivots at the end of a step with those at its start; `moved`: squared displacement in characteristic scales. ZD_SINGULAR: the
+ * step must be repeated on the matrix path. */
 int zd_direct_compare(zd_motion *motion, double moved);
 static inline int zd_is_direct(const zd_motion *motion) { return motion->path.order != NULL; }
 
-/* Whether functions failed that nothing can take the place of: a direct one that does leaves its work to the others. */
+/* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path. */
 static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !zd_is_direct(motion); }
-/* Whether a step begins where a glance at the one before has seen that it may be made likewise. */
+/* True if the quick check at the end of the previous step passed: this step then reuses its elimination order. */
 static inline int zd_direct_continues(zd_motion *motion)
 {
     int continues = motion->path.continues && (motion->point->known & ZD_ACCELERATED);
     motion->path.continues = 0;
     if (!continues) return 0;
-    double *pivots = motion->path.pivots;       /* copies would wait for them */
+    double *pivots = motion->path.pivots;       /* exchanged, as a copy would wait for the pivots */
     motion->path.pivots = motion->path.before;
     motion->path.before = pivots;
     if (motion->corrections > 1) zd_direct_remember_energy(motion);
@@ -221,18 +219,18 @@ static inline int zd_direct_continues(zd_motion *motion)
 }
 
 static inline int zd_is_embedded(const zd_motion *motion) { return motion->path.order && motion->path.embeds; }
-/* embed.c: as a formulation's enter(), leave() and settle() are on the general road, from and to the state of a step that begins or ends at
- * the point. */
+/* embed.c: counterparts of a formulation's enter(), leave() and settle() on the closed-form path, for a step that begins or ends at the
+ * point. */
 int zd_embed_enter(zd_motion *motion, double t, const double *y);
 int zd_embed_leave(zd_motion *motion, double *y);
 int zd_embed_settle(zd_motion *motion);
 
-/* land.c: the projection of p and v at the end t of a step on the direct road, and the point's acceleration there, by one function, where
- * road.lands says so. Both are the point's own, or have to be copied there. */
+/* land.c: projection of p and v at the end t of a step on the closed-form path, and the point's acceleration there, if path.lands. p and v
+ * are the point's own, or the caller copies them there. */
 int zd_direct_land(zd_motion *motion, double t, double *p, double *v);
 
-/* The first iteration of a position correction has to reduce the violation to this share: by Kantorovich's theorem there is then one
- * solution near its start. */
+/* Largest ratio of the violation after the first iteration of a position correction to that before: by Kantorovich's theorem there is then
+ * one solution near the start of the iteration. */
 #define ZD_TRUSTED_SHARE 0.25
 static inline void zd_count_position_iterations(zd_motion *motion, int iterations)
 {
@@ -242,20 +240,20 @@ static inline void zd_count_position_iterations(zd_motion *motion, int iteration
     if (iterations > motion->tally->iterations) motion->tally->iterations = iterations;
 }
 
-/* correct.c: those that are due in this step, in their order; `forced`: all */
+/* correct.c: applies the corrections that are due in this step, in their order; `forced`: all */
 int zd_motion_correct(zd_motion *motion, int64_t step, int forced);
-/* The same without the one that holds the constraints, after that. */
+/* The same without the projection, which has been made already. */
 int zd_motion_correct_rest(zd_motion *motion, int64_t step, int forced);
-/* Whether all of them are due in this step. */
+/* True if all corrections are due in this step. */
 int zd_motion_is_corrected(const zd_motion *motion, int64_t step);
-/* Whether a step is one of every so many. One of every 1 is not worth a division, the slowest of instructions. */
+/* True if `step` is a multiple of `every`; for 1 without a division, the slowest of instructions. */
 static inline int zd_is_one_of(int64_t every, int64_t step) { return every == 1 || step % every == 0; }
 
 /* balance.c */
 int zd_has_energy(const zd_system *system);
-int zd_has_input(const zd_system *system);          /* of energy, besides V: then it is integrated along */
+int zd_has_input(const zd_system *system);          /* true if power is put in besides V; its integral is then part of the state */
 static inline double zd_motion_input(const zd_motion *motion) { return motion->balance.input ? *motion->balance.input : 0; }   /* J */
-double zd_motion_power(const zd_motion *motion);    /* W, at the point, whose acceleration is known */
+double zd_motion_power(const zd_motion *motion);    /* W: at the point, whose acceleration must be known */
 int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic);     /* (28) */
 int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the point */
 

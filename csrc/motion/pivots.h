@@ -1,4 +1,4 @@
-/* Whether the pivots of the direct road are what they were where the step began: see direct.c, which has the bounds. */
+/* Quick check of the pivots of the closed-form path at the end of a step: direct.c sets the bounds. */
 #ifndef ZD_PIVOTS_H
 #define ZD_PIVOTS_H
 
@@ -6,8 +6,8 @@
 
 #include "motion.h"
 
-/* Then the next step may begin with the same order, the first. Compared are their bits, which lie as the sizes do: what computes is busy
- * with the step that follows. */
+/* True if all pivots are within their ranges; the next step then uses the same elimination order, the first. Bits are compared as integers,
+ * which are ordered as the magnitudes are, because the floating-point units are busy with the next step. */
 ZD_INLINE int zd_pivots_stay(zd_path *path)
 {
     for (int k = 0; k < path->ranges; k++) {

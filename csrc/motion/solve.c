@@ -19,9 +19,9 @@ int zd_motion_find_rows(zd_motion *motion)
     zd_point *point = motion->point;
     const zd_formulation *formulation = motion->formulation;
     if (point->known & ZD_RANKED) return ZD_DONE;
-    const int may_tell = formulation->finds_rows && formulation->finds_rows(&motion->system);
-    /* One that fails tells nothing; and why is for those to say who need it. */
-    if (may_tell && zd_motion_factor(motion) == ZD_CALLBACK) return ZD_CALLBACK;
+    const int selects_rows = formulation->finds_rows && formulation->finds_rows(&motion->system);
+    /* A failed factorization gives no selection; its error is reported by the caller that needs the factors. */
+    if (selects_rows && zd_motion_factor(motion) == ZD_CALLBACK) return ZD_CALLBACK;
     return zd_rows_find(point);
 }
 

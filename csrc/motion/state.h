@@ -1,26 +1,26 @@
-/* Where a motion was, to be returned to. */
+/* States of a motion that can be restored. */
 #ifndef ZD_STATE_H
 #define ZD_STATE_H
 
 typedef struct zd_state {
     double t;
     double *p, *v;          /* (nq,), (nv,) */
-    double *extra;          /* what the state has besides them */
+    double *extra;          /* entries of the integrated state that follow the formulation's */
 } zd_state;
 
-/* The acceleration where a motion was, with which a step may begin there: to be handed back with the place. */
+/* Acceleration at a zd_state, restored with it so that a step from there needs no evaluation. */
 typedef struct zd_cached_accelerations {
     double *vdot, *lambda;  /* (nv,), (m,) */
-    double *pivots;         /* (nv,): of the direct road; NULL where the system brings none, */
-    const void *order;      /* the order of elimination that they are of; NULL: none */
-    double smallest;        /* and of them */
-    int are_known;
+    double *pivots;         /* (nv,): of the closed-form path; NULL if the system has no closed form */
+    const void *order;      /* elimination order of these pivots; NULL: none */
+    double smallest;        /* smallest of them, as zd_path has it */
+    int are_known;          /* true if the fields above are set */
 } zd_cached_accelerations;
 
-typedef struct zd_last {    /* the step being made: its size, and where it began */
+typedef struct zd_last {    /* the current step: its size, and the state at its start */
     double t, h;
     double *y, *p, *v;      /* (size,), (nq,), (nv,) */
-    void *chosen;           /* a copy of the formulation's choice of variables there; NULL: none is kept */
+    void *chosen;           /* copy of the formulation's choice of variables at the start; NULL: no copy is made */
 } zd_last;
 
 #endif

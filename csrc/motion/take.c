@@ -3,7 +3,7 @@
 #include "../constraints/rank_monitor.h"
 #include "../constraints/rows.h"
 
-/* Which rows count, and what is needed to see that all do. */
+/* Memory for the selection of independent constraints, with the monitor of full rank where factoring does not determine it. */
 static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *independent)
 {
     const zd_formulation *formulation = motion->formulation;
@@ -15,8 +15,8 @@ static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *i
     double counted, *Q = lends ? &counted : NULL, *G = Q;
     if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
     const int are_many = zd_takes_many_rows(formulation, system), is_dense = !system->structure;
-    int is_told = is_dense ? zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system)) : are_many;
-    if (!is_told) monitor = zd_rank_monitor_take(arena, system, Q, G);
+    int has_rank = is_dense ? zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system)) : are_many;
+    if (!has_rank) monitor = zd_rank_monitor_take(arena, system, Q, G);
     if (!rank) return NULL;
     rank->monitor = monitor;
     rank->rhs = rhs;
@@ -37,7 +37,7 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .drifts_from = formulation->drifts_from,
         .corrects = ZD_PHI | ZD_C,
         .matrices = matrices,
-        /* A is for the rates of p, which always go with it: so it comes in the same evaluation, unless the system multiplies by it. */
+        /* A is needed for pdot with every acceleration, so both are evaluated together, unless the system multiplies by A itself. */
         .acceleration_needs = (zd_brings_times_A(system) ? 0 : ZD_A) | matrices | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
         .formulation_size = formulation->state_size(independent),
         .solver = solver,

@@ -1,11 +1,10 @@
-/* Steps of the size that the error asked for allows: the controller of Hairer, Norsett and Wanner, section II.4, which is SciPy's.
+/* Adaptive steps: the controller of Hairer, Norsett and Wanner, section II.4, which is SciPy's.
  *
- * A step is accepted where the estimate, root mean square in units of atol + rtol |y|, is at most one. A step that fails for other
- * reasons (a correction that does not converge, a matrix that is singular on the way) is tried again at a quarter of its size.
+ * A step is accepted if its error estimate, RMS in units of atol + rtol |y|, is at most one. A step that fails for other reasons
+ * (a correction that does not converge, a singular matrix at a stage) is repeated with a quarter of its size.
  *
- * The safety factor is below the customary 0.9: where speeds change as abruptly as in a four-bar, every fourth step of order eight
- * would be rejected. Measured over four mechanisms, 0.8 takes a tenth fewer evaluations for the same error; a predictive
- * controller takes one percent fewer still, proportional-integral ones take more.
+ * The safety factor is below the customary 0.9, with which every fourth step of order eight would be rejected where speeds change as
+ * abruptly as in a four-bar. Predictive and proportional-integral controllers were tried and save nothing worth their code.
  */
 #include "adaptive.h"
 
@@ -19,12 +18,12 @@
 #include "variables.h"
 
 enum {
-    STIFF_AFTER = 10,       /* steps as long as stability allows: then the problem counts as stiff */
-    NOT_STIFF_AFTER = 3,    /* shorter steps in succession: then it no longer does */
+    STIFF_AFTER = 10,       /* steps at the stability limit after which the problem counts as stiff */
+    NOT_STIFF_AFTER = 3,    /* consecutive shorter steps after which it no longer does */
 };
-static const double AT_THE_LIMIT = 0.95;    /* of the largest |lambda h| that is stable */
+static const double AT_THE_LIMIT = 0.95;    /* ratio of |lambda h| to the largest stable value */
 static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
-static const double SHARE_OF_MOVE = 0.9;    /* of the largest move that is allowed: what steps aim at */
+static const double SHARE_OF_MOVE = 0.9;    /* ratio of the intended change of coordinates to the largest allowed */
 
 zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0)
 {
@@ -46,8 +45,8 @@ static double bounded(const zd_step_loop *loop, double h)
     return fmin(fmin(h, longest), loop->end - loop->stepper->t);
 }
 
-/* The first step: from how fast the state changes, and how fast that does. All times are measured by the former, so that their
- * unit makes no difference. */
+/* Size of the first step, from the rate of the state and its change. Times are scaled by the former, so that their unit does not
+ * matter. */
 int zd_adaptive_start(zd_step_loop *loop, double *work)
 {
     const int n = loop->motion->rate.size;
@@ -75,7 +74,7 @@ int zd_adaptive_start(zd_step_loop *loop, double *work)
     return ZD_DONE;
 }
 
-/* Counts steps that are as long as stability allows, once there are enough of them to rule out chance. */
+/* Counts steps at the stability limit, after enough of them to exclude chance. */
 static void watch_stiffness(zd_step_loop *loop, double lambda_h)
 {
     zd_control *control = &loop->control;
@@ -95,7 +94,7 @@ void zd_adaptive_weigh(zd_step_loop *loop)
     stepper->integrator->weigh(stepper->memory, loop->motion->rate.size, loop->control.scale);
 }
 
-/* No step is begun that is known to be too long. */
+/* Shortens the step if the method knows before that it would be too long. */
 static int foresee(zd_step_loop *loop)
 {
     zd_stepper *stepper = loop->stepper;
@@ -108,8 +107,7 @@ static int foresee(zd_step_loop *loop)
     return status;
 }
 
-/* The largest change of a coordinate in the step that was integrated, in units of max_move. The state begins with p, or with those of its
- * entries that are independent. */
+/* Largest change of a coordinate in the step, in units of max_move. The state begins with p, or with its independent entries. */
 static double find_move(const zd_step_loop *loop)
 {
     const zd_motion *motion = loop->motion;
@@ -120,7 +118,7 @@ static double find_move(const zd_step_loop *loop)
     return largest / loop->settings->max_move;
 }
 
-/* A step of size h to t1, with the norm of its error; corrected only if that is small enough. */
+/* Integrates a step of size h to t1 and estimates its error; finishes the step only if norm and move are at most 1. */
 static int attempt(zd_step_loop *loop, double h, double t1, double *norm)
 {
     zd_stepper *stepper = loop->stepper;
@@ -139,8 +137,8 @@ static int attempt(zd_step_loop *loop, double h, double t1, double *norm)
     return is_short ? zd_short_land(loop, t1) : zd_passage_land(loop, t1);
 }
 
-/* Where the direct road is left, the step has been looked at for stiffness once already. */
-static int attempt_on_either_road(zd_step_loop *loop, double h, double t1, double *norm)
+/* The same on the matrix path if the closed-form path fails; stiffness is counted once. */
+static int attempt_on_either_path(zd_step_loop *loop, double h, double t1, double *norm)
 {
     const zd_control before = loop->control;
     const int64_t stiff = loop->motion->statistics.stiff;
@@ -160,14 +158,14 @@ static double factor(const zd_step_loop *loop, double norm)
     return fmin(LARGEST, fmax(SMALLEST, wanted));
 }
 
-/* The size of the next step after one of size h, as far as the move of that one allows. */
+/* Size of the next step after one of size h, bounded by max_move. */
 static double by_move(const zd_step_loop *loop, double h, double next)
 {
     const double move = loop->control.move;
     return move > 0 ? fmin(next, h * SHARE_OF_MOVE / move) : next;
 }
 
-/* What a shorter step does not help against. */
+/* True if a shorter step would fail likewise. */
 static int is_final(int status)
 {
     return status == ZD_CALLBACK || status == ZD_NO_MEMORY || status == ZD_BIFURCATION || status == ZD_NOT_SYMMETRIC
@@ -185,7 +183,7 @@ int zd_adaptive_step(zd_step_loop *loop)
     for (;;) {
         double h = bounded(loop, loop->control.h), t1 = h == loop->end - t ? loop->end : t + h;
         if (!(t1 > t)) return ZD_TINY_STEP;
-        int status = attempt_on_either_road(loop, t1 - t, t1, &norm);
+        int status = attempt_on_either_path(loop, t1 - t, t1, &norm);
         if (zd_variables_lose_digits(loop->stepper, status)) {
             status = zd_step_loop_use_dependent(loop);
             if (!status) status = attempt(loop, t1 - t, t1, &norm);

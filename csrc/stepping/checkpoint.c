@@ -1,6 +1,6 @@
-/* A method may remember a Jacobian and where its iteration has led, and a formulation which variables it has chosen. Both do so in memory
- * that is laid out in one piece, which is copied whole: so nothing has to be known of either. It is about as large as what a step writes.
- * What is taken from the store once something rare has happened stays as it is.
+/* The integrator's state (a Jacobian, results of its last iteration) and the formulation's (its choice of variables) each occupy one span of
+ * memory, which is copied whole, without knowledge of its contents. Its size is about that of the data a step writes. Memory that was
+ * allocated on demand is not copied.
  */
 #include "checkpoint.h"
 
@@ -48,7 +48,7 @@ int zd_checkpoint_return(zd_checkpoint *self, zd_stepper *stepper, const zd_stat
     memcpy(motion->memory_of_chosen.at, self->of_chosen, motion->memory_of_chosen.bytes);
     zd_variables_restore(stepper, self->formulation);
     rank->is_aside = 0;
-    motion->point->known &= motion->point->constant;    /* it may be there already, with other factors */
+    motion->point->known &= motion->point->constant;    /* the point may be at this state already, with other factors */
     int status = zd_stepper_return_to(stepper, end);
     zd_copy(motion->rate.size, self->y, stepper->y);
     rank->was_ill_conditioned = self->was_ill_conditioned;

@@ -9,7 +9,7 @@ double zd_count_steps(double t0, double t1, double step)
 {
     if (!(step > 0)) return 0;
     double ratio = (t1 - t0) / step, rounded = round(ratio);
-    if (t1 > t0 && ratio == 0) return 1;        /* where the part of the step that is made is too small for a double */
+    if (t1 > t0 && ratio == 0) return 1;        /* the quotient has underflowed */
     return fabs(ratio - rounded) <= 1e-9 * rounded ? rounded : ceil(ratio);
 }
 
@@ -18,7 +18,7 @@ double zd_time_of_step(double t0, double size, int64_t step, int64_t steps, doub
     return step == steps ? end : t0 + (double)step * size;
 }
 
-/* clock() counts the time that passes on Windows, and that of all threads elsewhere; timespec_get() some of Windows' libraries lack. */
+/* clock() is elapsed time on Windows, and CPU time of all threads elsewhere; some libraries for Windows have no timespec_get(). */
 double zd_seconds_now(void)
 {
 #ifdef _WIN32

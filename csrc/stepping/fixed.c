@@ -7,7 +7,7 @@
 #include "short_step.h"
 #include "variables.h"
 
-enum { MOST_PARTS = 8 };    /* of a step that cannot be corrected */
+enum { MOST_PARTS = 8 };    /* largest number of parts of a step that fails */
 
 static int integrate_and_land(zd_step_loop *loop, double h, double t1)
 {
@@ -28,7 +28,7 @@ static int make_step(zd_step_loop *loop, double h, double t1)
     return status ? status : integrate_and_land(loop, h, t1);
 }
 
-/* From where the step began to t1, in equal parts. */
+/* Repeats the step to t1 in equal parts. */
 static int take_parts(zd_step_loop *loop, double t1)
 {
     const double t0 = loop->undivided->t;

@@ -1,10 +1,10 @@
-/* Steps of fixed size. */
+/* Fixed steps. */
 #ifndef ZD_FIXED_H
 #define ZD_FIXED_H
 
 #include "step_loop.h"
 
-/* A step that has led too far away to be corrected is made in parts; if that does not help, either, it stays so and is named. */
+/* Makes the next step. One that cannot be corrected or is not accepted is repeated in parts; if these fail, too, its status is returned. */
 int zd_fixed_step(zd_step_loop *loop);
 
 #endif

@@ -1,4 +1,4 @@
-/* A step within which a bifurcation lies, or so it seems: shorter steps tell whether the motion passes through it. */
+/* Step across a bifurcation: bisection by shorter steps decides whether the motion passes through it continuously. */
 #include "passage.h"
 
 #include <math.h>
@@ -7,10 +7,10 @@
 #include "../linalg/bracket.h"
 #include "variables.h"
 
-static const double SHORT = 0.25 * ZD_LIMITS_REGION;    /* in natural units: a path on which nothing but a leap goes so far */
-static const double RESOLUTION = 4 * 0x1p-52;   /* of t */
+static const double SHORT = 0.25 * ZD_LIMITS_REGION;    /* in characteristic scales: displacements that only a jump exceeds */
+static const double RESOLUTION = 4 * 0x1p-52;   /* relative to t */
 
-static int land_and_judge(zd_step_loop *loop, double t1)
+static int finish_and_check(zd_step_loop *loop, double t1)
 {
     zd_stepper *stepper = loop->stepper;
     double h = t1 - stepper->t;
@@ -18,20 +18,20 @@ static int land_and_judge(zd_step_loop *loop, double t1)
     return status ? status : zd_safeguards_judge(loop->safeguards, h, loop->step + 1, loop->parts);
 }
 
-static int integrate_and_land(zd_step_loop *loop, double h, double t1)
+static int integrate_and_finish(zd_step_loop *loop, double h, double t1)
 {
     int status = zd_stepper_integrate(loop->stepper, h);
-    return status ? status : land_and_judge(loop, t1);
+    return status ? status : finish_and_check(loop, t1);
 }
 
-/* A step to t from where the last one began, corrected and compared with nothing. */
+/* Repeats the step to t, corrected but without acceptance checks. */
 static int move(zd_stepper *stepper, double t)
 {
     int status = zd_stepper_return(stepper);
     return status ? status : zd_stepper_make_substep(stepper, t);
 }
 
-/* Whether the motion is continuous where the sign changes: it is seen to be at the bifurcation itself. */
+/* Finds the bifurcation; found <- true if the motion is continuous where the sign of the orientation changes. */
 static int find(zd_step_loop *loop, double t1, int *found)
 {
     zd_stepper *stepper = loop->stepper;
@@ -43,7 +43,7 @@ static int find(zd_step_loop *loop, double t1, int *found)
     int status = zd_rows_find(point);
     if (status || zd_crossing_is_at_one(point)) return status;
     zd_bracket it = zd_bracket_of(t0, t1, 1, zd_crossing_orientation(&safeguards->crossing), resolution);
-    if (!(it.gb <= 0)) return ZD_DONE;  /* it changes more than once: they are taken one by one */
+    if (!(it.gb <= 0)) return ZD_DONE;  /* it changes more than once: shorter steps separate them */
     status = zd_stepper_return(stepper);
     if (!status) status = zd_rows_find(point);
     it.ga = status ? 1 : zd_crossing_orientation(&safeguards->crossing);
@@ -58,7 +58,7 @@ static int find(zd_step_loop *loop, double t1, int *found)
     return status;
 }
 
-/* The step again, through the bifurcation, if that is wanted and the motion leads there. */
+/* Repeats the step through the bifurcation, if the settings allow it and the motion is continuous there. */
 static int pass(zd_step_loop *loop, double t1, double h)
 {
     zd_stepper *stepper = loop->stepper;
@@ -68,10 +68,10 @@ static int pass(zd_step_loop *loop, double t1, double h)
     if (status || !found) return status == ZD_CALLBACK || status == ZD_NO_MEMORY ? status : ZD_BRANCH;
     crossing->may_pass = 1;
     status = zd_stepper_return(stepper);
-    if (!status) status = integrate_and_land(loop, h, t1);
+    if (!status) status = integrate_and_finish(loop, h, t1);
     if (zd_variables_lose_digits(stepper, status)) {
         status = zd_step_loop_use_dependent(loop);
-        if (!status) status = integrate_and_land(loop, h, t1);
+        if (!status) status = integrate_and_finish(loop, h, t1);
     }
     crossing->may_pass = 0;
     return status;
@@ -80,6 +80,6 @@ static int pass(zd_step_loop *loop, double t1, double h)
 int zd_passage_land(zd_step_loop *loop, double t1)
 {
     double h = loop->stepper->last.h;
-    int status = land_and_judge(loop, t1);
+    int status = finish_and_check(loop, t1);
     return status == ZD_BIFURCATION_PASSED ? pass(loop, t1, h) : status;
 }

@@ -1,14 +1,14 @@
-/* Steps along the direct road, and those that leave it. */
+/* Choice of the evaluation path, and the change from closed form to matrices within a step. */
 #ifndef ZD_PATH_H
 #define ZD_PATH_H
 
 #include "step_loop.h"
 
-/* Which road the step takes that begins where the motion is. */
+/* Chooses the evaluation path of the step that begins at the point. */
 int zd_path_choose(zd_step_loop *loop);
-/* Whether a step with this status has to be made again, on the general road. */
+/* True if a step with this status must be repeated on the matrix path. */
 static inline int zd_path_is_left(const zd_step_loop *loop, int status) { return status && zd_is_direct(loop->motion); }
-/* Back to where the step began, and onto the general road. */
+/* Returns to the start of the step and takes the matrix path. */
 int zd_path_leave(zd_step_loop *loop);
 
 #endif

@@ -25,7 +25,7 @@ ZD_INLINE int integrate(const int n, zd_stepper *stepper, double h)
     motion->rate.vdot = motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
     int status = stepper->integrator->step(stepper->memory, &motion->rate, stepper->t, h, stepper->y, &motion->statistics);
     motion->rate.vdot = NULL;
-    return status;      /* what is not finite is found as the step lands */
+    return status;      /* values that are not finite are found at the end of the step */
 }
 
 int zd_short_integrate(zd_step_loop *loop, double h)
@@ -38,7 +38,7 @@ int zd_short_integrate(zd_step_loop *loop, double h)
     return ZD_SIZED(integrate, point->system->nv, stepper, h);
 }
 
-/* Of the point, which the acceleration is known at, too, afterwards. */
+/* Applies the other corrections at the point, and computes its acceleration. */
 ZD_INLINE int correct_rest(const int n, zd_stepper *stepper, double *y, int64_t step, int forced)
 {
     zd_motion *motion = stepper->motion;
@@ -48,7 +48,7 @@ ZD_INLINE int correct_rest(const int n, zd_stepper *stepper, double *y, int64_t 
     return zd_motion_accelerate(motion);
 }
 
-/* The state y, and the point with it. */
+/* Corrects the state y at t, and moves the point to it. */
 ZD_INLINE int correct(const int n, zd_stepper *stepper, double t, double *y, int64_t step, int forced)
 {
     zd_point *point = stepper->motion->point;
@@ -85,7 +85,7 @@ int zd_short_land_between(zd_stepper *stepper, double t, double *y)
     return ZD_SIZED(land_between, stepper->motion->system.nv, stepper, t, y);
 }
 
-/* What is known at the end changes places with memory for what is known between: a copy would take as long as a row of a table. */
+/* Exchanges the arrays of accelerations at the end of the step with others: a copy would take as long as saving a sample. */
 static void exchange_rates(zd_motion *motion, zd_cached_accelerations *rates)
 {
     zd_exchange(&motion->point->vdot, &rates->vdot);

@@ -1,8 +1,8 @@
-/* Values within a step just made, where its method has a polynomial for them.
+/* Dense output within the last step, by the method's polynomial of the integrated state.
  *
- * The polynomial is one of the state, and a state in independent velocities has variables that may be chosen anew at the end of a step, or
- * begin anew there, as increments do. So what the formulation had chosen where the step began is copied, and taken back while values within
- * the step are wanted. On the direct road variables stay for a step.
+ * A state in independent velocities may change its variables at the end of a step, or restart them there, as increments are. So the
+ * formulation's choice at the start of the step is copied, and restored while values within the step are computed. On the closed-form path
+ * the variables do not change within a step.
  */
 #include "spread.h"
 

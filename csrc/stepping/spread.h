@@ -1,4 +1,4 @@
-/* Values within a step just made, where its method has a polynomial for them. */
+/* Dense output within the last step, if its method has a polynomial. */
 #ifndef ZD_SPREAD_H
 #define ZD_SPREAD_H
 
@@ -7,8 +7,8 @@
 /* Allocates the copy of the formulation's choice of variables that values within a step need where that choice may change at its end. To be
  * called before the first step. ZD_NO_MEMORY */
 int zd_spread_prepare(zd_stepper *stepper);
-/* Whether there is a polynomial for the step from t0, which is the one just made; and prepares it, the motion being at the end of the step.
- * It serves until another step is made. */
+/* The first: true if there is a polynomial for the last step, from t0. The second prepares it, with the motion at the end of the step; it
+ * is valid until the next step. */
 int zd_may_spread(const zd_stepper *stepper, double t0);
 int zd_spread(zd_stepper *stepper);
 /* Moves the point to time t within the step: the value of the polynomial, with all corrections. y (size,) receives the state there. */

@@ -71,7 +71,7 @@ int zd_stepper_integrate(zd_stepper *self, double h)
     return zd_is_finite(self->motion->rate.size, self->y) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
-/* What of the state follows from the rest comes from the system's direct functions. */
+/* End of a step on the closed-form path in independent velocities: embed() computes the dependent ones. */
 static int land_embedded(zd_stepper *self, double t1, int64_t step, int forced)
 {
     zd_motion *motion = self->motion;
@@ -81,7 +81,7 @@ static int land_embedded(zd_stepper *self, double t1, int64_t step, int forced)
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
 }
 
-/* `leave` is of the formulation: see zd_stepper_land() and the other. */
+/* End of a step; `leave` is the formulation's function that writes the state: leave() or express(). */
 static int land(zd_stepper *self, double t1, int64_t step, int forced, int (*leave)(void *, zd_point *, double *))
 {
     zd_motion *motion = self->motion;
@@ -90,13 +90,13 @@ static int land(zd_stepper *self, double t1, int64_t step, int forced, int (*lea
     motion->state = self->y;
     if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;
     if (zd_is_embedded(motion)) return land_embedded(self, t1, step, forced);
-    /* Where Phi drifts, the state begins with p; where it does not, p was put right when it was found. */
+    /* If Phi drifts, the state begins with p; otherwise p has been normalised when it was computed. */
     if (formulation->drifts_from & ZD_PHI) zd_quaternions_normalise(&motion->system, self->y);
     int status = formulation->enter(motion->solver, motion->point, t1, self->y);
     if (!status) status = zd_motion_correct(motion, step, forced);
     if (!status) zd_point_follow(motion->point);
     if (!status) status = leave(motion->solver, motion->point, self->y);
-    /* Where v follows from the state, it does so to the last bit: the next step then starts from what is known here. */
+    /* Dependent velocities are recomputed from the state to the last bit, so that the next step can start from quantities known here. */
     if (!status && formulation->settle) status = formulation->settle(motion->solver, motion->point);
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
 }
@@ -119,7 +119,7 @@ int zd_stepper_return(zd_stepper *self)
     motion->state = self->y;
     zd_copy(motion->rate.size, self->last.y, self->y);
     zd_point_move(motion->point, self->last.t, self->last.p, self->last.v);
-    /* The variables that the state has may be chosen anew; on the direct road they stay. */
+    /* The variables of the state may be chosen anew; on the closed-form path they do not change. */
     if (zd_is_embedded(motion)) return ZD_DONE;
     return motion->formulation->settle ? motion->formulation->leave(motion->solver, motion->point, self->y) : ZD_DONE;
 }

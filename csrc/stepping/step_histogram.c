@@ -1,4 +1,4 @@
-/* How chosen steps lie in time: the times of every so many of them are kept; where there is no room left, every other one is let go. */
+/* Distribution of adaptive steps in time: the end of every stride-th step is saved; when the array is full, the stride doubles. */
 #include "step_histogram.h"
 
 zd_step_histogram zd_step_histogram_take(zd_arena *arena, double t0)

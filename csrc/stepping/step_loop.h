@@ -1,4 +1,4 @@
-/* The course of a run: where it has got to, and what its next step is made with. */
+/* Step loop of a run: its progress, and the control of its next step. */
 #ifndef ZD_STEP_LOOP_H
 #define ZD_STEP_LOOP_H
 
@@ -6,13 +6,13 @@
 #include "step_histogram.h"
 #include "step.h"
 
-typedef struct zd_control { /* where steps are chosen */
-    double h;               /* the next step */
-    zd_step_histogram histogram;           /* where the steps have been */
-    double *scale;          /* (size,): what the error is measured in */
-    double move;            /* of the step made last: its largest change of a coordinate, in units of max_move; 0: there is none */
-    int at_limit;           /* steps that were as long as stability allows */
-    int below_limit;        /* steps in succession that were shorter */
+typedef struct zd_control { /* control of adaptive steps */
+    double h;               /* s: size of the next step */
+    zd_step_histogram histogram;    /* distribution of the steps in time */
+    double *scale;          /* (size,): error scale, atol + rtol |y| */
+    double move;            /* largest change of a coordinate in the last step, in units of max_move; 0: max_move is not set */
+    int at_limit;           /* steps at the stability limit */
+    int below_limit;        /* consecutive shorter steps */
 } zd_control;
 
 typedef struct zd_step_loop {
@@ -20,29 +20,29 @@ typedef struct zd_step_loop {
     zd_motion *motion;
     zd_stepper *stepper;
     zd_safeguards *safeguards;
-    double end;             /* s: t1 of the settings, or where an event has ended the run */
-    int64_t step;              /* the number of the step being made, from 1 */
-    int64_t steps;             /* how many there will be, where they are of fixed size */
-    zd_state *undivided;    /* where the step began that is made in parts; NULL until there is one */
-    int parts;              /* how many the step is made in; 0: it is undivided */
+    double end;             /* s: t1 of the settings, or the time of a terminal event */
+    int64_t step;           /* number of the current step, from 1 */
+    int64_t steps;          /* number of fixed steps of the run */
+    zd_state *undivided;    /* start of a step that is repeated in parts; NULL until there is one */
+    int parts;              /* number of these parts; 0: the step is not divided */
     zd_control control;
 } zd_step_loop;
 
-/* Whether the step is one of every so many, or the last, or made in parts. */
+/* True if `every` divides the number of the step, or it is the last one, or one of several parts. */
 static inline int zd_step_loop_is_due(const zd_step_loop *loop, int64_t every)
 {
     return zd_is_one_of(every, loop->step) || loop->stepper->t == loop->end || loop->parts;
 }
 
-/* Whether all corrections that are on were made at the end of the step. */
+/* True if all enabled corrections were applied at the end of the step. */
 static inline int zd_step_loop_is_corrected(const zd_step_loop *loop)
 {
     return zd_motion_is_corrected(loop->motion, loop->step) || loop->stepper->t == loop->end || loop->parts;
 }
 
-/* Back to where the step began, to make it in (p, v), with safeguards that may have seen its end already. */
+/* Returns to the start of the step, to repeat it in (p, v); resets safeguards that have already saved its end. */
 int zd_step_loop_use_dependent(zd_step_loop *loop);
-/* take_step.c: the next step, of fixed size or as the error asked for allows. */
+/* take_step.c: makes the next step, fixed or adaptive. */
 int zd_step_loop_take_step(zd_step_loop *loop);
 
 #endif

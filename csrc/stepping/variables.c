@@ -1,12 +1,12 @@
-/* What is integrated near a bifurcation.
+/* Integrated variables near a bifurcation.
  *
- * Formulations in independent velocities find v = D u from p. As near as s to a bifurcation, where all but s of a row of C follows from
- * the others, what p is off by across the branch turns D by 1 / s of it, and so the velocity; and the acceleration by 1 / s^2. Where p
- * itself comes from q, it is off by 1 / s of the rounding of Phi. So these lose digits that a formulation keeps whose v is part of the
- * state, and steps whose error is to be small creep: no step is so short that its noise would be smaller.
+ * Formulations in independent velocities compute v = D u from p. At a distance s from a bifurcation, where a row of C has a relative residual
+ * s with respect to the others, an error of p across the branch is amplified by 1 / s in D and v, and by 1 / s^2 in the acceleration. If p
+ * itself is computed from q, its error is 1 / s of the rounding of Phi. These formulations so lose digits that one with v in its state
+ * keeps, and adaptive steps shrink without end, as no step is so short that its noise meets the tolerance.
  *
- * A step that comes near one is made in (p, v) by (8) instead, and then so are the next, until one is not near; the projection after each
- * of them holds the constraints. Where nothing does that, all stays as it was chosen.
+ * A step near a bifurcation is made in (p, v) by (8) instead, and so are the next, until one is no longer near; the projection after each
+ * of them corrects the constraints. Without such a projection the chosen variables are used throughout.
  */
 #include "variables.h"
 
@@ -27,7 +27,7 @@ zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integ
     return (zd_variables){used, NULL, used->state_size(independent)};
 }
 
-/* In place of the others; of the state, what is integrated along. */
+/* Replaces the formulation; `along`: the other entries of the state, which are kept. */
 static void use(zd_stepper *stepper, const zd_variables *variables, const double *along)
 {
     zd_motion *motion = stepper->motion;
@@ -60,7 +60,7 @@ int zd_variables_use_dependent(zd_stepper *stepper)
     stepper->t = last->t;
     zd_point_move(motion->point, last->t, last->p, last->v);
     use(stepper, dependent, last->y + motion->formulation_size);
-    /* So near to a bifurcation, the constraints can be satisfied far better than is asked for, and have to be. */
+    /* This near a bifurcation, the constraints must be satisfied far better than the tolerance requires, and can be. */
     int status = zd_motion_correct(motion, 0, 1);
     return status ? status : motion->formulation->leave(motion->solver, motion->point, stepper->y);
 }
