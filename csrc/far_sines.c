@@ -1,4 +1,4 @@
-/* Sines and reductions of angles of which one at least is far, for libraries that were compiled without. */
+/* Sines and reductions of large arguments, for libraries compiled without them. */
 #include "include/zerodrift/sines.h"
 #include "zerodrift.h"
 

@@ -1,4 +1,4 @@
-/* What a run does, outside it: accelerations, projection, states between its rows. */
+/* Operations of a run for single states: accelerations, projection, states between samples. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,13 +63,13 @@ int zd_measure_states(const zd_system *system, int measure, int64_t rows, const 
     return status;
 }
 
-/* One of the two stages, positions or velocities, with what is held at that stage as further constraints. */
+/* One stage of a projection, positions or velocities; held coordinates or velocities are additional constraints. */
 static int project_stage(const zd_system *system, const zd_settings *settings, int corrects, double t, double *p, double *v,
                          int *iterations, char *message, int message_size)
 {
     int status;
     zd_system still = *system;
-    still.provides &= ~ZD_XI;       /* nothing here is about accelerations */
+    still.provides &= ~ZD_XI;       /* accelerations are not evaluated */
     zd_run *run = zd_run_open(&still, settings, t, p, v, &status, message, message_size);
     if (!run) return status;
     run->motion.drifts_from = ZD_PHI | ZD_C;
@@ -82,7 +82,7 @@ static int project_stage(const zd_system *system, const zd_settings *settings, i
     return finish(run, status, message, message_size);
 }
 
-/* What the corrections that are given hold. */
+/* Constraints that the corrections in the settings enforce, with tolerances. */
 static zd_constraint_target target_of(const zd_settings *settings)
 {
     zd_constraint_target target = {0};
@@ -99,7 +99,7 @@ static int project(zd_store *store, const zd_system *system, const zd_settings *
     const zd_constraint_target target = target_of(settings);
     int status = ZD_DONE;
     if (target.positions) {
-        const zd_system *holding = hold_p ? zd_hold_positions(store, system, hold_p, p) : system;     /* (25a) has all rows of C */
+        const zd_system *holding = hold_p ? zd_hold_positions(store, system, hold_p, p) : system;     /* (25a) is computed with all rows of C */
         status = holding ? project_stage(holding, settings, ZD_PHI, t, p, v, iterations, message, message_size) : ZD_NO_MEMORY;
     }
     if (!status && target.velocities) {
@@ -114,7 +114,7 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
 {
     zd_settings stage = *settings;
     zd_store store = {NULL};
-    stage.on_singular = ZD_CONTINUE;    /* the smallest correction is one everywhere */
+    stage.on_singular = ZD_CONTINUE;    /* the smallest correction exists at a bifurcation, too */
     int status = zd_check_method(system, settings, message, message_size);
     if (!status) status = zd_check_quaternions(system, p, 1, message, message_size);
     if (!status) status = project(&store, system, &stage, t, p, v, hold_p, hold_v, iterations, message, message_size);

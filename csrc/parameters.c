@@ -1,4 +1,4 @@
-/* The parameters of the rows of the tables: what their cards say of them. */
+/* Parameters of formulations, integrators and corrections: defaults and checks by the rules of their cards. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,7 +32,7 @@ static int count_words(const char *text)
 
 static int is_whole(double value) { return value == floor(value); }
 
-/* What a value has to be and is not; NULL: it is. */
+/* The requirement that a value violates; NULL: none. */
 static const char *demanded(const zd_parameter *parameter, double value)
 {
     switch (parameter->rule) {

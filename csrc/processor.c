@@ -1,8 +1,8 @@
-/* Which vector unit the processor has, and its system lets it use.
+/* Widest vector unit that the processor has and the operating system supports.
  *
- * The processor itself is asked: what compilers offer for it reads a variable of their own libraries, which zig's leaves zero. Bits
- * are numbered as in Intel's Software Developer's Manual, volume 2, CPUID, and volume 1, 13.3 for those of XCR0. In a virtual machine each
- * question takes a microsecond and more: where the variable says that a unit is there, none is asked as a run is created.
+ * The CPUID instruction is executed directly: the compilers' functions read a variable of their own libraries, which is zero with zig.
+ * Bits are numbered as in Intel's Software Developer's Manual, volume 2, CPUID, and volume 1, 13.3 for XCR0. In a virtual machine one
+ * CPUID takes a microsecond or more: if that variable already reports a unit, CPUID is not executed when a run is created.
  */
 #include "zerodrift.h"
 
@@ -18,7 +18,7 @@ static int has_all(unsigned word, unsigned bits)
     return (word & bits) == bits;
 }
 
-/* Which registers the system saves for each thread: the lower half of XCR0. */
+/* Registers that the operating system saves per thread: the lower half of XCR0. */
 static unsigned saved_registers(void)
 {
     unsigned low, high;

@@ -1,4 +1,4 @@
-/* The four tables. A new row is a new file and one word here. */
+/* The four tables. A new entry is a new file and one word in registry.c. */
 #ifndef ZD_REGISTRY_H
 #define ZD_REGISTRY_H
 

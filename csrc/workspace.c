@@ -1,4 +1,4 @@
-/* The only file that allocates. */
+/* Memory: the only file that allocates. */
 #include "workspace.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 
 enum { CACHE_LINE = 64 };
 
-/* Blocks that begin at a cache line; Windows has functions of its own for these, and they are given back by another. */
+/* Blocks aligned to a cache line; Windows has separate functions to allocate and to free these. */
 #ifdef _WIN32
 #define TAKE_ALIGNED(size) _aligned_malloc(size, CACHE_LINE)
 #define GIVE_BACK _aligned_free

@@ -41,11 +41,11 @@ def header(name, size):
 #include "../../include/zerodrift/system.h"
 #include "../../include/zerodrift/units.h"
 
-/* Where among the constants of the system those of its direct functions begin, and where they end. */
+/* Range of the constants of the closed-form functions among those of the system. */
 enum {{ {capitals}_BEGINS = {BEGINS[name]}, {capitals}_ENDS = {BEGINS[name] + size} }};
 
 extern const zd_direct zd_{name}_direct[];
-/* What follows from the parameters, which the first of these doubles are. */
+/* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_{name}_direct_constants(double *k);
 
 #endif

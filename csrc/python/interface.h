@@ -1,7 +1,6 @@
-/* What the extension module has beside zerodrift.h: what it was built from, and systems that are written in Python.
+/* Declarations of the extension module besides zerodrift.h: the fingerprint of its sources, and systems written in Python.
  *
- * Declarations and nothing else: CFFI reads what the preprocessor makes of this text. What is marked as
- * written in Python are functions that call it.
+ * Declarations only: CFFI reads this text after the preprocessor. Functions marked ZD_WRITTEN_IN_PYTHON are implemented there.
  */
 #ifndef ZD_PYTHON_INTERFACE_H
 #define ZD_PYTHON_INTERFACE_H
@@ -18,12 +17,12 @@ extern const char *const zd_fingerprint;
 
 typedef struct zd_python_term {     /* Python's memory of one term */
     int term;                       /* its bit */
-    size_t offset;                  /* of its pointer in zd_terms */
-    size_t size;                    /* in bytes */
+    size_t offset;                  /* offset of its pointer in zd_terms, bytes */
+    size_t size;                    /* bytes */
     const double *values;
 } zd_python_term;
 
-/* A system written in Python, as the data of zd_evaluate_in_python(). Python never sees the core's memory. */
+/* A system written in Python: data of zd_evaluate_in_python(). Python does not access the core's memory. */
 typedef struct zd_python {
     void *evaluator;                /* handle of the Python object */
     const zd_system *system;

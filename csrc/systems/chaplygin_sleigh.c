@@ -1,11 +1,11 @@
-/* The Chaplygin sleigh: a body that slides on a plane without friction but for one knife edge, behind its centre of mass.
+/* The Chaplygin sleigh: a body on a frictionless plane, with one knife edge behind its centre of mass.
  *
  *     edge ------a----> centre of mass        p = [x, y, phi], the edge and the heading
  *     (x, y)                                  -xdot sin phi + ydot cos phi = 0
  *
- * It keeps its energy and yet, nonholonomic as it is, settles into straight motion, centre of mass ahead. Neimark and Fufaev,
- * Dynamics of Nonholonomic Systems, 1972; Bloch, Nonholonomic Mechanics and Control, 2015, section 1.7. Nothing pulls it:
- * V = 0 is declared so that its energy can be watched.
+ * Its energy is conserved, and yet the motion converges to straight motion with the centre of mass ahead, as is possible in
+ * nonholonomic systems only. Neimark and Fufaev, Dynamics of Nonholonomic Systems, 1972; Bloch, Nonholonomic Mechanics and
+ * Control, 2015, section 1.7. No forces are applied: V = 0 is declared so that the energy error is recorded.
  */
 #include "../include/zerodrift/sines.h"
 #include "direct/chaplygin_sleigh.h"
@@ -20,7 +20,7 @@ typedef struct given {      /* the parameters, and what evaluate() needs of them
     zd_skate_launch launch;
 } given;
 
-typedef struct sines {      /* of phi, kept while p stays */
+typedef struct sines {      /* sine and cosine of phi, valid while p does not change */
     double s, c;
 } sines;
 
@@ -93,9 +93,9 @@ const zd_kind zd_chaplygin_sleigh = {
         .name = "chaplygin_sleigh",
         .summary = "Sleigh on one edge: keeps its energy, yet settles into straight motion.",
         .equations = "Bloch, section 1.7",
-        .description = "A body slides on a plane without friction but for one knife edge behind its centre of mass. It keeps its "
-                       "energy and yet, nonholonomic as it is, settles into straight motion, centre of mass ahead. V = 0 is "
-                       "declared so that its energy can be watched.",
+        .description = "A body slides on a frictionless plane, with one knife edge behind its centre of mass. Its energy is conserved, "
+                       "and yet its motion converges to straight motion with the centre of mass ahead, as is possible in "
+                       "nonholonomic systems only. V = 0 is declared so that the energy error is recorded.",
         .reference = "Y. I. Neimark, N. A. Fufaev, Dynamics of Nonholonomic Systems, AMS, 1972; A. M. Bloch, Nonholonomic "
                      "Mechanics and Control, 2nd edition, Springer, 2015, section 1.7",
     },

@@ -16,15 +16,15 @@
 
 static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 
-static const double ROUNDING = 8 * 0x1p-52;          /* of a cosine */
-static const double FLAT = 1e-9;                    /* of the ground link is missing where all links are in line */
+static const double ROUNDING = 8 * 0x1p-52;         /* rounding error of a cosine */
+static const double FLAT = 1e-9;                    /* gap allowed with all links in line, relative to the ground link */
 
 enum { ALPHA_1, ALPHA_2, ALPHA_3, N = ZD_FOUR_BAR_N };
 
 typedef zd_four_bar_given given;
 typedef zd_four_bar_constants constants;
 
-typedef struct sines {          /* kept while p stays */
+typedef struct sines {          /* valid while p does not change */
     double s[N], c[N];
 } sines;
 
@@ -95,8 +95,8 @@ int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, 
 
 /* ---- alpha_2 and alpha_3 from alpha_1 ---- */
 
-/* alpha_2, alpha_3 close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0), with joint 3 on that side of it (1 or -1) or,
- * with side 0, on the side where alpha_2 has it. Returns whether they can. */
+/* alpha_2, alpha_3 close the triangle of l2, l3 and the diagonal from joint 2 to (l0, 0), with joint 3 on the given side of it (1 or -1),
+ * or with side 0 on its side by the present alpha_2. Returns false if the links do not reach. */
 static int close_loop(double l0, const double *l, double side, double *p)
 {
     double x = l0 - l[0] * zd_cos(p[ALPHA_1]), y = -l[0] * zd_sin(p[ALPHA_1]), diagonal = zd_hypotenuse(x, y), direction = atan2(y, x);
@@ -108,7 +108,7 @@ static int close_loop(double l0, const double *l, double side, double *p)
     return 1;
 }
 
-/* (18), q = alpha_1: angles continue the turns they have made. */
+/* (18), q = alpha_1: angles keep their numbers of turns. */
 static int embed(const void *data, double t, const double *q, double *p)
 {
     (void)t;
@@ -137,7 +137,7 @@ void zd_four_bar_start(const given *q, double *p, double *v)
     close_rates(q, p, v);
 }
 
-/* Whether all links can lie in one line: there both assemblies meet. */
+/* True if all links can be in line: the two assemblies coincide there. */
 static int can_be_flat(const double *l)
 {
     for (int signs = 0; signs < 8; signs++) {
@@ -148,7 +148,7 @@ static int can_be_flat(const double *l)
     return 0;
 }
 
-/* About the midpoint of a link; left out, that of a slender rod. */
+/* Moment of inertia of a link about its midpoint; by default that of a slender rod. */
 static double inertia(const given *q, int i)
 {
     return isnan(q->J[i]) ? q->m[i] * q->l[i + 1] * q->l[i + 1] / 12 : q->J[i];

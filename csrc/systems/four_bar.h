@@ -1,4 +1,4 @@
-/* What the four-bar mechanisms, free and driven, share. */
+/* Terms, parameters and start of the four-bar mechanisms, free and driven. */
 #ifndef ZD_FOUR_BAR_H
 #define ZD_FOUR_BAR_H
 
@@ -10,7 +10,7 @@
 
 enum { ZD_FOUR_BAR_N = 3, ZD_FOUR_BAR_SCRATCH = 2 * ZD_FOUR_BAR_N };
 
-/* parameters, in the order of the tables; the first so many are those of direct functions */
+/* parameters, in the order of the tables; the first ZD_FOUR_BAR_DIRECT are those of the closed-form functions */
 enum { ZD_FOUR_BAR_DIRECT = 11 };
 
 typedef struct zd_four_bar_given {
@@ -22,10 +22,10 @@ typedef struct zd_four_bar_given {
     double angle, rate; /* alpha_1(0), rad; its rate, rad/s */
 } zd_four_bar_given;
 
-/* what evaluate() needs of them */
+/* constants of evaluate(), from the parameters */
 typedef struct zd_four_bar_constants {
     double l0, l[ZD_FOUR_BAR_N];
-    double side;                        /* of the diagonal that joint 3 is on: 1 open, -1 crossed; 0: it changes where they meet */
+    double side;                        /* side of the diagonal with joint 3: 1 open, -1 crossed; 0: changes where both assemblies meet */
     double diagonal[ZD_FOUR_BAR_N];     /* M_ii, kg m^2 */
     double k12, k13, k23;               /* M_ij / cos(alpha_j - alpha_i), kg m^2 */
     double weight[ZD_FOUR_BAR_N];       /* -f_i / cos(alpha_i), N m */
@@ -34,7 +34,7 @@ typedef struct zd_four_bar_constants {
 /* The terms of the paper's section 4.1; the closure is the first two rows. Takes the constants as `data`. */
 zd_evaluate zd_four_bar_evaluate;
 const char *zd_four_bar_prepare(const zd_four_bar_given *given, zd_four_bar_constants *to);
-void zd_four_bar_fill(const zd_four_bar_given *given, double *to);      /* the parameters of direct functions */
+void zd_four_bar_fill(const zd_four_bar_given *given, double *to);      /* parameters of the closed-form functions */
 void zd_four_bar_start(const zd_four_bar_given *given, double *p, double *v);
 void zd_four_bar_draw(const double *constants, const double *p, double *points);
 

@@ -1,8 +1,8 @@
-/* Holding is a constraint like any other: p_i - value_i = 0 among the holonomic rows, v_i - value_i = 0 among the
- * nonholonomic ones. The rows of the inner system are evaluated into the scratch and copied where they belong.
+/* Held quantities as constraints: p_i - value_i = 0 is holonomic, v_i - value_i = 0 nonholonomic. The terms of the inner system are
+ * evaluated into the scratch and copied to their positions.
  *
- * Such a row touches one body, whose entries it has from A, or from the identity. So it is a row of a group of this body where a structure is
- * declared, which is so kept; and where none is, the whole system is one body.
+ * Such a constraint touches one body; its gradient is a row of A, or of the identity. So a declared structure gets one more group for this
+ * body; without a structure the whole system is one body.
  */
 #include "held.h"
 
@@ -12,7 +12,7 @@
 #include "../point/layout.h"
 #include "../point/point.h"
 
-typedef struct holding {    /* what a system that holds something is laid out from */
+typedef struct holding {    /* arguments of take() */
     const zd_system *inner;
     const int *hold;
     const double *value;
@@ -31,7 +31,7 @@ static int coordinates_of(const zd_system *system, int b) { return system->struc
 static int velocities_of(const zd_system *system, int b) { return system->structure ? system->structure->velocities[b] : system->nv; }
 static int size_of_A(const zd_system *system) { return system->structure ? zd_packed_size(system, ZD_A) : system->nq * system->nv; }
 
-/* Rows of the inner system have its names; what is held of positions or velocities is told by its place there. */
+/* Name of a constraint: by the inner system, or "p[i] is held", "v[i] is held". */
 static void name_row(const void *names, int row, char *to, int size)
 {
     const zd_held *held = names;
@@ -55,7 +55,7 @@ static int count(const int *hold, int n)
 
 /* ---- structure ---- */
 
-/* How many of the groups of the inner system have such rows. */
+/* Number of groups of the inner system with the first `rows` constraints. */
 static int groups_of(const zd_structure *structure, int rows)
 {
     int groups = 0;
@@ -63,7 +63,7 @@ static int groups_of(const zd_structure *structure, int rows)
     return groups;
 }
 
-/* How many entries these groups have in C. */
+/* Number of stored entries of these groups in C. */
 static int size_of_groups(const zd_structure *structure, int groups)
 {
     int size = 0;
@@ -72,7 +72,7 @@ static int size_of_groups(const zd_structure *structure, int groups)
     return size;
 }
 
-/* Behind the groups of the inner system's first rows, for each body one with what is held of it. */
+/* The groups of the first `rows` constraints of the inner system, then one group for each body with held quantities. */
 static zd_structure take_structure(zd_arena *arena, const holding *it, int rows)
 {
     const zd_structure *inner = it->inner->structure;
@@ -173,14 +173,14 @@ static int evaluate_velocities(const void *data, int want, double t, const doubl
 
 /* ---- systems ---- */
 
-/* What the inner system's products have of the rates of its followers is not there: they are brought to the rest at once. */
+/* Updates the dependent coordinates of the inner system; their rates, known to its products only, are not needed. */
 static void follow(const void *data, double *p)
 {
     const zd_system *inner = ((const zd_held *)data)->inner;
     inner->follow(inner->data, p);
 }
 
-/* Those of the inner system's rows that count here, and ones of the rows that hold something. */
+/* Magnitudes of the inner system's constraints that are included, and 1 for those of held quantities. */
 static int magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch)
 {
     const zd_held *held = data;
@@ -204,7 +204,7 @@ static void *take(zd_arena *arena, const void *of)
     self->system = *inner;
     self->system.data = self->system.names = &self->held;
     self->system.name_row = name_row;
-    self->system.operations = NULL;         /* these two are of the inner system alone */
+    self->system.operations = NULL;         /* they do not know the added constraints */
     self->system.follow = inner->follow ? follow : NULL;
     self->system.magnitudes = inner->magnitudes ? magnitudes : NULL;
     self->system.magnitudes_scratch += 2 * zd_constraints(inner);

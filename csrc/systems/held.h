@@ -1,4 +1,4 @@
-/* A system some of whose coordinates or velocities are held where they are: what assembling a mechanism needs. */
+/* A system with some of its coordinates or velocities held at given values, for the assembly of mechanisms. */
 #ifndef ZD_HELD_H
 #define ZD_HELD_H
 
@@ -8,15 +8,15 @@
 typedef struct zd_held {
     const zd_system *inner;
     const int *hold;        /* nonzero where held; NULL: nowhere */
-    const double *value;    /* what is held */
-    int of_positions;       /* or of velocities */
-    int size_of_C;          /* how many entries the rows of `inner` have that count here; those of what is held stand behind them */
-    zd_structure structure; /* that of `inner`, where it has one, and a group more for each body of which something is held */
+    const double *value;    /* values of held coordinates or velocities */
+    int of_positions;       /* true: coordinates are held; false: velocities */
+    int size_of_C;          /* stored entries in C of the constraints of `inner`; those of held quantities follow */
+    zd_structure structure; /* that of `inner`, if declared, with one more group for each body with held quantities */
 } zd_held;
 
-/* The holonomic constraints of `inner` and p_i = value_i. NULL where there is no memory, which is that of the store. */
+/* System with the holonomic constraints of `inner` and p_i = value_i, in memory of the store; NULL without memory. */
 const zd_system *zd_hold_positions(zd_store *store, const zd_system *inner, const int *hold, const double *p);
-/* All constraints of `inner` and v_i = value_i. */
+/* System with all constraints of `inner` and v_i = value_i. */
 const zd_system *zd_hold_velocities(zd_store *store, const zd_system *inner, const int *hold, const double *v);
 
 #endif

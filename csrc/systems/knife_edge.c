@@ -26,7 +26,7 @@ typedef struct constants {
     double weight;          /* N, what of it pulls down the slope */
 } constants;
 
-typedef struct sines {      /* of phi, kept while p stays */
+typedef struct sines {      /* sine and cosine of phi, valid while p does not change */
     double s, c;
 } sines;
 

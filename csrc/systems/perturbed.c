@@ -1,5 +1,5 @@
-/* A system each of whose arguments and terms is off by a rounding or so, always by the same: what systematic rounding does to a
- * motion is then seen by comparing two runs, one of which is of this system. */
+/* A system with relative perturbations of rounding size in each argument and term, constant in time: the effect of systematic
+ * rounding on a motion is measured by comparing a run of this system with one of the original. */
 #include "../point/terms.h"
 
 static void multiply(int count, const double *factors, double *x)
@@ -30,7 +30,7 @@ static int embed(const void *data, double t, const double *q, double *p)
     return self->system->embed(self->system->data, t, q, p);
 }
 
-/* Of the terms that have been written, perturbed. */
+/* Product with the perturbed A. */
 static void times_A(const void *data, const zd_terms *terms, const double *x, double *y)
 {
     const zd_system *inner = ((const zd_perturbation *)data)->system;
@@ -43,7 +43,7 @@ static void follow(const void *data, double *p)
     inner->follow(inner->data, p);
 }
 
-/* Of the rows as they are: a rounding does not change them. */
+/* Magnitudes of the unperturbed constraints: perturbations of rounding size do not matter. */
 static int magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch)
 {
     const zd_system *inner = ((const zd_perturbation *)data)->system;
@@ -56,13 +56,13 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     system.scratch += system.nq + system.nv;
     system.evaluate = evaluate;
     static const zd_operations rates = {.times_A = times_A};
-    /* The rates of followers may be nowhere else; the other operations are of the terms as they are. */
+    /* Rates of dependent coordinates may be known to times_A only; the other operations do not use the perturbed terms. */
     system.operations = system.followers && system.operations && system.operations->times_A ? &rates : NULL;
     system.follow = system.follow ? follow : NULL;
     system.magnitudes = system.magnitudes ? magnitudes : NULL;
     system.direct = NULL;
     system.directs = 0;
-    system.series = perturbation->series;      /* of the terms as they are perturbed */
+    system.series = perturbation->series;      /* Taylor series of the perturbed terms */
     system.jacobian = NULL;
     system.embed = system.embed ? embed : NULL;
     system.data = perturbation;

@@ -44,7 +44,7 @@ typedef struct constants {
     double m, R, weight, Ia, It;
 } constants;
 
-typedef struct sines {              /* of yaw and lean, kept while p stays */
+typedef struct sines {              /* sines and cosines of yaw and lean, valid while p does not change */
     double sy, cy, sl, cl;
 } sines;
 

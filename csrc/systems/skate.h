@@ -1,4 +1,4 @@
-/* What the knife edge and the Chaplygin sleigh share: an edge at (x, y) that points along phi and moves along itself only. */
+/* Terms of the knife edge and the Chaplygin sleigh: an edge at (x, y) in the direction phi that moves along itself only. */
 #ifndef ZD_SKATE_H
 #define ZD_SKATE_H
 
@@ -17,12 +17,12 @@ typedef struct zd_skate_launch {
 
 extern const zd_variable zd_skate_coordinate[], zd_skate_velocity[], zd_skate_constraint[];
 
-/* Of speeds u = [along the edge, turn rate]: D (3, 2) of (14) and gamma (3,) of (15). */
+/* D (3, 2) of (14) and gamma (3,) of (15), for the independent velocities u = [speed along the edge, turn rate]. */
 void zd_skate_complement(double sine, double cosine, double *D);
 void zd_skate_gamma(double sine, double cosine, const double *v, double *gamma);
 /* A consistent start from the origin. */
 void zd_skate_start(const zd_skate_launch *launch, double *p, double *v);
-/* Puts an outline given along and across the edge, in m, where the edge is. */
+/* Transforms an outline, given in m along and across the edge, to the position of the edge. */
 void zd_skate_draw(int n, const double (*outline)[2], const double *p, double *points);
 
 #endif

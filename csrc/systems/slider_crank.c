@@ -31,9 +31,9 @@ typedef struct given {          /* the parameters, and what evaluate() needs of 
     double angle, rate;         /* q(0), rad; its rate, rad/s */
 } given;
 
-typedef struct geometry {       /* kept while p stays */
-    double s1, c1, s2, c2;      /* of q and phi */
-    double l, l_p[N];           /* of the spring: length, and its gradient dl/dp */
+typedef struct geometry {       /* valid while p does not change */
+    double s1, c1, s2, c2;      /* sines and cosines of q and phi */
+    double l, l_p[N];           /* length of the spring, m, and its gradient dl/dp */
 } geometry;
 
 static geometry locate(const given *k, const double *p)

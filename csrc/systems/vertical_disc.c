@@ -26,7 +26,7 @@ typedef struct given {          /* the parameters, and what evaluate() needs of 
     double turn_rate, roll_rate;
 } given;
 
-typedef struct sines {          /* of phi, kept while p stays */
+typedef struct sines {          /* sine and cosine of phi, valid while p does not change */
     double s, c;
 } sines;
 

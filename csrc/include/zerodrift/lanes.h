@@ -54,7 +54,7 @@ typedef long long zd_eight_bits __attribute__((vector_size(64)));
 #define ZD_JOINED_(name, unit, lanes) name##_##unit##_##lanes
 #define ZD_JOINED(name, unit, lanes) ZD_JOINED_(name, unit, lanes)
 #define ZD_NAMED(name) ZD_JOINED(name, ZD_UNIT, ZD_LANES)
-/* zd_real: a number of each trajectory; zd_stored: the same in somebody's memory; zd_condition: what a comparison gives. */
+/* zd_real: one number of each trajectory; zd_stored: the same in unaligned memory; zd_condition: result of a comparison. */
 #define zd_real ZD_NAMED(zd_real_of)
 #define zd_stored ZD_NAMED(zd_stored_of)
 #define zd_condition ZD_NAMED(zd_condition_of)
@@ -129,7 +129,7 @@ typedef uint64_t zd_vector_words __attribute__((vector_size(8 * ZD_WIDTH)));
 #endif
 #include "sines_kernel.h"
 
-/* Of angles of which one at least is no number or not within +-2^19: those that are not are reduced anew. */
+/* Reduces those angles of a vector again that are not within +-2^19, or NaN. */
 ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_reduce_far_lanes)(const zd_vector *angle, ZD_NAMED(zd_reduced) *a)
 {
     double x[ZD_WIDTH], r[ZD_WIDTH], tail[ZD_WIDTH];
@@ -144,7 +144,7 @@ ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_reduce_far_lanes)(const zd_vector *ang
     memcpy(&a->quadrant, quadrant, sizeof quadrant);
 }
 
-/* Of a vector of angles. What is rare has its own variables, so that those of others can stay in registers. */
+/* Sines and cosines of a vector of angles. The rare case has its own variables, so that the others can stay in registers. */
 ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_vector_sines)(const zd_vector angle, zd_vector *s, zd_vector *c)
 {
     ZD_NAMED(zd_reduced) a;

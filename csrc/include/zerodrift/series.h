@@ -1,6 +1,6 @@
-/* What written Taylor series are computed with: sums over coefficients of lower orders, and one inverse for all orders.
+/* Operations of generated Taylor series: sums over coefficients of lower orders, and one inverse for all orders.
  *
- * Sums are formed of eight products at once, as vectors of the processor or not: the same numbers come out of all vector units.
+ * Sums are formed of eight products at once, with or without vectors of the processor: the results are the same on all vector units.
  */
 #ifndef ZERODRIFT_SERIES_H
 #define ZERODRIFT_SERIES_H
@@ -73,9 +73,9 @@ ZD_SERIES_ON static inline void zd_series_drop(const int size, double *restrict 
     for (int i = 0; i < size; i++) G[i * size + k] = G[k * size + i] = 0;
 }
 
-/* G <- its inverse, of the leading matrix of (8) with n velocities and m rows. M is definite, and so is what its elimination leaves of the
- * rows of C: pivots need no order. A row of which nothing but rounding is left follows from others, and gets multiplier zero. Not 0: M is not
- * definite. */
+/* G <- inverse of the leading matrix of (8) with n velocities and m constraints. M is positive definite, and its Schur complement negative
+ * definite, so that pivots need no ordering. A constraint whose relative pivot is rounding is redundant, and gets multiplier zero. Returns
+ * nonzero if M is not positive definite. */
 ZD_SERIES_ON static inline int zd_series_invert(const int n, const int m, double *restrict G, double *restrict size_of_row)
 {
     const int size = n + m;

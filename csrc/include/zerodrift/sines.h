@@ -85,7 +85,7 @@ typedef uint64_t zd_pair_of_words __attribute__((vector_size(16)));
 #undef ZD_TIMES_PLUS
 #undef ZD_LESS_TIMES
 
-/* ---- what is rare: angles of which one at least is no number or not within +-2^19 ---- */
+/* ---- the rare case: an angle is not within +-2^19, or NaN ---- */
 
 #ifdef ZD_FAR_SINES_OF_CORE
 
@@ -132,7 +132,7 @@ ZD_SINES_INLINE void zd_multiply_by_two_over_pi(double x, uint32_t *product)
     }
 }
 
-/* Of any finite |x| from 2^19 on. None is nearer to a multiple of pi/2 than 2^-62, so that at least 70 bits behind the zeros are right. */
+/* Reduction of any finite |x| >= 2^19. None is closer to a multiple of pi/2 than 2^-62: at least 70 bits after the zeros are right. */
 ZD_SINES_RARE void zd_reduce_far(double x, zd_reduced *reduced)
 {
     uint32_t y[7] = {0};
@@ -149,7 +149,7 @@ ZD_SINES_RARE void zd_reduce_far(double x, zd_reduced *reduced)
     *reduced = (zd_reduced){scale * r, scale * tail, x < 0 ? 0 - quadrant : quadrant};
 }
 
-/* Of any number; of what is none, and of infinities, NaN */
+/* Reduction of any number; NaN for infinities and NaN. */
 ZD_SINES_RARE void zd_reduce(double x, zd_reduced *reduced)
 {
     if (ZD_SIZE_OF(x) <= ZD_SINES_NEAR)
@@ -183,7 +183,7 @@ ZD_SINES_RARE void zd_reduce_those_far(int n, const double *angle, double *r, do
 #endif
 
 #ifdef ZD_SINES_IN_PAIRS
-/* Of two angles. What is rare has its own variables, so that those of others can stay in registers. */
+/* Sines and cosines of two angles. The rare case has its own variables, so that the others can stay in registers. */
 ZD_SINES_INLINE void zd_sines_of_two(const zd_pair angle, zd_pair *s, zd_pair *c)
 {
     zd_reduced_of_pair a;

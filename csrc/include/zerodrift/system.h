@@ -1,19 +1,19 @@
-/* What a system is for zerodrift: the whole interface between the core and code that somebody else compiled.
+/* The system interface: all declarations shared by the core and separately compiled systems.
  *
- *     #include <zerodrift/system.h>           the folder is what zerodrift.get_include() says
+ *     #include <zerodrift/system.h>           in the folder returned by zerodrift.get_include()
  *     const int zd_interface_version = ZD_INTERFACE_VERSION;
  *
  *     int pendulum(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
  *     {
- *         const double *q = data;             the parameters, in the order they are named in Python
+ *         const double *q = data;             the parameters, in the order of their names in Python
  *         if (want & ZD_M) ...                out->M[...]
  *         return ZD_DONE;
  *     }
  *
- * A shared library that has both goes to zerodrift.native("library.so", symbol="pendulum", ...), which says the sizes and terms.
- * One that has a `const zd_kind zd_kind_pendulum` instead says all of it itself, and is as good as a built-in system.
+ * A shared library with both is loaded by zerodrift.native("library.so", symbol="pendulum", ...), which declares sizes and terms.
+ * One with a `const zd_kind zd_kind_pendulum` instead declares all of it itself, as the built-in systems do.
  *
- * Declarations and nothing else: CFFI reads what the preprocessor makes of this text. Equation numbers are those of W. Blajer,
+ * Declarations only: CFFI reads this text after the preprocessor. Equation numbers are those of W. Blajer,
  * "Elimination of Constraint Violation and Accuracy Aspects in Numerical Simulation of Multibody Systems", Multibody System Dynamics 7 (2002)
  * 265-284. Matrices are row-major; SI units throughout.
  *
@@ -25,21 +25,21 @@
 
 #include <stdint.h>
 
-/* Changes whenever something below does that compiled code depends on. */
+/* Changes with any declaration below that compiled code depends on. */
 enum { ZD_INTERFACE_VERSION = 3 };
 
 /* ---- statuses: 0 done; positive: stopped early, what was recorded is valid; negative: failed ---- */
 
-/* One in each line: its number, the error that Python raises ("": the base of all), and what it means. A message that has numbers to
- * say more with is in explain.c. */
+/* One status per line: its number, the exception that Python raises ("": the base class, ZerodriftError), and its meaning. More specific
+ * messages with numbers are in explain.c. */
 #define ZD_STATUS_LIST(STATUS) \
     STATUS(ZD_DONE, 0, "", "done") \
     STATUS(ZD_PAUSED, 1, "", "the time slice is over: call again") \
     STATUS(ZD_FULL, 2, "", "the record is full: give another") \
-    STATUS(ZD_EVENT, 4, "", "a terminal event ended the run")       /* 3 is left to whoever stops it from outside */ \
+    STATUS(ZD_EVENT, 4, "", "a terminal event ended the run")       /* 3 is reserved for an interruption by the caller */ \
     STATUS(ZD_NOT_FINITE, -1, "Diverged", "the state left the range of doubles") \
     STATUS(ZD_NOT_DEFINITE, -2, "SingularSystem", "the mass matrix is not positive definite") \
-    STATUS(ZD_DEPENDENT_ROWS, -3, "SingularSystem", "rows of C that count are dependent, to the formulation's own precision") \
+    STATUS(ZD_DEPENDENT_ROWS, -3, "SingularSystem", "independent constraints are dependent within the precision of the formulation") \
     STATUS(ZD_SINGULAR, -4, "SingularSystem", "a leading matrix is singular") \
     STATUS(ZD_NO_CONVERGENCE, -5, "CorrectionFailed", "the position correction did not reach its tolerance") \
     STATUS(ZD_NO_STEP, -6, "StepFailed", "the equations of an implicit step were not solved") \
@@ -50,14 +50,15 @@ enum { ZD_INTERFACE_VERSION = 3 };
     STATUS(ZD_UNREACHABLE, -11, "UnreachableTolerance", "the tolerance is below what doubles can reach") \
     STATUS(ZD_NO_EMBEDDING, -12, "StepFailed", "the independent coordinates do not determine the others here: p = g(q) was not solved") \
     STATUS(ZD_NOT_SYMMETRIC, -13, "SingularSystem", "the mass matrix is not symmetric") \
-    STATUS(ZD_TINY_STEP, -14, "StepFailed", "the error asked for needs steps that time does not resolve") \
-    STATUS(ZD_UNSUITED, -15, "UnsuitedFormulation", "the formulation cannot take this system") \
-    STATUS(ZD_BAD_TERM, -16, "", "a term of the system is not finite where the state is") \
-    STATUS(ZD_UNSUITED_INTEGRATOR, -17, "UnsuitedIntegrator", "the integrator cannot take this system") \
-    STATUS(ZD_BRANCH, -18, "BranchJump", "the step ended where its velocities do not lead, on another assembly branch or nearly") \
+    STATUS(ZD_TINY_STEP, -14, "StepFailed", "step size underflow: the tolerance requires steps below the rounding of the time") \
+    STATUS(ZD_UNSUITED, -15, "UnsuitedFormulation", "the formulation does not apply to this system") \
+    STATUS(ZD_BAD_TERM, -16, "", "a term of the system is not finite at a finite state") \
+    STATUS(ZD_UNSUITED_INTEGRATOR, -17, "UnsuitedIntegrator", "the integrator does not apply to this system") \
+    STATUS(ZD_BRANCH, -18, "BranchJump", \
+           "the step ended on (or near) another assembly branch: displacement and velocities disagree") \
     STATUS(ZD_BIFURCATION, -19, "Bifurcation", \
-           "constraints that are independent elsewhere are not here, and do not determine the motion") \
-    STATUS(ZD_CONTRADICTION, -20, "SingularSystem", "constraints that follow from others ask for something else") \
+           "constraints that are independent elsewhere are dependent here, and do not determine the motion") \
+    STATUS(ZD_CONTRADICTION, -20, "SingularSystem", "dependent constraints contradict each other") \
     STATUS(ZD_BIFURCATION_PASSED, -21, "Bifurcation", \
            "the step passes a bifurcation, where the constraints do not determine the motion, or comes too near one to follow the motion") \
     STATUS(ZD_TOO_MANY_STEPS, -22, "StepFailed", "settings->max_steps were taken") \
@@ -67,18 +68,18 @@ enum { ZD_INTERFACE_VERSION = 3 };
 #define ZD_STATUS_NUMBER(name, number, error, sentence) name = number,
 enum zd_status { ZD_STATUS_LIST(ZD_STATUS_NUMBER) };
 
-/* ---- a system: one function evaluates what is wanted at (t, p, v) ---- */
+/* ---- a system: one function evaluates the requested terms at (t, p, v) ---- */
 
-/* What a function of the motion depends on, besides t. */
+/* Arguments of a function of the motion, besides t. */
 enum zd_depends {
     ZD_OF_POSITIONS,    /* p */
     ZD_OF_VELOCITIES,   /* p and v */
     ZD_OF_ACCELERATIONS /* p, v, vdot and lambda */
 };
 
-/* The terms of the equations, one in each line: the bit that asks for it, its member of zd_terms, its shape, what it depends on, and
- * what it is. All else that is to be known of the terms follows from here; a new one is a line below, and a new interface version.
- * Bits are below ZD_MOVED. */
+/* The terms of the equations, one per line: name and value of the bit that requests it, its member of zd_terms, shape, arguments, and
+ * meaning. All other tables of terms are made from this list; a new term is a new line, and a new interface version. Bits are below
+ * ZD_MOVED. */
 #define ZD_TERM_LIST(TERM) \
     TERM(ZD_A, 0x1, A, ZD_MATRIX(nq, nv), ZD_OF_POSITIONS, "kinematic matrix of (1); absent: identity") \
     TERM(ZD_M, 0x2, M, ZD_MATRIX(nv, nv), ZD_OF_POSITIONS, "mass matrix of (2), both triangles") \
@@ -87,67 +88,66 @@ enum zd_depends {
     TERM(ZD_PHI, 0x10, Phi, ZD_VECTOR(mh), ZD_OF_POSITIONS, "holonomic constraints (3)") \
     TERM(ZD_C, 0x20, C, ZD_MATRIX(m, nv), ZD_OF_POSITIONS, "constraint matrix of (5), holonomic rows first") \
     TERM(ZD_PHI_T, 0x40, Phi_t, ZD_VECTOR(m), ZD_OF_POSITIONS, \
-         "what (5) has besides C v: time derivatives of Phi at fixed p; absent: zero") \
-    TERM(ZD_XI, 0x80, xi, ZD_VECTOR(m), ZD_OF_VELOCITIES, "right side of (6): all that is not C vdot, also from Phi_t") \
+         "time derivatives of Phi at fixed p, the term of (5) besides C v; absent: zero") \
+    TERM(ZD_XI, 0x80, xi, ZD_VECTOR(m), ZD_OF_VELOCITIES, "right-hand side of (6), C vdot = xi, including the terms from Phi_t") \
     TERM(ZD_POTENTIAL, 0x100, V, ZD_NUMBER, ZD_OF_POSITIONS, "potential energy in J") \
     TERM(ZD_POWER, 0x200, power, ZD_NUMBER, ZD_OF_VELOCITIES, \
          "Edot of (28) in W: power of the forces in f that V does not describe, and dV/dt at fixed p") \
     TERM(ZD_COMPLEMENT, 0x400, D, ZD_MATRIX(nv, r), ZD_OF_POSITIONS, "complement of (14), C D = 0; absent: found from C by (16)") \
-    TERM(ZD_GAMMA, 0x800, gamma, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "what vdot has besides D udot, (15); goes with D")
+    TERM(ZD_GAMMA, 0x800, gamma, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "term of (15), vdot = D udot + gamma; provided together with D")
 
 #define ZD_TERM_BIT(name, bit, member, shape, depends, text) name = bit,
 enum zd_term {
     ZD_TERM_LIST(ZD_TERM_BIT)
-    ZD_MOVED = 0x400000,    /* said to the system, not asked of it: t or p differ from its last call with this scratch */
-    ZD_TIMELESS = 0x800000  /* said by the system among what it provides: none of its terms depends on t but through p and v */
+    ZD_MOVED = 0x400000,    /* passed in `want`: t or p differ from the last call with this scratch */
+    ZD_TIMELESS = 0x800000  /* declared in `provides`: no term depends explicitly on t */
 };
 
 #define ZD_TERM_MEMBER(name, bit, member, shape, depends, text) double *member;
 typedef struct zd_terms {
     ZD_TERM_LIST(ZD_TERM_MEMBER)    /* double *A; double *M; double *d; and so on */
-    double *scratch;        /* (scratch,) what a system keeps while (t, p) stays, such as sines */
-    const double *inputs;   /* (inputs,) read, not written: see zd_input; NULL where there are none */
+    double *scratch;        /* (scratch,) memory of the system, for values that stay valid while (t, p) does not change, such as sines */
+    const double *inputs;   /* (inputs,) values to read: see zd_input; NULL without inputs */
 } zd_terms;
 
-/* Writes the terms in `want` and no others. Pure: all it may keep is in out->scratch. Returns ZD_DONE; anything else: it failed. */
+/* Writes the terms in `want` and no others. Must be a pure function, except for out->scratch. Returns ZD_DONE; any other value: failed. */
 typedef int zd_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
 
-/* p = g(q) of (18), on the branch that p, an estimate of it, is on when called. Returns 0, or ZD_NO_CONVERGENCE where there is no such p. */
+/* p <- g(q) of (18), on the branch of the estimate in p. Returns 0, or ZD_NO_CONVERGENCE if there is no such p. */
 typedef int zd_embed(const void *data, double t, const double *q, double *p);
 
-/* ---- what a system may bring besides; a pointer that is NULL says that there is nothing of it ---- */
+/* ---- optional members of a system; NULL: not provided ---- */
 
-/* Of which bodies a system consists, and which of its rows join which. Where it is declared, matrices are packed and nothing dense is stored:
+/* Bodies of a system (blocks), and the constraints that join them (groups). With a declared structure, matrices are packed:
  *
  *     A   block after block, (coordinates[b], velocities[b]) each
- *     M   block after block, (velocities[b], velocities[b]) each, or its diagonal (velocities[b],) where ZD_DIAGONAL says so
+ *     M   block after block, (velocities[b], velocities[b]) each, or its diagonal (velocities[b],) with ZD_DIAGONAL
  *     C   group after group, (rows[g], width) each: its columns are the velocities of the blocks that the group touches, in their order
  *
- * row-major all, so that what is stored of a row of C stands together. Vectors are as they are without. A system with structure has no D of
- * its own. */
+ * all row-major, so that the entries of a row of C are contiguous. Vectors are not packed. A system with a structure must not provide D. */
 enum zd_mass { ZD_CONSTANT = 1, ZD_DIAGONAL = 2 };
 
 typedef struct zd_structure {
     int blocks;
-    const int *coordinates;     /* (blocks,) how many entries of p each has, in order, nq in all but followers */
-    const int *velocities;      /* (blocks,) how many entries of v, in order, nv in all; of both at least one */
-    const int *mass;            /* (blocks,) bits of zd_mass; NULL: none anywhere */
+    const int *coordinates;     /* (blocks,) number of entries of p per block, in order, at least 1; sum: nq without followers */
+    const int *velocities;      /* (blocks,) number of entries of v per block, in order, at least 1; sum: nv */
+    const int *mass;            /* (blocks,) bits of zd_mass; NULL: all 0 */
     int groups;
-    const int *rows;            /* (groups,) how many rows of C each has, at least one, in order, m in all; none has holonomic and
-                                 * nonholonomic ones */
-    const int *first;           /* (groups + 1,) where in `block` the blocks of each group begin */
-    const int *block;           /* (first[groups],) the blocks that each group touches, at least one, increasing */
+    const int *rows;            /* (groups,) number of rows of C per group, in order, at least 1; sum: m; all holonomic, or all
+                                 * nonholonomic */
+    const int *first;           /* (groups + 1,) offset of the blocks of each group in `block` */
+    const int *block;           /* (first[groups],) the blocks that each group touches, at least 1, increasing */
 } zd_structure;
 
-/* Products with what was evaluated, for systems that know better ways than through stored entries; NULL: through these. They follow a call
- * with ZD_MOVED at the same (t, p), from whose scratch they may take what they need. Where both of the last two are there, and all of M is
- * diagonal by structure, the core has accelerations and corrections without C, which it then evaluates only for what is rare: so these and
- * times_C must not read it. */
+/* Products with matrices, for systems that compute them faster than from stored entries; NULL: from stored entries. They are called after
+ * evaluate() with ZD_MOVED at the same (t, p), and may read its scratch. If both of the last two are provided, and all of M is diagonal by
+ * structure, accelerations and corrections need no entries of C, which are then evaluated in rare cases only: so these and times_C must
+ * not read C. */
 typedef struct zd_operations {
-    void (*times_A)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = A x, (nq,): where A is provided */
+    void (*times_A)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = A x, (nq,): if A is provided */
     void (*times_C)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = C x, (m,) */
     void (*times_M)(const void *data, const zd_terms *terms, const double *x, double *y);      /* y = M x, (nv,) */
-    /* x <- x - W C^T y, W (nv,) diagonal; row k of C has entry place[k] of y, and rows of a group stand together there, too */
+    /* x <- x - W C^T y, W (nv,) diagonal; entry place[k] of y belongs to row k of C, and rows of a group are contiguous in y, too */
     void (*subtract_weighted)(const void *data, const zd_terms *terms, const double *W, const double *y, const int *place, double *x);
     /* S <- S + C W C^T: for each block in order, the products of its columns in the groups that touch it, of each group g and all h <= g,
      * increasing both. The block (rows[g], rows[h]) of the next of them begins in S at half of the next entry of `at`; it is stored
@@ -178,7 +178,7 @@ typedef struct zd_pinned {
  *
  * Functions return 0, or anything else where they do not know; then, and where a pivot says so, the core does without them. They are pure. */
 typedef struct zd_elimination {
-    int solves;             /* how many sets of rows are solved, each at once */
+    int solves;             /* number of sets of constraints that are solved simultaneously */
     const int *solve;       /* (m,) which of them has the k-th of these rows and columns */
     const int *row, *column;    /* (m,) rows of C, and the velocities that they are solved for; each row once, each velocity at most once */
     /* vdot at the state, with `added` (m,) on the right side of (6), NULL: zero. pdot is written by systems with A alone; lambda, power and
@@ -203,7 +203,7 @@ typedef struct zd_elimination {
 
 /* The processors' vector units: a processor that has one has those before it. */
 enum zd_unit {
-    ZD_BASELINE,            /* what every processor of its kind has: no product and sum is contracted to one operation */
+    ZD_BASELINE,            /* instructions of every processor of the architecture; products and sums are not contracted */
     ZD_AVX2,                /* AVX2 and FMA: contracted */
     ZD_AVX512               /* AVX-512 F, DQ and VL: contracted, too */
 };
@@ -228,55 +228,54 @@ typedef struct zd_series {
                     double *work, double *scratch);
 } zd_series;
 
-/* How the rates of a state (p, v) change with it: J (nq + nv, nq + nv) <- the derivatives of pdot = A v and of vdot as (2) and (6) have
- * it, and in one row more, where ZD_POWER or ZD_PHI_T is provided, those of the power of (28). Not 0: there are none here. */
+/* Jacobian of the rates of a state (p, v): J (nq + nv, nq + nv) <- derivatives of pdot = A v and of vdot by (2) and (6), with one more row
+ * for the power of (28) if ZD_POWER or ZD_PHI_T is provided. Returns 0; any other value: not available at this state. */
 typedef struct zd_jacobian {
     int scratch;            /* doubles that a call needs */
     int (*evaluate)(const void *data, double t, const double *p, const double *v, double *J, double *scratch);
-    /* Psi_p (m, nq) <- the derivatives of C v + Phi_t, (5), by p, which `mixed` and `independent` need; NULL: they take differences. */
+    /* Psi_p (m, nq) <- derivatives of C v + Phi_t, (5), with respect to p, needed by `mixed` and `independent`; NULL: by differences. */
     int (*constraints)(const void *data, double t, const double *p, const double *v, double *Psi_p, double *scratch);
 } zd_jacobian;
 
-/* Named functions of the motion, such as where a point is or what goes through a joint. */
+/* Named functions of the motion, such as the position of a point or the force in a joint. */
 typedef struct zd_measure {
     const char *name;       /* "crank.angle" */
-    const char *unit;       /* of each component */
-    int size;               /* how many components */
+    const char *unit;       /* unit of each component */
+    int size;               /* number of components */
     enum zd_depends depends;
 } zd_measure;
 
-typedef struct zd_measured {    /* where the values go; NULL: not wanted */
+typedef struct zd_measured {    /* memory for the results; NULL: not requested */
     double *value;          /* (size,) */
-    double *rate;           /* (size,) of a measure of positions: its derivative by time, row v + what is explicit in t */
-    double *row;            /* (size, nv) of a measure of positions: d rate / d v; of velocities: d value / d v */
-    double *bias;           /* (size,) what the derivative of these by time has besides row vdot */
-    int is_same_state;      /* 1: t, p, v and the scratch are as in the call before, so that what follows from them need not be found again */
+    double *rate;           /* (size,) time derivative of a measure of positions: row v + explicit time derivative */
+    double *row;            /* (size, nv) for a measure of positions: d rate / d v; of velocities: d value / d v */
+    double *bias;           /* (size,) second (positions) or first (velocities) time derivative minus row vdot */
+    int is_same_state;      /* 1: t, p, v and scratch are those of the previous call, so that values in scratch may be reused */
 } zd_measured;
 
 typedef struct zd_measures {
     int count;
     const zd_measure *measure;      /* (count,) */
     int scratch;            /* doubles that a call needs */
-    /* vdot, lambda are NULL where the measure does not depend on them */
+    /* vdot and lambda may be NULL if the measure does not depend on them */
     int (*evaluate)(const void *data, int measure, double t, const double *p, const double *v, const double *vdot, const double *lambda,
                     const zd_measured *out, double *scratch);
 } zd_measures;
 
-/* A number that may be set from outside between steps: a control, or what another program computes. Not a parameter. */
+/* An input: a number that the caller may set between steps, such as a control. Not a parameter. */
 typedef struct zd_input {
     const char *name;
     const char *unit;
     double initial;
 } zd_input;
 
-/* Rows that can be switched off and on together: a phase, a joint that is locked and released. */
+/* Constraints that are switched on and off together, such as those of a joint that is locked and released. */
 typedef struct zd_group {
     const char *name;
-    int first, rows;        /* of C */
+    int first, rows;        /* first row of C, and number of rows */
 } zd_group;
 
-/* By how much the residuals of (2), M vdot + d - f + C^T lambda, and of (6), C vdot - xi, change along a direction, while vdot and
- * lambda stay. */
+/* Directional derivatives of the residuals of (2), M vdot + d - f + C^T lambda, and of (6), C vdot - xi, at constant vdot and lambda. */
 typedef struct zd_residuals {
     int scratch;            /* doubles that a call needs */
     int (*derivative)(const void *data, double t, const double *p, const double *v, const double *vdot, const double *lambda,
@@ -286,17 +285,17 @@ typedef struct zd_residuals {
 
 typedef struct zd_system {
     int nq, nv, mh, mn;
-    int provides;       /* the terms it has; M always, what is left out is never computed nor stored */
-    int scratch;        /* doubles it keeps per run */
+    int provides;       /* bits of its terms, always M; others are never computed nor stored */
+    int scratch;        /* doubles of scratch memory per run */
     zd_evaluate *evaluate;
-    const void *data;   /* its parameters, or whatever it wants to be handed */
-    zd_embed *embed;    /* may be NULL: then g is found numerically */
-    const int *independent;     /* (nv - mh,): which entries of p are q; NULL: chosen from C; goes with `embed` */
-    const int *lengths;     /* (nq + nv,): which entries of p are lengths, and of v lengths per time; NULL: none, all are pure
+    const void *data;   /* its parameters, or any data passed to its functions */
+    zd_embed *embed;    /* may be NULL: then g is computed numerically */
+    const int *independent;     /* (nv - mh,): indices of the entries of p that are q; NULL: chosen from C; provided together with `embed` */
+    const int *lengths;     /* (nq + nv,): nonzero for entries of p that are lengths, and of v that are lengths per time; NULL: all are pure
                              * numbers such as angles */
-    double length;          /* m: it is at least so large, which lengths are compared to; 0: as its coordinates and rows tell at the start */
-    const char *failure;    /* what ZD_CALLBACK from evaluate() means, in a sentence; may be NULL */
-    /* Writes what a row of C is called into `to` (size,), "" where it has no name; NULL: none has. Asked for messages alone. */
+    double length;          /* m: lower bound of the characteristic length; 0: by coordinates and constraints at the start alone */
+    const char *failure;    /* meaning of ZD_CALLBACK from evaluate(), in one sentence; may be NULL */
+    /* Writes the name of a row of C into `to` (size,), "" without a name; NULL: no row has one. Used in messages only. */
     void (*name_row)(const void *names, int row, char *to, int size);
     const void *names;
     const zd_structure *structure;  /* NULL: one block, one group, matrices dense */
@@ -313,14 +312,14 @@ typedef struct zd_system {
     const zd_group *group;          /* (groups,) at most 64 */
     const zd_residuals *residuals;
     int quaternions;
-    const int *quaternion;          /* (quaternions,) where unit quaternions (w, x, y, z) begin in p: they are kept at length 1, and A is such
-                                     * that it does not change by itself */
-    int followers;                  /* so many entries of p follow the others, as an angle that counts turns follows two attitudes: they are the last
-                                     * ones, of no block, and no row of A is stored for them, so that times_A has to be there */
-    void (*follow)(const void *data, double *p);    /* brings them to what they follow, with the turns that they have; no term differs by that */
-    /* magnitude (m, 2) <- of each row of C, the sum of the magnitudes of the terms of its entries before they cancel: the largest entry of a
-     * velocity that is a length per time, and of another velocity. A row that is much shorter is rounding. `scratch` holds as many doubles
-     * as the next member says. Returns ZD_DONE or ZD_CALLBACK. NULL: no entries cancel, and rows are as large as they are. */
+    const int *quaternion;          /* (quaternions,) offsets of unit quaternions (w, x, y, z) in p: they are normalized in each step, and
+                                     * pdot = A v must preserve their length */
+    int followers;                  /* number of entries of p that are functions of the others, as an unwrapped relative angle: the last
+                                     * entries, outside the blocks, without stored rows of A, so that times_A must be provided */
+    void (*follow)(const void *data, double *p);    /* updates these entries, keeping their turns, on which terms must not depend */
+    /* magnitude (m, 2) <- for each row of C, the largest sum of magnitudes of terms that may cancel in an entry: among entries of velocities
+     * that are lengths per time, and among the others. A row much smaller than that is rounding. `scratch` has magnitudes_scratch doubles.
+     * Returns ZD_DONE or ZD_CALLBACK. NULL: terms do not cancel. */
     int (*magnitudes)(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
     int magnitudes_scratch;
 } zd_system;
@@ -329,32 +328,32 @@ typedef struct zd_system {
 
 enum zd_rule {
     ZD_ANY, ZD_POSITIVE, ZD_NOT_NEGATIVE,       /* numbers, all of them finite */
-    ZD_CHOICE,              /* one of some words, handed over as its number */
-    ZD_COUNT,               /* a whole number from 1 on */
+    ZD_CHOICE,              /* one of several words, passed as its index */
+    ZD_COUNT,               /* a whole number of at least 1 */
     ZD_SWITCH               /* 1: yes, 0: no */
 };
 
 typedef struct zd_parameter {
     const char *name;
     const char *unit;
-    const char *text;           /* of a ZD_CHOICE its words, and what they mean behind a colon: "open crossed: which branch" */
+    const char *text;           /* description; for a ZD_CHOICE its words, then a colon and their meaning: "open crossed: which branch" */
     int size;
     enum zd_rule rule;
-    const double *initial;      /* (size,) or NULL: derived from the others, handed to the system as NaN */
+    const double *initial;      /* (size,) default, or NULL: derived from the other parameters, passed to the system as NaN */
 } zd_parameter;
 
-/* What a row of a table is called, where it comes from, and what may be set of it. */
+/* Card of a table entry: name, source and parameters. */
 typedef struct zd_card {
     const char *name;
     const char *summary;     /* one sentence */
     const char *equations;   /* "(8), (25)" */
-    int order;               /* of an integrator; else 0 */
-    int error_order;         /* of its error estimate; 0: there is none, and steps are of fixed size */
-    double stability;        /* the largest omega h at which a motion that is somewhat damped does not grow; 0: there is none */
-    const char *description; /* what it does and when to take it, in some sentences; may be NULL */
-    const char *reference;   /* the literature; may be NULL */
-    int parameters;          /* of a formulation, integrator or correction; a kind of system has its own below */
-    const zd_parameter *parameter;  /* (parameters,) at most ZD_ROW_VALUES numbers, none of them derived */
+    int order;               /* order of an integrator; else 0 */
+    int error_order;         /* order of its error estimate; 0: no estimate, fixed steps only */
+    double stability;        /* largest omega h at which a slightly damped oscillation does not grow; 0: unbounded */
+    const char *description; /* effect and recommended use, in a few sentences; may be NULL */
+    const char *reference;   /* literature; may be NULL */
+    int parameters;          /* number of parameters of a formulation, integrator or correction; a kind of system has its own below */
+    const zd_parameter *parameter;  /* (parameters,) at most ZD_ROW_VALUES numbers in all, none of them derived */
 } zd_card;
 
 typedef struct zd_variable {
@@ -364,13 +363,13 @@ typedef struct zd_variable {
 
 typedef struct zd_kind {
     zd_card card;
-    zd_system system;               /* sizes, terms and function; `data` is filled in for each instance */
-    int parameters, constants;      /* how many of each; `constants` doubles are what evaluate() gets as data */
+    zd_system system;               /* sizes, terms and functions; `data` is set for each instance */
+    int parameters, constants;      /* number of parameters, and of the doubles that evaluate() gets as data */
     const zd_parameter *parameter;
     const zd_variable *coordinate;  /* (nq,) */
     const zd_variable *velocity;    /* (nv,) */
     const zd_variable *constraint;  /* (m,) */
-    /* Constants from the parameters, concatenated in order. Returns 0, or the reason why not as a sentence. */
+    /* constants <- from the parameters, concatenated in order. Returns NULL, or the reason in one sentence if they are invalid. */
     const char *(*prepare)(const double *parameters, double *constants);
     void (*start)(const double *parameters, double *p, double *v);
     /* The drawing: `points` points of `dimension` coordinates in m, joined by lines; NaN lifts the pen. */

@@ -1,7 +1,7 @@
-/* For which vector units this compiler can write the same functions, and how many trajectories each takes at once.
+/* Sets of closed-form functions that this compiler can build: by vector unit, and by number of trajectories per call.
  *
- * A set of functions is for one trajectory, or for as many as a vector of the unit has doubles: its lanes. The processor that they run
- * on need not have the unit: which sets are taken is decided when they are, by what it has.
+ * A set is for one trajectory, or for as many as a vector of the unit has doubles: its SIMD lanes. The set is selected at run time, by the
+ * vector units of the processor.
  */
 #ifndef ZERODRIFT_UNITS_H
 #define ZERODRIFT_UNITS_H
@@ -14,8 +14,8 @@
 #define ZD_SET_AVX512_1 16
 #define ZD_SET_AVX512_8 32
 
-/* What the compiler can, but for gcc on Windows, which aligns the stack to 16 bytes there and yet spills longer vectors as if it were to
- * more, */
+/* Sets that the compiler supports. Excluded are longer vectors by gcc on Windows, which spills them as if the stack were aligned to more
+ * than 16 bytes. */
 #if defined(__GNUC__) && defined(__x86_64__) && (!defined(_WIN32) || defined(__clang__))
 #define ZD_POSSIBLE_SETS 63
 #elif defined(__GNUC__)
@@ -24,7 +24,7 @@
 #define ZD_POSSIBLE_SETS 1
 #endif
 
-/* and what it is told to: all of it, or those of ZD_SETS. Where it can none of these, it does the first. */
+/* Sets to build: all supported ones, or those of ZD_SETS; the first one if none of these is supported. */
 #ifndef ZD_SETS
 #define ZD_SETS ZD_POSSIBLE_SETS
 #elif !((ZD_SETS) & ZD_POSSIBLE_SETS)

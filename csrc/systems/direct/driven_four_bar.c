@@ -5,7 +5,7 @@
 #include <math.h>
 #include "../../include/zerodrift/units.h"
 
-/* What follows from the parameters alone, behind them. */
+/* Constants computed from the parameters alone, stored after them. */
 void zd_driven_four_bar_direct_constants(double *k)
 {
     k[15] = k[7] + ((k[1] * k[1]) * (k[6] + ((k[4] * 0.25) + k[5])));

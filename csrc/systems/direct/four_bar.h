@@ -5,11 +5,11 @@
 #include "../../include/zerodrift/system.h"
 #include "../../include/zerodrift/units.h"
 
-/* Where among the constants of the system those of its direct functions begin, and where they end. */
+/* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_FOUR_BAR_DIRECT_BEGINS = 14, ZD_FOUR_BAR_DIRECT_ENDS = 36 };
 
 extern const zd_direct zd_four_bar_direct[];
-/* What follows from the parameters, which the first of these doubles are. */
+/* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_four_bar_direct_constants(double *k);
 
 #endif

@@ -5,7 +5,7 @@
 #include <math.h>
 #include "../../include/zerodrift/units.h"
 
-/* What follows from the parameters alone, behind them. */
+/* Constants computed from the parameters alone, stored after them. */
 void zd_oscillator_direct_constants(double *k)
 {
     k[4] = 1.0 / k[0];

@@ -5,11 +5,11 @@
 #include "../../include/zerodrift/system.h"
 #include "../../include/zerodrift/units.h"
 
-/* Where among the constants of the system those of its direct functions begin, and where they end. */
+/* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_OSCILLATOR_DIRECT_BEGINS = 0, ZD_OSCILLATOR_DIRECT_ENDS = 5 };
 
 extern const zd_direct zd_oscillator_direct[];
-/* What follows from the parameters, which the first of these doubles are. */
+/* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_oscillator_direct_constants(double *k);
 
 #endif

@@ -5,7 +5,7 @@
 #include <math.h>
 #include "../../include/zerodrift/units.h"
 
-/* What follows from the parameters alone, behind them. */
+/* Constants computed from the parameters alone, stored after them. */
 void zd_slider_crank_direct_constants(double *k)
 {
     k[11] = 0.5 * k[5];

@@ -5,11 +5,11 @@
 #include "../../include/zerodrift/system.h"
 #include "../../include/zerodrift/units.h"
 
-/* Where among the constants of the system those of its direct functions begin, and where they end. */
+/* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_SLIDER_CRANK_DIRECT_BEGINS = 0, ZD_SLIDER_CRANK_DIRECT_ENDS = 13 };
 
 extern const zd_direct zd_slider_crank_direct[];
-/* What follows from the parameters, which the first of these doubles are. */
+/* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_slider_crank_direct_constants(double *k);
 
 #endif

@@ -5,7 +5,7 @@
 #include <math.h>
 #include "../../include/zerodrift/units.h"
 
-/* What follows from the parameters alone, behind them. */
+/* Constants computed from the parameters alone, stored after them. */
 void zd_vertical_disc_direct_constants(double *k)
 {
     (void)k;

@@ -129,7 +129,7 @@ def _constants_function(lowering: Lowering, stored: dict[int, int], offset: int,
         return f"k[{offset + stored[number]}]" if number in stored else f"x{number}"
 
     body = writer.statements(numbers, name, "const double ")
-    return ["/* What follows from the parameters alone, behind them. */", f"void {symbol}_constants(double *k)", "{",
+    return ["/* Constants computed from the parameters alone, stored after them. */", f"void {symbol}_constants(double *k)", "{",
             *indented(body or ["(void)k;"]), "}"]
 
 

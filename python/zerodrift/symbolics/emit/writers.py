@@ -219,7 +219,7 @@ class CWriter(Writer):
             "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
             "#include <string.h>", "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", mathematics(self.operations),
             "", "const int zd_interface_version = ZD_INTERFACE_VERSION;", "", *functions,
-            "/* What follows from the parameters alone, behind them. */",
+            "/* Constants computed from the parameters alone, stored after them. */",
             "void zd_symbolic_constants(double *k)", "{", *indented(constants or ["(void)k;"]), "}", "",
             "int zd_symbolic_evaluate(const void *data, int want, double t, const double *restrict p, const double *restrict v,",
             "                         const zd_terms *out)",
