@@ -99,8 +99,8 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
     int digits = digits_of(a, b);
     snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast there, "
              "%s; max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b,
-             run->stepper.integrator->decay == 0 ? "as where a force jumps; a smooth law, or events at its jumps, takes fewer"
-                                               : "or the problem is stiff and needs an implicit method, as 'radau'");
+             run->stepper.integrator->decay == 0 ? "such as a force that jumps; a smooth force, or events at its jumps, take fewer"
+                                               : "or the problem is stiff and needs an implicit method, such as 'radau'");
 }
 
 static void describe_surplus(const zd_system *system, const char *formulation, char *to, size_t size)
@@ -131,7 +131,7 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
                  system->mn ? "are nonholonomic constraints" : "is a kinematic matrix");
         break;
     case ZD_TINY_STEP:
-        snprintf(to, size, "an error of rtol = %.3g, atol = %.3g needs steps that time does not resolve", run->settings.rtol,
+        snprintf(to, size, "step size underflow: rtol = %.3g, atol = %.3g require steps below the rounding of the time", run->settings.rtol,
                  run->settings.atol);
         break;
     case ZD_TOO_MANY_STEPS: describe_steps(run, to, size); break;
