@@ -1,5 +1,8 @@
-"""Tests that ask for `system`, `formulation` or `integrator` run once for each row of the core's tables; those that ask for
-a system and an integrator, once for each pair that the core takes.
+"""Tests with an argument `system`, `formulation` or `integrator` run once for each entry of the core's tables, and those with a
+system and an integrator once for each pair that the core accepts.
+
+With all three, or with more axes by ``@pytest.mark.pairs(name=values, ...)``, they run for cases in which each pair of values of
+two axes occurs, not for the whole product.
 """
 
 import atexit
@@ -14,22 +17,31 @@ import pytest
 import zerodrift as zd
 from caching import cache_folder, compiler  # noqa: F401  (fixtures)
 from core_objects import core_objects  # noqa: F401  (a fixture)
+from covering import covering
 from native_systems import PENDULUM, compile_library
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
-TAKEN = {f"{name}-{integrator}": (system, integrator)
-         for name, system in SYSTEMS.items() for integrator in zd.integrators(system)}
+TABLES = {"system": SYSTEMS, "integrator": {name: name for name in INTEGRATORS},
+          "formulation": {name: name for name in FORMULATIONS}}
+TAKEN = {(name, integrator) for name, system in SYSTEMS.items() for integrator in zd.integrators(system)}
 EXTRAS = ("cloudpickle", "distributed", "ipykernel", "mpmath", "nbclient", "nbformat", "numba", "pandas", "scipy", "sympy",
           "tqdm", "xarray")
 ABSENT = {name for name in EXTRAS if importlib.util.find_spec(name) is None}
 
 
-def pytest_configure():
+def pytest_configure(config):
     """Separate the compile cache of the tests from the user's, and let Ctrl-C interrupt also in the background."""
     signal.signal(signal.SIGINT, signal.default_int_handler)    # processes in the background begin with it ignored
-    folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
-    os.environ["ZERODRIFT_CACHE"] = folder
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    if not hasattr(config, "workerinput"):      # processes of pytest-xdist share the cache of the one that started them
+        folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
+        os.environ["ZERODRIFT_CACHE"] = folder
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+
+
+def pytest_xdist_auto_num_workers(config):
+    """The whole suite runs in one process per CPU, at most eight, as each collects all tests; files and folders in this one."""
+    whole = config.args_source == config.ArgsSource.TESTPATHS
+    return min(8, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()) if whole else 0
 
 
 @pytest.hookimpl(wrapper=True)
@@ -61,15 +73,19 @@ def absent(error):
 
 
 def pytest_generate_tests(metafunc):
-    wanted = set(metafunc.fixturenames)
-    if {"system", "integrator"} <= wanted:
-        metafunc.parametrize(("system", "integrator"), TAKEN.values(), ids=TAKEN)
-    elif "system" in wanted:
-        metafunc.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
-    elif "integrator" in wanted:
-        metafunc.parametrize("integrator", INTEGRATORS)
-    if "formulation" in wanted:
-        metafunc.parametrize("formulation", FORMULATIONS)
+    axes = {name: values for name, values in TABLES.items() if name in metafunc.fixturenames}
+    for mark in metafunc.definition.iter_markers("pairs"):
+        axes |= {name: values if isinstance(values, dict) else {str(value): value for value in values}
+                 for name, values in mark.kwargs.items()}
+    if axes:
+        cases = covering({name: tuple(values) for name, values in axes.items()}, is_accepted)
+        metafunc.parametrize(tuple(axes), [[axes[name][key] for name, key in case.items()] for case in cases],
+                             ids=["-".join(case.values()) for case in cases])
+
+
+def is_accepted(system=None, integrator=None, **_):
+    """True unless the core refuses this integrator for this system."""
+    return system is None or integrator is None or (system, integrator) in TAKEN
 
 
 @pytest.fixture

@@ -30,9 +30,7 @@ def starts_of(system, count=11):
     return shares[:, None] * system.v0
 
 
-@pytest.mark.parametrize("unit", UNITS)
-@pytest.mark.parametrize("course", COURSES)
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.pairs(kind=KINDS, course=list(COURSES), unit=UNITS)
 def test_runs_are_those_of_simulate_but_for_rounding(kind, course, unit):
     system, options = getattr(zd.systems, kind)(), COURSES[course] | {"vector": unit}
     starts, names = starts_of(system), names_of(system)

@@ -11,7 +11,7 @@ from support import assert_close, observed_order, rate
 from zerodrift.runs.settings import STABILIZATIONS
 
 
-@pytest.mark.parametrize("stabilization", [None, *STABILIZATIONS])
+@pytest.mark.pairs(stabilization=[None, *STABILIZATIONS])
 def test_observed_order_is_the_declared_one(system, integrator, stabilization):
     order = observed_order(system, integrator=integrator, stabilization=stabilization)
     if order is None:

@@ -145,7 +145,7 @@ INTERPOLATED = ["dormand_prince", "dop853"]
 WITHIN = np.array([0.011, 0.012, 0.1, 0.10001, 0.237, 0.4, 0.4321, 0.5])
 
 
-@pytest.mark.parametrize("method", INTERPOLATED)
+@pytest.mark.pairs(method=INTERPOLATED)
 @pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning")       # near rest energies are left alone
 def test_the_same_bits_between_rows_as_while_the_run_goes_on(system, formulation, method):
     """The step is made again from a row, with what the run has measured at its start, and its polynomial taken at once."""
@@ -242,10 +242,11 @@ def with_steps(system, method, n, times=None, **options):
     return zd.simulate(system, 0.5, integrator=method, t_eval=times, **of_one_size, **options)
 
 
-@pytest.mark.parametrize(("method", "steps", "slope"), [("dormand_prince", (10, 40), 4.5), ("dop853", (8, 16), 6.5)])
+@pytest.mark.pairs(case=[("dormand_prince", (10, 40), 4.5), ("dop853", (8, 16), 6.5)])
 @pytest.mark.filterwarnings("ignore::zerodrift.AccuracyWarning")
-def test_the_order_of_polynomials(system, formulation, method, steps, slope):
+def test_the_order_of_polynomials(system, formulation, case):
     """Their error within a step is one power of h above their order, which is that of the method less one."""
+    method, steps, slope = case
     times = np.linspace(0.013, 0.487, 11)
     exact = zd.simulate(system, 0.5, step=0.5 / 400, integrator="dop853", t_eval=times)
     errors = [np.abs(with_steps(system, method, n, times, formulation=formulation).p - exact.p).max() for n in steps]

@@ -29,7 +29,7 @@ def test_records_of_any_size_hold_the_same_rows(bar, times):
 
 
 @pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
-@pytest.mark.parametrize("every", [2, 7, 100, 1000])
+@pytest.mark.pairs(every=[2, 7, 100, 1000])
 def test_saving_less_changes_no_bit(system, formulation, integrator, every):
     options = {"formulation": formulation, "integrator": integrator}
     full, sparse = motion(system, 1.0, 100, **options), motion(system, 1.0, 100, save_every=every, **options)

@@ -100,8 +100,7 @@ CORRECTIONS = {
 
 
 @needs_compiler
-@pytest.mark.parametrize("correction", CORRECTIONS)
-@pytest.mark.parametrize("rods", RODS.values(), ids=RODS)
+@pytest.mark.pairs(correction=list(CORRECTIONS), rods=RODS)
 def test_motions_are_those_of_the_twin(rods, correction, formulation):
     for speed in (0.0, 0.2):
         system, twin = twins(rods, speed=speed)

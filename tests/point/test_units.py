@@ -24,16 +24,14 @@ def assert_same(one, other):
         assert np.array_equal(one[key], other[key]), key
 
 
-@pytest.mark.parametrize("u", POWERS_OF_TWO.values(), ids=POWERS_OF_TWO)
-@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.pairs(u=POWERS_OF_TWO, way=list(WAYS))
 def test_powers_of_two_change_no_bit(formulation, way, u):
     """Nothing in the core has a size of its own: not a tolerance, not a threshold, not the choice of independent variables."""
     options = {"formulation": formulation, **WAYS[way]}
     assert_same(run("four_bar", u, **options), run("four_bar", Units(), **options))
 
 
-@pytest.mark.parametrize("u", POWERS_OF_TEN.values(), ids=POWERS_OF_TEN)
-@pytest.mark.parametrize("name", MECHANISMS)
+@pytest.mark.pairs(u=POWERS_OF_TEN, name=list(MECHANISMS))
 def test_powers_of_ten_change_round_off(name, formulation, integrator, u):
     options = {"formulation": formulation, "integrator": integrator}
     one, other = run(name, Units(), **options), run(name, u, **options)

@@ -77,11 +77,10 @@ def test_every_integrator_passes_it(steps, integrator):
     assert sol.stats["rank_drops"] == 2
 
 
-@pytest.mark.parametrize("options", [
-    {"stabilization": None}, {"stabilization": "baumgarte"}, {"stabilization": zd.Projection(metric="identity")},
-    {"stabilization": zd.Projection(every=3)}, {"energy": True}, {"t_eval": np.linspace(0, 1, 33)},
-    {"events": lambda t, p, v: np.cos(p[0])}], ids=["none", "baumgarte", "identity", "every 3", "energy", "t_eval", "events"])
-@pytest.mark.parametrize("steps", [100, 137])
+@pytest.mark.pairs(steps=[100, 137], options={
+    "none": {"stabilization": None}, "baumgarte": {"stabilization": "baumgarte"},
+    "identity": {"stabilization": zd.Projection(metric="identity")}, "every 3": {"stabilization": zd.Projection(every=3)},
+    "energy": {"energy": True}, "t_eval": {"t_eval": np.linspace(0, 1, 33)}, "events": {"events": lambda t, p, v: np.cos(p[0])}})
 def test_it_is_noticed_whatever_else_is_done(steps, options, formulation):
     sol = parallelogram(steps, formulation, on_singular="stop", on_failure="return", **options)
     assert STOPS in sol.message
@@ -127,10 +126,10 @@ MOVES = [(0.0, 0.0), (3.0, 0.0), (3.0, 0.8)]
 FLAT = np.pi / 2, -np.pi / 2
 
 
-@pytest.mark.parametrize(("gravity", "moves"), MOVES)
-@pytest.mark.parametrize("away", [0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2])
-def test_accelerations_at_and_near_a_bifurcation(away, gravity, moves, formulation):
+@pytest.mark.pairs(forces=MOVES, away=[0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2])
+def test_accelerations_at_and_near_a_bifurcation(away, forces, formulation):
     """Accelerations of the motion through the bifurcation; near it, to the fourth root of rounding, as branch.c derives."""
+    gravity, moves = forces
     q, rate = FLAT[0] + away, 5.0
     system = crank(q, -q, [rate, -2 * np.sin(q) * rate, -rate], gravity, moves)
     vdot, _ = zd.acceleration(system, system.p0, system.v0, formulation=formulation, on_singular="continue")
