@@ -98,7 +98,7 @@ def test_what_is_a_vector(dtype, layout):
 @pytest.mark.parametrize(("call", "message"), {
     "step 0": (lambda: zd.simulate(BAR, 1, step=0), "step must be greater than 0, not 0"),
     "step negative": (lambda: zd.simulate(BAR, 1, step=-0.1), "step must be greater than 0, not -0.1"),
-    "step left out": (lambda: zd.simulate(BAR, 1, integrator="rk4"), "step is needed: 'rk4' takes steps of fixed size"),
+    "step left out": (lambda: zd.simulate(BAR, 1, integrator="rk4"), "step must be given: 'rk4' takes fixed steps"),
     "step too small": (lambda: zd.simulate(BAR, (1e6, 1e6 + 1), step=1e-10),
                        r"step must be at least .* for times up to 1e\+06, not 1e-10"),
     "backwards": (lambda: zd.simulate(BAR, (1, 0), step=0.1), "t_span must run forwards: 0 is not after 1"),
@@ -176,7 +176,7 @@ def test_energy_correction_needs_a_potential():
 
 def test_corrections_are_given_once():
     for given in ("projection", ["energy", "energy"], [zd.Projection()]):
-        with pytest.raises(ValueError, match="correction is given more than once"):
+        with pytest.raises(ValueError, match="each correction must be given once, but"):
             run(correction=given)
     with pytest.raises(ValueError, match=r"correction must be one of 'baumgarte', .*, not 'none'"):
         run(correction="none")

@@ -56,7 +56,7 @@ def count(name: str, value: Any, *, least: int = 1) -> int:
 
 
 def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
-    """One of the allowed words."""
+    """Check that a value is one of the allowed words."""
     words = allowed if isinstance(allowed, tuple | dict) else list(allowed)
     if isinstance(value, str) and value in words:
         return value
@@ -64,7 +64,7 @@ def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
 
 
 def closest(name: Any, known: Iterable[str], most: int = 5) -> str:
-    """What to look at instead of a name that nothing has: all names where they are few, else the closest, as an error ends."""
+    """Hint for an unknown name, as the end of an error: all known names if they are few, else the most similar ones."""
     known = list(dict.fromkeys(known))
     if len(known) <= 2 * most:
         return f"there are {', '.join(known)}"
@@ -77,7 +77,7 @@ def closest(name: Any, known: Iterable[str], most: int = 5) -> str:
 
 
 def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
-    """Different names, given as a sequence or in one string; or how many, numbered behind the prefix."""
+    """List of different names, given as a sequence, in one string, or as a count of names prefix0, prefix1, ..."""
     if isinstance(value, str):
         value = value.replace(",", " ").split()
     if not isinstance(value, Sequence):
@@ -89,11 +89,11 @@ def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
 
 
 DOUBLE = np.dtype(np.float64)
-FEW = 64        # of so many numbers, Python asks sooner than NumPy whether they are finite
+FEW = 64        # up to this many numbers, Python checks faster than NumPy that all are finite
 
 
 def _is_plain(value: Any) -> bool:
-    """Whether it is an array of doubles, as most are that come here: then few questions are left."""
+    """True for an array of doubles, the usual argument, which needs few further checks."""
     return type(value) is np.ndarray and value.dtype is DOUBLE
 
 
@@ -167,7 +167,7 @@ def real(must: str, value: Any, where: str = "", *, objects: bool = False, ragge
 
 
 def is_masked(value: Any) -> bool:
-    """Whether there are masked entries, which NumPy forgets when it makes an array of them."""
+    """True if a value has masked entries, which conversion to a plain array would unmask."""
     if isinstance(value, np.ma.MaskedArray):
         return bool(np.ma.is_masked(value))
     return isinstance(value, list | tuple) and any(map(is_masked, value))
@@ -188,7 +188,7 @@ def _as_floats(array: np.ndarray, must: str, value: Any, where: str) -> np.ndarr
 
 
 def frozen(array: np.ndarray) -> np.ndarray:
-    """A copy that stays what it is: its memory is that of an object of bytes, so that nobody can make it writable."""
+    """Immutable copy: its memory is a bytes object, so that it cannot be made writable."""
     return np.ndarray(array.shape, array.dtype, array.tobytes())
 
 

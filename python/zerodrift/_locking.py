@@ -117,7 +117,7 @@ def _owner() -> str:
 
 
 def _is_named(descriptor: int, path: Path) -> bool:
-    """Whether a path leads to the file that is open."""
+    """Return whether a path refers to the file of an open descriptor."""
     try:
         return os.path.samestat(os.fstat(descriptor), path.stat())
     except FileNotFoundError:

@@ -36,7 +36,7 @@ def quaternion_of(R: np.ndarray) -> np.ndarray:
 
 
 def quaternions_of(R: np.ndarray) -> np.ndarray:
-    """Those (k, 4) of rotations (k, 3, 3), each of the sign that is nearer to the one before it."""
+    """Unit quaternions (k, 4) of rotation matrices (k, 3, 3), with signs that make successive ones close."""
     q = np.array([quaternion_of(each) for each in R]).reshape(-1, 4)
     signs = np.cumprod(np.where((q[1:] * q[:-1]).sum(axis=1) < 0, -1.0, 1.0))
     q[1:] *= signs[:, None]
@@ -44,19 +44,19 @@ def quaternions_of(R: np.ndarray) -> np.ndarray:
 
 
 def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Of quaternions (..., 4): the rotation b, then a."""
+    """Product a b of quaternions (..., 4): rotation b followed by rotation a."""
     scalar = a[..., :1] * b[..., :1] - (a[..., 1:] * b[..., 1:]).sum(axis=-1, keepdims=True)
     return np.concatenate([scalar, a[..., :1] * b[..., 1:] + b[..., :1] * a[..., 1:] + np.cross(a[..., 1:], b[..., 1:])], axis=-1)
 
 
 def turn(vector: np.ndarray) -> np.ndarray:
-    """The quaternions (..., 4) of rotations by vectors (..., 3): about them, by their length in rad."""
+    """Quaternions (..., 4) of rotation vectors (..., 3) in rad."""
     angle = np.linalg.norm(vector, axis=-1, keepdims=True)
     return np.concatenate([np.cos(angle / 2), np.sinc(angle / (2 * np.pi)) / 2 * vector], axis=-1)
 
 
 def turn_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """The vectors (..., 3), in the axes of a, by which one turns from quaternions a to b the shorter way."""
+    """Rotation vectors (..., 3) in rad, in the axes of a, of the shorter rotation from quaternions a to b."""
     conjugate = a * np.array([1.0, -1.0, -1.0, -1.0])
     q = product(conjugate, b)
     q = np.where(q[..., :1] < 0, -q, q)
@@ -82,7 +82,7 @@ def angles_of(R: np.ndarray, order: str) -> np.ndarray:
 
 
 def _proper_angles(R: np.ndarray, i: int, j: int) -> np.ndarray:
-    """Those of orders such as "zxz", whose first and last axis are one."""
+    """Intrinsic angles (k, 3) in rad for orders such as "zxz", whose first and last axis are the same."""
     k = 3 - i - j
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     sine = np.hypot(R[:, i, j], R[:, i, k])

@@ -83,7 +83,7 @@ def _write_new(temporary: Path, write: Callable[[Any], Any], path: Path) -> None
 
 
 def is_temporary(path: Path) -> bool:
-    """Whether a file has the name of those that `write_whole` renames."""
+    """Return whether a file has the name of a temporary file of `write_whole`."""
     return re.fullmatch(rf"\.[0-9a-f]{{16}}\{SUFFIX}", path.name) is not None
 
 

@@ -1,4 +1,4 @@
-"""Coordinates and velocities by name, and how far a solution is from a reference."""
+"""Coordinates and velocities by name, and differences between a solution and a reference."""
 
 from .studies.compare import difference, signals
 

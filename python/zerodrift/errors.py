@@ -1,4 +1,4 @@
-"""What can go wrong, by name."""
+"""Errors and warnings of the package."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ class ZerodriftError(Exception):
     Attributes
     ----------
     solution : Solution or None
-        What was computed before the failure, if it happened during a run.
+        Partial solution up to the failure, if it happened during a run.
     """
 
     solution: Any = None
 
 
 class InconsistentStart(ZerodriftError, ValueError):
-    """The initial state violates the constraints; `zerodrift.assemble` finds one that does not."""
+    """The initial state violates the constraints; `zerodrift.assemble` finds a consistent one."""
 
 
 class UnreachableTolerance(ZerodriftError, ValueError):
@@ -26,25 +26,25 @@ class UnreachableTolerance(ZerodriftError, ValueError):
 
 
 class UnsuitedFormulation(ZerodriftError, ValueError):
-    """The formulation cannot take this system."""
+    """The formulation does not suit this system."""
 
 
 class UnsuitedIntegrator(ZerodriftError, ValueError):
-    """The integrator cannot take this system."""
+    """The integrator does not suit this system."""
 
 
 class InconsistentSystem(ZerodriftError, ValueError):
-    """What a system says of itself does not fit together: the Jacobian it brings is not that of its constraints,
-    or its kinematic matrix changes the length of a unit quaternion.
+    """The terms of a system contradict each other: its Jacobian is not the derivative of its constraints, or its kinematic
+    matrix changes the length of a unit quaternion.
     """
 
 
 class SingularSystem(ZerodriftError, ArithmeticError):
-    """The mass matrix is not positive definite where it has to be, or the constraints are dependent or contradict each other."""
+    """The mass matrix is not positive definite where required, or constraints are dependent or contradict each other."""
 
 
 class Bifurcation(SingularSystem):
-    """Constraints that are independent elsewhere are not here, or within this step, and do not determine the motion."""
+    """Constraints that are independent elsewhere become dependent at or within this step and do not determine the motion."""
 
 
 class Diverged(ZerodriftError, ArithmeticError):
@@ -56,15 +56,15 @@ class CorrectionFailed(ZerodriftError):
 
 
 class BranchJump(CorrectionFailed):
-    """A step ended where its velocities do not lead, as on another assembly branch: it was far too long."""
+    """A step ended on (or near) another assembly branch: displacement and velocities disagree, as it was far too long."""
 
 
 class StepFailed(ZerodriftError):
-    """The equations of an implicit step were not solved, or chosen steps became too short or too many."""
+    """The equations of an implicit step were not solved, or adaptive steps became too short or too many."""
 
 
 class WorkerLost(ZerodriftError):
-    """An executor did not return some runs of an ensemble; `solution` is the Ensemble of what it did return."""
+    """An executor did not return all runs of an ensemble; `solution` is the Ensemble of those that it did return."""
 
 
 class InUse(ZerodriftError, ValueError):
@@ -72,33 +72,33 @@ class InUse(ZerodriftError, ValueError):
 
 
 class StaleCore(ZerodriftError, ImportError):
-    """The compiled core does not belong to the C sources beside it."""
+    """The compiled core is older than the C sources beside it."""
 
 
 class CorrectionWarning(UserWarning):
-    """Some corrections were left out because they had no bounded solution; `Solution.energy_skipped` says where."""
+    """Corrections were skipped, as they had no bounded solution; `Solution.energy_skipped` counts them over time."""
 
 
 class AccuracyWarning(UserWarning):
-    """The energy balance, or one part of the motion, shows that steps were too long: what was computed satisfies the constraints,
+    """Steps were too long, as the energy balance or the motion of one component shows: the result satisfies the constraints,
     but is not the motion.
     """
 
 
 class StabilityWarning(UserWarning):
-    """Steps were longer than the integrator is stable for, or stability rather than accuracy held them down."""
+    """Fixed steps exceeded the stability limit of the integrator, or stability rather than accuracy limited adaptive steps."""
 
 
 class LockedWarning(UserWarning):
-    """Nothing is free to move, and rows follow from others, as where axes of hinges are askew: the run stays where it is."""
+    """The mechanism cannot move, and constraints are redundant, for example because of skew hinge axes."""
 
 
 class CostWarning(UserWarning):
-    """A run takes much time or memory, and it could take less: said before it starts."""
+    """A run would take much time or memory, and could take less; issued before it starts."""
 
 
 class Interrupted(KeyboardInterrupt):
-    """A run was interrupted from the keyboard; `solution` has what was computed before: a Solution, or a WorkPrecision."""
+    """A computation was interrupted from the keyboard; `solution` has its partial result, such as a Solution or Ensemble."""
 
     def __init__(self, message: str, solution: Any) -> None:
         super().__init__(message)
@@ -106,15 +106,15 @@ class Interrupted(KeyboardInterrupt):
 
 
 class CompilationFailed(ZerodriftError):
-    """The C compiler cannot be run, refused the source of a symbolic system, or wrote no library that can be loaded."""
+    """The C compiler cannot be run, rejected the source of a symbolic system, or wrote no library that can be loaded."""
 
 
 class NoCompilerWarning(UserWarning):
-    """There is no C compiler: a symbolic system is evaluated in Python, some hundred times slower."""
+    """There is no C compiler: a symbolic system is evaluated in Python, about a hundred times slower."""
 
 
 class CacheWarning(UserWarning):
-    """The folder for compiled systems cannot be written, or others can write it, too; they are compiled once in every process."""
+    """The compile cache cannot be written, or other users can write it: each process compiles its systems again."""
 
 
 class EquilibriumFailed(ZerodriftError):

@@ -1,4 +1,4 @@
-"""`load`: whatever was saved."""
+"""`load`: solutions, ensembles and mechanisms from files."""
 
 from __future__ import annotations
 
@@ -14,16 +14,17 @@ from .runs.solution import Solution
 
 
 def load(path: str | Path) -> Any:
-    """Read what was saved: a solution, `Solution.save`, an ensemble, `Ensemble.save`, or a mechanism, `Mechanism.save`.
+    """Load a solution, an ensemble or a mechanism from a file written by its method `save`.
 
-    They are told apart by what is in the file. A folder is the ``store`` of an ensemble, of which what is done is there.
+    The kind is recognized by the content. A folder must be the ``store`` of an ensemble, whose finished runs are loaded.
 
-    The rows that a run wrote to a file, ``simulate(..., save_to=...)``, stay there: of its arrays, that part is read which is
-    looked at, so that they may be larger than memory. A run that goes on yet, or that was killed, has the rows that came.
+    The arrays of a file written by ``simulate(..., save_to=...)`` are mapped: only the parts that are used are read, so that
+    they may exceed memory. A run that is still going on, or was killed, has the samples written so far.
 
     Parameters
     ----------
     path : str or Path
+        File or folder.
 
     Returns
     -------
@@ -32,8 +33,8 @@ def load(path: str | Path) -> Any:
     Raises
     ------
     ValueError
-        If the file is none of these, was not written to its end, or if there is something in a mechanism that this version does
-        not know; the key and its place are named.
+        If the file is none of these, is incomplete, or has a key of a mechanism that this version does not know; the message
+        gives its place.
 
     Examples
     --------
@@ -58,11 +59,11 @@ def load(path: str | Path) -> Any:
         description = _module("files.from_json").parsed(content.decode(errors="replace"), str(path))
         if description is not None:
             return _mechanism(description, str(path))
-    raise ValueError(f"{path} is no solution saved by zerodrift, no ensemble, and no mechanism")
+    raise ValueError(f"{path} must be a solution, an ensemble or a mechanism saved by zerodrift")
 
 
 def _check_whole(path: str | Path, values: dict[str, Any]) -> None:
-    """Refuses a file in which fields of a solution are missing."""
+    """Check that a file has all fields of a solution."""
     lacking = [each.name for each in fields(Solution)
                if each.name not in values and each.default is MISSING and each.default_factory is MISSING]
     if lacking:
@@ -71,28 +72,28 @@ def _check_whole(path: str | Path, values: dict[str, Any]) -> None:
 
 
 def _is_zip(path: str | Path) -> bool:
-    """Whether it is of the kind that arrays are saved in."""
+    """Return whether a file is a ZIP archive, as NPZ files are."""
     with open(path, "rb") as file:
         return file.read(2) == b"PK"
 
 
 def _ensembles() -> Any:
-    """What reads ensembles; imported where there may be one."""
+    """Module that loads ensembles, imported at first use."""
     return importlib.import_module(".ensembles.loading", __package__)
 
 
 def _module(name: str) -> Any:
-    """A module of `mechanisms`, imported when a file needs it."""
+    """Module of `mechanisms`, imported at first use."""
     return importlib.import_module(f".mechanisms.{name}", __package__)
 
 
 def _mechanism(description: Any, where: str) -> Any:
-    """The mechanism of a JSON description."""
+    """Mechanism of a JSON description."""
     return _module("files.from_json").mechanism(_module("mechanism").Mechanism, description, where)
 
 
 def _system(description: dict[str, Any], path: str) -> Any:
-    """The system of a mechanism that was saved with a solution."""
+    """System of a mechanism that was saved with a solution."""
     where, systems = f"{path}, mechanism", _module("system")
     drawing = _mechanism(description["mechanism"], where)._drawing()
     layout = _check.choice(f"layout of {where}", description["layout"], systems.LAYOUTS)

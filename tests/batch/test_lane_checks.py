@@ -30,7 +30,7 @@ def test_energy_is_corrected_as_in_a_single_run(kind, options):
     starts = shares[:, None] * system.v0
     with unwarned():
         ens = zd.ensemble(system, 1.0, v0=starts, outputs=["alpha2"], threads=1, **options)
-        assert (ens._part.roads == LANES).all()
+        assert (ens._part.paths == LANES).all()
         for run in (0, 5, 8):
             kept, sol = ens[run], zd.simulate(system, 1.0, v0=starts[run], **options)
             for name in ENERGIES:       # what rounding has left nothing of is not counted
@@ -47,8 +47,8 @@ def test_an_energy_correction_that_follows_nothing_takes_the_ordinary_road():
     ens = zd.ensemble(bar, 0.2, v0=bar.v0[None] * np.ones((3, 1)), step=0.01, stabilization=None, energy=True, threads=1)
     every = zd.ensemble(bar, 0.2, v0=bar.v0[None] * np.ones((3, 1)), step=0.01, energy=zd.EnergyCorrection(every=2),
                         events=zd.Event("alpha1"), threads=1)
-    assert (ens._part.roads == ALONE).all()
-    assert (every._part.roads == ALONE).all()
+    assert (ens._part.paths == ALONE).all()
+    assert (every._part.paths == ALONE).all()
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +70,7 @@ def test_what_single_runs_warn_of_is_seen_in_lanes(springy, options, name, value
     """Counts are those of the single run, though its last digits are others: nothing here is near a limit."""
     with pytest.warns((zd.AccuracyWarning, zd.StabilityWarning), match=r"runs are doubtful"):
         ens = zd.ensemble(springy, 2.0, parameters={name: np.array(values)}, outputs=["x"], threads=1, **options)
-    assert (ens._part.roads == LANES).all()
+    assert (ens._part.paths == LANES).all()
     assert ens.doubtful.any()
     assert not ens.doubtful.all()
     with unwarned():
@@ -88,5 +88,5 @@ def test_energy_that_is_off_between_the_ends_is_looked_at_again():
     with unwarned():
         ens = zd.ensemble(bar, 2.0, v0=np.linspace(0.2, 2, 19)[:, None] * bar.v0, outputs=["alpha1"], threads=1, **options)
         off = [np.abs(ens[run].energy_violation).max() / ens[run].stats["largest_kinetic"] for run in range(19)]
-    assert ((np.array(off) > 0.005) <= (ens._part.roads == ALONE)).all()
+    assert ((np.array(off) > 0.005) <= (ens._part.paths == ALONE)).all()
     assert np.array_equal(ens.doubtful, np.array(off) > 0.005)

@@ -42,7 +42,7 @@ def assert_alike(one, other, bound):
 @pytest.mark.parametrize("events", EVENTS)
 def test_events_are_those_of_simulate_but_for_rounding(events, course):
     ens = ensemble(EVENTS[events], **COURSES[course])
-    assert (ens._part.roads == LANES).all()
+    assert (ens._part.paths == LANES).all()
     assert not ens.failed.any()
     for run in (0, 4, 10):
         sol, kept = zd.simulate(BAR, 2.0, v0=STARTS[run], events=EVENTS[events], **COURSES[course]), ens[run]
@@ -67,7 +67,7 @@ def test_bits_do_not_depend_on_neighbours(course):
     starts[3] += 1.0
     events = EVENTS["numbers"] + EVENTS["terminal"]
     whole, turned = (ensemble(events, order, **COURSES[course]) for order in (starts, starts[::-1]))
-    assert 0 < (whole._part.roads == ALONE).sum() < 10
+    assert 0 < (whole._part.paths == ALONE).sum() < 10
     assert whole.failed[3]
     for run in range(10):
         alone = ensemble(events, starts[run:run + 1], **COURSES[course])
@@ -109,8 +109,8 @@ def test_what_takes_the_ordinary_road():
     gravity = np.array([3.0, 9.81])
     event = zd.Event(sp.Symbol("alpha1") - sp.Symbol("gravity") / 5)
     varied = zd.ensemble(BAR, 1.0, parameters={"gravity": gravity}, step=0.01, events=event, threads=1)
-    assert not asked._part.roads.any()
-    assert not varied._part.roads.any()
+    assert not asked._part.paths.any()
+    assert not varied._part.paths.any()
     for run in range(2):
         sol = zd.simulate(BAR.with_parameters(gravity=gravity[run]), 1.0, step=0.01, events=event)
         assert np.array_equal(sol.t_events[0], varied.t_events[run][0])
@@ -118,7 +118,7 @@ def test_what_takes_the_ordinary_road():
 
 def test_general_steps_write_their_events_down_without_python():
     ens = ensemble(EVENTS["terminal"], step=0.01, direct=False)
-    assert (ens._part.roads == ALONE).all()
+    assert (ens._part.paths == ALONE).all()
     for run in (0, 10):
         sol = zd.simulate(BAR, 2.0, v0=STARTS[run], step=0.01, direct=False, events=EVENTS["terminal"])
         assert ens.messages[run] == sol.message

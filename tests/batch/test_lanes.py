@@ -35,7 +35,7 @@ def test_runs_are_those_of_simulate_but_for_rounding(kind, course, unit):
     system, options = getattr(zd.systems, kind)(), COURSES[course] | {"vector": unit}
     starts, names = starts_of(system), names_of(system)
     part = made(plan_of(system, 0.4, v0=starts, names=names, **options))
-    assert (part.roads == LANES).all()
+    assert (part.paths == LANES).all()
     for run in (0, 7, 10):
         sol = zd.simulate(system, 0.4, v0=starts[run], **options)
         assert np.array_equal(list(part.times())[run], sol.t)
@@ -70,11 +70,11 @@ def test_bits_do_not_depend_on_neighbours_nor_on_the_range(course):
         for name in plan.names:
             assert np.array_equal(rows_of(whole, name)[run], single.arrays[name])
             assert np.array_equal(rows_of(turned, name)[::-1][run], single.arrays[name])
-        assert (whole.failed[run], whole.roads[run]) == (single.failed[0], single.roads[0])
+        assert (whole.failed[run], whole.paths[run]) == (single.failed[0], single.paths[0])
         assert whole.messages[run] == single.messages[0]
     assert whole.failed[3]
     assert whole.messages[3].startswith("InconsistentStart: ")
-    assert set(whole.roads) == {LANES, ALONE}
+    assert set(whole.paths) == {LANES, ALONE}
 
 
 @pytest.mark.skipif(len(UNITS) < 3, reason="the processor has one vector unit at most")
@@ -105,7 +105,7 @@ def test_a_run_that_changes_its_order_of_elimination_stays_in_its_lane():
     system = zd.systems.pendulum()
     starts = np.linspace(0.1, 8.0, 9)[:, None] * [0.0, 1.0]
     part = made(plan_of(system, 4.0, v0=starts, names=["x", "y"], step=0.01))
-    assert (part.roads == LANES).all()
+    assert (part.paths == LANES).all()
     for run in (0, 8):
         sol = zd.simulate(system, 4.0, v0=starts[run], step=0.01)
         assert np.abs(rows_of(part, "x")[run] - sol["x"]).max() < 1e-9
@@ -118,7 +118,7 @@ def test_what_lanes_cannot_make_is_what_simulate_makes():
     part = made(plan_of(system, 0.5, v0=starts, names=["alpha1"], step=0.02))
     with pytest.warns(zd.AccuracyWarning):
         sol = zd.simulate(system, 0.5, v0=starts[1], step=0.02)
-    assert part.roads.tolist() == [LANES, ALONE]
+    assert part.paths.tolist() == [LANES, ALONE]
     assert np.array_equal(rows_of(part, "alpha1")[1], sol["alpha1"])
 
 
@@ -135,7 +135,7 @@ def test_runs_that_take_too_many_steps_fail_as_ever():
 def test_what_takes_the_ordinary_road(options):
     system = zd.systems.four_bar()
     part = made(plan_of(system, 0.1, v0=starts_of(system, 3), names=["alpha1"], step=0.01, **options))
-    assert (part.roads == ALONE).all()
+    assert (part.paths == ALONE).all()
     assert np.array_equal(rows_of(part, "alpha1")[1], zd.simulate(system, 0.1, step=0.01, **options)["alpha1"])
 
 

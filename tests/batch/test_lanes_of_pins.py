@@ -56,7 +56,7 @@ def test_runs_are_those_of_simulate_but_for_rounding(mechanism, course, unit):
     rows = [variable.name for variable in first.system("absolute").constraints][:4]
     system, p0, v0, plan = together(first, 0.2, shares, ["rod3.x" if mechanism == "four-bars" else "link6.x", *rows], **options)
     part = made(plan)
-    assert (part.roads == LANES).all()
+    assert (part.paths == LANES).all()
     for run in (0, 8):
         sol = zd.simulate(system, 0.2, p0[run], v0[run], **options)
         assert np.array_equal(list(part.times())[run], sol.t)
@@ -88,12 +88,12 @@ def test_bits_do_not_depend_on_neighbours(course):
     whole, back = made(plan), made(turned)
     assert whole.failed[2]
     assert whole.messages[2].startswith("InconsistentStart: ")
-    assert (whole.roads == LANES).sum() == 9
+    assert (whole.paths == LANES).sum() == 9
     for run in range(len(p0)):
         alone = made(plan, run, run + 1)
         assert np.array_equal(rows_of(whole, "rod3.x")[run], alone.arrays["rod3.x"])
         assert np.array_equal(rows_of(back, "rod3.x")[::-1][run], alone.arrays["rod3.x"])
-        assert (whole.failed[run], whole.roads[run], whole.messages[run]) == (alone.failed[0], alone.roads[0], alone.messages[0])
+        assert (whole.failed[run], whole.paths[run], whole.messages[run]) == (alone.failed[0], alone.paths[0], alone.messages[0])
 
 
 @pytest.mark.filterwarnings("ignore::zerodrift.AccuracyWarning")
@@ -105,7 +105,7 @@ def test_a_run_whose_pivots_are_lost_is_made_by_itself():
     step = flat / 250
     plan = plan_of(system, 260 * step, p0=p0, v0=v0, names=["rod3.x"], step=step, save_every=65)
     part = made(plan)
-    assert part.roads.tolist() == [ALONE, LANES, LANES]
+    assert part.paths.tolist() == [ALONE, LANES, LANES]
     for run, allowed in enumerate((0.0, 1e-10, 1e-6)):      # the last has come near it, too, and its pivots are small
         sol = zd.simulate(system, 260 * step, p0[run], v0[run], step=step, save_every=65)
         assert np.abs(rows_of(part, "rod3.x")[run] - sol["rod3.x"]).max() <= allowed
@@ -116,7 +116,7 @@ def test_a_start_of_dependent_rows_is_made_by_itself():
     flat = zd.assemble(system, {"rod0.angle": 1e-6, "rod0.angular_velocity": -1.0})
     p0[1], v0[1] = flat
     part = made(plan_of(system, 2 * STEP, p0=p0, v0=v0, names=["rod3.x"], step=STEP))
-    assert part.roads.tolist() == [LANES, ALONE]
+    assert part.paths.tolist() == [LANES, ALONE]
 
 
 @pytest.mark.parametrize("how", ["spring", "few", "massless", "identity", "gear"])
@@ -136,7 +136,7 @@ def test_what_lanes_do_not_know_is_made_by_itself(how):
         m.revolute("E", m.particle("tip", 1.0, at=(0, 2)), m["pointer"].end)
     system, p0, v0, plan = together(m, 0.05, np.array([1.0, 1.1]), ["rod0.x"], step=STEP, **options)
     part = made(plan)
-    assert (part.roads == ALONE).all()
+    assert (part.paths == ALONE).all()
     sol = zd.simulate(system, 0.05, p0[1], v0[1], step=STEP, **options)
     assert np.array_equal(rows_of(part, "rod0.x")[1], sol["rod0.x"])
 

@@ -27,7 +27,7 @@ def seconds(count, steps):
     taken = time.perf_counter() - start
     assert not ens.failed.any()
     assert np.isfinite(ens["alpha1"]).all()
-    assert (ens._part.roads == 1).all()
+    assert (ens._part.paths == 1).all()
     return taken
 
 

@@ -44,7 +44,7 @@ def test_a_function_of_the_parameters_makes_the_systems():
     for (i, length), (j, gravity) in itertools.product(enumerate([0.5, 1.0]), enumerate([1.0, 9.81, 20.0])):
         assert values[i, j] == zd.simulate(pendulum(length, gravity), 1.0, step=0.01)["link.angle"].min()
     assert ens.parameters["gravity"].tolist() == [1.0, 9.81, 20.0] * 2
-    assert repr(ens).startswith("<ensemble of 2 x 3 runs over length, gravity: 101 rows each, none failed\n in ")
+    assert repr(ens).startswith("<ensemble of 2 x 3 runs over length, gravity: 101 samples each, none failed\n in ")
     with pytest.raises(KeyError, match="no output is called"):
         _ = ens["link.angle"]
 
@@ -145,7 +145,7 @@ def test_runs_that_end_by_an_event_have_rows_of_their_own():
     assert [len(each) for each in ens["link.angle"]] == [len(ens[i].t) for i in range(2)]
     ends = [float(times[0][0]) for times in ens.t_events]
     assert ends[0] / ends[1] == pytest.approx(np.sqrt(2), rel=1e-6)
-    assert "rows of their own" in repr(ens)
+    assert "times of their own" in repr(ens)
 
 
 def test_with_times_that_are_asked_for_all_rows_stack():

@@ -188,7 +188,7 @@ def test_assemble_takes_positions_and_velocities_of_a_mechanism():
     np.testing.assert_allclose((p[0], v[0]), (1.0, 2.0), rtol=1e-12)
     with pytest.raises(TypeError, match="p of a mechanism must be a dict of values by measure"):
         zd.assemble(m, [1.0, 2.0, 3.0])
-    with pytest.raises(TypeError, match="wish and nudge are for mechanisms, and four_bar is none"):
+    with pytest.raises(TypeError, match="wish and nudge must be left out, as four_bar is not a mechanism"):
         zd.assemble(zd.systems.four_bar(), zd.systems.four_bar().p0, nudge=True)
     with pytest.raises(TypeError, match="a dict of values by measure is for mechanisms, and four_bar is none"):
         zd.assemble(zd.systems.four_bar(), {"alpha1": 1.0})

@@ -252,8 +252,8 @@ def test_what_is_wrong_is_named_with_its_place(what, tmp_path):
 @pytest.mark.parametrize(("old", "new", "sentence"), [
     ('"mass": 1.0', '"mass": NaN', "has NaN where a finite number is needed"),
     ('"mass": 1.0', '"mass": 1.0, "mass": 2.0', "has the key 'mass' twice"),
-    ('"mechanism"', '"machine"', "is no solution saved by zerodrift, no ensemble, and no mechanism"),
-    ('"mass"', "mass", "is no solution saved by zerodrift, no ensemble, and no mechanism"),
+    ('"mechanism"', '"machine"', "must be a solution, an ensemble or a mechanism saved by zerodrift"),
+    ('"mass"', "mass", "must be a solution, an ensemble or a mechanism saved by zerodrift"),
 ])
 def test_text_that_is_wrong(old, new, sentence, tmp_path):
     path = crank().save(tmp_path / "m")

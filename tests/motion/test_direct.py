@@ -141,7 +141,7 @@ def test_repeated_to_the_last_bit():
 
 @pytest.mark.parametrize("value", [True, 1, "no"])
 def test_only_none_and_false_are_known(value):
-    with pytest.raises(ValueError, match=r"^direct must be None, where direct functions serve, or False, not "):
+    with pytest.raises(ValueError, match=r"^direct must be None, which uses direct functions, or False, not "):
         zd.simulate(system("four_bar"), 0.1, step=0.01, direct=value)
 
 

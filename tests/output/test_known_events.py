@@ -91,8 +91,8 @@ def test_what_has_no_finite_value_is_named():
 
 @pytest.mark.parametrize(("what", "error"), [
     (sp.Symbol("alpha4"), "events must be one of "),
-    (dynamicsymbols("alpha1").diff(dynamicsymbols._t, 2), "which is no velocity"),
-    (dynamicsymbols("beta").diff(), "which is no velocity"), (A1 * sp.I, "events has I"),
+    (dynamicsymbols("alpha1").diff(dynamicsymbols._t, 2), "which must be a velocity of"),
+    (dynamicsymbols("beta").diff(), "which must be a velocity of"), (A1 * sp.I, "events has I"),
     (sp.Function("f")(A1), "f")])
 def test_expressions_that_cannot_be_read_are_refused(what, error):
     with pytest.raises((TypeError, ValueError), match=error):

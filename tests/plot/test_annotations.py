@@ -133,8 +133,8 @@ def test_films_show_forces_names_and_paths_of_their_last_frame(loaded, tmp_path)
     ({"ghosts": -1}, ValueError, "ghosts must be between 0 and "),
     ({"ghosts": [9.0]}, ValueError, "ghosts must be between 0 and 0.4"),
     ({"t": np.nan}, ValueError, "t must be finite"),
-    ({"t": 0.1, "p": "end"}, ValueError, "t= needs a row of the solution: give t=, and leave p out"),
-    ({"forces": True, "p": "end"}, ValueError, "forces= needs a row of the solution"),
+    ({"t": 0.1, "p": "end"}, ValueError, "t must be left out where p is given: it needs a sample of the solution, see t"),
+    ({"forces": True, "p": "end"}, ValueError, "forces must be left out where p is given"),
     ({"force_scale": 0.0, "forces": True}, ValueError, "force_scale must be greater than 0")])
 def test_what_cannot_be_drawn_is_said(loaded, given, error, says):
     given = given | ({"p": loaded.p[-1]} if "p" in given else {})
@@ -144,13 +144,13 @@ def test_what_cannot_be_drawn_is_said(loaded, given, error, says):
 
 @pytest.mark.parametrize("given", [{"path": "F"}, {"forces": True}, {"t": 0.1}, {"ghosts": 3}])
 def test_what_needs_a_motion_says_so(given):
-    with pytest.raises(ValueError, match=f"{next(iter(given))}= needs a solution, as zd.simulate returns"):
+    with pytest.raises(ValueError, match=f"{next(iter(given))} must be left out for a system in one position: it needs a solution"):
         zd.plot.mechanism(sorts(), **given)
 
 
 @pytest.mark.parametrize("given", [{"names": True}, {"forces": True}])
 def test_what_needs_bodies_and_joints_says_so(given):
-    with pytest.raises(ValueError, match=f"{next(iter(given))}= needs a mechanism of bodies and joints, and "):
+    with pytest.raises(ValueError, match=f"{next(iter(given))} must be left out for .*, which is drawn from its points"):
         zd.plot.animate(zd.simulate(zd.systems.pendulum(), 0.1, step=0.01), **given)
 
 

@@ -180,7 +180,7 @@ def test_error_says_what_is_wrong_with_the_reference(bar, reference, names, erro
 
 @pytest.mark.parametrize(("end", "step"), [(1.0, 0.03), (0.5, 0.05)])
 def test_error_needs_the_times(bar, end, step):
-    with pytest.raises(ValueError, match="the reference has no row at t = "):
+    with pytest.raises(ValueError, match="the reference has no sample at t = "):
         plot.error(bar, zd.simulate(bar.system, end, step=step))
 
 

@@ -117,7 +117,7 @@ def test_nothing_leaks(what):
 
 
 def test_records_beyond_memory(bar):
-    with pytest.raises(MemoryError, match=r"^\d+ saved rows take [\d.e+]+ TB, and [\d.]+ [GM]B of memory are free: save fewer"):
+    with pytest.raises(MemoryError, match=r"^\d+ samples take [\d.e+]+ TB, and [\d.]+ [GM]B of memory are free: save fewer"):
         zd.simulate(bar, 1e4, step=1e-10)
 
 

@@ -137,7 +137,7 @@ def test_a_record_that_memory_has_no_room_for(tmp_path):
     sol = zd.simulate(bar, 0.5, save_to=sys.argv[1], **options)
     print(sol.message, len(sol.t), sol.p.shape, zd.load(sys.argv[1] + ".zd").t[-1], len(str(sol)) > 100)
     """, tmp_path / "run")
-    assert re.fullmatch(r"500001 saved rows take 72 MB, and (4\d|50)(\.\d)? MB of memory are free: save fewer with save_every or "
+    assert re.fullmatch(r"500001 samples take 72 MB, and (4\d|50)(\.\d)? MB of memory are free: save fewer with save_every or "
                         "t_eval, or write them to a file with save_to", lines[0])
     assert lines[1] == "done 500001 (500001, 3) 0.5 True"
 
@@ -157,9 +157,9 @@ def test_a_run_that_is_killed_leaves_its_rows(bar, tmp_path):
     assert 1e3 < rows < 1e6
     assert_same_bits(zd.simulate(bar, sol.t[-1] + 0.01, step=1e-3), sol, slice(rows))
     assert not sol.success
-    assert sol.message == f"stopped from outside, or has not ended yet: there are {rows} rows, the last at t = {sol.t[-1]:.6g}"
+    assert sol.message == f"stopped from outside, or has not ended yet: there are {rows} samples, the last at t = {sol.t[-1]:.6g}"
     assert sol.stats == {}
-    assert f"{rows} rows" in repr(sol)
+    assert f"{rows} samples" in repr(sol)
     with (tmp_path / "run.zd").open("r+b") as file:
         file.truncate((tmp_path / "run.zd").stat().st_size - 5)
     assert len(zd.load(tmp_path / "run.zd").t) == rows - 1
@@ -177,7 +177,7 @@ def test_one_that_was_killed_at_once_has_no_rows(bar, tmp_path):
     sol = zd.load(path)
     assert len(sol.t) == 0
     assert sol.p.shape == (0, 3)
-    assert "no rows" in sol.message
+    assert "no samples" in sol.message
 
 
 def test_what_follows_the_rows_may_be_missing(bar, tmp_path):
@@ -255,7 +255,7 @@ def test_a_file_that_cannot_be_removed_is_not_replaced(bar, tmp_path, monkeypatc
     if os.name != "nt":
         monkeypatch.setattr(sample_file, "AS_WINDOWS", True)
         monkeypatch.setattr(sample_file.Path, "unlink", lambda path, missing_ok=False: path.suffix == ".lock" or refuse(path))
-    with pytest.raises(PermissionError, match=r"save_to cannot replace '.*run\.zd' while its rows are in use: a solution that"):
+    with pytest.raises(PermissionError, match=r"save_to cannot replace '.*run\.zd' while its samples are in use: a sol"):
         zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
     assert_same_bits(first, zd.load(tmp_path / "run.zd"))
 
@@ -338,7 +338,7 @@ def test_what_is_refused_names_the_argument(bar, tmp_path):
                                (tmp_path / "folder", FileExistsError, "save_to must be a new file")):
         with pytest.raises(error, match=message):
             zd.simulate(bar, 1.0, step=0.1, save_to=to)
-    with pytest.raises(ValueError, match="save_every counts steps, and t_eval names times"):
+    with pytest.raises(ValueError, match="save_every must be 1 where t_eval is given"):
         zd.simulate(bar, 1.0, step=0.1, save_to=tmp_path / "a", save_every=2, t_eval=[0.5])
     assert (tmp_path / "mine.zd").read_text() == "notes"
 
@@ -361,7 +361,7 @@ def test_size_is_that_of_the_arrays(bar):
         assert size.rows == len(sol.t)
         assert size.total == sum(array.nbytes for array in arrays) == size.rows * size.row
     assert zd.record_size(bar, 1.0) == (None, size.row, None)
-    assert str(zd.record_size(bar, 1.0)) == "rows of 144 bytes"
+    assert str(zd.record_size(bar, 1.0)) == "samples of 144 bytes"
     m = zd.Mechanism("pendulum")
     m.revolute("pin", m.ground, m.link("link", (0, 0), (1, 0), mass=1.0).start)
     assert zd.record_size(m, 1.0, outputs=["pin.force"]).row == zd.record_size(m, 1.0).row + 16
@@ -375,11 +375,11 @@ def test_sizes_in_words(size, words):
 def test_more_than_half_of_memory_is_told_before_anything_runs(bar, monkeypatch):
     monkeypatch.setattr("zerodrift.runs.recording.SMALL", 1000)
     monkeypatch.setattr(memory, "free_memory", lambda: 20000)
-    with pytest.warns(zd.CostWarning, match=r"101 saved rows take 14\.5 kB, and 20 kB of memory are free: save fewer") as told:
+    with pytest.warns(zd.CostWarning, match=r"101 samples take 14\.5 kB, and 20 kB of memory are free: save fewer") as told:
         zd.simulate(bar, 1.0, step=0.01)
     assert told[0].filename == __file__
     steps = At(1, throw(AssertionError("it runs")))
-    with pytest.raises(MemoryError, match=r"201 saved rows take 28\.9 kB"):
+    with pytest.raises(MemoryError, match=r"201 samples take 28\.9 kB"):
         zd.simulate(bar, 2.0, step=0.01, progress=steps)
     monkeypatch.setattr(memory, "free_memory", lambda: None)
     assert len(zd.simulate(bar, 2.0, step=0.01).t) == 201
@@ -389,14 +389,14 @@ def test_chosen_steps_stop_where_no_more_rows_have_room(bar, monkeypatch):
     monkeypatch.setattr("zerodrift.runs.recording.SMALL", 1000)
     monkeypatch.setattr("zerodrift.runs.recording.FIRST_BLOCK", 16)
     monkeypatch.setattr(memory, "free_memory", lambda: 20000)
-    with pytest.warns(zd.CostWarning), pytest.raises(MemoryError, match="256 saved rows take") as caught:
+    with pytest.warns(zd.CostWarning), pytest.raises(MemoryError, match="256 samples take") as caught:
         zd.simulate(bar, 20.0, rtol=1e-8, integrator="dop853")
     assert len(caught.value.solution.t) == 256
 
 
 def test_a_disk_without_room_is_refused_before_anything_runs(bar, tmp_path, monkeypatch):
     monkeypatch.setattr(memory.shutil, "disk_usage", lambda folder: type("Usage", (), {"free": 10**4}))
-    with pytest.raises(OSError, match=r"101 saved rows take 14\.5 kB, and 10 kB are free in "):
+    with pytest.raises(OSError, match=r"101 samples take 14\.5 kB, and 10 kB are free in "):
         zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     assert not list(tmp_path.iterdir())
 

@@ -116,10 +116,10 @@ BAR = SYSTEMS["four_bar"]
 
 
 @pytest.mark.parametrize(("options", "message"), [
-    ({"integrator": "rk4"}, "step is needed: 'rk4' takes steps of fixed size; give step=, or integrator='dormand_prince' or"),
-    ({"integrator": "rk4", "rtol": 1e-6}, "'rk4' takes steps of fixed size, and rtol is for steps that are chosen; give step="),
-    ({"step": 0.1, "rtol": 1e-6}, "rtol is for steps that are chosen"),
-    ({"step": 0.1, "max_step": 1.0}, "max_step is for steps that are chosen"),
+    ({"integrator": "rk4"}, "step must be given: 'rk4' takes fixed steps; give step=, or integrator='dormand_prince' or"),
+    ({"integrator": "rk4", "rtol": 1e-6}, "'rk4' takes fixed steps, and rtol is for adaptive steps; give step="),
+    ({"step": 0.1, "rtol": 1e-6}, "rtol is for adaptive steps"),
+    ({"step": 0.1, "max_step": 1.0}, "max_step is for adaptive steps"),
     ({"rtol": 1e-15}, "rtol must be at least 2.2"),
     ({"rtol": -1.0}, "rtol must be at least"),
     ({"rtol": np.nan}, "rtol must be finite"),
@@ -134,7 +134,7 @@ BAR = SYSTEMS["four_bar"]
     ({"t_eval": [-0.5]}, "be between 0 and 1, not"),
     ({"t_eval": [[0.5]]}, "t_eval must have shape"),
     ({"t_eval": [np.nan]}, "t_eval must be finite"),
-    ({"t_eval": [0.5], "save_every": 2}, "give one of them"),
+    ({"t_eval": [0.5], "save_every": 2}, "save_every must be 1 where t_eval is given"),
 ])
 def test_bad_values(options, message):
     with pytest.raises(ValueError, match=message):

@@ -17,7 +17,7 @@ import numpy as np
 import sympy as sp
 
 import zerodrift as zd
-from zerodrift.ensembles.part import ROADS
+from zerodrift.ensembles.part import PATHS
 
 KINDS = ("four_bar", "slider_crank", "pendulum", "driven_four_bar", "knife_edge", "chaplygin_sleigh", "vertical_disc",
          "oscillator")
@@ -90,7 +90,7 @@ def study(chance):
     if "energy" in options and not system._core.has_energy:
         del options["energy"]
     ens = zd.ensemble(system, end, v0=starts, outputs=[name], threads=1, **options)
-    made, worst = Counter(ROADS[road] for road in ens._part.roads), 0.0
+    made, worst = Counter(PATHS[path] for path in ens._part.paths), 0.0
     for run in range(count):
         if ens.failed[run]:
             made["failed"] += 1

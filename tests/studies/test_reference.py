@@ -259,7 +259,7 @@ def test_a_reference_has_values_at_any_time():
 
 def test_a_reference_at_given_times_has_no_others():
     ref = zd.reference(BAR, 1.0, error=1e-9, t_eval=[0.5, 1.0])
-    with pytest.raises(ValueError, match="no row at t = 0"):
+    with pytest.raises(ValueError, match="no sample at t = 0"):
         compare.difference(zd.simulate(BAR, 1.0, step=0.1), ref)
 
 

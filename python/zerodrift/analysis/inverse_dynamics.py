@@ -18,8 +18,8 @@ from .quantities import components, effort, names_of, values_of
 from .state import State, scales, state
 from .tangent import DEPENDENT, Tangent, multipliers
 
-VIOLATION = 1e-6        # of the size: a motion that violates the constraints by more is refused
-UNDRIVEN = 1e-9         # of the forces: a residual that is zero but for rounding
+VIOLATION = 1e-6        # relative to the size: larger violations of the constraints by the given motion are an error
+UNDRIVEN = 1e-9         # relative to the forces: a smaller residual is rounding
 
 
 def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdot: Any = None, *, efforts: Any = None,

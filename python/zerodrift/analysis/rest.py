@@ -25,8 +25,8 @@ ITERATIONS = 300
 FIRST_RADIUS, LARGEST_RADIUS = 0.1, 0.3     # of the trust region, largest change of a coordinate in characteristic scales
 SMALLEST_RADIUS = 1e-14
 ROUGHLY_FLAT = 1e-6     # with the derivatives of an iteration, which are right to 1e-8
-FLAT = 1e-9         # of the largest stiffness: zero but for rounding; differences leave 1e-12
-BALANCED = 1e-12    # of the sum of magnitudes of the forces: zero but for rounding
+FLAT = 1e-9         # relative to the largest stiffness: a smaller one is rounding; differences have errors of 1e-12
+BALANCED = 1e-12    # relative to the sum of magnitudes of the forces: a smaller resultant is rounding
 UPHILL, WANDERING = 1.2, 20     # towards any balance the residual may grow that much in a step, in so many first steps
 DISTANT = 1e3       # characteristic lengths: a mechanism that went so far falls
 
@@ -127,7 +127,7 @@ class Balance:
         return float(np.abs(self.at.A @ (self.V @ z) / scale.p).max(initial=0.0))
 
     def is_stationary(self) -> bool:
-        """The force is zero but for rounding."""
+        """True if the projected force is zero to rounding."""
         return self.residual <= self.rounding
 
     def largest_force(self) -> str:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 ZERO = 1e-9         # of the largest singular value of the scaled matrix: a direction that changes nothing
-STILL = 1e-8        # of the largest magnitude: a real part that is zero but for rounding
+STILL = 1e-8        # relative to the largest magnitude: a smaller real part is rounding
 
 
 class Spectrum(NamedTuple):

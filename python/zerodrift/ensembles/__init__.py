@@ -1,1 +1,1 @@
-"""Many runs of one system, or of a function that makes systems: parameters vary from run to run, and so may starts."""
+"""Ensembles: many runs of a system, or of systems that a function makes, with varied parameters and initial states."""

@@ -1,4 +1,4 @@
-"""Runs that the core makes without Python: many in one call, from tables of parameters and starts."""
+"""Batches: many runs in one call of the core, from tables of parameters and initial states, without Python."""
 
 from __future__ import annotations
 
@@ -18,31 +18,31 @@ from ..systems.parameter_tables import NumberTables
 from .part import BY_CORE, IN_LANES, Part, nothing
 from .plan import OPTIONS, Plan
 
-FEW_EVENTS = 16             # of each, in a run: so much room there is for them at first
-MOST_NUMBERS = 2**21        # of what one call keeps, so that memory does not grow with the range
+FEW_EVENTS = 16             # occurrences of each event in a run for which memory is allocated initially
+MOST_NUMBERS = 2**21        # numbers that one call may return, which bounds its memory
 
 
 class Batch(NamedTuple):
-    """What the core is told of all runs of a plan."""
+    """Arguments of the core that all runs of a plan share."""
 
-    system: BaseSystem                      # whose numbers vary
-    options: Any                            # of the core
-    rows: int                               # that a run saves at most
-    columns: dict[str, tuple[str, Any]]     # where each output is: in "p", "v", "multipliers" or "outputs", its column or columns
+    system: BaseSystem                      # system whose parameters vary
+    options: Any                            # settings for the core
+    rows: int                               # largest number of samples of a run
+    columns: dict[str, tuple[str, Any]]     # group ("p", "v", "multipliers", "outputs") and column or columns of each output
     outputs: _gateway.Outputs | None        # measures that the core records
-    direct: tuple[str, bool] | None         # the vector unit of direct functions, and whether they embed; None: none are taken
-    assembly: _gateway.Assembly | None      # how starts are made consistent; None: they are taken as they are
-    chosen: dict[str, Any]                  # as `Solution.settings` has them; the options refer to the memory of t_eval
-    events: _gateway.Watcher | None         # which the core knows
-    numbers: int                            # of the tables of one run, about
+    direct: tuple[str, bool] | None         # vector unit of the closed-form functions, and whether they embed; None: matrix path
+    assembly: _gateway.Assembly | None      # settings that make starts consistent; None: starts are used unchanged
+    chosen: dict[str, Any]                  # settings as in `Solution.settings`; keeps t_eval alive, to which `options` points
+    events: _gateway.Watcher | None         # events that the core evaluates
+    numbers: int                            # approximate count of numbers in the tables of one run
 
     def core_of(self, tables: NumberTables) -> _gateway.CoreSystem:
-        """Whose functions all runs have."""
+        """System in the core whose functions all runs call."""
         return with_what_it_takes(self.system, tables.core, self.chosen["vector"], self.options)
 
     @property
     def runs_at_once(self) -> int:
-        """In one call."""
+        """Largest number of runs in one call."""
         groups = {group for group, _ in self.columns.values()}
         most = max(self.system.nq, self.system.nv, self.system.m, self.outputs.width if self.outputs else 0)
         of_rows = self.rows * (1 + len(groups) * most)
@@ -51,7 +51,7 @@ class Batch(NamedTuple):
 
 
 def batch_of(plan: Plan) -> Batch | None:
-    """What is known of a plan; None where its runs need Python, or nobody knows how many rows they have."""
+    """Batch of a plan; None if its runs need Python, or if the number of samples is not known in advance."""
     if "batch" not in plan.remembered:
         plan.remembered["batch"] = _batch(plan)
     return plan.remembered["batch"]
@@ -72,7 +72,7 @@ def _batch(plan: Plan) -> Batch | None:
         return None
     takes_direct = _gateway.takes_direct(core_of(system), found.options)
     direct = (found.chosen["vector"], _gateway.takes_embeddings(found.options)) if takes_direct else None
-    tables = runs.tables(system, 0, 1, direct)      # what has to be compiled is compiled here, once
+    tables = runs.tables(system, 0, 1, direct)      # closed-form functions are compiled here, once
     found_columns = _columns(system, plan.names, system._watching.core if tables is None else tables.core)
     is_family = tables is not None and tables.family is not None
     if found_columns is None or (is_family and (watched is not None or (tables.family.drives and span[0] != 0))):
@@ -82,23 +82,23 @@ def _batch(plan: Plan) -> Batch | None:
                   None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
                   tables.family.numbers if is_family else 0)
     if tables is not None:
-        batch.core_of(tables)       # a system without series is refused before anything runs
+        batch.core_of(tables)       # raises an error for a system without Taylor coefficients before the runs start
     return batch
 
 
 def _are_known(watched: tuple[events_of.Watched, ...], system: BaseSystem, varied: set[str]) -> bool:
-    """Whether the core evaluates all events without Python, and they are the same for all runs."""
+    """True if the core evaluates all events without Python and none depends on a varied parameter."""
     has_measures = system._watching.core is core_of(system)
     return all(event.known is not None and (has_measures or not event.known.is_measured) and not event.known.parameters & varied
                for event in watched)
 
 
-ANGLES = ("angle", "angular_velocity")      # of bodies: measures that are coordinates and velocities of the same name
+ANGLES = ("angle", "angular_velocity")      # measures of bodies that are also coordinates or velocities of the same name
 
 
 def _columns(system: BaseSystem, names: tuple[str, ...],
              core: _gateway.CoreSystem) -> tuple[dict[str, tuple[str, Any]], _gateway.Outputs | None] | None:
-    """Where outputs are among the numbers of a row, and which measures are recorded; None where one of them is elsewhere."""
+    """Columns of the outputs in a sample, and the measures to record; None if the core cannot record one of the outputs."""
     groups = "p", "v", "multipliers"
     known = {name: [(groups[group], column) for group, column in found] for name, found in system._columns_of.items()}
     measured = {name: place for name in names if (place := system._watching.find(name)) is not None
@@ -117,9 +117,9 @@ def _columns(system: BaseSystem, names: tuple[str, ...],
 
 
 def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.Stop | None) -> tuple[Part, list[int]] | None:
-    """The runs first ... last - 1, fewer where they are stopped; and which of these the core has left to be made by `simulate`.
+    """Make the runs first ... last - 1, or fewer if stopped; also return the indices of those left for `simulate`.
 
-    None where they differ in more than numbers: then each has to be made by itself.
+    None if the runs differ in more than numbers and must be made individually.
     """
     tables = plan.runs.tables(batch.system, first, last, batch.direct)
     if tables is None:
@@ -136,7 +136,7 @@ def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.
 def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int, wanted: tuple[str, ...],
           stop: _gateway.Stop | None = None) -> _gateway.BatchResults:
     p0, v0 = plan.runs.starts(tables, first, last)
-    room = plan.remembered.setdefault("events", FEW_EVENTS)
+    room = plan.remembered.setdefault("events", FEW_EVENTS)     # occurrences of an event that fit into memory
     while True:
         made = _gateway.run_batch(batch.core_of(tables), batch.options, tables.data, tables.size, p0, v0, batch.rows,
                                   tuple(dict.fromkeys(wanted)), batch.assembly, stop, family=tables.family, count=last - first,
@@ -144,14 +144,14 @@ def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int,
         most = 0 if made.events is None else int(made.events.count.max(initial=0))
         if most <= room:
             return made
-        room = plan.remembered["events"] = most     # once more, with room for all
+        room = plan.remembered["events"] = most     # repeat with memory for all occurrences
 
 
 STATES = ("t", "p", "v", "input", "multipliers", *_gateway.COUNTS)
 
 
 def made_again(plan: Plan, run: int) -> Solution:
-    """One run by itself, with the bits that it has among others."""
+    """Repeat one run individually, bitwise equal to the run in the batch."""
     batch = batch_of(plan)
     tables = None if batch is None else plan.runs.tables(batch.system, run, run + 1, batch.direct)
     if batch is None or tables is None:
@@ -162,7 +162,7 @@ def made_again(plan: Plan, run: int) -> Solution:
 
 
 def _solution_of_family(plan: Plan, batch: Batch, tables: NumberTables, run: int) -> Solution:
-    """From the start that the core has found, which differs from Python's by rounding."""
+    """Solution from the start that the core assembled, which differs from Python's by rounding."""
     start = tables.family.start(0, batch.system.nq, batch.system.nv)
     if plan.runs.states or start is None:
         return plan.solution(run)
@@ -174,7 +174,7 @@ def _solution_of_family(plan: Plan, batch: Batch, tables: NumberTables, run: int
 
 
 def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int) -> Solution | None:
-    """None where it is not made in lanes."""
+    """Solution of a run made in SIMD lanes; None if this run is not."""
     begin = time.perf_counter()
     made = _make(plan, batch, tables, run, run + 1, STATES)
     if made.way[0] != _gateway.IN_LANES:
@@ -195,25 +195,25 @@ def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int)
 
 
 def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:
-    """The first of the runs, as many as were made."""
+    """Part with the runs that were made."""
     count = len(doubtful)
     rows, t, kept = _kept(plan, made.rows[:count], made.columns["t"][:count])
     none = [None] * count
     t_events = none if made.events is None else [made.events.of(run)[0] for run in range(count)]
     status = made.status[:count]
     ended = (status == _gateway.DONE) | (status == _gateway.EVENT)
-    roads = np.where(made.way[:count] == _gateway.IN_LANES, IN_LANES, BY_CORE).astype(np.uint8)
+    paths = np.where(made.way[:count] == _gateway.IN_LANES, IN_LANES, BY_CORE).astype(np.uint8)
     arrays = {name: _rows(made.columns[group][:count, :, column], kept) for name, (group, column) in batch.columns.items()}
-    return Part(rows, t, arrays, ~ended, messages[:count], roads, doubtful, none, t_events, none)
+    return Part(rows, t, arrays, ~ended, messages[:count], paths, doubtful, none, t_events, none)
 
 
 def _kept(plan: Plan, rows: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, slice | np.ndarray]:
-    """How many rows of each run are kept, their times as a part has them, and which of all rows those are."""
+    """Numbers of samples that each run keeps, their times in the layout of `Part.t`, and a mask or slice that selects them."""
     wanted, count = plan.t_eval, rows[0]
     times = t[0, :count] if wanted is None else wanted
-    if count == len(times) and (rows == count).all() and (t[:, :count] == times).all():     # as mostly
+    if count == len(times) and (rows == count).all() and (t[:, :count] == times).all():     # the usual case
         return rows, times.copy(), slice(count)
-    if wanted is not None:      # a run that ends between two of these has its end besides
+    if wanted is not None:      # a run that ends between two output times has its end as an additional sample: drop it
         rows = np.minimum(rows, len(wanted))
         is_other = (rows > 0) & (t[np.arange(len(rows)), rows - 1] != wanted[rows - 1])
         rows = rows - is_other
@@ -224,12 +224,12 @@ def _kept(plan: Plan, rows: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def _rows(column: np.ndarray, kept: slice | np.ndarray) -> np.ndarray:
-    """Of a column (n, rows, ...) the rows that are kept, one run behind another."""
+    """Samples that are kept of a column (n, rows, ...), concatenated over the runs."""
     return np.array(column[:, kept]).reshape(-1, *column.shape[2:]) if isinstance(kept, slice) else column[kept]
 
 
 def _messages(made: _gateway.BatchResults, tables: NumberTables) -> list[str]:
-    """What happened to each run; to one that did not begin, as its error says it."""
+    """Message of each run; for a run that could not start, its error."""
     if not (made.status.any() or tables.refused):
         return ["done"] * len(made.status)
     said = []

@@ -26,10 +26,10 @@ from .result import Ensemble
 from .run_range import run_range
 from .runs import Runs
 
-SHARES = 16         # ranges for each thread, so that all end at about the same time
-LONGEST = 1024      # runs of a range, at most; and at least, where they are made side by side: lanes stand still at its end
+SHARES = 16         # ranges per thread, so that all threads end at about the same time
+LONGEST = 1024      # largest number of runs in a range; SHORTEST: smallest in SIMD lanes, which idle at the end of a range
 SHORTEST = 32
-TOLD = 3            # doubtful runs that are looked at, to tell of the first that deserves it
+TOLD = 3            # doubtful runs that are repeated to find the first with a warning
 
 
 def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None, v0: Any = None, start: Any = None,
@@ -37,61 +37,60 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
              executor: Any = None, threads: int | None = None, chunk: int | None = None, store: Any = None,
              keep: str | None = None, progress: bool | Callable[[float], None] = False,
              **options: Any) -> Ensemble:
-    """Simulate many times, with parameters or starts that differ from run to run.
+    """Simulate many runs with varied parameters or initial states.
 
-    Runs go side by side in threads, or wherever an executor makes them, each with the bits that it has by itself. A run that
-    fails is data: its rows end, `failed` says so, and `messages` why.
+    Runs execute in threads, or in the workers of an executor. Results do not depend on their number or order. Failed runs are
+    kept with their message: see `failed` and `messages` of the result.
 
-    Where direct functions serve a built-in system, or bodies in absolute coordinates are joined by pins alone and these have more
-    than 40 rows, and outputs are coordinates, velocities and multipliers at times that are known before, several runs are made
-    at once in the lanes of the processor's vector unit: those of `simulate` but for rounding, with their events where these are
-    names or expressions. What a lane cannot make, callables as events, and a run whose elimination is not sound somewhere, is
-    made by `simulate`'s own steps; `repr` says how many runs took which road.
-
-    Of a mechanism in the plane whose numbers vary, and that has no laws, wishes or drives of constant speed, the core makes and
-    assembles each by itself, and records measures: what `simulate` makes but for rounding of the start.
+    The core makes runs without Python where it can. In SIMD lanes, several at once: if the system is evaluated in closed form
+    (or is a mechanism in absolute coordinates with revolute joints only and more than 40 constraints), outputs are coordinates,
+    velocities and multipliers, output times are known in advance, and events are names or expressions. One by one, assembly and
+    measures included: planar mechanisms with varied numbers, without user functions, wishes and drives of constant speed. These
+    results agree with `simulate` to rounding. All other runs are made by `simulate`; `repr` gives the number of each kind.
 
     Parameters
     ----------
     system : system, Mechanism or callable
-        A callable gets one run's parameters by name and returns a system or a Mechanism.
+        A callable receives the parameters of one run by name and returns a system or a Mechanism.
     t_span : float or (float, float)
-        As of `simulate`.
+        Time span in s, as in `simulate`.
     parameters : dict, `grid`, or sequence of dicts, optional
-        Values by name: an array has one for each run, a scalar is the same for all; of a parameter with several entries
-        (n, size). `zerodrift.grid` takes the product.
+        Values by name: an array (n,) with one for each run, or a scalar for all; (n, size) for a parameter with several
+        entries. `zerodrift.grid` makes all combinations.
     p0, v0 : array_like (nq,), (nv,) or (n, nq), (n, nv), optional
-        Starts; left out: each system's own.
+        Initial states; by default those of each system.
     start : dict of measure to value or array_like (n,), optional
-        Of mechanisms: what their start holds besides.
+        For mechanisms: measures and the values that they must have at the start, in addition to `Mechanism.start`.
     outputs : sequence of str or measures, optional
-        What is kept of each run: measures, coordinates, velocities, multipliers. Left out: all coordinates.
+        Results to keep of each run: measures, coordinates, velocities, multipliers. By default all coordinates.
     reduce : callable, optional
-        ``reduce(solution)`` is kept of each run that succeeds, as `values`; then outputs are those asked for, and no others.
+        Function of the `Solution` of each successful run; its return values are `values` of the result. Outputs are then kept
+        only if `outputs` is given.
     assemble : bool
-        Whether a start is made consistent after a change of parameters. Mechanisms always are.
+        Make initial states consistent with the constraints after a change of parameters; always done for mechanisms.
     hold : sequence of str
-        Coordinates and velocities that keep their values in that, as of `zerodrift.assemble`.
+        Coordinates and velocities that this does not change, as in `zerodrift.assemble`.
     executor : None, "processes" or Executor
-        None: threads of this process; callables of Python then take turns. "processes": processes of this machine. Else
-        whatever has ``submit`` as those of `concurrent.futures` have: also loky's, ``dask.distributed.Client().get_executor()``,
-        ``mpi4py.futures.MPIPoolExecutor()``. Functions travel to them by the names that they have in their modules, and others,
-        of notebooks or within functions, by cloudpickle, if that is installed. All runs take the vector unit of this process.
+        None: threads of this process, in which Python functions of the user take turns. "processes": processes on this
+        machine. Otherwise an executor with ``submit`` as in `concurrent.futures`, such as those of loky,
+        ``dask.distributed.Client().get_executor()`` and ``mpi4py.futures.MPIPoolExecutor()``. Functions are sent to other
+        processes by name; those defined in notebooks or in functions need cloudpickle. All runs use the vector unit of this
+        process.
     threads : int, optional
-        At most so many threads, or processes; left out: as many as this process may use processors.
+        Largest number of threads or processes; by default the number of processors that this process may use.
     chunk : int, optional
-        So many runs are handed out together; left out: some 16 portions for each thread or worker.
+        Number of runs in one unit of work; by default there are about 16 units for each thread or worker.
     store : str or Path, optional
-        A folder that runs are written to when they are done, in files of `chunk` runs that appear as a whole. The same call goes
-        on where it stopped, after Ctrl-C, a crash or a lost worker, also with another chunk, executor or number of threads, and
-        makes no run twice. A folder that belongs to another study is refused, and one to which another ensemble writes;
-        `zerodrift.load` opens it at any time. What functions read from global variables is not compared.
+        Folder to which finished runs are written, in files of `chunk` runs. After Ctrl-C, a crash or a lost worker the same
+        call resumes where it stopped, also with another chunk, executor or number of threads. The folder must be new, or
+        belong to the same study and not be in use; values that functions read from global variables are not compared.
+        `zerodrift.load` opens it at any time.
     keep : {None, "solutions"}
-        Whether all solutions stay in memory.
+        "solutions": keep the solutions of all runs in memory.
     progress : bool or callable
-        True: a progress bar (needs tqdm). A callable is handed the part of the runs that is done, 0 ... 1.
+        True: show a progress bar (needs tqdm). A callable receives the completed fraction of the runs, 0 ... 1.
     **options
-        As of `simulate`: ``step``, ``rtol``, ``t_eval``, ``events``, and so on.
+        Further arguments of `simulate`: ``step``, ``rtol``, ``t_eval``, ``events``, and so on.
 
     Returns
     -------
@@ -100,22 +99,21 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     Raises
     ------
     ValueError, TypeError
-        Before anything runs: for arrays of different lengths, unknown parameters and outputs, wrong options, and parameters or
-        starts that no run accepts. Also for a function that cannot travel to other processes; it is named with the object that
-        it refers to.
+        Before any run: for arrays of different lengths, unknown parameters and outputs, wrong options, and parameters or starts
+        that no run accepts; also for a function that cannot be sent to other processes, with the object that prevents it.
     MemoryError
-        If the outputs take more than the memory that is free: before anything runs where steps are of fixed size or times are
-        given, else once they do; ``solution`` is then the Ensemble of what was done. With a store outputs that have no room in
-        memory stay in its files, and each is read when it is asked for.
+        If the outputs exceed the free memory: before any run with fixed steps or `t_eval`, else when it happens, with the
+        Ensemble of the finished runs as the attribute ``solution``. With a store, outputs that exceed memory remain in its
+        files and are read at access.
     OSError
-        If a store cannot be written to, or its disk has no room for the outputs.
+        If a store cannot be written, or the outputs exceed the free disk space.
     InUse
         If another ensemble writes to the folder `store`.
     Interrupted
-        After Ctrl-C; ``solution`` is the Ensemble of what was done.
+        After Ctrl-C; ``solution`` is the Ensemble of the finished runs.
     WorkerLost
-        If an executor does not return some runs, as it cancelled them, its processes died, or are of a machine that gives other
-        bits; ``solution`` is the Ensemble of what it did return.
+        If an executor does not return all runs, because it cancelled them, its processes died, or a worker would not give
+        bitwise the same results; ``solution`` is the Ensemble of the runs that it did return.
 
     Examples
     --------
@@ -126,7 +124,7 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     >>> ens["alpha1"].shape, bool(ens.failed.any())
     ((5, 11), False)
 
-    On a cluster, with a folder from which it goes on after whatever happens to the cluster or to this process::
+    On a cluster, with a folder from which the same call resumes after a failure::
 
         from dask.distributed import Client
 
@@ -140,8 +138,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     threads = min(runs.count, processors() if threads is None else _check.count("threads", threads))
     chunk = None if chunk is None else _check.count("chunk", chunk)
     if store is not None and keeps:
-        raise ValueError('keep="solutions" is for memory, and a store keeps outputs; ens[i] makes run i again, with the same '
-                         "bits")
+        raise ValueError('keep must be left out with a store, which has outputs only; ens[i] repeats run i, with bitwise the '
+                         "same result")
     if store is not None:
         options["vector"] = options.get("vector") or stores.vector_of(store)
     plan = checked(runs, t_span, options, outputs, reduce, keeps=keeps)
@@ -189,7 +187,7 @@ class _Work:
         return ensemble
 
     def _warn(self, ensemble: Ensemble) -> None:
-        """What `simulate` warns of in the first of the runs that are doubtful, once for all of them."""
+        """Warn once for all doubtful runs, with the warnings of the first that has one."""
         doubtful = np.flatnonzero(ensemble.doubtful)
         for run in doubtful[:TOLD].tolist():
             with warnings.catch_warnings(record=True) as caught:
@@ -205,7 +203,7 @@ class _Work:
         self._finished(taken[0], run_range(self._plan, *taken, stop))
 
     def _finished(self, first: int, part: Part) -> None:
-        """Keeps a part: its outputs in memory, or in the store where memory gets short; without a store that is an error."""
+        """Record a part, with outputs in memory or, if memory is short, in the store; without a store that is an error."""
         path = self._store.write(first, part) if self._store else None
         with self._lock:
             size = self._size + memory.size_of(part)
@@ -217,7 +215,7 @@ class _Work:
             raise MemoryError(memory.shortage(self._size, self._count()))
 
     def _count(self) -> int:
-        """How many runs are done."""
+        """Number of finished runs."""
         with self._lock:
             return sum(len(part.rows) for part in self._parts.values())
 
@@ -226,12 +224,12 @@ class _Work:
 
 
 def _ranges(parts: dict[int, Part]) -> list[tuple[int, int]]:
-    """The runs of each part: the first, and the one after the last."""
+    """Ranges (first, last + 1) of the runs of each part."""
     return [(first, first + len(part.rows)) for first, part in parts.items()]
 
 
 def _where(executor: Any, threads: int) -> str:
-    """Where runs are made, in the words of `repr`."""
+    """Threads, processes or executor of the runs, for `repr`."""
     if executor is None:
         return f"on {threads} threads"
     return f"in {threads} processes" if executor == "processes" else f"by {type(executor).__name__}"

@@ -1,4 +1,4 @@
-"""Parts of an ensemble in other processes, of this machine or of others: whatever has `submit`, as `concurrent.futures` has."""
+"""Parts of an ensemble made by an executor with `submit`: in other processes, on this machine or on others."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from .run_range import never, run_range
 from .runs import named
 from .transport import packed, unpacked
 
-WINDOW = 256        # ranges that are submitted and not yet done, at most: more would only take memory
-FORGETS = 4         # plans that a worker remembers
+WINDOW = 256        # largest number of ranges in progress, which bounds memory
+FORGETS = 4         # plans that a worker caches
 
-_is_cancelled: Callable[[], bool] = never       # of the processes that this module starts: whether anybody waits for them
+_is_cancelled: Callable[[], bool] = never       # in processes that this module starts: true after a cancellation
 
 
 def checked(executor: Any) -> Any:
-    """The argument `executor` of `ensemble`."""
+    """Check the argument `executor` of `ensemble`."""
     if executor is None or executor == "processes" or callable(getattr(executor, "submit", None)):
         return executor
     raise TypeError('executor must be None, for the threads of this process, "processes", or an Executor, which has submit() as '
@@ -40,13 +40,13 @@ def checked(executor: Any) -> Any:
 
 
 def workers_of(executor: Any) -> int | None:
-    """How many an executor has, if it says so."""
+    """Number of workers of an executor; None if it is not known."""
     count = getattr(executor, "_max_workers", None)
     return count if isinstance(count, int) else None
 
 
 class Elsewhere:
-    """An executor that is handed range after range."""
+    """Runs of a plan made by an executor, range by range."""
 
     def __init__(self, plan: Plan, ranges: Iterator[tuple[int, int]], finished: Callable[[int, Part], None],
                  executor: Any) -> None:
@@ -57,16 +57,16 @@ class Elsewhere:
         self._head = packed((stamp, packed(without_table, "the ensemble", shares_main=shares_main)))
         self._done: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._pending: dict[Any, tuple[int, int]] = {}
-        self._lost: dict[tuple[int, int], Exception] = {}       # by the ranges, why they did not come back
+        self._lost: dict[tuple[int, int], Exception] = {}       # errors of the ranges that were not returned
         self._has_received = False
 
     def run(self, count: int, look: Callable[[], None]) -> None:
-        """All ranges; `count` processes where they are this module's own. Meanwhile `look` is called now and then."""
+        """Make all ranges, with `count` processes if this module starts them, and call `look` regularly meanwhile."""
         try:
             with self._opened(count) as self._executor:
                 try:
                     self._all(look)
-                except BaseException:       # Ctrl-C, or a full disk: nobody waits for what has not begun
+                except BaseException:       # Ctrl-C, or a full disk: ranges that have not begun are cancelled
                     self._cancel()
                     raise
         except KeyboardInterrupt:
@@ -79,7 +79,7 @@ class Elsewhere:
         return _Processes(count) if self._executor == "processes" else nullcontext(self._executor)
 
     def _all(self, look: Callable[[], None]) -> None:
-        """Until all are done; or, once one is lost, until those are that have begun."""
+        """Wait until all ranges are done or, after one was lost, those that have begun."""
         self._fill()
         while self._pending:
             look()
@@ -91,24 +91,24 @@ class Elsewhere:
         look()
 
     def _collect(self) -> None:
-        """What has come meanwhile; also what Ctrl-C came into while it was looked at."""
+        """Receive all finished ranges, including one whose reception Ctrl-C interrupted."""
         for future in list(self._pending):
             if future.done():
                 self._receive(future)
 
     def _fill(self) -> None:
-        """Submits ranges until enough are under way."""
+        """Submit ranges until `WINDOW` of them are in progress."""
         while not self._lost and len(self._pending) < WINDOW and (taken := next(self._ranges, None)) is not None:
             try:
                 future = self._executor.submit(_made, self._head, packed(self._runs.table(*taken)))
-            except RuntimeError as error:       # it was shut down, or all its processes died
+            except RuntimeError as error:       # the executor was shut down, or all its processes died
                 self._lost[taken] = error
                 return
             self._pending[future] = taken
             future.add_done_callback(self._done.put)
 
     def _receive(self, future: Any) -> None:
-        """Hands on what a future has; or keeps why it has nothing. Only then is it no longer pending."""
+        """Pass on the part of a finished future, or record its error; then remove it from the pending ones."""
         taken = self._pending.get(future)
         if taken is None:
             return
@@ -121,7 +121,7 @@ class Elsewhere:
         del self._pending[future]
 
     def _error(self) -> Exception:
-        """What is raised of ranges that were lost: what our own workers say, else that of the first."""
+        """Error to raise for lost ranges: that of a worker of this module, else that of the first range."""
         (first, last), error = min(self._lost.items(), key=lambda pair: pair[0])
         if isinstance(error, WorkerLost | TypeError):
             return error
@@ -132,14 +132,14 @@ class Elsewhere:
         return WorkerLost(f"the executor did not return the runs {first} ... {last - 1}{others}: {why}{hint}")
 
     def _cancel(self) -> None:
-        """What has not begun will not; what has is waited for by whoever called."""
+        """Cancel ranges that have not begun; the caller waits for the others."""
         for future in list(self._pending):
-            if not future.cancelled() and future.cancel():      # those that the executor has cancelled are lost
+            if not future.cancelled() and future.cancel():      # those that the executor itself cancelled count as lost
                 self._pending.pop(future, None)
 
 
 def _result(future: Any) -> Any:
-    """The part that a future has, or the error for which it has none; `_cancel` keeps no future that it has cancelled."""
+    """Part of a finished future, or its error."""
     if future.cancelled():
         return CancelledError("cancelled by the executor")
     error = future.exception()
@@ -147,7 +147,7 @@ def _result(future: Any) -> Any:
 
 
 class _Processes(AbstractContextManager):
-    """Processes of this machine's own, which hear of Ctrl-C by a flag: a notebook's does not reach them."""
+    """Processes on this machine. A shared flag tells them of Ctrl-C, as the signal of a notebook does not reach them."""
 
     def __init__(self, count: int) -> None:
         context = multiprocessing.get_context("spawn")
@@ -167,14 +167,14 @@ class _Processes(AbstractContextManager):
 
 
 def _listen(flag: Any) -> None:
-    """What each process of this module's own begins with: Ctrl-C is heard where the ensemble is."""
+    """Initializer of each process: ignore Ctrl-C, which the main process handles, and read the flag instead."""
     global _is_cancelled
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _is_cancelled = flag.is_set
 
 
 def _made(head: bytes, table: bytes) -> bytes:
-    """Some runs in bytes; or the error for which none can be made here."""
+    """Runs of a table, pickled; or the error that prevents them on this worker, pickled."""
     try:
         plan = _plan(head)
         plan = plan.over(plan.runs.with_table(unpacked(table)))
@@ -182,9 +182,9 @@ def _made(head: bytes, table: bytes) -> bytes:
         return packed(run_range(plan, 0, plan.runs.count, _is_cancelled), kept)
     except (ImportError, WorkerLost) as error:
         return packed(WorkerLost(f"{error} (on {platform.node()})"))
-    except TypeError as error:      # what reduce returned may be anything
+    except TypeError as error:      # a value of reduce that cannot be pickled
         return packed(TypeError(str(error)))
-    except KeyboardInterrupt:       # an Interrupted, with its solution, does not travel
+    except KeyboardInterrupt:       # without its solution, which is not sent back
         raise KeyboardInterrupt from None
 
 
@@ -196,7 +196,7 @@ def _plan(head: bytes) -> Plan:
 
 
 def check_stamp(stamp: dict[str, Any]) -> None:
-    """Refuses to make runs whose bits would not be those of where the ensemble began."""
+    """Check that runs on this worker are bitwise those of the process that began the ensemble: version and vector unit."""
     if stamp["version"] != version():
         raise WorkerLost(f"this worker has another zerodrift, {version()}, than the process that began the ensemble, "
                          f"{stamp['version']}; install the same")

@@ -1,4 +1,4 @@
-"""Ensembles as tables of xarray and pandas."""
+"""Ensembles as xarray.Dataset and pandas.DataFrame."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _imported(name: str, method: str) -> Any:
 
 
 def to_xarray(ens: Any, units: dict[str, str], part: Part) -> Any:
-    """A Dataset."""
+    """Ensemble as an xarray.Dataset."""
     xarray = _imported("xarray", "to_xarray")
     over, coordinates = _runs(ens)
     time = "t" if ens.t is not None else "row"
@@ -46,7 +46,7 @@ def to_xarray(ens: Any, units: dict[str, str], part: Part) -> Any:
 
 
 def _runs(ens: Any) -> tuple[list[str], dict[str, Any]]:
-    """The dimensions that stand for the runs, and their coordinates."""
+    """Dimensions over the runs, and their coordinates."""
     if len(ens.shape) == len(ens.parameters) and all(each.ndim == 1 for each in ens.parameters.values()) and len(ens.shape) > 1:
         at = np.unravel_index(np.arange(len(ens)), ens.shape)
         axes = {}
@@ -64,7 +64,7 @@ def _variable(ens: Any, over: list[str], array: np.ndarray, more: list[str], uni
 
 
 def _padded(arrays: list[np.ndarray]) -> np.ndarray:
-    """Arrays of different lengths side by side, with NaN behind the shorter ones."""
+    """Stack arrays of different lengths, the shorter ones padded with NaN."""
     longest = max(map(len, arrays))
     found = np.full((len(arrays), longest, *arrays[0].shape[1:]), np.nan)
     for row, each in zip(found, arrays, strict=True):
@@ -76,7 +76,7 @@ def _padded(arrays: list[np.ndarray]) -> np.ndarray:
 
 
 def to_pandas(ens: Any, part: Part) -> Any:
-    """A DataFrame."""
+    """Ensemble as a pandas.DataFrame."""
     pandas = _imported("pandas", "to_pandas")
     parameters = _columns(ens.parameters)
     if not part.arrays:
@@ -90,7 +90,7 @@ def to_pandas(ens: Any, part: Part) -> Any:
 
 
 def _columns(arrays: dict[str, np.ndarray], axes: list[str] | None = None) -> dict[str, np.ndarray]:
-    """A column for each array, or one for each of its entries, by axes or by numbers."""
+    """Columns of an array: one, or one for each component, named by axes or by numbers."""
     found = {}
     for name, array in arrays.items():
         flat = array.reshape(len(array), -1)

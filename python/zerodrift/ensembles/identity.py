@@ -1,4 +1,4 @@
-"""What tells one study from another: digests of numbers and settings, and of functions name, code, defaults and closure."""
+"""Digests that identify a study: of its numbers and settings, and of name, code, defaults and closure of its functions."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PLAIN = (type(None), bool, int, float, complex, str, bytes)
 
 
 def version() -> str:
-    """That of the package, and the beginning of the fingerprint of what its core was compiled from."""
+    """Version of the package with the first digits of the fingerprint of the sources of its core."""
     return f"{sys.modules[__package__.partition('.')[0]].__version__} ({_gateway.FINGERPRINT[:LENGTH]})"
 
 
@@ -41,7 +41,7 @@ class Identity:
         self._open: list[int] = []
 
     def of(self, what: Any) -> str:
-        """The digest of an object."""
+        """Digest of an object."""
         if isinstance(what, PLAIN):
             return _digest(type(what).__name__, repr(what))
         if id(what) in self._known:
@@ -55,7 +55,7 @@ class Identity:
         return found
 
     def _parts(self, what: Any) -> Iterable[str | bytes]:
-        """What makes up an object's digest."""
+        """Byte strings from which the digest of an object is computed."""
         match what:
             case np.ndarray() if what.dtype != object:
                 return "array", what.dtype.str, str(what.shape), np.ascontiguousarray(what).tobytes()
@@ -109,7 +109,7 @@ class Identity:
 
 
 def _is_empty(cell: Any) -> bool:
-    """Whether a function refers to a name that has no value yet."""
+    """True if a cell of a closure has no value yet."""
     try:
         return cell.cell_contents is cell       # which no cell contains
     except ValueError:
@@ -122,7 +122,7 @@ def _named(what: Any) -> str:
 
 
 def _digest(*parts: str | bytes) -> str:
-    """Of parts whose number and lengths count, too."""
+    """Digest of byte strings, including their number and lengths."""
     whole = hashlib.sha256()
     for part in parts:
         data = part.encode() if isinstance(part, str) else part
@@ -131,7 +131,7 @@ def _digest(*parts: str | bytes) -> str:
 
 
 def differences(name: str, then: Any, now: Any) -> list[str]:
-    """What is not as it was, in words; dicts entry by entry."""
+    """Descriptions of the differences between two values; dicts are compared by entry."""
     if isinstance(then, Mapping) and isinstance(now, Mapping):
         return [each for key in [*then, *(key for key in now if key not in then)]
                 for each in differences(f"{name}[{key!r}]" if name else key, then.get(key), now.get(key))]

@@ -1,4 +1,4 @@
-"""Ensembles that were saved in a file, or that stay in the folder they were made in."""
+"""Ensembles from files and from stores."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .result import Ensemble
 
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> Ensemble | None:
-    """The ensemble of a file or a folder; None: there is none in it. `rebuilt` makes the system of a mechanism."""
+    """Ensemble of a file or folder; None if it has none. `rebuilt` makes the system of a mechanism from JSON."""
     if not Path(path).is_dir():
         found = saving.read(path, rebuilt)
         return None if found is None else Ensemble(*found, 0.0, f"as {Path(path).name} has it")

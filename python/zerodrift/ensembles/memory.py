@@ -1,4 +1,4 @@
-"""Memory that the outputs of an ensemble take, checked before anything runs and as parts arrive; outputs that stay in files."""
+"""Memory of the outputs of an ensemble: checked before the runs and as parts arrive; outputs that remain in files."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LESS = "keep fewer outputs or times (outputs, t_eval, save_every), or a value of
 
 
 def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel: int) -> None:
-    """Refuses outputs for which memory, or the disk of a store, has no room; None: their sizes in bytes are not known.
+    """Check that outputs fit into memory, or on the disk of a store. `sizes` in bytes, None if not known in advance.
 
     Outputs are joined one after the other when all runs are done: memory for the largest of them is needed besides.
     """
@@ -43,25 +43,25 @@ def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel
 
 
 def size_of(part: Any) -> int:
-    """Bytes of the outputs of a part that are in memory, and of its times where each run has its own."""
+    """Bytes in memory of the outputs of a part, and of its times if they differ between runs."""
     times = 0 if part.is_shared else part.t.nbytes
     return times + (0 if isinstance(part.arrays, InFile) else sum(array.nbytes for array in part.arrays.values()))
 
 
 def shortage(size: int, runs: int) -> str:
-    """The sentence of an error that stops an ensemble."""
+    """Message of the MemoryError that stops an ensemble."""
     free = free_space.in_words(free_space.free_memory() or 0)
     return (f"the outputs of {runs} runs, which are done, take {free_space.in_words(size)}, and {free} of memory are free: "
             f"{LESS}, or write them to a folder (store)")
 
 
 def exceeds(size: int, part: float) -> bool:
-    """Whether outputs of so many bytes, which are in memory, are more than a part of what is free besides."""
+    """True if outputs of `size` bytes in memory exceed the fraction `part` of the memory that is still free."""
     return size > SMALL and (free := free_space.free_memory()) is not None and size > part * free
 
 
 class InFile(Mapping):
-    """Outputs of a part in its file, which are read when they are needed.
+    """Outputs of a part in its file, read at access.
 
     Parameters
     ----------
@@ -85,12 +85,12 @@ class InFile(Mapping):
         return len(self._places)
 
     def between(self, begin: int, end: int) -> InFile:
-        """The same outputs of some of the rows."""
+        """The same outputs for a range of samples."""
         return InFile(self._path, self._places, slice(self._rows.start + begin, self._rows.start + end))
 
 
 class Joined(Mapping):
-    """Outputs of parts some of which are in files: each is joined in memory when it is needed.
+    """Outputs of several parts, some in files: each output is joined in memory at access.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class Joined(Mapping):
         return found
 
     def _empty(self, name: str, like: np.ndarray) -> np.ndarray:
-        """An array for all rows, if memory has room for it."""
+        """Uninitialized array for all samples of an output; MemoryError if it exceeds the free memory."""
         size = self._rows * int(np.prod(like.shape[1:])) * like.itemsize
         if size > SMALL and (free := free_space.free_memory()) is not None and size > free:
             raise MemoryError(f"output {name!r} of all runs takes {free_space.in_words(size)}, and {free_space.in_words(free)} "
@@ -131,14 +131,14 @@ class Joined(Mapping):
 
 
 def some(arrays: Any, begin: int, end: int) -> Any:
-    """Outputs of some of the rows of a part."""
+    """Outputs of a part for a range of samples."""
     if isinstance(arrays, InFile):
         return arrays.between(begin, end)
     return {name: array[begin:end] for name, array in arrays.items()}
 
 
 def together(names: Sequence[str], parts: Sequence[Any], rows: int, *, release: bool) -> Any:
-    """Outputs of all parts. With `release` each is taken from the parts once it is joined, so that memory has it once."""
+    """Joined outputs of all parts. With `release`, each is removed from the parts after joining, so that it is in memory once."""
     if any(isinstance(part, InFile | Joined) for part in parts):
         return Joined(names, parts, rows)
     found = {}

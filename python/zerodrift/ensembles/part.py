@@ -1,4 +1,4 @@
-"""What is kept of some runs, side by side: a run's rows of numbers, one behind another, and what became of it."""
+"""`Part`: outputs and messages of consecutive runs, concatenated."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ import numpy as np
 
 from . import memory
 
-ROADS = "by Python", "in vector lanes", "by the core alone"       # how a run was made, by the number that `Part.roads` has
-BY_PYTHON, IN_LANES, BY_CORE = range(len(ROADS))
+PATHS = "by Python", "in vector lanes", "by the core alone"       # how a run was made; index: entry of `Part.paths`
+BY_PYTHON, IN_LANES, BY_CORE = range(len(PATHS))
 NOT_STARTED = "it was not started, as the ensemble was interrupted"
 
 
 class Part(NamedTuple):
-    """Runs that follow each other.
+    """Results of consecutive runs.
 
     Attributes
     ----------
     rows : ndarray (n,) of int64
-        How many rows each run has.
+        Number of samples of each run.
     t : ndarray (k,) or (sum of rows,)
-        The times of the longest run, where all others have the first of them; else those of each run, one run behind another.
+        Times of the longest run if the others have the same times up to their end; else the times of all runs, concatenated.
     arrays : mapping of str to ndarray (sum of rows, ...)
-        Of each output all rows of the first run, then all of the second, and so on.
+        Samples of each output, concatenated over the runs.
     failed : ndarray (n,) of bool
     messages : list of str (n,)
-    roads : ndarray (n,) of uint8
-        How each was made: its place in `ROADS`.
+    paths : ndarray (n,) of uint8
+        How each run was made: index into `PATHS`.
     doubtful : ndarray (n,) of bool
-        Whether `simulate` would warn of it.
+        True for runs of which `simulate` would warn.
     values, t_events, solutions : list (n,)
-        What `reduce` returned of each, the times of its events, and it itself where it is kept; else None.
+        Return value of `reduce`, times of events, and solution of each run, None where it is not kept.
     """
 
     rows: np.ndarray
@@ -41,7 +41,7 @@ class Part(NamedTuple):
     arrays: dict[str, np.ndarray]
     failed: np.ndarray
     messages: list[str]
-    roads: np.ndarray
+    paths: np.ndarray
     doubtful: np.ndarray
     values: list[Any]
     t_events: list[Any]
@@ -49,45 +49,45 @@ class Part(NamedTuple):
 
     @property
     def is_shared(self) -> bool:
-        """Whether all runs have the times of the longest one, as far as they go."""
+        """True if all runs have the times of the longest one up to their end."""
         return len(self.t) == self.rows.max(initial=0)
 
     def times(self) -> Iterator[np.ndarray]:
-        """Those of each run."""
+        """Times of each run."""
         if self.is_shared:
             return (self.t[:rows] for rows in self.rows)
         return iter(np.split(self.t, np.cumsum(self.rows)[:-1]))
 
     def between(self, begin: int, end: int) -> Part:
-        """The same of some of the runs."""
+        """Part with the runs begin ... end - 1."""
         ends = np.cumsum([0, *self.rows])
         rows, first, last = self.rows[begin:end], int(ends[begin]), int(ends[end])
         t = self.t[:rows.max(initial=0)] if self.is_shared else self.t[first:last]
         return Part(rows, t, memory.some(self.arrays, first, last), self.failed[begin:end],
-                    self.messages[begin:end], self.roads[begin:end], self.doubtful[begin:end], self.values[begin:end],
+                    self.messages[begin:end], self.paths[begin:end], self.doubtful[begin:end], self.values[begin:end],
                     self.t_events[begin:end], self.solutions[begin:end])
 
     def behind(self, count: int) -> Part:
-        """The same without the first runs."""
+        """Part without the first `count` runs."""
         return self.between(count, len(self.rows))
 
 
 def single(t: np.ndarray, arrays: dict[str, np.ndarray], message: str, *, failed: bool, value: Any = None,
-           t_events: Any = None, solution: Any = None, road: int = 0, doubtful: bool = False) -> Part:
-    """A run by itself."""
-    return Part(np.array([len(t)]), t, arrays, np.array([failed]), [message], np.array([road], np.uint8),
+           t_events: Any = None, solution: Any = None, path: int = 0, doubtful: bool = False) -> Part:
+    """Part with one run."""
+    return Part(np.array([len(t)]), t, arrays, np.array([failed]), [message], np.array([path], np.uint8),
                 np.array([doubtful]), [value], [t_events], [solution])
 
 
 def nothing(count: int, message: str = NOT_STARTED) -> Part:
-    """So many runs of which nothing is there."""
+    """Part of `count` runs without samples."""
     none = [None] * count
     return Part(np.zeros(count, int), np.zeros(0), {}, np.ones(count, bool), [message] * count, np.zeros(count, np.uint8),
                 np.zeros(count, bool), none, none, none)
 
 
 def joined(parts: Sequence[Part], *, release: bool = False) -> Part:
-    """Parts that follow each other, as one. With `release` the parts lose their outputs, which memory then has once."""
+    """Concatenate consecutive parts. With `release`, outputs are removed from the parts, so that they are in memory once."""
     if len(parts) == 1:
         return parts[0]
     names = next((list(part.arrays) for part in parts if part.arrays), [])
@@ -97,11 +97,11 @@ def joined(parts: Sequence[Part], *, release: bool = False) -> Part:
     return Part(
         rows, _times(parts), memory.together(names, arrays, int(rows.sum()), release=release),
         _concatenated(part.failed for part in parts), _chained(part.messages for part in parts),
-        _concatenated(part.roads for part in parts), _concatenated(part.doubtful for part in parts), *lists)
+        _concatenated(part.paths for part in parts), _concatenated(part.doubtful for part in parts), *lists)
 
 
 def filled(parts: dict[int, Part], count: int) -> Part:
-    """All runs, from parts by their first runs, which lose their outputs; what is missing was not started."""
+    """Part of all runs, from parts by their first run, whose outputs are released; missing runs count as not started."""
     found, end = [], 0
     for first in sorted(parts):
         if first > end:
@@ -114,7 +114,7 @@ def filled(parts: dict[int, Part], count: int) -> Part:
 
 
 def _times(parts: Sequence[Part]) -> np.ndarray:
-    """Those of the longest run where all share them; else all of them."""
+    """Times of joined parts: those of the longest run if all share them, else all, concatenated."""
     longest = max((part.t for part in parts), key=len)
     if all(part.is_shared and np.array_equal(part.t, longest[:len(part.t)]) for part in parts):
         return longest

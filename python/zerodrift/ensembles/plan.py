@@ -1,4 +1,4 @@
-"""What is to be made of many runs: all that a thread, another process or another machine needs to make some of them."""
+"""`Plan`: everything that a thread, another process or another machine needs to make runs of an ensemble."""
 
 from __future__ import annotations
 
@@ -20,34 +20,35 @@ from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of
 from .runs import NoSystem, Runs, named
 
-OWN = ("system", "t_span", "p0", "v0", "outputs", "progress", "on_failure", "save_to")     # of `simulate`, what is not passed on
+# Arguments of `simulate` that are not options of an ensemble.
+OWN = ("system", "t_span", "p0", "v0", "outputs", "progress", "on_failure", "save_to")
 OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simulate).parameters.items() if name not in OWN}
 
 
 @dataclass(eq=False)
 class Plan:
-    """The runs, and what is kept of each.
+    """Runs of an ensemble, their settings, and the results to keep.
 
     Attributes
     ----------
     runs : Runs
-        Parameters and starts of each run; how its system is made.
+        Parameters and initial states of each run, and the function or system that makes its system.
     t_span : float or (float, float)
     options : dict
-        What `simulate` is told besides. ``vector`` is always among them, so that another machine gives the same bits.
+        Further arguments of `simulate`, always with ``vector``, so that results are bitwise the same on other machines.
     names : tuple of str
-        The outputs.
+        Names of the outputs.
     reduce : callable or None
     keeps : bool
-        Whether solutions are.
+        True if solutions are kept.
     units : dict of str to str
-        Of outputs and parameters, as far as they are known.
+        Units of outputs and parameters, where known.
     is_tabular : bool
-        Whether the numbers of all runs stand in tables that the core reads; the same for parts of them.
+        True if the core reads the numbers of all runs from tables.
     sizes : tuple of int, or None
-        Bytes of each output of all runs, and of solutions that are kept; None: they are not known beforehand.
+        Bytes of each output over all runs, and of kept solutions; None if not known in advance.
     remembered : dict
-        What a road finds out once for all runs; it stays in this process.
+        Cache of values that are computed once for all runs; not sent to other processes.
     """
 
     runs: Runs
@@ -63,11 +64,11 @@ class Plan:
 
     @property
     def t_eval(self) -> np.ndarray | None:
-        """The times that are saved; None: each run has its own."""
+        """Output times; None if each run has its own."""
         return self.options.get("t_eval")
 
     def over(self, runs: Runs) -> Plan:
-        """The same of other runs; what is remembered stays."""
+        """The same plan for other runs; the cache is shared."""
         other = copy.copy(self)
         other.runs = runs
         return other
@@ -76,18 +77,18 @@ class Plan:
         return vars(self) | {"remembered": {}}
 
     def to_run(self, run: int) -> Plan:
-        """By which a run can be made: this one."""
+        """Plan by which a run can be made: this plan."""
         return self
 
     def solution(self, run: int, **options: Any) -> Solution:
-        """One run, by `simulate`."""
+        """Solution of one run, by `simulate`."""
         system = self.runs.system(run)
         p, v = self.runs.start(run, system, _check.span(self.t_span)[0])
         return simulate(system, self.t_span, p, v, **self.options, **options)
 
 
 def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, reduce: Any, *, keeps: bool) -> Plan:
-    """A plan all of whose arguments were looked at, with the first system that can be made; nothing has run yet."""
+    """Plan whose arguments are checked, with the first system that can be built; nothing is simulated."""
     for name in options:
         if name not in OPTIONS:
             raise TypeError(f"ensemble has no argument {name!r}; simulate, which has the options, takes {', '.join(OPTIONS)}")
@@ -113,7 +114,7 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
 
 
 def _names(outputs: Any) -> list[str] | None:
-    """The names of outputs; None: they were left out."""
+    """Names in the argument `outputs`; None if it was left out."""
     if outputs is None:
         return None
     several = [outputs] if isinstance(outputs, str) or not isinstance(outputs, list | tuple) else outputs
@@ -121,7 +122,7 @@ def _names(outputs: Any) -> list[str] | None:
 
 
 def _first_system(runs: Runs) -> tuple[int, BaseSystem | None]:
-    """The first run whose system can be built, and that system; None: there is none, as a function raises in every run.
+    """First run whose system can be built, and that system; None if the function raises in every run.
 
     A run that cannot be built is data. If none can, a given system has been given wrong parameters, or a function returns
     something else: that is an error.
@@ -140,7 +141,7 @@ def _first_system(runs: Runs) -> tuple[int, BaseSystem | None]:
 
 
 def _check_signature(runs: Runs) -> None:
-    """Refuses a function that does not take these parameters."""
+    """Check that a function accepts these parameters by name."""
     try:
         signature = inspect.signature(runs.made)
     except ValueError:      # it has none, as some functions in C
@@ -153,14 +154,14 @@ def _check_signature(runs: Runs) -> None:
 
 
 def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[str, Any]) -> int | None:
-    """Options are checked as `simulate` checks them. How many rows a run saves; None: it is not known beforehand."""
+    """Check options as `simulate` does; return the number of samples of a run, None if not known in advance."""
     given = OPTIONS | options
     events_of.events(given.pop("events"), system)
     return settings.plan(system, span, **given).rows
 
 
 def _row_bytes(system: BaseSystem, names: list[str], *, keeps: bool) -> Iterator[int]:
-    """Bytes in a row of each of these outputs, and of a solution that is kept."""
+    """Bytes of one sample of each output, and of a kept solution."""
     for name in names:
         place = system._watching.find(name)
         is_one = place is None or place.component is not None
@@ -178,14 +179,14 @@ def _check_names(system: BaseSystem, names: list[str]) -> None:
 
 
 def _units(system: BaseSystem, names: list[str]) -> dict[str, str]:
-    """Of these outputs, and of the parameters that say theirs."""
+    """Units of these outputs, and of the parameters that have one."""
     variables = {variable.name: variable.unit
                  for group in (system.coordinates, system.velocities, system.constraints) for variable in group}
     return system._parameter_units() | {name: variables.get(name, system._watching.unit(name) or "") for name in names}
 
 
 def _check_starts(runs: Runs, first: int, system: BaseSystem, t0: float) -> None:
-    """Sizes and names, which each run would refuse; `first` is the run of this system."""
+    """Check sizes and names of starts, which each run would refuse; `first` is the run of this system."""
     for name, size in (("p0", system.nq), ("v0", system.nv)):
         array = runs.states.get(name)
         if array is not None and array.shape[-1] != size:

@@ -1,4 +1,4 @@
-"""What an ensemble of runs leaves: arrays over all runs, and what failed."""
+"""`Ensemble`: the result of many runs."""
 
 from __future__ import annotations
 
@@ -11,35 +11,36 @@ from .. import _check
 from ..systems.measure_values import AXES
 from . import exporting, saving
 from .batch import made_again
-from .part import NOT_STARTED, ROADS, Part
+from .part import NOT_STARTED, PATHS, Part
 from .plan import Plan
 
 
 class Ensemble:
-    """Many runs; ``ens["crank.angle"]`` has an output of all of them, and ``ens[17]`` is one run by itself.
+    """Results of many runs: ``ens["crank.angle"]`` is an output of all runs, ``ens[17]`` the solution of one.
 
     Attributes
     ----------
     parameters : dict of str to ndarray (n,) or (n, size)
-        Of every run.
+        Parameters of every run.
     shape : tuple of int
-        (n,), or that of the grid: ``ens["x"].reshape(*ens.shape, -1)``.
+        (n,), or the shape of the grid, for ``ens["x"].reshape(*ens.shape, -1)``.
     t : ndarray (k,) or None
-        The times of all rows; None where runs have different ones.
+        Times of the samples in s; None if they differ between runs.
     failed : ndarray (n,)
-        Which runs did not reach their end, nor a terminal event.
+        True for runs that reached neither their end nor a terminal event.
     messages : tuple of str
-        What happened to each.
+        Message of each run: "done", or the reason for its end.
     doubtful : ndarray (n,)
-        Whose steps, corrections or energy leave doubt: `simulate` warns of most of these, and the first is told of.
+        True for runs with doubtful steps, corrections or energy balance. `simulate` would warn of most of these; `ensemble`
+        warns of the first.
     values : ndarray (n, ...) or list
-        What `reduce` returned of each; NaN, or None in a list, where it failed.
+        Return values of `reduce`; NaN, or None in a list, for failed runs.
     t_events : list of tuple of ndarray
-        Of each run; None where no events were asked for, or nothing came of it.
+        Times of the events of each run; None without events, or for a run without result.
     units : dict of str to str
-        Of outputs and parameters, as far as they are known.
+        Units of outputs and parameters, where known.
     seconds : float
-        How long all of them took together.
+        Duration of all runs together.
     """
 
     def __init__(self, plan: Plan, part: Part, seconds: float, where: str) -> None:
@@ -52,7 +53,7 @@ class Ensemble:
         t = part.t if plan.t_eval is None else plan.t_eval
         self.t = _check.frozen(t) if part.is_shared else None
         self.values = _together(part.values)
-        self._starts = np.concatenate([[0], np.cumsum(part.rows)])      # of each run's rows
+        self._starts = np.concatenate([[0], np.cumsum(part.rows)])      # first sample of each run
 
     def __len__(self) -> int:
         return len(self.failed)
@@ -63,18 +64,18 @@ class Ensemble:
         Parameters
         ----------
         key : str, measure or int
-            An output by its name, or a component of one, ``"C.force.x"``; or the number of a run, which is made again by
-            itself, with the same bits, unless solutions were kept.
+            Name of an output or of a component of one, ``"C.force.x"``; or the index of a run, which is repeated with bitwise
+            the same result unless solutions were kept.
 
         Returns
         -------
         ndarray (n, k) or (n, k, size), list of ndarray, or Solution
-            NaN where a run has no such row any more; a list where runs have different times.
+            Samples after the end of a run are NaN; a list if times differ between runs.
 
         Raises
         ------
         KeyError
-            If nothing of that name was kept.
+            If there is no output of that name.
         IndexError
             If there is no such run.
         ZerodriftError
@@ -88,14 +89,14 @@ class Ensemble:
                 raise KeyError(f"no output is called {name!r}; {_check.closest(name, self._names) if self._names else 'none'}")
             return self._stacked(name)
         if isinstance(key, bool | np.bool_) or not isinstance(key, int | np.integer):
-            raise TypeError(f"an ensemble takes the name of an output or the number of a run, not {_check.shown(key)}")
+            raise TypeError(f"the key of an ensemble must be an output's name or a run's index, not {_check.shown(key)}")
         if not -len(self) <= key < len(self):
-            raise IndexError(f"there are {len(self)} runs, and none of number {key}")
+            raise IndexError(f"the index of a run must be below {len(self)}, not {key}")
         run = int(key) % len(self)
         return self._part.solutions[run] or made_again(self._plan.to_run(run), run)
 
     def _component(self, name: str) -> Any:
-        """A component of an output that is a vector; None: it is something else."""
+        """A component of a vector output; None if the name is not one."""
         base, _, axis = name.rpartition(".")
         if name in self._names or base not in self._names or axis not in AXES:
             return None
@@ -118,8 +119,8 @@ class Ensemble:
     def save(self, path: str | Path) -> Path:
         """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it.
 
-        A system is kept as far as `Solution.save` keeps it, functions are not: where there are none, runs can be made again of
-        what was loaded, too. Solutions that stayed in memory are not written.
+        Systems are saved as by `Solution.save`, functions and kept solutions are not. Without functions, runs can be repeated
+        from the loaded ensemble.
 
         Parameters
         ----------
@@ -134,7 +135,7 @@ class Ensemble:
         Raises
         ------
         TypeError
-            If `reduce` returned what a file does not keep.
+            If a value of `reduce` cannot be saved.
 
         Examples
         --------
@@ -151,10 +152,10 @@ class Ensemble:
         return path
 
     def to_xarray(self) -> Any:
-        """Everything as an xarray.Dataset, with its units.
+        """The ensemble as an xarray.Dataset with units.
 
-        Outputs have the dimensions ``run`` and ``t``, of a grid those of its parameters instead of ``run``, and vectors
-        ``component``. Where runs have times of their own, ``row`` stands for ``t``, and ``t`` is among the variables.
+        Outputs have the dimensions ``run`` and ``t``, and vectors ``component``; a grid has the dimensions of its parameters
+        instead of ``run``. If times differ between runs, the dimension is ``row``, and ``t`` is a variable.
 
         Raises
         ------
@@ -171,10 +172,10 @@ class Ensemble:
         return exporting.to_xarray(self, self.units, self._part)
 
     def to_pandas(self) -> Any:
-        """Everything as a pandas.DataFrame: one line for each row of each run, with the index ``(run, t)``.
+        """The ensemble as a pandas.DataFrame: one line for each sample of each run, with the index ``(run, t)``.
 
-        Columns are the parameters, then the outputs, vectors by their components. Where only `reduce` was asked for, there is
-        one line for each run, with the index ``run``, and columns are the parameters, ``value``, ``failed`` and ``message``.
+        Columns are the parameters and the outputs, vectors by components. With `reduce` and no outputs there is one line for
+        each run, with the index ``run`` and the columns of the parameters, ``value``, ``failed`` and ``message``.
 
         Raises
         ------
@@ -191,7 +192,7 @@ class Ensemble:
         return exporting.to_pandas(self, self._part)
 
     def __iter__(self) -> Any:
-        raise TypeError("an ensemble is not gone through, as that would make all runs again: take ens['name'], or ens[i]")
+        raise TypeError("an ensemble must not be iterated, which would repeat all runs: use ens['name'], or ens[i]")
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self._names)
@@ -199,23 +200,23 @@ class Ensemble:
     def __repr__(self) -> str:
         count = " x ".join(map(str, self.shape))
         varied = f" over {', '.join(self.parameters)}" if self.parameters else ""
-        rows = f"{len(self.t)} rows each" if self.t is not None else "rows of their own"
+        rows = f"{len(self.t)} samples each" if self.t is not None else "times of their own"
         failed = f"{int(self.failed.sum())} failed" if self.failed.any() else "none failed"
         failed += f", {int(self.doubtful.sum())} doubtful" if self.doubtful.any() else ""
         first = f", the first because {self.messages[int(self.failed.argmax())]}" if self.failed.any() else ""
         return (f"<ensemble of {count} runs{varied}: {rows}, {failed}{first}\n"
-                f" {f'in {self.seconds:.3g} s ' if self.seconds else ''}{self._where}; {self._roads()}\n"
+                f" {f'in {self.seconds:.3g} s ' if self.seconds else ''}{self._where}; {self._paths()}\n"
                 f" outputs {', '.join(self._names) or 'none'}>")
 
-    def _roads(self) -> str:
-        """How many runs took which."""
+    def _paths(self) -> str:
+        """Number of runs by each entry of `PATHS`, in words."""
         done = np.array([message != NOT_STARTED for message in self.messages])
-        return ", ".join(f"{count} {road}" for number, road in enumerate(ROADS)
-                         if (count := int((self._part.roads[done] == number).sum()))) or "none was made"
+        return ", ".join(f"{count} {path}" for number, path in enumerate(PATHS)
+                         if (count := int((self._part.paths[done] == number).sum()))) or "none was made"
 
 
 def _together(values: list[Any]) -> Any:
-    """An array where the values are numbers or arrays of one shape, with NaN for what is missing; else a list."""
+    """One array if the values are numbers or arrays of equal shape, with NaN for missing ones; else the list."""
     known = [each for each in values if each is not None]
     if not known:
         return [None] * len(values)

@@ -1,4 +1,4 @@
-"""Some runs of a plan, one after the other: the seam between what studies many runs and what makes them."""
+"""Runs of a range of a plan, in batches of the core or one after the other: the interface between ensembles and runs."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from .plan import Plan
 
 
 class Cancelled(Exception):
-    """Raised in a run that nobody waits for any more."""
+    """Raised in a run whose ensemble was cancelled."""
 
 
 def never() -> bool:
-    """For runs that nobody cancels."""
+    """Cancellation flag that is always false."""
     return False
 
 
 def run_range(plan: Plan, first: int, last: int, is_cancelled: Callable[[], bool] = never) -> Part:
-    """The runs first ... last - 1, in this thread.
+    """Make the runs first ... last - 1 in this thread.
 
     A run that fails is data. What is in a run's row does not depend on the others, nor on the range.
 
@@ -57,7 +57,7 @@ def _one_or_its_error(plan: Plan, run: int, is_cancelled: Callable[[], bool]) ->
 
 
 def _in_batches(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callable[[], bool]) -> Part:
-    """Runs that the core makes, so many at once that their memory is bounded."""
+    """Make runs in batches of the core whose memory is bounded."""
     stop, made = is_cancelled if isinstance(is_cancelled, _gateway.Stop) else None, []
     try:
         while first < last and not is_cancelled():
@@ -71,7 +71,7 @@ def _in_batches(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: C
 
 def _parts(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callable[[], bool],
            stop: _gateway.Stop | None) -> list[Part]:
-    """The same of so many in one call: those that the core leaves to others are made where it is their turn."""
+    """Make the runs of one batch; those that the core leaves to `simulate` are inserted in order."""
     found = batch_range(plan, batch, first, last, stop)
     if found is None and last == first + 1:
         return [_one_or_its_error(plan, first, is_cancelled)]
@@ -88,7 +88,7 @@ def _parts(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callab
 
 
 def _one(plan: Plan, run: int, is_cancelled: Callable[[], bool]) -> Part:
-    """One run, by `simulate`."""
+    """Part with one run, by `simulate`."""
     def look(part: float) -> None:
         if is_cancelled():
             raise Cancelled
@@ -103,7 +103,7 @@ def _one(plan: Plan, run: int, is_cancelled: Callable[[], bool]) -> Part:
 
 
 def _rows(plan: Plan, solution: Solution) -> int:
-    """How many are kept: of a run that ended between two times that are asked for, its last one is none of these."""
+    """Number of samples to keep: the last sample of a run that ended between two output times is not one of them."""
     wanted, rows = plan.t_eval, len(solution.t)
     if wanted is not None and rows and (rows > len(wanted) or solution.t[-1] != wanted[rows - 1]):
         return rows - 1

@@ -1,4 +1,4 @@
-"""Which runs an ensemble consists of: parameters, starts, and systems of each run."""
+"""`Runs`: parameters, initial state and system of each run of an ensemble."""
 
 from __future__ import annotations
 
@@ -128,11 +128,11 @@ class Runs:
         return array if varies else np.broadcast_to(array, (self.count, *array.shape))
 
     def parameters_of(self, run: int) -> dict[str, Any]:
-        """Of one run, as its system takes them."""
+        """Parameters of one run by name, as its system takes them."""
         return {name: each[run].item() if each.ndim == 1 else np.array(each[run]) for name, each in self.parameters.items()}
 
     def table(self, first: int, last: int) -> dict[str, Any]:
-        """The numbers of the runs first ... last - 1: all that tells them from others."""
+        """Numbers of the runs first ... last - 1: everything in which they differ from other runs."""
         here = slice(first, last)
         return {"parameters": {name: np.ascontiguousarray(each[here]) for name, each in self.parameters.items()},
                 "start_values": {name: (array[here] if varies else array, varies)
@@ -141,7 +141,7 @@ class Runs:
                 "count": last - first, "shape": (last - first,)}
 
     def with_table(self, table: dict[str, Any]) -> Runs:
-        """Other runs, made in the same way."""
+        """Runs of the same kind with the numbers of a table."""
         other = copy.copy(self)
         vars(other).update(table)
         return other
@@ -157,22 +157,22 @@ class Runs:
         return self.made.with_parameters(parameters) if parameters else self.made
 
     def is_tabular(self, system: BaseSystem, run: int) -> bool:
-        """Whether starts and numbers of the system stand in tables, from which the core makes runs without Python.
+        """True if starts and parameters can be given to the core as tables, without Python.
 
-        `run` is one that can be built.
+        `run` is the index of a run whose system can be built.
         """
         sizes = {"p0": system.nq, "v0": system.nv}
         is_mechanism = isinstance(system, MechanismSystem)
         if self.start_values or (is_mechanism and set(self.states) != set(sizes) and not (self.parameters and not self.states)):
-            return False        # it finds them in Python
+            return False        # starts are assembled in Python
         fits = all(array.shape[-1] == sizes[name] for name, array in self.states.items())
         has_start = "p0" in self.states or is_mechanism or system.p0 is not None
         return fits and has_start and self.tables(system, run, run + 1) is not None
 
     def tables(self, system: BaseSystem, first: int, last: int, direct: tuple[str, bool] | None = None) -> NumberTables | None:
-        """The numbers of the runs first ... last - 1, of this system but for its parameters; None: there are no such tables.
+        """Tables of the runs first ... last - 1, which differ from this system in parameters only; None if it has no tables.
 
-        Nor are there where numbers of one run contradict each other: each run is then built individually, and has its error.
+        None also if the numbers of one run are inconsistent: each run is then built individually and has its own error.
         """
         parameters = self.parameters_from(first, last)
         more = {"starts_are_known": bool(self.states)} if isinstance(system, MechanismSystem) else {}
@@ -182,18 +182,18 @@ class Runs:
             return None
 
     def parameters_from(self, first: int, last: int) -> dict[str, np.ndarray]:
-        """Of the runs first ... last - 1."""
+        """Parameters of the runs first ... last - 1, by name."""
         return {name: each[first:last] for name, each in self.parameters.items()}
 
     def assembles(self, system: BaseSystem) -> bool:
-        """Whether starts are made consistent, as parameters have changed what that means."""
+        """True if starts must be made consistent with the constraints, as parameters vary."""
         finds_start = isinstance(system, MechanismSystem) and not self.states
         return bool(self.may_assemble and self.parameters and system.m and not finds_start)
 
     def starts(self, tables: NumberTables, first: int, last: int) -> tuple[np.ndarray | None, np.ndarray | None]:
-        """P (k, nq) and v (k, nv) of the runs first ... last - 1, before they are made consistent; NaN of those refused.
+        """Initial p (k, nq) and v (k, nv) of the runs first ... last - 1, not yet consistent; NaN for refused runs.
 
-        None: the core finds them.
+        None if the core assembles them.
         """
         if tables.family is not None and not self.states:
             return None, None
@@ -208,14 +208,14 @@ class Runs:
         return found[0], found[1]
 
     def are_not_finite(self, first: int, last: int) -> np.ndarray:
-        """Which of the runs first ... last - 1 have a start p0 or v0 that `simulate` refuses."""
+        """Mask of the runs first ... last - 1 whose p0 or v0 is not finite, which `simulate` refuses."""
         found = np.zeros(last - first, dtype=bool)
         for array in self.states.values():
             found |= ~np.isfinite(array[first:last] if array.ndim == 2 else array).all(axis=-1)
         return found
 
     def start(self, run: int, system: BaseSystem, t: float) -> tuple[Any, Any]:
-        """P and v at its start, which is at t; None: the system's own, which a mechanism assembles."""
+        """Initial p and v of a run at time t; None for those of the system, which a mechanism assembles."""
         if self.start_values:
             held = {name: array[run] if varies else array for name, (array, varies) in self.start_values.items()}
             return assemble(system, {name: float(value) if np.ndim(value) == 0 else value for name, value in held.items()}, t=t)
@@ -234,7 +234,7 @@ def _dict(name: str, given: Any) -> Mapping:
 
 
 def _columns(what: str, given: Any) -> tuple[dict[str, tuple[np.ndarray, bool]], dict[str, int]]:
-    """Values by name and whether they vary from run to run; and how many runs each asks for that does."""
+    """Values by name, each with a flag whether it varies; and the number of runs that each varying one implies."""
     if given is None:
         return {}, {}
     if isinstance(given, Sequence) and not isinstance(given, str):
@@ -247,7 +247,7 @@ def _columns(what: str, given: Any) -> tuple[dict[str, tuple[np.ndarray, bool]],
 
 
 def _rows(what: str, given: Sequence) -> tuple[dict[str, tuple[np.ndarray, bool]], dict[str, int]]:
-    """The same of a list of dicts, one for each run."""
+    """The same for a list of dicts, one for each run."""
     rows = [_dict(f"{what}[{i}]", each) for i, each in enumerate(given)]
     if not rows:
         raise ValueError(f"{what} must have at least one run")
@@ -266,13 +266,13 @@ def _state(name: str, given: Any) -> np.ndarray:
 
 
 def _common(counts: dict[str, int]) -> int:
-    """How many runs there are."""
+    """Number of runs, on which all arguments must agree."""
     if not counts:
         return 1
     first = next(iter(counts))
     for name, count in itertools.islice(counts.items(), 1, None):
         if count != counts[first]:
-            raise ValueError(f"{first} has {counts[first]} values and {name} has {count}: one for each run is needed, or one "
+            raise ValueError(f"{first} has {counts[first]} values and {name} has {count}: there must be one for each run, or one "
                              "for all; zd.grid(...) takes the product")
     if not counts[first]:
         raise ValueError(f"{first} has no values, so there are no runs")

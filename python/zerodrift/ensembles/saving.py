@@ -1,4 +1,4 @@
-"""Ensembles in files: arrays in an NPZ file, and beside them a description in JSON; no pickle."""
+"""Ensembles in NPZ files: arrays, and a description in JSON; no pickle."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ DONE = "done"           # what most runs say, which is not written
 
 
 def packed_part(part: Part) -> dict[str, np.ndarray]:
-    """A part as arrays, one of which is a text."""
-    arrays = {"rows": part.rows, "t": part.t, "failed": part.failed, "roads": part.roads,
+    """A part as arrays, one of which is a JSON text."""
+    arrays = {"rows": part.rows, "t": part.t, "failed": part.failed, "roads": part.paths,
               "doubtful": part.doubtful}
     arrays |= {place: part.arrays[name] for name, place in places_of(part.arrays).items()}
     values, stacked = _packed_values(part.values)
@@ -41,12 +41,12 @@ def packed_part(part: Part) -> dict[str, np.ndarray]:
 
 
 def places_of(names: Iterable[str]) -> dict[str, str]:
-    """The array of each output in a file."""
+    """Name of the array of each output in a file."""
     return {name: f"outputs.{i}" for i, name in enumerate(names)}
 
 
 def _packed_values(values: list[Any]) -> tuple[Any, dict[str, np.ndarray]]:
-    """What reduce returned: arrays of one shape as one, all else as JSON."""
+    """Values of `reduce`: arrays of equal shape as one array, others as JSON."""
     known = [each for each in values if each is not None]
     if known and all(isinstance(each, np.ndarray) and each.dtype == known[0].dtype and each.shape == known[0].shape
                      and each.dtype.kind in "biufc" for each in known):
@@ -55,7 +55,7 @@ def _packed_values(values: list[Any]) -> tuple[Any, dict[str, np.ndarray]]:
 
 
 def unpacked_part(arrays: dict[str, np.ndarray]) -> Part:
-    """The part again."""
+    """Part from the arrays of a file."""
     described = json.loads(str(arrays[KEY]))
     messages, count = described["messages"], len(arrays["rows"])
     events = [None if each is None else tuple(np.array(times, dtype=float) for times in each) for each in described["t_events"]]
@@ -72,7 +72,7 @@ def _unpacked_values(described: Any, arrays: dict[str, np.ndarray]) -> list[Any]
 
 
 def value_as_json(value: Any) -> Any:
-    """A value that `reduce` returned.
+    """A value that `reduce` returned, in the types of JSON.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def value_as_json(value: Any) -> Any:
 
 
 def value_from_json(value: Any) -> Any:
-    """The value again."""
+    """Value of `reduce` from its JSON."""
     if isinstance(value, list):
         return [value_from_json(each) for each in value]
     if not isinstance(value, dict):
@@ -112,7 +112,7 @@ def value_from_json(value: Any) -> Any:
 
 
 def packed_plan(plan: Plan | Kept) -> dict[str, np.ndarray]:
-    """All that a plan says and that is no function, as arrays, one of which is a text."""
+    """A plan without its functions, as arrays, one of which is a JSON text."""
     runs = plan.runs
     starts = {name: array for name, (array, _) in runs.start_values.items()}
     groups = {"parameters": runs.parameters, "start": starts, "states": runs.states}
@@ -131,7 +131,7 @@ def packed_plan(plan: Plan | Kept) -> dict[str, np.ndarray]:
 
 
 def why_not(plan: Plan | Kept) -> str | None:
-    """Why runs cannot be made again of what a file has of a plan; None: they can."""
+    """Reason why runs cannot be repeated from a saved plan; None if they can."""
     if isinstance(plan, Kept):
         return plan.why_not
     if not isinstance(plan.runs.made, BaseSystem):
@@ -140,13 +140,13 @@ def why_not(plan: Plan | Kept) -> str | None:
 
 
 def names_of(hold: Any) -> list[str]:
-    """Of the argument `hold`."""
+    """Names in the argument `hold`."""
     several = [hold] if isinstance(hold, str) or hasattr(hold, "name") else hold
     return [getattr(each, "name", each) for each in several]
 
 
 class Kept(NamedTuple):
-    """What was kept of a plan: enough to look at what it made, and to make a run again where nothing in it was a function."""
+    """Saved part of a plan, for reading results; runs can be repeated from it if the plan had no functions."""
 
     runs: Runs
     t_span: Any
@@ -158,18 +158,18 @@ class Kept(NamedTuple):
 
     @property
     def t_eval(self) -> np.ndarray | None:
-        """The times that are saved; None: each run has its own."""
+        """Output times; None if each run has its own."""
         return self.options.get("t_eval")
 
     def to_run(self, run: int) -> Plan:
-        """By which a run can be made."""
+        """Plan by which a run can be repeated; an error if functions are missing."""
         if self.why_not:
             raise ZerodriftError(f"run {run} cannot be made again, as {self.why_not}: call zd.ensemble again")
         return Plan(self.runs, self.t_span, self.options, self.names, is_tabular=self.is_tabular)
 
 
 def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> Kept:
-    """The plan again, as far as it was kept; `rebuilt` makes the system of a mechanism."""
+    """Plan from the arrays of a file; `rebuilt` makes the system of a mechanism from JSON."""
     described = json.loads(str(arrays[KEY]))
     names = {kind: described[kind] for kind in ("parameters", "start", "states")}
     table = {kind: {name: arrays[f"{kind}.{i}"] for i, name in enumerate(each)} for kind, each in names.items()}
@@ -192,14 +192,14 @@ def unpacked_plan(arrays: dict[str, np.ndarray], rebuilt: Callable[[dict[str, An
 
 
 def write(path: Path, plan: Plan | Kept, part: Part) -> None:
-    """Writes an ensemble."""
+    """Write an ensemble to an NPZ file."""
     arrays = {f"runs.{name}": array for name, array in packed_part(part).items()}
     arrays |= packed_plan(plan)
     write_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[Kept, Part] | None:
-    """The ensemble in a file; None: there is another thing in it."""
+    """Ensemble in a file; None if the file has something else."""
     if not is_ensemble(path):
         return None
     arrays = saving.read_arrays(path)
@@ -208,7 +208,7 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> t
 
 
 def is_ensemble(path: str | Path) -> bool:
-    """Whether an ensemble was saved in this file."""
+    """Return whether a file has an ensemble."""
     try:
         with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
             return KEY in file.files and json.loads(str(file[KEY])).get("kind") == WHAT

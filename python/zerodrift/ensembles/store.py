@@ -1,4 +1,4 @@
-"""A folder in which the finished parts of an ensemble stay, so that the same call goes on where it stopped."""
+"""`Store`: folder with the finished parts of an ensemble, so that the same call resumes where it stopped."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ WHAT = "store of an ensemble"
 
 
 def is_one(path: str | Path) -> bool:
-    """Whether a folder is a store."""
+    """Return whether a folder is a store."""
     return (Path(path) / MANIFEST).is_file()
 
 
 def vector_of(folder: str | Path) -> str | None:
-    """The vector unit with which a store began; None: there is none yet.
+    """Vector unit with which a store began; None for a new store.
 
     Raises
     ------
@@ -53,7 +53,7 @@ def vector_of(folder: str | Path) -> str | None:
 
 
 class Store:
-    """Parts of one ensemble in a folder: a context manager, which holds a lock of the folder unless all runs are done.
+    """Parts of one ensemble in a folder; a context manager that locks the folder unless all runs are done.
 
     A part is written under a name of its own and then renamed, so that it is there as a whole or not at all. It does not matter
     which process wrote it, nor how many runs it has.
@@ -92,7 +92,7 @@ class Store:
         self._held.__exit__(*error)
 
     def _is_begun(self) -> bool:
-        """Whether the folder has this study; False: it is new, or empty."""
+        """True if the folder has this study; False if it is new or empty."""
         is_new = not self.folder.exists() or _is_empty(self.folder)     # before the manifest, which another process may write
         if is_one(self.folder):
             _check_same(self.folder, self._manifest, self._plan)
@@ -103,12 +103,12 @@ class Store:
         return False
 
     def _begin(self) -> None:
-        """The manifest is written last: a folder without one is begun anew."""
+        """Write the files of a new study, the manifest last: without one, a folder counts as not begun."""
         write_whole(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(self._plan)))
         write_whole(self.folder / MANIFEST, lambda file: file.write(json.dumps(self._manifest, indent=1).encode()))
 
     def parts(self) -> dict[int, Part]:
-        """What is done, by the first run of each part; no run twice. Outputs that take much memory stay in the files."""
+        """Finished parts by their first run, without overlap. Outputs that take much memory remain in the files."""
         found, end, size = {}, 0, 0
         for (first, last), path in sorted(_files(self.folder).items()):
             if last <= end:
@@ -123,7 +123,7 @@ class Store:
         return found
 
     def write(self, first: int, part: Part) -> Path:
-        """Keeps a part, which may have been cut short; its path."""
+        """Write a part, complete or interrupted, and return its path."""
         count = len(part.rows)
         path = self.folder / f"runs_{first:09}_{first + count:09}.npz"
         if count:
@@ -132,19 +132,19 @@ class Store:
 
 
 def in_file(part: Part, path: Path) -> Part:
-    """The part that is in a file, without its outputs in memory."""
+    """Part in a file, with outputs that are read at access."""
     return part._replace(arrays=memory.InFile(path, saving.places_of(part.arrays), slice(0, int(part.rows.sum()))))
 
 
 def load(folder: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[saving.Kept, dict[int, Part]]:
-    """What a store has, without the call that began it."""
+    """Ensemble of the finished parts of a store, without the functions of the original call."""
     store = object.__new__(Store)
     store.folder = Path(folder)
     return saving.unpacked_plan(read_arrays(store.folder / STUDY), rebuilt), store.parts()
 
 
 def missing(done: Iterable[tuple[int, int]], count: int, length: int) -> Iterator[tuple[int, int]]:
-    """Ranges of at most so many runs that are in none of the ranges which are done."""
+    """Ranges of at most `chunk` runs that cover everything outside the finished ranges."""
     begin = 0
     for first, last in [*sorted(done), (count, count)]:
         for here in range(begin, first, length):
@@ -153,7 +153,7 @@ def missing(done: Iterable[tuple[int, int]], count: int, length: int) -> Iterato
 
 
 def manifest_of(plan: Plan) -> dict[str, Any]:
-    """What makes an ensemble the one that it is."""
+    """Digests and settings that identify an ensemble."""
     runs, found = plan.runs, Identity()
     numbers = {"parameters": runs.parameters, "start": {name: array for name, (array, _) in runs.start_values.items()},
                **runs.states}
@@ -170,7 +170,7 @@ def manifest_of(plan: Plan) -> dict[str, Any]:
 
 
 def _system(made: Any, found: Identity) -> Any:
-    """With its parameters one by one, which are what most often differs."""
+    """Description of the runs, with a digest for each parameter, as these differ most often."""
     if not isinstance(made, BaseSystem):
         return found.of(made)
     return {"name": made.name, "parameters": {name: _described(value, found) for name, value in made.parameters.items()},
@@ -178,12 +178,12 @@ def _system(made: Any, found: Identity) -> Any:
 
 
 def _described(value: Any, found: Identity) -> Any:
-    """A setting: as it is where that is short, else its digest."""
+    """A setting: its value if that is short, else its digest."""
     return value if isinstance(value, str | bool | int | float | None) else found.of(value)
 
 
 def _check_same(folder: Path, now: dict[str, Any], plan: Plan) -> None:
-    """Refuses a store that belongs to another study."""
+    """Check that a store belongs to this study."""
     then = _manifest(folder)
     if then.get("format") != FORMAT:
         raise ValueError(f"store {str(folder)!r} has format {then.get('format')!r}, and format {FORMAT} is known here")
@@ -196,7 +196,7 @@ def _check_same(folder: Path, now: dict[str, Any], plan: Plan) -> None:
 
 
 def _other_runs(folder: Path, plan: Plan) -> list[str]:
-    """Which runs have other numbers, and the first of these."""
+    """Description of the runs with other numbers: how many, and the first."""
     then = saving.unpacked_plan(read_arrays(folder / STUDY), lambda description: None).runs
     found = []
     for what, old, new in (("parameters", then.parameters, plan.runs.parameters),
@@ -232,13 +232,13 @@ def _manifest(folder: Path) -> dict[str, Any]:
 
 
 def _is_empty(folder: Path) -> bool:
-    """Whether there is nothing in a folder but what a process leaves that was killed before its study had begun."""
+    """True if a folder has no files, or only those of a process that was killed before it had written the manifest."""
     return folder.is_dir() and all(path.name == LOCK or is_temporary(path) or (path.name == STUDY and saving.is_ensemble(path))
                                    for path in folder.iterdir())
 
 
 def _files(folder: Path) -> dict[tuple[int, int], Path]:
-    """The parts' files by their runs."""
+    """Files of the parts by their ranges of runs."""
     found = {}
     for path in folder.glob(PATTERN):
         first, last = path.stem.split("_")[1:]

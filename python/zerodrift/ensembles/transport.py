@@ -1,4 +1,4 @@
-"""How plans and parts get to other processes and back: numbers as they are, functions by their names, else by cloudpickle."""
+"""Pickling of plans and parts for other processes: functions by name where possible, else by cloudpickle."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MAIN = ("__main__", "__mp_main__")      # modules that another process does not 
 
 
 def packed(what: Any, name: str = "this", *, shares_main: bool = False) -> bytes:
-    """An object in bytes; `name` says in errors what it is.
+    """Pickle an object; `name` describes it in errors.
 
     Functions of the script that runs travel by their names, too, where `shares_main`: processes that `multiprocessing` has
     started import it.
@@ -54,7 +54,7 @@ def _fits(what: Any, shares_main: bool) -> bool:
 
 
 def unpacked(data: bytes) -> Any:
-    """The object again.
+    """Unpickle an object.
 
     Raises
     ------
@@ -69,11 +69,11 @@ def unpacked(data: bytes) -> Any:
 
 
 class _Stuck(TypeError):
-    """Raised for a function that cannot travel."""
+    """Raised for a function that cannot be pickled."""
 
 
 class _Packer(pickle.Pickler):
-    """Sends functions and classes by reference where another process finds them, else by value."""
+    """Pickler that sends functions and classes by name if another process can import them, else by value."""
 
     shares_main = False
 
@@ -94,7 +94,7 @@ def _restored(data: bytes) -> Any:
 
 
 def is_found(what: Any, but: tuple[str, ...] = MAIN) -> bool:
-    """Whether another process can import a function or a class by its name, and is meant to; not from these modules."""
+    """True if another process can and should import a function or class by name; not from the modules given."""
     module = what.__module__
     if module == "builtins":
         return True
@@ -107,7 +107,7 @@ def is_found(what: Any, but: tuple[str, ...] = MAIN) -> bool:
 
 
 def _is_by_value(module: str) -> bool:
-    """Whether the user has told cloudpickle to send what is in that module, or in a package that it is in."""
+    """True if the user has registered that module, or a package containing it, with cloudpickle to be sent by value."""
     cloudpickle = sys.modules.get("cloudpickle")
     told = cloudpickle.list_registry_pickle_by_value() if cloudpickle else ()
     return any(module == each or module.startswith(f"{each}.") for each in told)

@@ -1,4 +1,4 @@
-"""`unpicklable`: the function that keeps an object from being pickled, by name."""
+"""`unpicklable`: name of the function that prevents an object from being pickled."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .runs import named
 
 
 def unpicklable(what: Any, fits: Callable[[Any], bool]) -> str:
-    """The innermost function on the way from an object to the part of it that does not fit, as an error begins; or nothing."""
+    """Beginning of an error: the innermost function that refers to the first part of an object with `fits` false; "" if none."""
     path, known = [what], {id(what): what}
     while (part := next((each for each in _parts(path[-1]) if id(each) not in known and not fits(each)), known)) is not known:
         path.append(part)
@@ -30,7 +30,7 @@ def _named(function: Any) -> str:
 
 
 def _parts(what: Any) -> Iterator[Any]:
-    """Objects that one consists of or refers to."""
+    """Objects that an object consists of or refers to."""
     match what:
         case dict():
             yield from what.values()
@@ -63,7 +63,7 @@ def _names(code: CodeType) -> list[str]:
 
 
 def _reduced(what: Any) -> Iterator[Any]:
-    """Objects from which another object would be made again."""
+    """Objects from which unpickling would recreate an object."""
     try:
         reduced = what.__reduce_ex__(4)
     except Exception:       # of any object

@@ -1,6 +1,6 @@
-"""What the gallery shows of each model: for how long it moves, whose path is drawn, and what there is to see.
+"""Exhibits of the gallery: duration, traced points and caption of each model.
 
-Models that are not in the table are shown, too, by their docstring's first sentence and their motor's turn.
+Models that are not in the table use the first sentence of their docstring and one turn of their motor.
 """
 
 from __future__ import annotations
@@ -174,12 +174,12 @@ def _in_the_plane() -> list[str]:
 
 
 def exhibit(name: str) -> Exhibit:
-    """What the gallery shows of one model.
+    """Exhibit of one model.
 
     Parameters
     ----------
     name : str
-        As in `zerodrift.models`, of those in the plane.
+        Name of a planar model in `zerodrift.models`.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What drives prescribe that swing to and fro; as expressions, so that mechanisms can be saved and written out."""
+"""Prescribed oscillations of drives, as expressions, so that mechanisms can be saved and exported."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from .. import _check
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 
-LEAN = np.radians(75.0)     # of the first link at the start, as the last leans the other way but for a quarter
+LEAN = np.radians(75.0)     # initial inclination of the first link in rad
 
 
 @checked

@@ -14,11 +14,11 @@ RPM = 2 * np.pi / 60
 @checked
 def planetary_gear(*, sun: int = 40, planet: int = 20, planets: int = 3, module: float = 0.005, carrier_speed: float = -200 * RPM,
                    sun_speed: float = -100 * RPM, density: float = 78.5, load: float = -10.0) -> Mechanism:
-    """A gear of two freedoms, of which carrier and sun are driven; the ring turns as Willis's equation has it.
+    """Planetary gear with two degrees of freedom: carrier and sun are driven, and the ring follows Willis's equation.
 
-    The planets share the load: each beyond the first adds a row that follows from the others, and of the teeth's efforts those
-    of least effect are told, which are alike. Bodies and axles are ``carrier``, ``sun``, ``ring``, ``planet0``, ..., where an
-    axle is named as ``sun axle``; the gears are ``sun-planet0``, ``planet0-ring``, ...
+    Each planet beyond the first adds a redundant constraint; the smallest tooth forces are reported, in which all planets
+    share the load equally. Bodies are ``carrier``, ``sun``, ``ring``, ``planet0``, ..., their axles ``sun axle``, ..., and the
+    gears ``sun-planet0``, ``planet0-ring``, ...
 
     Parameters
     ----------

@@ -14,11 +14,11 @@ from ._swing import swing
 def quarter_car(*, body_mass: float = 2500.0, wheel_mass: float = 320.0, stiffness: float = 80e3, damping: float = 350.0,
                 tyre_stiffness: float = 500e3, tyre_damping: float = 15020.0, amplitude: float = 0.05, rate: float = 2 * np.pi,
                 gravity: float = 9.81) -> Mechanism:
-    """Two masses above each other, on springs and dampers, over a road that moves up and down by amplitude sin(rate t).
+    """Quarter car: wheel and body on springs and dampers, excited by a base that moves vertically by amplitude sin(rate t).
 
-    It starts at rest under its weight, which the springs carry as drawn; displacements are from there. The bodies are ``road``,
-    ``wheel`` and ``body``, each on a guide of its own, ``road guide``, ..., the springs ``tyre`` and ``suspension``, and the
-    motor ``drive``. The tyre does not lift off.
+    It starts in static equilibrium, from which displacements are measured. The bodies are the base, called a
+    ``road``, ``wheel`` and ``body``, each on its own guide, ``body guide``, ...; the springs are ``tyre`` and ``suspension``, and the motor is
+    ``drive``. The tyre cannot lift off.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def quarter_car(*, body_mass: float = 2500.0, wheel_mass: float = 320.0, stiffne
     tyre_stiffness, tyre_damping : float
         In N/m and N s/m.
     amplitude, rate : float
-        Of the road, in m and rad/s.
+        Amplitude in m and angular frequency in rad/s of the base.
     gravity : float
         Downwards, in m/s^2.
 
@@ -45,7 +45,7 @@ def quarter_car(*, body_mass: float = 2500.0, wheel_mass: float = 320.0, stiffne
     --------
     >>> import zerodrift as zd
     >>> sol = zd.simulate(zd.models.quarter_car(), 3.0, step=0.002)
-    >>> bool(abs(sol["body guide.displacement"]).max() > 0.05)      # the road's swing is near a resonance
+    >>> bool(abs(sol["body guide.displacement"]).max() > 0.05)      # the excitation is near a resonance
     True
     """
     masses = [_check.number(name, value, above=0) for name, value in (("body_mass", body_mass), ("wheel_mass", wheel_mass))]

@@ -27,15 +27,15 @@ def __dir__() -> list[str]:
 
 @dataclass(frozen=True, repr=False)
 class Example:
-    """A system, how long it moves, and the ways in which it is simulated.
+    """Example of the paper: a system, its end time, and the settings of its cases.
 
     Attributes
     ----------
     system : system
     end : float
-        In s.
+        End time in s.
     cases : dict
-        What `zerodrift.simulate` is told, by the paper's letter.
+        Arguments of `zerodrift.simulate` by the letter of the case in the paper.
     """
 
     system: BuiltIn

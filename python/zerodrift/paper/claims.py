@@ -53,7 +53,7 @@ class Claim:
 
 
 def figure_5(fine: Solution) -> list[Claim]:
-    """Of the paper's own reference solution, `paper.FOUR_BAR_REFERENCE`."""
+    """Claims about the paper's own reference solution, `paper.FOUR_BAR_REFERENCE`."""
     Phi, Psi = largest(fine.position_violation), largest(fine.velocity_violation)
     energy = largest(fine.energy_violation)
     every = round(reference.SPACING / fine.settings["step"])
@@ -70,7 +70,7 @@ def figure_5(fine: Solution) -> list[Claim]:
 
 
 def figure_6(runs: Runs) -> list[Claim]:
-    """Of the constraint violations in the cases of `paper.FOUR_BAR`."""
+    """Claims about the constraint violations in the cases of `paper.FOUR_BAR`."""
     a, b, c, d = runs.values()
     half = np.searchsorted(b.t, FOUR_BAR.end / 2)
     early, late = largest(b.position_violation[:half]), largest(b.position_violation[half:])
@@ -122,7 +122,7 @@ def _iterations(c: Solution, d: Solution) -> Claim:
 
 
 def figure_7(runs: Runs) -> list[Claim]:
-    """Of energy and accuracy in the cases of `paper.FOUR_BAR`."""
+    """Claims about energy and accuracy in the cases of `paper.FOUR_BAR`."""
     a, b, c, d = runs.values()
     errors = [link_1_error(sol) for sol in (a, b, c, d)]
     worst = [largest(error) for error in errors]
@@ -157,7 +157,7 @@ def _delay(errors: Sequence[np.ndarray]) -> Claim:
 
 
 def _signs_of_energy_errors(c: Solution, error: np.ndarray) -> list[Claim]:
-    """Of T and V in case (c), while the crank still makes the same turns."""
+    """Claims about the errors of T and V in case (c), as long as the crank makes the same turns as the reference."""
     dT, dV = energy_errors(c, reference.four_bar_energies)
     same, rising = (np.abs(error) < 1) & (c.t > 0), np.array([np.cos(reference.four_bar(t)[0]) > 0 for t in c.t])
     up, down = same & rising, same & ~rising
@@ -170,7 +170,7 @@ def _signs_of_energy_errors(c: Solution, error: np.ndarray) -> list[Claim]:
 
 
 def figure_8(runs: Runs) -> list[Claim]:
-    """Of energy and accuracy in the cases of `paper.OSCILLATOR`."""
+    """Claims about energy and accuracy in the cases of `paper.OSCILLATOR`."""
     a, b, c, _ = runs.values()
     error = [largest(difference(sol, reference.oscillator)) for sol in runs.values()]
     energy = [largest(sol.energy_violation) for sol in (a, b, c)]
@@ -189,7 +189,7 @@ def figure_8(runs: Runs) -> list[Claim]:
 
 
 def figure_9(runs: Runs) -> list[Claim]:
-    """Of the errors in kinetic and potential energy in the cases of `paper.OSCILLATOR`."""
+    """Claims about the errors of kinetic and potential energy in the cases of `paper.OSCILLATOR`."""
     (Ta, Va), (Tb, Vb), (Tc, Vc), _ = (energy_errors(sol, reference.oscillator_energies) for sol in runs.values())
     opposite = np.mean(Ta[1:] * Va[1:] < 0)
     ratio = largest(Ta + Va) / max(largest(Ta), largest(Va))
@@ -233,7 +233,7 @@ def energy_errors(sol: Solution, exact: Callable[[float], tuple[float, float]]) 
 
 
 def ending(sol: Solution) -> str:
-    """How far a run came."""
+    """End of a run, in words."""
     return "it reaches the end" if sol.success else sol.message.split(";")[0]
 
 

@@ -1,6 +1,6 @@
 """Scene of a film: shapes whose points move, arrows, graphs, as one JSON object that the player's script draws.
 
-Points that several shapes share are written once, and points that rest are no part of the moving table. Coordinates are 16-bit
+Points that several shapes share are written once; points at rest are not in the table of moving points. Coordinates are 16-bit
 integers within the box around all of them: an error of 1e-5 of the picture. Between samples points move along straight lines.
 """
 

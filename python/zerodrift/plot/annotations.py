@@ -1,4 +1,4 @@
-"""What is written and drawn onto pictures of mechanisms: names, forces to a scale, paths of points."""
+"""Annotations of pictures of mechanisms: names, forces to scale, paths of points."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Names:
                     at[place] = text
 
     def show(self, shapes: Sequence[Shape]) -> list[Text]:
-        """Those of another moment."""
+        """Move the names to the shapes of another time; return their texts."""
         for shape in shapes:
             if (shape.kind, shape.name) in self._texts:
                 text, offset = self._texts[shape.kind, shape.name]
@@ -94,7 +94,7 @@ class Names:
         return [text for text, _ in self._texts.values()]
 
     def _offset(self, shape: Shape, shapes: Sequence[Shape]) -> np.ndarray:
-        """From the anchor to the name, (2,) in sizes."""
+        """Offset (2,) of a name from its anchor, in units of the pin radius."""
         how = NAMED[shape.kind]
         if how == "bar":
             corners = hull(shape.points)
@@ -110,7 +110,7 @@ class Names:
         return {"below": np.array([0.0, -4.4]), "left": np.array([-3.6, 1.8]), "tip": np.array([0.0, 1.0])}[how]
 
     def _free_direction(self, place: np.ndarray, shapes: Sequence[Shape]) -> np.ndarray:
-        """That of eight which is furthest from all bars that meet at a place."""
+        """The direction (2,), of eight, that is furthest from all bars that meet at a point."""
         taken = [np.array([0.0, -1.0])] if any(_is_at(place, kind, shapes) for kind in ("ground", "slider")) else []
         for shape in shapes:
             if shape.kind in ("link", "rod", "spring", "cylinder", "damper"):
@@ -130,7 +130,7 @@ def _is_at(place: np.ndarray, kind: str, shapes: Sequence[Shape]) -> bool:
 
 
 def _anchor(shape: Shape, size: float) -> np.ndarray:
-    """What a name is written beside."""
+    """Point (2,) in m beside which the name of a shape is written."""
     if NAMED[shape.kind] == "bar":
         corners = hull(shape.points)
         return corners.mean(axis=0) if len(corners) > 2 else corners[0] + ASIDE * (corners[1] - corners[0])
@@ -147,11 +147,11 @@ def _aligned(offset: float, positive: str, negative: str) -> str:
 
 
 class Arrows:
-    """Forces as arrows from where they act, with their names, all to one scale, which an arrow in the corner says."""
+    """Forces as arrows at their points of application, with names, to a common scale, shown by an arrow in the corner."""
 
     def __init__(self, ax: Axes, arrows: Sequence[Arrow], extent: float, size: float, line: float, points: float,
                  scale: float | None = None) -> None:
-        """`scale` in N/m; left out: the longest arrow is a part of the picture. `points` are in a pin's radius."""
+        """`scale` in N/m, by default from the longest arrow; `points` is the pin radius in points of the screen."""
         self._arrows, self.size, self.font = arrows, size, float(np.clip(FONT * points, SMALLEST, LARGEST))
         self.largest = max((float(np.hypot(*each.vectors.T).max()) for each in arrows), default=0.0)
         self.scale = scale or self.largest / (LONGEST * extent) or 1.0
@@ -162,13 +162,13 @@ class Arrows:
                                path_effects=halo(0.25 * self.font), label="_force") for each in arrows]
 
     def ends(self) -> np.ndarray:
-        """Of all arrows at all moments, with their names, (n, 2) in m."""
+        """Ends of all arrows at all times, including their names, (n, 2) in m."""
         tips = [each.places + each.vectors / self.scale for each in self._arrows]
         beyond = [2.5 * self.size * each.vectors / (np.hypot(*each.vectors.T)[:, None] + 1e-300) for each in self._arrows]
         return np.vstack([np.zeros((0, 2)), *(tip + more for tip, more in zip(tips, beyond, strict=True))])
 
     def show(self, moment: int) -> list[Any]:
-        """Those of a moment; those that are too short to be seen are left out."""
+        """Draw the arrows of one time, except those that are too short to be seen; return the artists."""
         paths = []
         for each, text in zip(self._arrows, self._texts, strict=True):
             place, vector = each.places[moment], each.vectors[moment]
@@ -182,7 +182,7 @@ class Arrows:
         return [self._drawn, *self._texts]
 
     def say_scale(self, ax: Axes) -> None:
-        """An arrow of a round number of newtons, in the lower left corner, under all else."""
+        """Draw the scale in the lower left corner: an arrow for a round number of newtons."""
         low, bottom = ax.get_xlim()[0], ax.get_ylim()[0]
         hold(ax, (low, bottom - 5 * self.size))
         tail = np.array([low + 2.5 * self.size, bottom - 2 * self.size])
@@ -193,7 +193,7 @@ class Arrows:
 
 
 def round_number(value: float) -> float:
-    """The largest of 1, 2 and 5 times a power of ten that is no larger."""
+    """Largest number 1, 2 or 5 times a power of ten that does not exceed a value."""
     if not value > 0:
         return 1.0
     power = 10.0 ** np.floor(np.log10(value))
@@ -201,7 +201,7 @@ def round_number(value: float) -> float:
 
 
 def with_prefix(newtons: float) -> str:
-    """A force in words."""
+    """A force as text with an SI prefix."""
     for factor, unit_name in ((1e6, "MN"), (1e3, "kN"), (1.0, "N"), (1e-3, "mN")):
         if newtons >= factor * (1 - 1e-9):
             return f"{newtons / factor:g} {unit_name}"

@@ -1,4 +1,4 @@
-"""Drawings of a mechanism, still and moving; `zerodrift.plot` hands them on."""
+"""Drawings and animations of mechanisms, for `zerodrift.plot`."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ from .points import draw_in_space, moved_in_space, points_at, shapes_of, with_eq
 from .space_picture import SpacePicture
 from .style import given_axes
 
-GHOSTS = 8      # faint positions of a motion
-WHOLE = 100     # positions that show how far sliders get
+GHOSTS = 8      # default number of faint positions of a motion
+WHOLE = 100     # positions from which the travel of sliders is determined
 NARROW = 130.0  # points: axes that are narrower show no coordinates
 QUIET = "#6E6E6E"
 
@@ -31,38 +31,37 @@ QUIET = "#6E6E6E"
 def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes | None = None, *, t: float | None = None,
               ghosts: Any = None, names: bool = False, path: Any = (), forces: Any = False,
               force_scale: float | None = None) -> Axes:
-    """Draw a system in one position, or a solution at one time with faint positions of its motion.
+    """Draw a system in one position, or a solution at one time with faint other positions.
 
-    Mechanisms of bodies and joints are drawn as in textbooks: bars and plates with their pins, the ground hatched, sliders on
-    their rails and blocks in their grooves, springs and dashpots, wheels, pitch circles of gears, profiles of cams, motors
-    and loads as arrows. In space bodies are bars, plates, discs, and boxes of their inertia, axes of hinges and sliders short
-    lines; the view is turned with the mouse, in notebooks with ``%matplotlib widget``. Of other systems only points and the
-    lines between them are known: in the plane lines are links, and points that stay in place during the motion are on the
-    ground (curves of many points stay curves); in space they are lines.
+    Mechanisms are drawn with the symbols of textbooks: bars and plates with pins, hatched ground, sliders on rails, blocks in
+    grooves, springs, dashpots, wheels, pitch circles of gears, profiles of cams, motors and loads as arrows. In space, bodies
+    are bars, plates, discs, or boxes of their inertia, and joint axes short lines; the mouse turns the view, in notebooks with
+    ``%matplotlib widget``. Other systems are drawn from their points: in the plane, lines between points are links, and points
+    that do not move are on the ground; in space they are lines.
 
     Parameters
     ----------
     system_or_solution : system, Mechanism or Solution
         What to draw.
     p : array_like (nq,), optional
-        The position; left out: the system's start, or the positions of the solution.
+        Coordinates of the position to draw; by default the start of the system, or positions of the solution.
     ax : Axes, optional
-        Left out: a new figure, with 3D axes where the drawing is spatial.
+        Axes to draw into; by default those of a new figure, 3D for a system in space.
     t : float, optional
-        The time of a solution at which it is drawn, by the row nearest to it; left out: the first.
+        Time in s at which a solution is drawn (nearest sample); by default the first.
     ghosts : int or array_like of float, optional
-        How many other positions of a solution are drawn faintly, evenly over the run, or at which times. Left out: eight, and
-        none where `p` or `t` says the position.
+        Number of other positions to draw faintly, evenly over the run, or their times in s. By default eight, or none if `p`
+        or `t` is given.
     names : bool
-        Whether to write the names of bodies, joints, points, springs and drives of a mechanism.
+        True: write the names of bodies, joints, points, springs and drives of a mechanism.
     path : str, point or measure, or a sequence of them
-        Points of a mechanism whose paths over the whole solution are drawn, such as ``"F"`` or ``rod.end``.
+        Points of a mechanism whose paths over the solution are drawn, such as ``"F"`` or ``rod.end``.
     forces : bool or sequence of str
-        Forces of a mechanism at that time as arrows: True for all joints, bushings and loads, or names of joints, springs, loads
-        and the like. That of a joint is what the first body does to the second. An arrow in the corner says the scale, in space
-        a line of text.
+        Forces of a mechanism at that time to draw as arrows: True for all joints, bushings and loads, or names of force
+        elements and joints. The force of a joint is that of the first body on the second. An arrow in the corner shows the
+        scale, in space a line of text.
     force_scale : float, optional
-        In N/m; left out: the longest arrow is about a fifth of the picture.
+        Newtons per metre of arrow; by default the longest arrow is about a fifth of the picture.
 
     Returns
     -------
@@ -71,7 +70,7 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     Raises
     ------
     ValueError
-        If the system has no drawing, or not what is asked for, or a spatial one does not fit into flat axes.
+        If the system cannot be drawn or lacks a requested item, or if the axes are not 3D for a system in space.
 
     Examples
     --------
@@ -149,33 +148,33 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
 
 def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: float = 1.0, names: bool = False,
             path: Any = (), forces: Any = False, force_scale: float | None = None) -> FuncAnimation:
-    """Animate the motion in real time, drawn as `mechanism` draws it.
+    """Animate a motion in real time, drawn as by `mechanism`.
 
-    In a notebook: ``HTML(zd.plot.animate(sol).to_jshtml())`` with ``from IPython.display import HTML``. In a file:
-    ``zd.plot.animate(sol).save("motion.gif")``, or ``"motion.mp4"`` where matplotlib finds ffmpeg.
+    In a notebook: ``HTML(zd.plot.animate(sol).to_jshtml())`` with ``from IPython.display import HTML``. To a file:
+    ``zd.plot.animate(sol).save("motion.gif")``, or ``"motion.mp4"`` with ffmpeg.
 
     Parameters
     ----------
     sol : Solution
-        Each frame shows its row nearest in time.
+        Motion; each frame shows the sample nearest in time.
     fps : float
         Frames per second.
     ax : Axes, optional
-        Left out: a new figure.
+        Axes to draw into; by default those of a new figure.
     speed : float
         Seconds of motion per second of film.
     names, path, forces, force_scale
-        As of `mechanism`; forces are those of each frame, all to one scale.
+        As in `mechanism`; forces are those at each frame, to a common scale.
 
     Returns
     -------
     matplotlib.animation.FuncAnimation
-        Keep it in a variable as long as it shall run.
+        It runs as long as it is referenced, for example by a variable.
 
     Raises
     ------
     ValueError
-        If the system has no drawing, or not what is asked for.
+        If the system cannot be drawn or lacks a requested item.
 
     Examples
     --------
@@ -200,17 +199,17 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     return _film(ax, Picture(ax, moments, extras).show, times, fps)
 
 
-# ---- what is asked for ----
+# ---- arguments ----
 
 
 def _check_asked(sol: Solution | None, p: Any, **asked: Any) -> None:
-    """Refuses what needs a motion where there is none, or a time of it where a position is given."""
+    """Check that arguments which need a solution, or a sample of it, are given with one."""
     wanted = [name for name, value in asked.items() if value is not None and value is not False and not _is_nothing(value)]
     for name in wanted:
         if sol is None:
-            raise ValueError(f"{name}= needs a solution, as zd.simulate returns, and this is a system in one position")
+            raise ValueError(f"{name} must be left out for a system in one position: it needs a solution, as zd.simulate returns")
         if p is not None and name in ("t", "forces"):
-            raise ValueError(f"{name}= needs a row of the solution: give t=, and leave p out")
+            raise ValueError(f"{name} must be left out where p is given: it needs a sample of the solution, see t")
 
 
 def _is_nothing(value: Any) -> bool:
@@ -218,7 +217,7 @@ def _is_nothing(value: Any) -> bool:
 
 
 def _rows(sol: Solution | None, p: Any, t: float | None, ghosts: Any) -> np.ndarray:
-    """The rows to draw, first that which is not faint, if no position is given."""
+    """Indices of the samples to draw: first the one in full colours (unless p is given), then the faint ones."""
     if sol is None:
         return np.zeros(0, dtype=int)
     first = nearest(sol.t, np.array([sol.t[0] if t is None else _check.number("t", t)]))
@@ -232,12 +231,12 @@ def _rows(sol: Solution | None, p: Any, t: float | None, ghosts: Any) -> np.ndar
 
 
 def _spread(sol: Solution, count: int) -> np.ndarray:
-    """The first row, and others evenly over the run."""
+    """Indices of `count` + 1 samples evenly over the run, including the first."""
     return np.linspace(0, len(sol.t) - 1, count + 1).round().astype(int)
 
 
 def _is_in_space(moments: list[list[Shape]]) -> bool:
-    """Whether shapes are of space."""
+    """True if the shapes are three-dimensional."""
     return any(shape.points.shape[1] == 3 for shape in moments[0])
 
 
@@ -263,7 +262,7 @@ def _arrows(sol: Solution | None, forces: Any, rows: np.ndarray) -> list[Arrow]:
 
 
 def _film(ax: Axes, draw: Callable[[int], list[Any]], times: np.ndarray, fps: float) -> FuncAnimation:
-    """What is drawn as frames, with the time above it."""
+    """Animation from a function that draws a frame, with the time as its title."""
     title = ax.set_title("", fontsize="medium")
 
     def show(frame: int) -> list[Any]:
@@ -275,7 +274,7 @@ def _film(ax: Axes, draw: Callable[[int], list[Any]], times: np.ndarray, fps: fl
 
 def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
              **asked: Any) -> tuple[list[list[Shape]] | None, np.ndarray | None]:
-    """The shapes of each position; where there are none, as in space, its points."""
+    """Shapes of each position; for a system in space without shapes, None and its points (k, n, 3)."""
     if isinstance(system, BaseSystem):
         motion = () if sol is None else sol.p[_spread(sol, WHOLE)]
         known = system._sketches([_check.vector("p", p, system.nq) for p in positions], motion)
@@ -283,7 +282,7 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
             return known, None
     for name, value in asked.items():
         if value is not False and not _is_nothing(value):
-            raise ValueError(f"{name}= needs a mechanism of bodies and joints, and {system.name} is drawn from its points alone")
+            raise ValueError(f"{name} must be left out for {system.name}, which is drawn from its points: it needs a Mechanism")
     points = points_at(system, positions)
     if points.shape[2] == 3:
         return None, points
@@ -292,12 +291,12 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
 
 
 def moments_of(sol: Solution, positions: Any) -> list[list[Shape]]:
-    """The shapes of each position (k, nq) of the system of a solution.
+    """Shapes of the system of a solution at each of the positions (k, nq).
 
     Raises
     ------
     ValueError
-        If the system has no drawing.
+        If the system cannot be drawn.
     """
     moments, points = _moments(sol.system, positions, sol)
     return [_lines(each) for each in points] if moments is None else moments
@@ -324,7 +323,7 @@ def drawing_axes(ax: Axes | None, dimension: int) -> Axes:
 
 
 def _quieten(ax: Axes) -> None:
-    """Coordinates in grey behind what is drawn, and none where there is no room for them."""
+    """Style the axes in grey behind the drawing; hide them if they are too small."""
     if points_of(ax)[0] < NARROW:
         ax.set_axis_off()
         return

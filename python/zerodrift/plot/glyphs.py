@@ -1,7 +1,7 @@
-"""How the parts of mechanisms look: a function for each kind of shape, which says of what lines and areas one consists.
+"""Symbols of the parts of planar mechanisms: a function for each kind of shape, which returns its lines and areas.
 
-`size` is the length of a pin's radius in m. Bodies are light with a dark outline, the ground is hatched, pins are white, and all
-else is black, white and grey, so that nothing is told by its colour alone.
+`size` is the radius of a pin in m. Bodies are light with a dark outline, the ground is hatched, pins are white, and all else is
+black, white and grey, so that no information is in a colour alone.
 """
 
 from __future__ import annotations
@@ -69,12 +69,12 @@ def particle(shape: Shape, size: float) -> list[Mark]:
 
 
 def mark(shape: Shape, size: float) -> list[Mark]:
-    """A named point of a body that nothing holds."""
+    """A named point of a body without a joint."""
     return [circle(shape.points[0], 0.6 * size, face=DARK, edge=WHITE, width=0.5)]
 
 
 def curve(shape: Shape, size: float) -> list[Mark]:
-    """A line (n, 2), of what is no body."""
+    """A line (n, 2) that is not part of a body."""
     return [line(shape.points, edge=EDGE, width=1.8)]
 
 
@@ -231,8 +231,8 @@ def coupled(shape: Shape, size: float) -> list[Mark]:
 
 
 def _frame(shape: Shape, size: float, low: float, high: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[Mark]]:
-    """Of what is between two places, by itself or beside their line by its number: where its middle part begins and ends,
-    the direction across, and what leads there.
+    """Frame of an element between two points, offset sideways by its number: start and end of its middle part, transverse
+    direction, and marks of its leads.
     """
     start, end = shape.points
     side = across(unit(end - start))
@@ -244,7 +244,7 @@ def _frame(shape: Shape, size: float, low: float, high: float) -> tuple[np.ndarr
 
 
 def spring(shape: Shape, size: float) -> list[Mark]:
-    """A zigzag between two places; beside their line by its number."""
+    """A zigzag between two points, offset sideways by its number."""
     start, end, side, leads = _frame(shape, size, 0.17, 0.83)
     steps = np.concatenate([[0.0], (np.arange(2 * COILS) + 0.5) / (2 * COILS), [1.0]])
     swings = np.array([0.0, *((-1.0) ** i for i in range(2 * COILS)), 0.0]) * (1.3 if shape.number else 1.9) * size
@@ -315,7 +315,7 @@ def moment(shape: Shape, size: float) -> list[Mark]:
 
 
 class Glyph(NamedTuple):
-    """How a kind of shape is drawn, in front of what, and how many of its last points are directions."""
+    """Symbol of a kind of shape: drawing function, drawing order, and number of trailing points that are directions."""
 
     draw: Callable[[Shape, float], list[Mark]]
     zorder: float

@@ -58,7 +58,7 @@ def area(corners: Any, **look: Any) -> Mark:
 
 @functools.lru_cache(maxsize=256)
 def _closed(corners: int) -> np.ndarray:
-    """How matplotlib is told of an outline that is closed."""
+    """Path codes of matplotlib for a closed outline with this number of corners."""
     codes = np.full(corners + 1, Path.LINETO, dtype=Path.code_type)
     codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
     codes.flags.writeable = False

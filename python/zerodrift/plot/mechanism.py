@@ -26,11 +26,11 @@ MARGIN = 3.0        # sizes, around all that is drawn
 NARROW = 0.4        # of the picture's longer side: no picture is narrower
 LINE = 0.22         # points in a picture's line for each point in a pin's radius
 THIN, THICK = 0.3, 1.0      # of lines, in points
-FAINT = {"link": "#9A9A9A", "rod": "#9A9A9A", "curve": "#9A9A9A", "wheel": "#C8C8C8"}       # what other positions show
+FAINT = {"link": "#9A9A9A", "rod": "#9A9A9A", "curve": "#9A9A9A", "wheel": "#C8C8C8"}       # colours of faint positions
 
 
 class Extras(NamedTuple):
-    """What is drawn of a mechanism besides its parts: names, paths (k, 2) of points, forces and their scale in N/m."""
+    """Additions to the picture of a mechanism: names, paths (k, 2) of points, forces and their scale in N/m."""
 
     names: bool = False
     paths: Sequence[np.ndarray] = ()
@@ -104,14 +104,14 @@ class Picture:
         return [*self._drawn.values(), *more, *(self._names.show(self._moments[moment]) if self._names else [])]
 
     def _collection(self, kind: str) -> PathCollection:
-        """What shows all shapes of a kind."""
+        """Collection of matplotlib for all shapes of a kind."""
         if kind not in self._drawn:
             collection = PathCollection([], zorder=GLYPHS[kind].zorder, label=f"_{kind}", capstyle="round", joinstyle="round")
             self._drawn[kind] = self.ax.add_collection(collection, autolim=False)
         return self._drawn[kind]
 
     def _look(self, collection: PathCollection, marks: list[Mark]) -> None:
-        """Makes a collection show marks."""
+        """Set the paths and styles of a collection from marks."""
         collection.set_paths([each.path for each in marks])
         collection.set_facecolor([each.face for each in marks])
         collection.set_edgecolor([each.edge for each in marks])

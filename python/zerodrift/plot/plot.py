@@ -1,4 +1,4 @@
-"""Curves and maps of solutions, and of what studies found; `zerodrift.plot` hands them on."""
+"""Curves and maps of solutions and of studies, for `zerodrift.plot`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from . import style as _style
 from .style import COLOURS
 
 MARKERS = "os^Dv<>pPX*"
-BEYOND = 1e30           # of an error: no scale that shows it shows the others
+BEYOND = 1e30           # error: larger ones are not drawn, as no scale shows them beside the others
 
 
 def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | None = None, **style: Any) -> Axes:
@@ -34,13 +34,13 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
     Parameters
     ----------
     sol : Solution
-        What to draw.
+        Data.
     names : str or sequence of str, optional
-        Of coordinates and velocities; left out: all coordinates.
+        Names of coordinates and velocities; by default all coordinates.
     ax : Axes, optional
-        Left out: a new figure.
+        Axes to draw into; by default those of a new figure.
     **style
-        For ``ax.plot``.
+        Further arguments of ``ax.plot``.
 
     Returns
     -------
@@ -74,9 +74,9 @@ def measures(sol: Solution, names: Any, ax: Axes | None = None, **style: Any) ->
     names : str, measure, or sequence of these
         As in ``sol[name]``: ``["pin.force", crank.angle]``.
     ax : Axes, optional
-        Left out: a new figure.
+        Axes to draw into; by default those of a new figure.
     **style
-        For ``ax.plot``.
+        Further arguments of ``ax.plot``.
 
     Returns
     -------
@@ -85,7 +85,7 @@ def measures(sol: Solution, names: Any, ax: Axes | None = None, **style: Any) ->
     Raises
     ------
     KeyError
-        If nothing has a name.
+        If a name is unknown.
 
     Examples
     --------
@@ -110,18 +110,18 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
               **style: Any) -> Axes:
     """Draw the largest position and velocity violation over time, on a logarithmic scale.
 
-    Exact zeros have no place on that scale; they are triangles on its lower edge.
+    Exact zeros, which a logarithmic scale cannot show, are triangles at its lower edge.
 
     Parameters
     ----------
     sol : Solution
-        What to draw.
+        Data.
     ax : Axes, optional
-        Left out: a new figure.
+        Axes to draw into; by default those of a new figure.
     positions, velocities : bool
-        Which of the two are drawn.
+        Violations to draw.
     **style
-        For ``ax.plot``.
+        Further arguments of ``ax.plot``.
 
     Returns
     -------
@@ -130,7 +130,7 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     Raises
     ------
     ValueError
-        If the system has no constraints, or none of what is asked for.
+        If the system has no constraints of the requested kind.
 
     Examples
     --------
@@ -162,9 +162,9 @@ def energy(sol: Solution, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     sol : Solution
-        What to draw.
+        Data.
     ax : Axes, optional
-        Left out: a new figure.
+        Axes to draw into; by default those of a new figure.
 
     Returns
     -------
@@ -198,9 +198,9 @@ def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False
     Parameters
     ----------
     sol : Solution
-        What to draw.
+        Data.
     ax : Axes, optional
-        Left out: a new figure.
+        Axes to draw into; by default those of a new figure.
     log : bool
         Whether to draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge.
     **style
@@ -235,18 +235,18 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
     Parameters
     ----------
     sol : Solution
-        What to draw.
+        Data.
     reference : Reference, Solution or callable
         What `zerodrift.reference` gave, a solution whose times contain those of `sol`, or a function of the time that returns
         p (nq,).
     names : str or sequence of str, optional
         Of coordinates and (with a Solution as reference) velocities; left out: all coordinates.
     ax : Axes, optional
-        Left out: a new figure.
+        Axes to draw into; by default those of a new figure.
     log : bool
         Whether to draw magnitudes on a logarithmic scale, exact zeros as triangles on the lower edge.
     **style
-        For ``ax.plot``.
+        Further arguments of ``ax.plot``.
 
     Returns
     -------
@@ -291,7 +291,7 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     result : WorkPrecision
         What `zerodrift.work_precision` measured.
     ax : Axes, optional
-        Left out: a new figure.
+        Axes to draw into; by default those of a new figure.
 
     Returns
     -------

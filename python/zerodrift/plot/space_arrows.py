@@ -28,11 +28,11 @@ class SpaceArrows:
                   color=LOAD, label="_scale")
 
     def ends(self) -> np.ndarray:
-        """Of all arrows at all moments, (n, 3) in m."""
+        """Ends of all arrows at all times, (n, 3) in m."""
         return np.vstack([each.places + each.vectors / self.scale for each in self._arrows])
 
     def show(self, moment: int) -> list[Any]:
-        """Those of a moment; those that are too short to be seen are left out."""
+        """Draw the arrows of one time, except those that are too short to be seen; return the artists."""
         lines: list[np.ndarray] = []
         for each, text in zip(self._arrows, self._texts, strict=True):
             place, vector = each.places[moment], each.vectors[moment]

@@ -64,7 +64,7 @@ def _spring(points: np.ndarray, size: float) -> list[np.ndarray]:
 
 
 class Glyph(NamedTuple):
-    """How shapes of a kind look: what makes lines or faces of one, and matplotlib's words for them."""
+    """Symbol of a kind of shape: function that makes its lines or faces, and their styles for matplotlib."""
 
     draw: Callable[[np.ndarray, float], list[np.ndarray]]
     looks: dict[str, Any]
@@ -141,7 +141,7 @@ class SpacePicture:
         return [*self._drawn.values(), *self._texts.values(), *(self._arrows.show(moment) if self._arrows else [])]
 
     def _artist(self, kind: str) -> Any:
-        """What shows all shapes of a kind."""
+        """Artist of matplotlib for all shapes of a kind."""
         if kind not in self._drawn:
             if kind in DOTS:
                 (self._drawn[kind],) = self.ax.plot([], [], [], linestyle="", label=f"_{kind}", **DOTS[kind])
@@ -154,10 +154,10 @@ class SpacePicture:
 
 
 def _extent(shape: Shape) -> np.ndarray:
-    """The places that a shape takes, (n, 3)."""
+    """Points (n, 3) that determine the extent of a shape."""
     return shape.points[:1] if shape.kind in ("pin", "sleeve", "patch") else shape.points
 
 
 def _anchor(shape: Shape) -> np.ndarray:
-    """Where its name stands."""
+    """Point (3,) in m at which the name of a shape is written."""
     return shape.points[0] if shape.kind in ("pin", "sleeve", "patch") else shape.points.mean(axis=0)

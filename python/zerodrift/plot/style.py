@@ -37,7 +37,7 @@ def panels(rows: int, columns: int, width: float = 8.0, height: float = 5.0,
 
 
 def axes(ax: Axes | None) -> Axes:
-    """Those given, or those of a new figure."""
+    """The given axes, or those of a new figure."""
     return styled(plt.subplots(layout="constrained")[1]) if ax is None else given_axes(ax)
 
 

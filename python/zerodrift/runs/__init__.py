@@ -1,1 +1,1 @@
-"""One run of a system: what it may be told, how it is driven, and what comes out."""
+"""One run of a system: its arguments, the loop that drives the core, and the solution."""

@@ -95,7 +95,7 @@ class _Branch:
         return [k for k in found if k is not None]
 
     def change(self, minor: int, sign: float, end: int) -> int | None:
-        """The sample after which the sign of a minor differs, by bisection; None: it is zero on the way."""
+        """Sample after which the sign of a minor changes, by bisection; None if the minor is zero at a sample tried."""
         begin = 0
         while end - begin > 1:
             middle = (begin + end) // 2
@@ -106,11 +106,11 @@ class _Branch:
         return begin
 
     def is_interrupted(self, k: int) -> bool:
-        """Whether paths from sample k and from the next are both held up before they reach the other."""
+        """True if the paths from sample k to k + 1 and back both end before they reach their targets."""
         return self._path(k, k + 1) > HELD_UP and self._path(k + 1, k) > HELD_UP
 
     def _path(self, begin: int, end: int) -> float:
-        """The distance at the end of a path from one sample towards the other, as a part of that at its beginning; 0: unknown."""
+        """Remaining distance at the end of a path from one sample towards another, relative to the initial one; 0 if unknown."""
         t, p = self.solution.t, self.solution.p[begin].copy()
         target = self.solution.p[end]
         distance = np.abs((target - p) / self.scale_p).max()

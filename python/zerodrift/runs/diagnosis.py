@@ -1,4 +1,4 @@
-"""What was off in a run that reached its end: warnings, and the sentences that say what to do about them."""
+"""Warnings of completed runs: skipped corrections, instability, inaccuracy; each message suggests a remedy."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ CATEGORIES = (AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarnin
 
 
 def is_beyond_doubt(results: _gateway.Results) -> bool:
-    """Whether no warning is due, as most often: told from few numbers, as `doubts` takes as long as a short run."""
+    """True if no warning is due. A quick check of a few numbers, as `doubts` takes as long as a short run."""
     counted, kinetic = results.statistics, results.largest_kinetic
     return (not (counted.energy_skipped or counted.too_long or counted.stiff or counted.unresolved)
             and not 0 < counted.smallest_pivot < SMALLEST_PIVOT and not results.redundant
@@ -37,7 +37,7 @@ def is_beyond_doubt(results: _gateway.Results) -> bool:
 
 
 def are_beyond_doubt(counted: np.ndarray, kinetic: np.ndarray, energy_error: np.ndarray) -> np.ndarray:
-    """The same of many runs (k,), from what the core counts of each, its largest kinetic energy and error of the balance in J."""
+    """The same check for many runs (k,): statistics of the core, largest kinetic energy and energy error of each, in J."""
     any_count = counted["energy_skipped"] | counted["too_long"] | counted["stiff"] | counted["unresolved"]
     return ((any_count == 0) & ~((counted["smallest_pivot"] > 0) & (counted["smallest_pivot"] < SMALLEST_PIVOT))
             & ((energy_error < LARGEST_ENERGY_ERROR * kinetic) | (energy_error == 0))
@@ -45,14 +45,14 @@ def are_beyond_doubt(counted: np.ndarray, kinetic: np.ndarray, energy_error: np.
 
 
 def warn(solution: Solution, stacklevel: int) -> None:
-    """Warn of everything that was off but did not stop the run; `stacklevel` as of `warnings.warn`, counted from the caller."""
+    """Issue all warnings of a solution; `stacklevel` as in `warnings.warn`, counted from the caller."""
     for category, sentence in doubts(solution):
         warnings.warn(sentence, category, stacklevel=stacklevel + 1)
 
 
 @contextlib.contextmanager
 def unwarned() -> Iterator[None]:
-    """No such warnings in this context: for callers that measure what `simulate` warns of, or show it."""
+    """Context without these warnings, for callers that evaluate or show the same facts themselves."""
     with warnings.catch_warnings():
         for category in CATEGORIES:
             warnings.simplefilter("ignore", category)
@@ -60,7 +60,7 @@ def unwarned() -> Iterator[None]:
 
 
 def doubts(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
-    """The warnings that a solution deserves, with their sentences."""
+    """Warnings due for a solution: category and message of each."""
     yield from _skipped_corrections(solution)
     yield from _small_pivot(solution)
     yield from _locked(solution)
@@ -94,7 +94,7 @@ def _locked(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
 
 
 def instability(stats: Mapping[str, Any], integrator: Any) -> Iterator[str]:
-    """What a `StabilityWarning` says of a run that reached its end, from what the core counts of it."""
+    """Messages of `StabilityWarning` for a run that reached its end, from the statistics of the core."""
     integrator, steps = name_of("integrators", integrator), stats["steps"]
     if too_long := stats["too_long"]:
         stable = integrators()[integrator].stability
@@ -124,14 +124,14 @@ def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
 
 
 def _numerical_energy(solution: Solution) -> Iterator[str]:
-    """What integration and corrections did to the energy, in sentences, where it is more than rounding and more than allowed."""
+    """Messages on energy errors of integration and corrections that exceed both rounding and the allowed limits."""
     violation = solution.energy_violation
     if violation is None or not len(violation):
         return
     error, correction, kinetic = _largest(violation), solution.stats["energy_corrected"], solution.stats["largest_kinetic"]
     if error < LARGEST_ENERGY_ERROR * kinetic and correction <= LARGEST_ENERGY_CORRECTION * kinetic:
         return      # all the more where the rows have seen more kinetic energy
-    # The saved rows may all be at turning points; the statistics look in between, too.
+    # All samples may be at turning points; the statistics include the steps between them.
     kinetic = max(_largest(solution.kinetic_energy), kinetic)
     rounding = ENERGY_ROUNDING * (kinetic + _largest(solution.potential_energy))
     if not kinetic:

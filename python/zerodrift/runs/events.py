@@ -107,13 +107,13 @@ class _Called:
 
 
 def _reader(what: str, measure: Any, system: BaseSystem) -> Callable[[float, np.ndarray, np.ndarray], float]:
-    """The function of (t, p, v) that reads a scalar measure."""
+    """Function of (t, p, v) that evaluates a scalar measure."""
     reading = _reading(what, measure, system)
     return lambda t, p, v: system._read(reading, t, p, v)
 
 
 def _reading(what: str, measure: Any, system: BaseSystem) -> Reading:
-    """Where the core finds a scalar measure."""
+    """Description of a scalar measure by which the core evaluates it."""
     name = getattr(measure, "name", measure)
     if not isinstance(name, str):
         raise TypeError(f"{what} must be a measure, the name of one, an expression or a callable, not {_check.shown(measure)}")
@@ -121,16 +121,16 @@ def _reading(what: str, measure: Any, system: BaseSystem) -> Reading:
 
 
 class Watched(NamedTuple):
-    """A function of the motion, checked: `value` of (t, p, v) is a finite number."""
+    """Event function, checked; `value(t, p, v)` is a finite number."""
 
     name: str
-    function: Callable[[float, np.ndarray, np.ndarray], float] | None   # None: the core evaluates it itself
+    function: Callable[[float, np.ndarray, np.ndarray], float] | None   # None if the core evaluates the event
     direction: int
     terminal: int
-    known: _gateway.KnownEvent | None   # by this
+    known: _gateway.KnownEvent | None   # its description for the core, or None
 
     def value(self, t: float, p: np.ndarray, v: np.ndarray) -> float:
-        """What the function returns, if that is a number."""
+        """Value of the event function, checked to be a finite number."""
         try:
             value = self.function(t, p, v)
         except BaseException as error:
@@ -142,7 +142,7 @@ class Watched(NamedTuple):
 
 
 def events(given: Any, system: BaseSystem) -> tuple[Watched, ...] | None:
-    """The argument `events` of `simulate`: None, one event, or several; each a callable, an `Event` or a measure."""
+    """Check the argument `events` of `simulate`: None, one event or several; each a callable, an `Event` or a measure."""
     if given is None:
         return None
     if not isinstance(given, Sequence) or isinstance(given, str):

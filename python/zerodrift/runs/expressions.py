@@ -13,16 +13,16 @@ from ..systems.base import BaseSystem, core_of
 
 
 class Read(NamedTuple):
-    """An expression of numbers of the motion."""
+    """Expression in scalar quantities of the motion."""
 
-    expression: Any             # in symbols of its own
-    atoms: list[Any]            # these symbols
-    readings: list[Reading]     # what each stands for
-    parameters: frozenset[str]  # of the system, whose values are among them
+    expression: Any             # in the symbols `atoms`
+    atoms: list[Any]            # symbols of the expression
+    readings: list[Reading]     # quantity that each symbol stands for
+    parameters: frozenset[str]  # names of the parameters of the system that occur
 
 
 def read(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any]) -> Read:
-    """What an expression is a function of, by their names: t, coordinates, velocities, measures, parameters, what `of` binds."""
+    """Identify the names in an expression: t, coordinates, velocities, measures, parameters, and the names bound by `of`."""
     import sympy  # slow to import
 
     found: dict[Any, Reading] = {}
@@ -46,7 +46,7 @@ def read(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any]) -> Re
 
 
 def _atoms(expression: Any) -> set[Any]:
-    """Symbols, functions of time and their derivatives, each as the largest that it is part of."""
+    """Set of symbols, functions of time and their derivatives in an expression; the argument of a derivative is not listed."""
     from sympy.core.function import AppliedUndef, Derivative
 
     if isinstance(expression, AppliedUndef | Derivative) or expression.is_Symbol:
@@ -55,18 +55,18 @@ def _atoms(expression: Any) -> set[Any]:
 
 
 def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
-    """The velocity that is the derivative of a coordinate."""
+    """Velocity that is the derivative of a coordinate."""
     coordinates = [variable.name for variable in system.coordinates]
     name = str(getattr(derivative.expr, "func", derivative.expr))
     has_rates = core_of(system).provides & _gateway.TERMS["A"].bit
     if has_rates or derivative.derivative_count != 1 or name not in coordinates:
-        raise ValueError(f"{what} has {derivative}, which is no velocity of {system.name}: those are "
+        raise ValueError(f"{what} has {derivative}, which must be a velocity of {system.name}: "
                          f"{', '.join(variable.name for variable in system.velocities)}")
     return Reading(VELOCITY, coordinates.index(name))
 
 
 def in_python(of: Read, system: BaseSystem) -> Callable[[float, np.ndarray, np.ndarray], float]:
-    """The same where there is no compiler: a function of (t, p, v)."""
+    """Python function of (t, p, v) for an expression, used if there is no compiler."""
     import sympy
 
     function = sympy.lambdify(of.atoms, of.expression, "math")

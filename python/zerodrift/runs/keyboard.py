@@ -1,4 +1,4 @@
-"""Ctrl-C during a run: it breaks into what users wrote and nowhere else, so that all that was computed stays intact."""
+"""Ctrl-C during a run: it interrupts functions of the user and nothing else, so that computed samples stay valid."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ INTERRUPT = int(signal.SIGINT)
 class Keyboard:
     """While this context lasts, Ctrl-C raises KeyboardInterrupt below the code in `breakable` only; elsewhere it sets `pressed`.
 
-    That is so in the main thread with Python's own handler; whoever has set another is left alone, and so are other threads,
-    which hear nothing of the keyboard.
+    This applies in the main thread with Python's default handler. A handler that a program has set is left in place, and other
+    threads do not receive Ctrl-C.
     """
 
     def __init__(self, *breakable: CodeType) -> None:

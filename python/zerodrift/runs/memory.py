@@ -1,4 +1,4 @@
-"""Whether there is room for the record of a run, in memory or on a disk: told before anything runs."""
+"""Free memory and free disk space, checked against the size of a record before the run starts."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ CONTROL = Path("/sys/fs/cgroup")        # where Linux limits the memory of conta
 
 
 def check_memory(rows: int, row: int, stacklevel: int) -> None:
-    """Refuses a record of so many rows of so many bytes that memory has no room for; warns of one that takes more than half."""
+    """Raise MemoryError if `rows` samples of `row` bytes exceed the free memory; warn if they take more than half of it."""
     if (free := free_memory()) is None:
         return
-    sentence = (f"{rows} saved rows take {in_words(rows * row)}, and {in_words(free)} of memory are free: save fewer with "
+    sentence = (f"{rows} samples take {in_words(rows * row)}, and {in_words(free)} of memory are free: save fewer with "
                 "save_every or t_eval, or write them to a file with save_to")
     if rows * row > free:
         raise MemoryError(sentence)
@@ -28,35 +28,35 @@ def check_memory(rows: int, row: int, stacklevel: int) -> None:
 
 
 def check_disk(rows: int | None, row: int, folder: Path) -> None:
-    """Refuses a file of so many rows that a disk has no room for; None: it is not known how many they are."""
+    """Raise OSError if `rows` samples of `row` bytes exceed the free disk space; None: their number is not known in advance."""
     free = free_disk(folder)
     if rows is not None and rows * row > free:
-        raise OSError(f"{rows} saved rows take {in_words(rows * row)}, and {in_words(free)} are free in {folder}: save fewer "
+        raise OSError(f"{rows} samples take {in_words(rows * row)}, and {in_words(free)} are free in {folder}: save fewer "
                       "with save_every or t_eval")
 
 
 def free_disk(folder: Path) -> int:
-    """Bytes that are free on the disk of a folder, or of the nearest one above it that is there."""
+    """Free bytes on the disk of a folder; if it does not exist yet, of its nearest existing parent."""
     while not folder.exists() and folder != folder.parent:
         folder = folder.parent
     return shutil.disk_usage(folder).free
 
 
 def free_memory() -> int | None:
-    """Bytes that this process may take yet without making others go; None: nobody knows."""
+    """Bytes that this process can still allocate: the least of what machine, process limit and container limit leave."""
     known = [size for size in (_available(), _left_to_process(), _left_to_container()) if size is not None]
     return min(known, default=None)
 
 
 class _MemoryStatus(ctypes.Structure):
-    """What Windows says of its memory, in bytes: MEMORYSTATUSEX."""
+    """MEMORYSTATUSEX of Windows: sizes of physical and virtual memory in bytes."""
 
     _fields_ = [("size", ctypes.c_uint32), ("percent_taken", ctypes.c_uint32)] + [(name, ctypes.c_uint64) for name in (
         "memory", "free_memory", "with_page_file", "free_with_page_file", "addresses", "free_addresses", "extended")]
 
 
 def _available() -> int | None:
-    """What the machine has."""
+    """Free memory of the machine in bytes; None if unknown."""
     if sys.platform == "win32":
         status = _MemoryStatus(ctypes.sizeof(_MemoryStatus))
         known = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
@@ -69,7 +69,7 @@ def _available() -> int | None:
 
 
 def _left_to_process() -> int | None:
-    """What a limit of the process leaves."""
+    """Bytes left below the memory limits of the process; None if there are none."""
     with contextlib.suppress(ImportError, OSError, ValueError):
         import resource  # not on Windows
 
@@ -82,7 +82,7 @@ def _left_to_process() -> int | None:
 
 
 def _left_to_container() -> int | None:
-    """What a limit of the container leaves; "max" is none."""
+    """Bytes left below the memory limit of the container; None if there is none ("max")."""
     with contextlib.suppress(OSError, ValueError):
         limit, taken = ((CONTROL / name).read_text() for name in ("memory.max", "memory.current"))
         return max(0, int(limit) - int(taken))
@@ -90,7 +90,7 @@ def _left_to_container() -> int | None:
 
 
 def in_words(size: int) -> str:
-    """Bytes, as people read them."""
+    """A size in bytes as text, such as "14.4 GB"."""
     for unit, least in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
         if size >= least:
             return f"{size / least:.3g} {unit}"

@@ -1,6 +1,6 @@
-"""The rows of the core's tables that a run is made of: their cards, and for each a class of its settings.
+"""Formulations, integrators and corrections of the core: a card for each, and a class of its settings.
 
-All of it comes from the core: a row that is added there is here, with its parameters, their checks and their documentation.
+All of it is read from the core's tables: a method that is added there appears here, with parameters, checks and documentation.
 """
 
 from __future__ import annotations
@@ -13,34 +13,34 @@ from typing import Any, ClassVar
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, core_of, system_of
 
-WIDTH = 100     # columns of a page
+WIDTH = 100     # characters of a printed line
 
-# By which argument of `simulate` a correction is asked for, and what its class is called, where that is not as for all others.
+# Exceptions to the rule: arguments of `simulate` that select a correction, and names of classes of settings.
 ARGUMENTS = {"projection": "stabilization", "baumgarte": "stabilization", "energy": "energy"}
 CLASS_NAMES = {"energy": "EnergyCorrection"}
 KINDS = {"any": "float", "positive": "float", "not negative": "float", "count": "int", "switch": "bool"}
 
 
 class RowSettings:
-    """Parameters of a row of a table, checked; equal if they and the row are."""
+    """Parameters of a method, checked. Settings are equal if method and parameters are."""
 
     __slots__ = ()
     card: ClassVar[Row]
     table: ClassVar[str]
 
     def __post_init__(self) -> None:
-        for parameter in self.card.parameters:      # Python's own numbers, so that equal settings are saved alike
+        for parameter in self.card.parameters:      # as Python's own numbers, so that equal settings are saved alike
             object.__setattr__(self, parameter.name, _checked(parameter, getattr(self, parameter.name)))
         if clash := _gateway.clash(self.table, self.card.name, self._values()):
             raise ValueError(clash)
 
     def _values(self) -> list[float]:
-        """The numbers that the core is handed."""
+        """Parameters as a flat list of numbers for the core."""
         return [number for parameter in self.card.parameters for number in _numbers(parameter, getattr(self, parameter.name))]
 
 
 def _checked(parameter: _gateway.Parameter, value: Any) -> Any:
-    """A value that keeps to its parameter's rule."""
+    """Check a value by the rule of its parameter."""
     name = parameter.name
     match parameter.rule:
         case "choice":
@@ -63,7 +63,7 @@ def _numbers(parameter: _gateway.Parameter, value: Any) -> tuple[float, ...]:
 
 
 def _initial(parameter: _gateway.Parameter) -> Any:
-    """A parameter's value where nothing else is asked for, as a user would write it."""
+    """Default value of a parameter, as a user would write it."""
     first = parameter.initial[0]
     match parameter.rule:
         case "choice":
@@ -76,7 +76,7 @@ def _initial(parameter: _gateway.Parameter) -> Any:
 
 
 class Row(_gateway.Card):
-    """A row of a table of the core; it prints as a page.
+    """A formulation, integrator or correction; it prints as a page.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ def _paragraph(text: str, indent: str = "  ") -> list[str]:
 
 
 def _kind(parameter: _gateway.Parameter) -> str:
-    """A parameter with what may be given for it."""
+    """Name of a parameter, its type, shape, unit and range."""
     if parameter.rule == "choice":
         return f"{parameter.name} : {{{', '.join(map(repr, parameter.words))}}}"
     shape = "" if parameter.size == 1 else f" ({parameter.size},)"
@@ -128,7 +128,7 @@ def _kind(parameter: _gateway.Parameter) -> str:
 
 
 class CardTable(dict):
-    """The cards of a table of the core by name, printed as a table."""
+    """Cards of a table of the core by name; it prints as a table."""
 
     def __repr__(self) -> str:
         width = max(map(len, self), default=0)
@@ -156,16 +156,16 @@ def _class_name(card: Row) -> str:
     return CLASS_NAMES.get(card.name, "".join(word.capitalize() for word in card.name.split("_")))
 
 
-@functools.cache        # each is made when it is first asked for: all of them take as long as a quarter of the import
+@functools.cache        # made at first use: making all takes a quarter of the import time
 def _class_of(card: Row) -> type[RowSettings]:
-    """The settings of a row: a frozen dataclass whose fields are its parameters."""
+    """Class of the settings of a method: a frozen dataclass whose fields are its parameters."""
     name, table = _class_name(card), next(table for table, cards in TABLES.items() if cards.get(card.name) == card)
     fields = [(parameter.name, "str" if parameter.rule == "choice" else KINDS[parameter.rule], _initial(parameter))
               for parameter in card.parameters]
     words = {f"{parameter.name.upper()}S": parameter.words for parameter in card.parameters if parameter.rule == "choice"}
     made = dataclasses.make_dataclass(name, fields, bases=(RowSettings,), frozen=True, slots=True, namespace={
         "__doc__": _documentation(table, card, name), "card": card, "table": table, "__module__": __name__, **words})
-    made.__reduce__ = _reduced      # as a class may be in no module
+    made.__reduce__ = _reduced      # the class may not be an attribute of a module
     return made
 
 
@@ -175,7 +175,7 @@ def _reduced(settings: RowSettings) -> tuple[Any, ...]:
 
 
 def _again(table: str, name: str, *values: Any) -> RowSettings:
-    """Settings from a pickle or a copy."""
+    """Recreate settings from a pickle or a copy."""
     return TABLES[table][name].settings(*values)
 
 
@@ -190,7 +190,7 @@ def __getattr__(name: str) -> Any:
 
 
 def formulations(system: BaseSystem | None = None) -> dict[str, Row]:
-    """The formulations there are, by name, or those that can take a system.
+    """Formulations by name: all of them, or those that suit a system.
 
     Examples
     --------
@@ -208,10 +208,10 @@ def formulations(system: BaseSystem | None = None) -> dict[str, Row]:
 
 
 def integrators(system: BaseSystem | None = None) -> dict[str, Row]:
-    """The integrators there are, by name, or those that can take a system.
+    """Integrators by name: all of them, or those that suit a system.
 
-    `order` is the order of the method, `stability` the largest omega h at which a motion that is somewhat damped does not
-    grow, 0 where there is none.
+    `order` is the order of the method; `stability` is the largest product omega h of angular frequency and step at which
+    a slightly damped oscillation does not grow, 0 if there is no such limit.
 
     Examples
     --------
@@ -231,13 +231,13 @@ def integrators(system: BaseSystem | None = None) -> dict[str, Row]:
 
 
 def evaluating_integrators(system: BaseSystem) -> dict[str, Row]:
-    """Those that take nothing of the system but its terms."""
+    """Integrators that suit a system and need only its terms, no Taylor coefficients."""
     return {name: card for row, (name, card) in enumerate(TABLES["integrators"].items())
             if core_of(system).suits(row) and not _gateway.row_takes_series(row)}
 
 
 def corrections() -> dict[str, Row]:
-    """The corrections there are, by name, in the order in which they are applied.
+    """Corrections by name, in the order in which they are applied.
 
     Examples
     --------
@@ -251,7 +251,7 @@ def corrections() -> dict[str, Row]:
 
 
 def name_of(table: str, value: Any) -> str:
-    """The name of the row that an argument asks for, by its name or by settings of it."""
+    """Name of a method that an argument selects by its name or by its settings."""
     if isinstance(value, RowSettings) and value.table == table:
         return value.card.name
     return _check.choice(table.removesuffix("s"), value, TABLES[table])
@@ -261,5 +261,5 @@ NUMBERS = {table: {name: number for number, name in enumerate(cards)} for table,
 
 
 def row_of(table: str, value: Any) -> int:
-    """Its number in the core's table."""
+    """Index of that method in the core's table."""
     return NUMBERS[table][name_of(table, value)]

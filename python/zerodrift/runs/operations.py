@@ -1,4 +1,4 @@
-"""The steps of a run by themselves: assemble, project, accelerate. For those who bring their own integrator."""
+"""Operations of a step, individually: assemble, project, accelerate; for programs with their own integrator."""
 
 from __future__ import annotations
 
@@ -12,41 +12,41 @@ from .._gateway import Variable
 from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import settings
 
-TOL, ITERATIONS = 1e-12, 100      # of `assemble`, where nothing else is asked for
-NUDGE = 1e-3                      # in rad or parts of a mechanism's size
+TOL, ITERATIONS = 1e-12, 100      # defaults of `assemble`
+NUDGE = 1e-3                      # default displacement, in rad or relative to the size of the mechanism
 
 
 def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *, wish: Mapping[Any, Any] | None = None,
              nudge: bool | float = False, t: float = 0.0, tol: float = TOL,
              max_iterations: int = ITERATIONS) -> tuple[np.ndarray, np.ndarray]:
-    """Find a consistent state near a guess, or that of a mechanism near its drawing.
+    """Find a consistent state near a guess, or the state of a mechanism near its reference configuration.
 
-    Positions are iterated onto the constraints, then velocities corrected; each moves as little as possible in the mass
-    metric, (25), and what is held does not move at all.
+    Positions are projected onto the constraints by iteration (25a), then velocities (25b), with the smallest change in the
+    mass metric. Held coordinates and velocities do not change.
 
     Parameters
     ----------
     system : system
         One of `zerodrift.systems`, or a `zerodrift.System`.
     p : array_like (nq,), or dict of measure to value
-        Guess of the coordinates. Of a mechanism: what is held, positions and velocities, besides what its `start` holds; all
-        else is as `Mechanism.start` says: joint coordinates that nothing forces stay as drawn and at rest.
+        Guess of the coordinates. For a mechanism: measures and the values that they must have, in addition to those given to
+        `Mechanism.start`; joint coordinates that remain free keep their drawn values and are at rest.
     v : array_like (nv,), optional
         Guess of the velocities; left out: zero.
     hold : sequence of str or Variable, or one of them
         Coordinates and velocities that keep the values of the guess: their names, or entries of `system.coordinates` and
         `system.velocities`.
     wish : dict of measure to value
-        Of a mechanism: what is met as nearly as possible after that.
+        For a mechanism: measures and values that are met as nearly as possible, after those in `p`.
     nudge : bool or float
-        Of a mechanism: how far aside of the assembled position it starts, held ones included, in rad or parts of its size,
-        whichever coordinate moves most; True is a thousandth. It moves along the velocities that are held or driven, if there
-        are any, and else along a random free direction. For drawings that are singular, as a stretched linkage is, or a
-        universal joint at a right angle.
+        For a mechanism: distance of the start from the assembled position, held values included, for drawings that are
+        singular, such as a stretched linkage or a universal joint at a right angle. It is the largest change of any coordinate,
+        in rad or relative to the size of the mechanism; True is 0.001. The direction is that of the velocities that are held
+        or driven, else a random free one.
     t : float
         Time in s, for constraints that depend on it.
     tol : float
-        Of ``|Phi|`` in units of its size, as in `Projection`.
+        Tolerance of ``|Phi|`` relative to its size, as in `Projection`.
     max_iterations : int
         The largest number of iterations.
 
@@ -57,11 +57,11 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
     Raises
     ------
     CorrectionFailed
-        If no consistent position was found: links cannot close, what is held contradicts them, or the guess is too far away.
+        If no consistent position was found: links cannot close, held values contradict them, or the guess is too far away.
     SingularSystem
-        If what is held leaves no way to satisfy the constraints.
+        If the constraints cannot be satisfied by changing coordinates that are not held.
     InconsistentStart
-        If what a mechanism is to hold cannot be met; the error names it, and by how much it is missed.
+        If a mechanism cannot have the required values; the error names the measure and the difference.
 
     Examples
     --------
@@ -75,29 +75,29 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
         return _assembled(system_of(system), p, v, hold, wish, _far(nudge), _check.number("t", t))
     core_of(system)
     if wish is not None or nudge:
-        raise TypeError(f"wish and nudge are for mechanisms, and {system.name} is none")
+        raise TypeError(f"wish and nudge must be left out, as {system.name} is not a mechanism")
     if p is None:
-        raise TypeError(f"p is needed, a guess of the coordinates of {system.name}")
+        raise TypeError(f"p must be given, a guess of the coordinates of {system.name}")
     holds = _holds(system, hold)
     v = np.zeros(system.nv) if v is None else v
     return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
 
 
 def assembly(system: BaseSystem, hold: Any = ()) -> _gateway.Assembly:
-    """How the core does what `assemble` does, holding these coordinates and velocities."""
+    """Settings with which the core makes a state consistent as `assemble` does, holding these coordinates and velocities."""
     projection = settings.Projection(tol=TOL, max_iterations=ITERATIONS)
     return _gateway.Assembly(_options("augmented", projection), *_holds(system, hold))
 
 
 def _far(nudge: bool | float) -> float:
-    """How far aside."""
+    """Value of the argument `nudge` as a number; 0.0 for False."""
     if isinstance(nudge, bool | np.bool_):
         return NUDGE if nudge else 0.0
     return _check.number("nudge", nudge, above=0)
 
 
 def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: float, t: float) -> tuple[np.ndarray, np.ndarray]:
-    """The state of a mechanism near its drawing."""
+    """Assembled state of a mechanism near its reference configuration."""
     core_of(system)
     if v is not None or hold != () or not (held is None or isinstance(held, Mapping)):
         raise TypeError("p of a mechanism must be a dict of values by measure, positions and velocities, without v and hold")
@@ -108,7 +108,7 @@ def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: floa
 
 
 def _holds(system: BaseSystem, hold: Any) -> list[list[int]]:
-    """Which coordinates and which velocities are held."""
+    """Flags (0 or 1) of the held coordinates and of the held velocities."""
     held, core = _held(system, hold), core_of(system)
     following = [variable.name for variable in system.coordinates[core.nq - core.c.followers:] if variable.name in held]
     if following:
@@ -118,7 +118,7 @@ def _holds(system: BaseSystem, hold: Any) -> list[list[int]]:
 
 
 def _held(system: BaseSystem, hold: Any) -> set[str]:
-    """The argument `hold`: names of coordinates and velocities."""
+    """Names of coordinates and velocities in the argument `hold`, checked."""
     if not isinstance(hold, Iterable):
         raise TypeError(f"hold must be names of coordinates and velocities, not {hold!r}")
     known = {variable.name: variable for variable in (*system.coordinates, *system.velocities)}
@@ -127,27 +127,27 @@ def _held(system: BaseSystem, hold: Any) -> set[str]:
 
 
 def _name_of(held: Any, known: Mapping[str, Variable]) -> str:
-    """The name of what is held, whether it is a name or a variable of the system."""
+    """Name of a held coordinate or velocity, given by name or as a variable of the system."""
     name = held.name if isinstance(held, Variable) and known.get(held.name) == held else held
     return name if isinstance(name, str) and name in known else _check.choice("hold", name, list(known))
 
 
 def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: settings.Projection | None = None,
             formulation: str = settings.FORMULATION) -> tuple[np.ndarray, np.ndarray]:
-    """Correct positions and velocities onto the constraints, (25)-(27), as after a step of `simulate`.
+    """Project positions and velocities onto the constraints, (25)-(27), as after a step of `simulate`.
 
     Parameters
     ----------
     system : system
         One of `zerodrift.systems`, or a `zerodrift.System`.
     p, v : array_like (nq,), (nv,)
-        The state to be corrected; it is not changed.
+        State to correct; these arrays are not modified.
     t : float
         Time in s.
     projection : Projection
-        Tolerance, metric, and so on.
+        Settings of the projection: tolerance, metric, and so on.
     formulation : str
-        Whose leading matrix is used.
+        Name of the formulation whose leading matrix is used.
 
     Returns
     -------
@@ -197,16 +197,16 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     formulation : str
         One of `formulations()`.
     on_singular : {"stop", "continue"}
-        What to do at a bifurcation, a position in which constraints that are independent elsewhere become dependent. "stop"
-        raises `Bifurcation`. "continue" returns the acceleration of the motion that goes through the bifurcation with this
+        Behaviour at a bifurcation, a position in which constraints that are independent elsewhere become dependent. "stop"
+        raises `Bifurcation`. "continue" returns the acceleration of the motion that passes the bifurcation with this
         velocity; at rest, the smallest acceleration along any branch.
 
     Returns
     -------
     vdot, multipliers : ndarray (nv,), (m,)
         With the sign of (7): ``M vdot + d = f - C.T @ multipliers``, and ``C vdot = xi``. Where constraints are redundant,
-        the smallest multipliers: ``sum(multipliers**2 * s**2)`` is least, with ``s**2 = diag(C inv(M) C.T)``. At a bifurcation
-        some are unbounded; their part of the reactions is left out.
+        the multipliers that minimize ``sum(multipliers**2 * s**2)`` with ``s**2 = diag(C inv(M) C.T)``. At a bifurcation
+        some are unbounded; their contribution to the reactions is left out.
 
     Examples
     --------

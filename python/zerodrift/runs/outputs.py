@@ -12,23 +12,23 @@ from ..systems.base import BaseSystem
 
 
 class Recorded:
-    """What a run records besides: measures by name, vectors whole."""
+    """Measures that a run records in addition to its state; vectors with all components."""
 
     def __init__(self, names: tuple[str, ...], system: BaseSystem, core: _gateway.CoreSystem) -> None:
         watching = system._watching
         places = [place for name in names if (place := watching.find(name)) is not None]
-        numbers = list(dict.fromkeys(place.number for place in places))     # what is asked for twice is recorded once
+        numbers = list(dict.fromkeys(place.number for place in places))     # without duplicates
         self.names = [list(watching.number)[number] for number in numbers]
         self.core = _gateway.Outputs(numbers, watching.core, core) if numbers else None
 
     def columns(self, rows: np.ndarray) -> dict[str, np.ndarray]:
-        """Each measure by its name: (k,), or (k, size) of a vector."""
+        """Measures by name, (k,) or (k, size) each, from the recorded samples."""
         parts = zip(self.names, self.core.split(rows), strict=True)
         return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in parts}
 
 
 def names(given: Any, system: BaseSystem) -> tuple[str, ...]:
-    """The names of the measures that are asked for, checked; of coordinates, velocities and multipliers, too."""
+    """Names in the argument `outputs`, checked: measures, coordinates, velocities and multipliers."""
     single = isinstance(given, str) or hasattr(given, "name")
     if not single and not isinstance(given, Sequence):
         raise TypeError(f"outputs must be a list of measures or their names, not {_check.shown(given)}")
@@ -41,6 +41,6 @@ def _name(what: str, given: Any, system: BaseSystem) -> str:
         raise TypeError(f"{what} must be a measure or the name of one, not {_check.shown(given)}")
     variables = [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
     if system._watching.find(name) is None and name not in variables:
-        raise ValueError(f"{what} names {name!r}, and nothing in {system.name} is called that; "
+        raise ValueError(f"{what} must name a measure or a variable of {system.name}, not {name!r}; "
                          f"{_check.closest(name, [*system._names_of_measures(), *variables])}")
     return name

@@ -1,4 +1,4 @@
-"""How far a run has come, shown by a bar or handed to a callable."""
+"""Progress of a run, shown by a bar or passed to a callable."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def progress_of(progress: Any) -> tuple[Callable[[float], None], Callable[[], None]]:
-    """Two functions for the argument `progress` of `simulate`: one shows the part done, 0 ... 1, the other ends the display."""
+    """Two functions for the argument `progress` of `simulate`: show the completed fraction (0 ... 1), and close the display."""
     if progress is False or progress is None:
         return (lambda part: None), (lambda: None)
     if callable(progress):

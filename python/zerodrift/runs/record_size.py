@@ -1,4 +1,4 @@
-"""`record_size`: what the record of a run will take."""
+"""`record_size`: memory or disk space that the record of a run takes."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from . import outputs as _outputs
 
 
 class RecordSize(NamedTuple):
-    """What the record of a run takes, in memory or in a file.
+    """Size of the record of a run, in memory or in a file.
 
     Attributes
     ----------
     rows : int or None
-        None where it is not known, as steps are chosen.
+        Number of samples; None with adaptive steps and no `t_eval`, as it is not known in advance.
     row : int
-        Bytes of each.
+        Bytes of one sample.
     total : int or None
-        Bytes of all.
+        Bytes of all samples.
     """
 
     rows: int | None
@@ -28,13 +28,13 @@ class RecordSize(NamedTuple):
     total: int | None
 
     def __str__(self) -> str:
-        each = f"rows of {memory.in_words(self.row)}"
+        each = f"samples of {memory.in_words(self.row)}"
         return each if self.rows is None else f"{self.rows} {each}: {memory.in_words(self.total)}"
 
 
 def record_size(system: Any, t_span: float | tuple[float, float], *, step: float | None = None, t_eval: Any = None,
                 save_every: int = 1, outputs: Any = None) -> RecordSize:
-    """How much a run will record; nothing runs.
+    """Size of the record that `simulate` would make with these arguments. Nothing is simulated.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def record_size(system: Any, t_span: float | tuple[float, float], *, step: float
     Returns
     -------
     RecordSize
-        Of (rows, row, total): how many rows, bytes of a row, bytes of all.
+        Tuple (rows, row, total): number of samples, bytes of one sample, bytes of all.
 
     Raises
     ------
@@ -55,9 +55,9 @@ def record_size(system: Any, t_span: float | tuple[float, float], *, step: float
     --------
     >>> import zerodrift as zd
     >>> print(zd.record_size(zd.systems.four_bar(), 3600.0, step=1e-4))
-    36000001 rows of 144 bytes: 5.18 GB
+    36000001 samples of 144 bytes: 5.18 GB
     >>> print(zd.record_size(zd.systems.four_bar(), 3600.0, step=1e-4, save_every=100))
-    360001 rows of 144 bytes: 51.8 MB
+    360001 samples of 144 bytes: 51.8 MB
     """
     system, span = system_of(system), _check.span(t_span)
     core, recorded = core_of(system), None

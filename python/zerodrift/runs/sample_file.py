@@ -1,9 +1,8 @@
-"""Files of rows: a run writes them as they come, and they are opened without being read.
+"""Files of samples: a run appends them while it is running; opening such a file maps it instead of reading it.
 
-A file begins with MAGIC, how many rows it has (-1 while they come) and the length of what follows, a text in JSON: where the
-numbers of each column stand in a row, and all that was known of the run beforehand. Rows of one size come next, one behind the
-other, and once the run has ended what is known only then, as `Solution.save` writes it. A run that was killed has left the
-rows that it had.
+Layout: MAGIC, the number of samples (-1 while the run is writing), the length of a JSON text, and that text, which gives the
+offset of each column within a sample and the fields of the solution that are known at the start. Samples of equal size follow,
+then, after the run has ended, the other fields in the format of `Solution.save`. A killed run leaves the samples written so far.
 """
 
 from __future__ import annotations
@@ -33,9 +32,9 @@ from .solution import FIELDS, Solution
 SUFFIX = ".zd"
 MAGIC = b"zerodrift rows 1"
 HEADER = struct.Struct("=16sqq")
-UNKNOWN = -1            # rows, while they come
-ALIGNED = 64            # bytes: where rows begin is a multiple
-BLOCK = 2**20           # bytes of rows that are kept in memory before they are written, or one row
+UNKNOWN = -1            # number of samples while the run is writing
+ALIGNED = 64            # bytes: the samples begin at a multiple of this offset
+BLOCK = 2**20           # bytes of samples buffered in memory before they are written; at least one sample
 NAMES = {"kinetic": "kinetic_energy", "potential": "potential_energy", "input": "energy_input"}     # of a solution, by column
 NOT_IN_ROWS = [name for name in FIELDS if name not in (
     "t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
@@ -45,7 +44,7 @@ AS_WINDOWS = os.name == "nt"        # files that are open, or mapped into memory
 
 
 def checked(save_to: Any) -> Path | None:
-    """The file that rows are to be written to: in a folder that is there, and in the place of no other kind of file."""
+    """Path from the argument `save_to`, checked: its folder must exist, and an existing file must be a file of samples."""
     if save_to is None:
         return None
     path = Path(_check.instance("save_to", save_to, str | Path, "the path of a file, or None"))
@@ -60,7 +59,7 @@ def checked(save_to: Any) -> Path | None:
 
 
 def is_one(path: str | Path) -> bool:
-    """Whether a run has written this file."""
+    """Return whether a file exists and begins like a file of samples."""
     path = Path(path)
     if not path.is_file():
         return False
@@ -69,7 +68,7 @@ def is_one(path: str | Path) -> bool:
 
 
 class SampleFile:
-    """What stands for the record of a run, whose rows it writes to a file."""
+    """Record of a run whose samples are written to a file."""
 
     def __init__(self, path: Path, core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows: int | None) -> None:
         row = _gateway.row_bytes(core, outputs)
@@ -79,7 +78,7 @@ class SampleFile:
         self._path, self._row, self.rows = path, row, 0
 
     def begin(self, known: dict[str, Any], position_size: np.ndarray, outputs: Mapping[str, int]) -> None:
-        """Writes what is known of the solution beforehand; outputs are the names of what is recorded, with their sizes."""
+        """Write the header: fields of the solution that are known at the start, and the size of each recorded output by name."""
         values = {"status": _gateway.INTERRUPTED, "success": False, "message": STOPPED, "stats": {}, "outputs": (),
                   **dict.fromkeys(EVENTS), **known}
         layout = {"row bytes": self._row, "byte order": sys.byteorder, "columns": self._record.columns,
@@ -92,47 +91,47 @@ class SampleFile:
             self._put(HEADER.pack(MAGIC, UNKNOWN, len(content)) + content)
 
     def _put(self, content: Any) -> None:
-        """Writes all of it: a file that is not buffered takes as much as the system likes."""
+        """Write all bytes: one write to an unbuffered file may be partial."""
         left = memoryview(content).cast("B")
         while left:
             left = left[self._file.write(left):]
 
-    next_rows = 0           # none of them in memory
+    next_rows = 0           # samples to allocate when the record is full: none, as it is written out
 
     @property
     def row_bytes(self) -> int:
-        """Of one row."""
+        """Bytes of one sample."""
         return self._row
 
     @property
     def c(self) -> Any:
-        """What the core writes into."""
+        """Record in memory that the core writes into, as a C structure."""
         return self._record.c
 
     def keep(self) -> None:
-        """Writes what has come."""
+        """Write the samples that the core has recorded since the last call."""
         rows = self._record.pack()
         if len(rows):
             self._put(rows)
             self.rows += len(rows)
 
-    grow = keep         # what is written makes room
+    grow = keep         # writing empties the buffer
 
     def join(self) -> None:
-        """Opens what has been written, without the part of a row that is there where the disk was full."""
-        self._file.truncate(self._begin + self.rows * self._row)    # now, as Windows shortens no file that is mapped
+        """Map the written samples, without the partial one that a full disk may have left."""
+        self._file.truncate(self._begin + self.rows * self._row)    # before it is mapped: Windows cannot truncate a mapped file
         self._opened = _columns(self._file, self._begin, self.rows, self._row, self._record.columns, _gateway.COUNTS)
 
     def take(self) -> dict[str, np.ndarray]:
-        """The columns, which are in the file."""
+        """Columns by name, mapped from the file."""
         return self._opened
 
     def finish(self, solution: Solution) -> None:
-        """Writes how many rows there are, and behind them the fields of the solution that are not in rows."""
+        """Write the number of samples, and after the samples the fields of the solution that are not columns of them."""
         rest = io.BytesIO()
         np.savez(rest, **packed({name: getattr(solution, name) for name in NOT_IN_ROWS} | {"outputs": {}}))
         with self._file:
-            self._sync()        # a machine that stops leaves no header that counts rows which are not on the disk
+            self._sync()        # samples reach the disk before the header that counts them
             self._file.seek(0)
             self._put(HEADER.pack(MAGIC, self.rows, self._begin - HEADER.size))
             self._sync()
@@ -145,15 +144,15 @@ class SampleFile:
 
 
 def locked(path: Path) -> Lock:
-    """The lock of a file, held by the run that writes to it."""
+    """Lock of a file of samples, held by the run that writes it."""
     return Lock(path.with_name(f".{path.name}.lock"), f"save_to must be a file that no other run writes to, and {str(path)!r} is "
                 "being written by")
 
 
 @contextlib.contextmanager
 def _replacing(path: Path) -> Iterator[Any]:
-    """A new file, which replaces an older one once its header is written; solutions that have that open keep its rows."""
-    if AS_WINDOWS:      # where no file is renamed that is open
+    """New file that replaces an older one once its header is written; solutions that map the older one stay valid."""
+    if AS_WINDOWS:      # an open file cannot be renamed there
         _remove(path)
         yield path.open("x+b", buffering=0)
         return
@@ -170,17 +169,17 @@ def _replacing(path: Path) -> Iterator[Any]:
 
 
 def _remove(path: Path) -> None:
-    """Removes an earlier file; a solution that reads its rows keeps the file from being removed on Windows."""
+    """Remove an earlier file. On Windows this fails while a solution maps it."""
     try:
         path.unlink(missing_ok=True)
     except PermissionError as error:
-        raise PermissionError(f"save_to cannot replace {str(path)!r} while its rows are in use: a solution that reads them, here "
-                              "or in another process, has to go first; or take another name") from error
+        raise PermissionError(f"save_to cannot replace {str(path)!r} while its samples are in use: a solution that "
+                              "reads them, here or in another process, has to go first; or take another name") from error
 
 
 def _columns(file: Path | BinaryIO, begin: int, rows: int, row: int, columns: Mapping[str, Any],
              integers: Any) -> dict[str, np.ndarray]:
-    """The columns of a file, by name, as memory that is read where it is looked at."""
+    """Columns of a file by name, mapped into memory: only the parts that are used are read."""
     shape = rows, row // 8
     table = np.asarray(np.memmap(file, float, "r", begin, shape)) if rows else np.empty(shape)
     found = {name: table[:, start:start + int(np.prod(shape))].reshape(rows, *shape) for name, (start, shape) in columns.items()}
@@ -189,7 +188,7 @@ def _columns(file: Path | BinaryIO, begin: int, rows: int, row: int, columns: Ma
 
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> dict[str, Any]:
-    """The fields of the solution in a file; its columns stay there. `rebuilt` makes the system of a mechanism."""
+    """Fields of the solution in a file, its columns mapped. `rebuilt` makes the system of a mechanism from JSON."""
     path = Path(path)
     with path.open("rb") as file:
         rows, length, layout = _header(path, file.read)
@@ -211,7 +210,7 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
 
 
 def _header(path: Path, take: Callable[[int], bytes]) -> tuple[int, int, dict[str, Any]]:
-    """How many rows a file has, the length of its text, and that."""
+    """Number of samples, length of the JSON text, and that text parsed."""
     try:
         _, rows, length = HEADER.unpack(take(HEADER.size))
         return rows, length, json.loads(take(length))
@@ -220,7 +219,7 @@ def _header(path: Path, take: Callable[[int], bytes]) -> tuple[int, int, dict[st
 
 
 def _rest(content: bytes) -> dict[str, np.ndarray]:
-    """What stands behind the rows; nothing where it is not whole."""
+    """Fields written after the samples; empty if they are incomplete."""
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as file:
             return dict(file)
@@ -229,12 +228,12 @@ def _rest(content: bytes) -> dict[str, np.ndarray]:
 
 
 def _stopped(t: np.ndarray) -> str:
-    """What became of a run that did not end."""
-    return f"{STOPPED}: there are " + (f"{len(t)} rows, the last at t = {t[-1]:.6g}" if len(t) else "no rows")
+    """Message of a run that did not end."""
+    return f"{STOPPED}: there are " + (f"{len(t)} samples, the last at t = {t[-1]:.6g}" if len(t) else "no samples")
 
 
 def _split(rows: np.ndarray | None, sizes: Mapping[str, int]) -> dict[str, np.ndarray]:
-    """Each measure by its name, (k,), or (k, size) of a vector, from the rows of all."""
+    """Measures by name, (k,) or (k, size) each, from the samples (k, sum of sizes) of all of them."""
     ends = itertools.accumulate(sizes.values())
     parts = {name: rows[:, end - size:end] for (name, size), end in zip(sizes.items(), ends, strict=True)}
     return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in parts.items()}

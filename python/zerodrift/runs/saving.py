@@ -1,4 +1,4 @@
-"""Solutions in files: arrays in an NPZ file, and beside them a description in JSON; no pickle."""
+"""Solutions in NPZ files: arrays, and a description in JSON; no pickle."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def write(path: Path, values: Mapping[str, Any]) -> None:
 
 
 def packed(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """The fields of a solution as arrays: those that are none are in a text."""
+    """Fields of a solution as arrays; the others are in one array with a JSON text."""
     import json
 
     arrays = {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
@@ -39,7 +39,7 @@ def packed(values: Mapping[str, Any]) -> dict[str, np.ndarray]:
 
 
 def described(values: Mapping[str, Any]) -> dict[str, Any]:
-    """The fields of a solution that are no arrays, as JSON."""
+    """Fields of a solution that are not arrays, in the types of JSON."""
     description = {name: value for name, value in values.items() if not isinstance(value, np.ndarray)}
     description |= {name: None if values[name] is None else len(values[name]) for name in EVENTS}
     description["outputs"] = list(values["outputs"])
@@ -49,7 +49,7 @@ def described(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> dict[str, Any] | None:
-    """The fields of the solution in a file; None where there is none in it. `rebuilt` makes the system of a mechanism."""
+    """Fields of the solution in a file; None if the file has none. `rebuilt` makes the system of a mechanism from JSON."""
     arrays = read_arrays(path) if _is_zip(path) else {}
     if "zerodrift" not in arrays:
         return None

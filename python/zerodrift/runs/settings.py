@@ -1,4 +1,4 @@
-"""What a run may be told: formulation, integrator, stabilization, energy correction, steps, and what is saved."""
+"""Arguments of `simulate`, checked and translated for the core: methods, corrections, steps, and samples to save."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .methods import (
     ARGUMENTS,
     TABLES,
     RowSettings,
-    evaluating_integrators,  # noqa: F401, as studies ask for it here
+    evaluating_integrators,  # noqa: F401, as studies import it from here
     formulations,  # noqa: F401
     integrators,
     name_of,
@@ -28,8 +28,8 @@ from .methods import (
 CORRECTIONS = TABLES["corrections"]
 STABILIZATIONS = tuple(name for name, argument in ARGUMENTS.items() if argument == "stabilization")
 Stabilization = RowSettings | None
-# What is taken where nothing else is asked for.
-CHOOSING = "dop853"     # the integrator, where neither it nor a step is given
+# Default methods.
+CHOOSING = "dop853"     # integrator if neither integrator nor step is given
 FORMULATION, INTEGRATOR, STABILIZATION = map(_gateway.default, ("formulations", "integrators", "corrections"))
 
 
@@ -40,12 +40,12 @@ def __getattr__(name: str) -> Any:
 
 
 def _are_settings(value: Any, *corrections: str) -> bool:
-    """Whether they are settings of one of these corrections."""
+    """Return whether a value holds the settings of one of these corrections."""
     return isinstance(value, RowSettings) and value.table == "corrections" and value.card.name in corrections
 
 
 def stabilization(value: Any) -> Stabilization:
-    """The argument `stabilization` of `simulate`: None, a word, or settings."""
+    """Check the argument `stabilization` of `simulate`: None, a name, or settings."""
     if value is None or _are_settings(value, *STABILIZATIONS):
         return value
     if isinstance(value, str):
@@ -55,7 +55,7 @@ def stabilization(value: Any) -> Stabilization:
 
 
 def energy(value: Any) -> RowSettings | None:
-    """The argument `energy` of `simulate`."""
+    """Check the argument `energy` of `simulate`."""
     if value is None or value is False:
         return None
     if value is True:
@@ -66,7 +66,7 @@ def energy(value: Any) -> RowSettings | None:
 
 
 def correction(value: Any) -> tuple[RowSettings, ...]:
-    """The argument `correction` of `simulate`: None, a word, settings, or several of these."""
+    """Check the argument `correction` of `simulate`: None, a name, settings, or a sequence of these."""
     if value is None:
         return ()
     several = value if isinstance(value, Sequence) and not isinstance(value, str) else (value,)
@@ -82,17 +82,17 @@ def _one_correction(value: Any) -> RowSettings:
 
 
 def corrections_of(chosen: dict[str, Any]) -> list[RowSettings]:
-    """All corrections that a solution's settings have on."""
+    """List of all corrections that the settings of a run switch on."""
     return [each for each in (chosen["stabilization"], chosen["energy"], *chosen.get("correction", ())) if each]
 
 
 def formulation_row(value: Any) -> int:
-    """The row of a formulation in the core's table."""
+    """Index of a formulation in the core's table."""
     return row_of("formulations", value)
 
 
 def integrator_row(value: Any) -> int:
-    """The row of an integrator in the core's table."""
+    """Index of an integrator in the core's table."""
     return row_of("integrators", value)
 
 
@@ -100,44 +100,44 @@ ON_SINGULAR = ("stop", "continue")
 
 
 def on_singular_row(value: Any) -> int:
-    """The number by which the core knows a value of the argument `on_singular`."""
+    """Number that the core uses for a value of the argument `on_singular`."""
     return ON_SINGULAR.index(_check.choice("on_singular", value, ON_SINGULAR))
 
 
 # ---- all arguments of `simulate` ----
 
-MAX_STEPS = 1_000_000     # where steps are chosen
-TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None, "max_move": None}     # where steps are chosen
-FINEST_RTOL = 100 * np.finfo(float).eps     # below, error estimates are round-off
-RESOLVED = 16 * float(np.finfo(float).eps)      # of a time: no step is shorter
+MAX_STEPS = 1_000_000     # default limit of adaptive steps
+TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None, "max_move": None}     # defaults of adaptive steps
+FINEST_RTOL = 100 * np.finfo(float).eps     # smallest rtol: below it, error estimates are rounding
+RESOLVED = 16 * float(np.finfo(float).eps)      # shortest step, relative to the time
 
 
 class Plan(NamedTuple):
-    """What a run is told, checked."""
+    """Arguments of a run, checked."""
 
-    chosen: dict[str, Any]      # as `Solution.settings` keeps it
-    options: Any                # the same for the core
-    rows: int | None            # that are saved, the start included; None: not known, as steps are chosen
+    chosen: dict[str, Any]      # settings by name, as in `Solution.settings`
+    options: Any                # the same as a structure of the core
+    rows: int | None            # number of samples, including the start; None with adaptive steps, as it is not known in advance
 
     @property
     def steps(self) -> int | None:
-        """How many are made; None: not known."""
+        """Number of fixed steps; None with adaptive steps."""
         return _gateway.count_steps(self.options.t0, self.options.t1, self.options.step) if self.chosen["step"] else None
 
 
 class _Known(NamedTuple):
-    """What follows from arguments whatever the times of the run are, and is remembered."""
+    """Settings that do not depend on the time span; cached."""
 
     chosen: dict[str, Any]
     options: Any
     corrections: Sequence[RowSettings]
-    requires: int               # the bits of the terms that these require
+    requires: int               # bit mask of the terms that the corrections require
 
 
 def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every: Any, step: Any, rtol: Any, atol: Any,
          first_step: Any, max_step: Any, max_move: Any, max_steps: Any, formulation: Any, integrator: Any,
          stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any, vector: Any) -> Plan:
-    """The arguments of `simulate`, checked."""
+    """Check the arguments of `simulate` and translate them for the core."""
     if isinstance(correction, list):
         correction = tuple(correction)
     if integrator is None:
@@ -146,7 +146,7 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
              stabilization, energy, correction, on_singular, direct, vector_unit(vector))
     try:
         found = _plan(*given)
-    except TypeError:       # as it comes from arguments that cannot be remembered, too: most of these are wrong
+    except TypeError:       # raised for unhashable arguments, too, most of which are wrong: check them without the cache
         found = _plan.__wrapped__(*given)
     if found.requires & ~core_of(system).provides:
         _refuse_corrections(system, found.corrections)
@@ -156,18 +156,18 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
         rows = saved_rows(span, chosen)
     else:
         course["t_eval"] = chosen["t_eval"] = times = times_to_save(t_eval, chosen["save_every"], span)
-        rows = len(times) + 1       # an event may end the run between two of them
+        rows = len(times) + 1       # one more, as an event may end the run between two of them
     return Plan(chosen, _gateway.settings(course, found.options), rows)
 
 
-# What follows from arguments is found once: else it would take as long as a short run. 1 is not True here.
+# Cached, as the checks take as long as a short run. `typed` keeps 1 and True apart.
 @functools.lru_cache(typed=True)
 def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any, max_move: Any, max_steps: Any,
           formulation: Any, integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any,
           vector: str) -> _Known:
     on_singular_row(on_singular)
     if direct is not None and direct is not False:
-        raise ValueError(f"direct must be None, where direct functions serve, or False, not {direct!r}")
+        raise ValueError(f"direct must be None, which uses direct functions, or False, not {direct!r}")
     tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step, "max_move": max_move}
     methods, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
     chosen = {**_steps(step, integrator, max_steps, tolerances), **methods,
@@ -176,11 +176,11 @@ def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max
     return _Known(chosen, core_settings((0.0, 0.0), chosen), corrections, requires)
 
 
-VECTOR_UNITS = ("baseline", "avx2", "avx512")       # by their number in the core
+VECTOR_UNITS = ("baseline", "avx2", "avx512")       # index: number in the core
 
 
 def vector_unit(given: str | None) -> str:
-    """The vector unit that is asked for by the argument `vector`, else by ZERODRIFT_VECTOR, else the processor's."""
+    """Vector unit from the argument `vector`, else from ZERODRIFT_VECTOR, else the widest of the processor."""
     name, said = "vector", given
     if given is None:
         name, said = "ZERODRIFT_VECTOR", os.environ.get("ZERODRIFT_VECTOR") or VECTOR_UNITS[_gateway.PROCESSOR_UNIT]
@@ -193,14 +193,14 @@ def vector_unit(given: str | None) -> str:
 
 def times_to_save(t_eval: Any, save_every: int, span: tuple[float, float]) -> np.ndarray:
     if save_every != 1:
-        raise ValueError("save_every counts steps, and t_eval names times: give one of them")
+        raise ValueError("save_every must be 1 where t_eval is given: one counts steps, the other lists times")
     times = _check.increasing("t_eval", t_eval, *span)
     times.flags.writeable = False
     return times
 
 
 def _check_resolved(chosen: dict[str, Any], span: tuple[float, float]) -> None:
-    """Refuses steps that are not seen in the time."""
+    """Check that the steps are long enough to change the time in double precision."""
     latest = max(abs(span[0]), abs(span[1]))
     smallest, step = RESOLVED * latest, chosen["step"]
     if step is None:
@@ -212,14 +212,14 @@ def _check_resolved(chosen: dict[str, Any], span: tuple[float, float]) -> None:
 
 
 def _steps(step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
-    """How steps are made: of a fixed size, or chosen by their error."""
+    """Settings of fixed steps (`step` given) or of adaptive steps, checked."""
     name_of("integrators", integrator)
     max_steps = None if max_steps is None else _check.count("max_steps", max_steps)
     if step is None:
         return {"step": None, **_tolerances(integrator, tolerances), "max_steps": max_steps}
     for name, value in tolerances.items():
         if value is not None:
-            raise ValueError(f"{name} is for steps that are chosen by their error: with it, leave out step")
+            raise ValueError(f"{name} is for adaptive steps: step must be left out with it")
     return {"step": _check.number("step", step, above=0)}
 
 
@@ -227,9 +227,9 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     able = [name for name, card in integrators().items() if card.error_order]
     name = name_of("integrators", integrator)
     if name not in able:
-        asked = "".join(f", and {word} is for steps that are chosen" for word, value in given.items() if value is not None)
-        raise ValueError(f"step is needed: {name!r} takes steps of fixed size{asked}; give step=, or "
-                         f"{' or '.join(f'integrator={each!r}' for each in able)}, which can choose theirs")
+        asked = "".join(f", and {word} is for adaptive steps" for word, value in given.items() if value is not None)
+        raise ValueError(f"step must be given: {name!r} takes fixed steps{asked}; give step=, or "
+                         f"{' or '.join(f'integrator={each!r}' for each in able)}, which can take adaptive steps")
     given = {name: None if name.startswith("max_") and value == math.inf else value for name, value in given.items()}
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
     least = {"rtol": FINEST_RTOL, "atol": 0.0}
@@ -243,7 +243,7 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
 
 def _methods(formulation: Any, integrator: Any, given_stabilization: Any, given_energy: Any,
              given_correction: Any) -> tuple[dict[str, Any], list[RowSettings], int]:
-    """As settings of a run, with all corrections among them, and the bits of the terms that these require."""
+    """Settings of methods, checked; all corrections among them; and the bit mask of the terms that these require."""
     name_of("formulations", formulation)
     found = {"formulation": formulation, "integrator": integrator, "stabilization": stabilization(given_stabilization),
              "energy": energy(given_energy)}
@@ -254,7 +254,7 @@ def _methods(formulation: Any, integrator: Any, given_stabilization: Any, given_
     for name in names:
         if names.count(name) > 1:
             others = f"{ARGUMENTS[name]} and " if name in ARGUMENTS else ""
-            raise ValueError(f"the {name} correction is given more than once, by {others}correction")
+            raise ValueError(f"each correction must be given once, but {name} is given more often, by {others}correction")
     return found, corrections, functools.reduce(operator.or_, map(_gateway.required, names), 0)
 
 
@@ -266,19 +266,19 @@ def _refuse_corrections(system: BaseSystem, corrections: Sequence[RowSettings]) 
 
 
 def saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
-    """The number of rows that a run saves, its start included; None where it is not known, as steps are chosen."""
+    """Number of samples of a run, including the start; None with adaptive steps, as it is not known in advance."""
     if chosen["step"] is None:
         return None
     steps = _gateway.count_steps(*span, chosen["step"])
     return steps // chosen["save_every"] + 1 + (steps % chosen["save_every"] != 0)
 
 
-# Settings that the core takes under the same name and without any change.
+# Settings that the core has under the same name with the same value.
 _PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_move", "max_steps", "save_every", "t_eval")
 
 
 def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
-    """The core's settings from a solution's."""
+    """Settings of the core from those of a solution."""
     like = _core_methods(chosen["formulation"], chosen["integrator"], chosen.get("on_singular", "stop"),
                          chosen.get("direct") is None, VECTOR_UNITS.index(chosen.get("vector") or "baseline"),
                          *corrections_of(chosen))
@@ -289,7 +289,7 @@ def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
 @functools.lru_cache(typed=True)
 def _core_methods(formulation: Any, integrator: Any, on_singular: str, direct: bool, vector: int,
                   *corrections: RowSettings) -> Any:
-    """The core's settings as far as they say by which methods a run is made."""
+    """Settings of the core that select the methods; cached."""
     return _gateway.settings({
         "formulation": formulation_row(formulation), "integrator": integrator_row(integrator),
         "on_singular": on_singular_row(on_singular), "direct": direct, "vector": vector,
@@ -297,12 +297,12 @@ def _core_methods(formulation: Any, integrator: Any, on_singular: str, direct: b
 
 
 def disagreement(chosen: dict[str, Any]) -> str:
-    """Why methods of a solution's settings do not go together; empty: they do."""
+    """Reason why the methods in these settings cannot be combined; empty if they can."""
     return _gateway.disagreement(core_settings((0.0, 0.0), chosen))
 
 
 def given(*chosen: Any) -> dict[str, Any]:
-    """What the core's settings have of rows that are given by their settings."""
+    """Parameters of methods that are given as settings, as the core's settings name them."""
     rows = [each for each in chosen if isinstance(each, RowSettings)]
     methods = {f"of_{each.table.removesuffix('s')}": each._values() for each in rows if each.table != "corrections"}
     return methods | {"correction": {each.card.name: each._values() for each in rows if each.table == "corrections"}}

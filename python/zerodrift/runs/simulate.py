@@ -1,4 +1,4 @@
-"""`simulate`: from a system to its motion."""
+"""`simulate`: the motion of a system over time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .saving import EVENTS
 from .solution import Solution
 from .start import start_of
 
-SLICE = 0.03        # seconds that the core runs before Python looks at the keyboard and shows the progress again
+SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
 
 
 def simulate(
@@ -61,92 +61,89 @@ def simulate(
     Parameters
     ----------
     system : system
-        One of `zerodrift.systems`, or a `zerodrift.System`.
+        A `Mechanism`, one of `zerodrift.systems`, a `zerodrift.System`, or what `zerodrift.symbolic` returns.
     t_span : float or (float, float)
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
-        Start; left out: the system's own. It must satisfy the constraints, see `assemble`. In place of p0 also what
-        `equilibrium` returns.
+        Initial coordinates and velocities; by default those of the system. They must satisfy the constraints, see `assemble`.
+        As p0, a result of `equilibrium` is accepted, too.
     step : float, optional
-        Step in s. If the span is no whole number of steps, a shorter one is added at the end. Left out: the integrator
-        chooses its steps by its error estimate, with `rtol` and `atol`, if it has one.
+        Size of fixed steps in s. If the span is not a whole number of steps, the last one is shorter. Without it, steps are
+        adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`.
     rtol, atol : float, optional
-        Where steps are chosen: the error of each, root mean square over the state y, in units of ``atol + rtol * abs(y)``, is
-        at most one. Left out: 1e-6 and 1e-9. `atol` has the units of y; no other tolerance depends on them. The error after
-        many steps is larger: after half a second of any built-in system with ``rtol = atol``, tests find at most 3000 times
-        these. `zerodrift.tune` finds settings for an error of the motion itself.
+        Adaptive steps keep the RMS local error of the state y below ``atol + rtol * abs(y)``; by default 1e-6 and 1e-9.
+        `atol` has the units of y. The error of the motion accumulates over the steps and is larger than these;
+        `zerodrift.tune` finds settings for a given error of the motion.
     first_step, max_step : float, optional
-        Where steps are chosen: the first, and the largest, in s. Where something acts for a short time, steps may leap over
-        it: a `max_step` of that time, or shorter, lets them see it.
+        Adaptive steps: size of the first step, and largest size, in s. An action that is shorter than a step may be missed;
+        set `max_step` to its duration or less.
     max_move : float, optional
-        Where steps are chosen: the largest change of any coordinate in a step, in m and rad alike; of formulation 'independent',
-        of the coordinates that it integrates. Where something acts in a narrow place, as a thin wall or a steep law, steps may
-        leap over it, in silence: a `max_move` of a third of its width, or less, lets them see it.
+        Adaptive steps: largest change of any coordinate in a step, in m or rad; with formulation "independent", of the
+        coordinates that it integrates. A force that acts in a narrow region, such as a thin wall, may be missed without
+        notice; set `max_move` to a third of its width or less.
     max_steps : int or None
-        Where steps are chosen: after so many the run fails, and says where most of them lie. None: there is no bound. Steps of
-        fixed size have none.
+        Adaptive steps: number of steps after which the run fails, with a message on the times at which most were taken. None:
+        unlimited. Fixed steps are not limited.
     t_eval : array_like (k,), optional
-        Times to save, instead of every step, in increasing order. Values between steps have the error of the method, and are
-        corrected: they come from shorter steps, or where steps are chosen from the polynomial of a method that has one.
+        Output times in s, increasing, instead of every step. With adaptive steps they use the method's dense output where it
+        has one, otherwise a shorter step is taken. All values satisfy the constraints.
     events : callable, Event or measure, or a list of these, optional
-        Functions ``event(t, p, v) -> float`` whose zeros are located, to the rounding of t, wherever one changes its sign from
-        the beginning of a step to its end, on the values that `t_eval` has there. What is reported is corrected, also with
-        corrections at every k-th step only, and there the function is zero to that rounding; a function that leaps over zero is
-        reported behind its leap. An attribute `direction` of 1 or -1 takes only those from below or from above; `terminal`, True
-        or a number, ends the run when the event has happened once or that often: by a step made to there, at whose end the
-        function is zero, as far from the zero of the polynomial as that errs. What is zero at the start is no event.
+        Functions ``event(t, p, v) -> float``. If one changes its sign within a step, its zero is located to the rounding of t,
+        and the state there is reported in `Solution.t_events`, `p_events` and `v_events`; it satisfies the constraints. At a
+        discontinuity the state after the jump is reported. A zero at the start is not an event. The attribute
+        `direction` = 1 or -1 selects zeros with increasing or decreasing values; `terminal` = True or a count ends the
+        run at the first or at that occurrence, with a step to the zero.
     formulation : str or settings
-        One of `formulations()`: which equations of motion are solved. Its name, or ``formulations()[name].settings(...)``.
+        Equations of motion to solve: a name in `formulations()`, or ``formulations()[name].settings(...)``.
     integrator : str or settings
-        One of `integrators()`, in the same way. Left out: "rk4" where `step` is given, and "dop853", which chooses its steps,
-        where it is not: ``zd.simulate(m, 10.0)``.
+        A name in `integrators()`, or ``integrators()[name].settings(...)``. By default "rk4" with `step`, and "dop853" with
+        adaptive steps.
     stabilization : None, "projection", "baumgarte", Projection or Baumgarte
-        How constraint violations are kept down.
+        Method that removes (projection) or damps (Baumgarte) violations of the constraints; None for none.
     energy : None, True or EnergyCorrection
-        Whether energy errors are taken out of the velocities, (29).
+        True or settings: correct the velocities so that the energy balance holds, (29).
     correction : str or settings, or several of them
-        Others of `corrections()`: names, or ``corrections()[name].settings(...)``.
+        Further corrections: names in `corrections()`, or ``corrections()[name].settings(...)``.
     save_every : int
-        Steps between saved rows; start and end are always saved.
+        Number of steps from one sample to the next, at least 1; start and end are always saved.
     progress : bool or callable
-        True: a progress bar (needs tqdm). A callable is handed the part done, 0 ... 1, some thirty times a second.
+        True: show a progress bar (needs tqdm). A callable receives the completed fraction, 0 ... 1, about 30 times a second.
     outputs : list of measures or names, optional
-        Measures that are recorded in every saved row, such as ``["C.force", crank.angle]``, with the accelerations and
-        multipliers of the run itself; ``sol[name]`` then reads the record, and `Solution.save` keeps it. Left out: ``sol[name]``
-        evaluates measures when it is asked, and nothing is recorded or paid for. Where many measures are read, recording them is
-        cheaper: bodies are placed once for all of a row.
+        Measures to record with every sample, such as ``["C.force", crank.angle]``, from the accelerations and multipliers of
+        the run. ``sol[name]`` then reads the record, and `Solution.save` includes it. Measures that are not recorded are
+        evaluated by ``sol[name]`` at access; recording is cheaper if many are used.
     save_to : str or Path, optional
-        A file that rows are written to as they come, instead of into memory, which may then be smaller than the record. The
-        arrays of the solution, and of what `load` makes of the file, are in it: what is looked at is read. The suffix ``.zd`` is
-        added where it is missing. A run that is killed leaves the rows that it had. An older file of the same name is replaced
-        when the run starts, unless another run is writing it.
+        File to which samples are written during the run, for records larger than memory. The arrays of the solution, and
+        those of `load`, are then mapped from the file. The suffix ``.zd`` is added if it is missing. A killed run leaves the
+        samples written so far. An older file of the same name is replaced at the start, unless another run is writing it.
     on_singular : {"stop", "continue"}
-        What to do when the motion reaches a bifurcation, at the end of a step or within it. A bifurcation is a position in
+        Behaviour when the motion reaches a bifurcation, at the end of a step or within it. A bifurcation is a position in
         which constraints that are independent elsewhere become dependent and no longer determine the motion, as in a
         parallelogram whose links lie on one line. "stop" ends the run with the error `Bifurcation`. "continue" follows the
         branch of least acceleration; while the mechanism moves, this is the branch along its velocity. A mechanism that comes
-        within 1e-7 of its size of a bifurcation, or within 1e-4 where it moves nearly straight, is taken through it in the same
-        way. Where no branch lies along the velocity, the formulations "mixed" and "independent" stop, and the others take the
-        least acceleration. Constraints that are redundant in every position are no bifurcation, and need no choice. Among the
-        rows of a declared structure with more than 40 of them, or more than 300 velocities, bifurcations are not looked for,
-        neither at the end of a step nor within it, and "continue" is as "stop": a run goes on through one as its numbers lead
-        it, and loses digits. Two things are told of them. A start at one is refused with that error. Later, where the mass
-        matrix is definite, a warning and ``repr`` of the solution say where least was left of a row.
+        within 1e-7 of its size of a bifurcation, or within 1e-4 if it moves nearly straight, passes it in the same way. If no
+        branch lies along the velocity, the formulations "mixed" and "independent" stop, and the others take the least
+        acceleration. Constraints that are redundant in every position are not a bifurcation.
+
+        In systems with a declared sparse structure and more than 40 constraints or 300 velocities, bifurcations during the
+        motion are not detected, and "continue" acts as "stop": the run passes through with a loss of digits. A start at a
+        bifurcation raises the error. With a definite mass matrix, a warning and ``repr`` of the solution report the smallest
+        relative pivot of a constraint.
     direct : None or False
-        None takes the direct functions of a system, where it has any and they serve: accelerations and corrections with the
-        constraints eliminated in closed form, the same motion to rounding in a fraction of the time. They serve explicit
-        integrators, where no constraint is redundant. A step at whose ends the elimination is not sound is made by the
-        formulation's leading matrix, and of "mixed" and "independent" one at whose end other velocities are chosen to be
-        independent, or for whose none was written: that is for four choices at most. "independent" takes them where ``pdot = v``
-        and constraints are all holonomic or all nonholonomic; neither of the two where the system brings its own complement
-        `D`. `repr` of the solution says how many steps were made otherwise, or why all. False makes all steps so.
+        None: evaluate steps in closed form where the system has closed-form functions: constraints are eliminated in generated
+        code, which gives the same motion to rounding in a fraction of the time. This requires an explicit integrator and
+        constraints that are not redundant; with formulation "independent" also ``pdot = v`` and constraints that are all
+        holonomic or all nonholonomic; with "mixed" and "independent" a system without its own complement `D`. A step whose
+        elimination is inaccurate is repeated with the matrices of the formulation; so is, with "mixed" and "independent", a
+        step after which other velocities become independent, or a set of them without generated code (at most four have it).
+        `repr` of the solution gives the number of steps by matrices, or the reason if all were. False: matrices in all steps.
     vector : {"baseline", "avx2", "avx512"}, optional
-        The vector unit that direct functions may use. Left out: what the environment variable ZERODRIFT_VECTOR says, else the
-        last that the processor has. With "baseline", all processors give the same bits; the units round less often, give the
-        same bits among each other, and shorten whole runs of a four-bar by 13 to 21 %.
+        Vector unit for closed-form functions. By default the value of the environment variable ZERODRIFT_VECTOR, else the
+        widest unit of the processor. With "baseline", results are bitwise the same on all processors; "avx2" and "avx512"
+        agree bitwise with each other, round less often, and are faster.
     on_failure : {"raise", "return"}
-        Whether a run that fails or is interrupted raises an error that carries the partial solution as `.solution`,
-        or returns that solution, whose `success` is then False.
+        For a run that fails or is interrupted: "raise" raises an error with the partial solution as its attribute `solution`;
+        "return" returns that solution, with `success` False.
 
     Returns
     -------
@@ -155,36 +152,35 @@ def simulate(
     Raises
     ------
     ZerodriftError
-        Or one of its subclasses, where the start is inconsistent, a correction or an implicit step fails, the motion diverges,
-        the mass matrix is not symmetric (`SingularSystem`), or a Jacobian that was given is not that of the constraints
+        One of its subclasses: if the start is inconsistent, a correction or an implicit step fails, the motion diverges, the
+        mass matrix is not symmetric (`SingularSystem`), or a given Jacobian is not that of the constraints
         (`InconsistentSystem`).
     Interrupted
         On Ctrl-C.
     ValueError, TypeError
         For a wrong argument.
-
     MemoryError
-        If the record takes more than the memory that is free; how much, and what takes less, is in its message.
+        If the record would exceed the free memory; the message gives its size and ways to reduce it.
     OSError
-        If rows cannot be written to the file.
+        If samples cannot be written to the file.
     InUse
         If another run is writing to that file.
 
     Warns
     -----
     CostWarning
-        Before anything runs, where the record takes more than half of the memory that is free, or where a mechanism has many
-        joint coordinates, takes some ten seconds, and would take less than a tenth of that in absolute ones.
+        Before the run: if the record takes more than half of the free memory, or if a mechanism with many joint coordinates
+        would take some ten seconds, and less than a tenth of that in absolute coordinates.
     AccuracyWarning
-        Where the energy balance is off by more than 0.5 % of the largest kinetic energy, or was before a single correction by
-        more than 2 %: what was computed satisfies the constraints, but is not the motion. It takes a system with a potential.
-        Or where steps of fixed size do not resolve the motion of one part, however light it is; the part is named.
+        If the error of the energy balance exceeds 0.5 % of the largest kinetic energy, or a single correction removed more
+        than 2 % of it: the result satisfies the constraints, but is not the motion. Only for systems with a potential.
+        Also if fixed steps do not resolve the motion of one component, however small its inertia; the component is named.
     StabilityWarning
-        Where steps were longer than the integrator is stable for, or stability held chosen steps down.
+        If fixed steps exceeded the stability limit of the integrator, or if stability limited the adaptive steps.
     CorrectionWarning
-        Where energy corrections were left out.
+        If energy corrections were skipped.
     LockedWarning
-        Where joints in space leave no body any motion, as the axes of hinges are askew.
+        If joints in space lock all bodies, as hinges with skew axes do.
 
     Examples
     --------
@@ -196,7 +192,7 @@ def simulate(
     >>> bool(abs(sol.position_violation).max() < 1e-12)
     True
 
-    The run ends when the crank has come round to the horizontal twice; where the coupler is at rest is noted on the way:
+    The run ends when the crank has reached the horizontal twice; times at which the coupler is at rest are recorded, too:
 
     >>> import numpy as np
     >>> def round(t, p, v):
@@ -244,7 +240,7 @@ def simulate(
 
 
 def _finish_file(record: Any, solution: Solution, outcome: _Outcome) -> None:
-    """What it says of the run once that has ended, if there is room for it."""
+    """Write the remaining fields of the solution to the file; a full disk is an error unless the run already has one."""
     try:
         record.finish(solution)
     except OSError as error:
@@ -253,15 +249,15 @@ def _finish_file(record: Any, solution: Solution, outcome: _Outcome) -> None:
 
 
 class _Outcome(NamedTuple):
-    """How a run ended."""
+    """Outcome of a run: status, duration, error."""
 
     status: int
     seconds: float
-    error: BaseException | None     # what Python stopped it with: short memory, Ctrl-C, what the callable for progress raised
+    error: BaseException | None     # exception in Python that stopped the run: memory, Ctrl-C, or from the callable for progress
 
 
 def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: Keyboard) -> _Outcome:
-    """Let the core run in slices until it ends, fails or is interrupted."""
+    """Run the core in slices of time until the run ends, fails or is interrupted."""
     show, close = progress_of(progress)
     start, status, error = time.perf_counter(), _gateway.PAUSED, None
     try:
@@ -284,7 +280,7 @@ def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: 
 
 
 def _show(show: Callable[[float], None], part: float) -> None:
-    """Show the progress. The callable may be the user's, so that Ctrl-C may break into it: this function marks the place."""
+    """Show the progress. Ctrl-C may interrupt the user's callable; `Keyboard` recognizes it by the code of this function."""
     try:
         show(part)
     except BaseException as error:
@@ -293,7 +289,7 @@ def _show(show: Callable[[float], None], part: float) -> None:
 
 
 def _solution(system, span, chosen, run, record, results, watcher, outcome, recorded) -> Solution:
-    """Everything that a run left behind."""
+    """Solution of a run that has ended, with its arrays made at first use."""
     record.join()
     return Solution._of_run(
         functools.partial(_arrays_and_stats, record, results, outcome.seconds, recorded, system, chosen), status=outcome.status,
@@ -304,7 +300,7 @@ def _solution(system, span, chosen, run, record, results, watcher, outcome, reco
 def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: _gateway.Record,
                      results: _gateway.Results, seconds: float, status: int, message: str,
                      events: tuple[tuple[np.ndarray, ...], ...] | None) -> Solution:
-    """That of a run which was not driven here, and has reached its end; t, p and v of its events."""
+    """Solution of a completed run that the core made in a batch; `events` are the t, p and v of its events."""
     return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
                             status=status, success=True, message=message, settings=chosen, system=system, t_span=span,
                             **({} if events is None else dict(zip(EVENTS, events, strict=True))))
@@ -312,7 +308,7 @@ def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict
 
 def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, seconds: float,
                       recorded: _outputs.Recorded | None, system: BaseSystem, chosen: dict[str, Any]) -> dict[str, Any]:
-    """What a solution has of them, under its own names."""
+    """Arrays, statistics and outputs of a run under the names of the fields of `Solution`."""
     arrays, stats = record.take(), results.as_stats() | {"seconds": seconds}
     return {
         "t": arrays["t"], "p": arrays["p"], "v": arrays["v"], "multipliers": arrays["multipliers"],
@@ -325,7 +321,7 @@ def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, second
 
 
 def _created(system: BaseSystem, *given: Any) -> _gateway.Run:
-    """The core's run; where masses or the pose forbid it, the error says what the system knows of them."""
+    """Create the run in the core; the error of a singular system is extended by the system's advice."""
     try:
         return _gateway.Run(*given)
     except SingularSystem as error:
@@ -336,7 +332,7 @@ def _created(system: BaseSystem, *given: Any) -> _gateway.Run:
 
 
 def _message(run: _gateway.Run, outcome: _Outcome) -> str:
-    """What happened, in a sentence."""
+    """Message of a run: "done", or the reason for its end."""
     match outcome.status:
         case _gateway.DONE:
             return "done"
@@ -351,7 +347,7 @@ def _message(run: _gateway.Run, outcome: _Outcome) -> str:
 
 
 def _shown(error: BaseException) -> str:
-    """An error as Python writes it; its name, if it is of a kind that cannot be written."""
+    """The `repr` of an error, or the name of its class if that fails."""
     try:
         return repr(error)
     except Exception:
@@ -359,7 +355,7 @@ def _shown(error: BaseException) -> str:
 
 
 def _events_found(watcher: _gateway.Watcher | None) -> dict[str, tuple[np.ndarray, ...]]:
-    """The times t, the p and the v of all events, each with one array per event; nothing where no events were asked for."""
+    """Fields `t_events`, `p_events` and `v_events`, each with one array per event; empty without events."""
     if watcher is None:
         return {}
     arrays = [watcher.arrays(event) for event in range(len(watcher.events))]
@@ -369,7 +365,7 @@ def _events_found(watcher: _gateway.Watcher | None) -> dict[str, tuple[np.ndarra
 
 
 def _finished(solution: Solution, run, results, outcome, on_failure, keyboard) -> Solution:
-    """The solution, with warnings where it is doubtful; or an error that carries it."""
+    """Return the solution, with warnings where it is doubtful; or raise an error that has it as an attribute."""
     interrupted = isinstance(outcome.error, KeyboardInterrupt)
     if keyboard.pressed and not interrupted:    # Ctrl-C came after the last slice, or while something else failed
         raise Interrupted(f"interrupted from the keyboard, and: {solution.message}", solution) from outcome.error
@@ -390,14 +386,14 @@ def _raise_failure(run: _gateway.Run, solution: Solution) -> None:
 
 
 def _advice(solution: Solution) -> str | None:
-    """What the system knows of the place where its run failed."""
+    """Advice of the system on the state at which its run failed; None if it has none."""
     if not len(solution.t):
         return None
     return solution.system._advice_on_failure(float(solution.t[-1]), np.ascontiguousarray(solution.p[-1]))
 
 
 def _with_solution(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:
-    """The error, which carries the solution unless it is of a kind that takes no attributes."""
+    """The error with the solution as an attribute, if its class allows attributes."""
     with contextlib.suppress(Exception):
         error.solution = solution
     if note:

@@ -1,4 +1,4 @@
-"""The result of a run."""
+"""`Solution`: the result of a run."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from .summary import summary
 if TYPE_CHECKING:
     from pathlib import Path
 
-A_SOLUTION = "a Solution, as zd.simulate returns it"      # what arguments have to be
+A_SOLUTION = "a Solution, as zd.simulate returns it"      # for error messages
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution:
-    """A motion, how well it satisfies its constraints and its energy balance, and what it cost.
+    """Result of a run: the motion at sampled times, constraint violation, energies, and statistics.
 
-    Time comes first in every array; arrays are read-only. ``sol["name"]`` is the column of the coordinate or velocity of that
-    name, or of the multiplier of the constraint of that name.
+    The first axis of every array is time (k samples); arrays are read-only. ``sol["name"]`` is the column of the coordinate,
+    velocity, constraint (its multiplier) or measure of that name. ``sol(t)`` interpolates.
 
     Attributes
     ----------
@@ -41,52 +41,57 @@ class Solution:
     multipliers : ndarray (k, m)
         Constraint reactions with the sign of (7), ``M vdot + d = f - C.T @ multipliers``.
     position_violation : ndarray (k, mh)
-        Phi of (3).
+        Position constraint residual Phi of (3), in the units of the constraints.
     velocity_violation : ndarray (k, m)
-        Psi of (5).
+        Velocity constraint residual Psi of (5).
     kinetic_energy : ndarray (k,)
-        In J.
+        T in J.
     potential_energy, energy_input, energy_violation : ndarray (k,) or None
-        V, the integral of the energy input rate, and Psi_E of (28), in J; None where the system declares no potential.
+        V, the integral of the energy input rate, and the residual Psi_E of the energy balance (28), in J; None if the system
+        declares no potential.
     iterations : ndarray (k,)
-        The most position iterations that a step took, among the steps from the row before to this one.
+        Largest number of iterations of a position projection since the previous sample.
     energy_skipped : ndarray (k,)
-        How many energy corrections were left out from the row before to this one, as no bounded factor (29) would have removed
-        the error.
+        Number of energy corrections skipped since the previous sample, as no bounded factor (29) would have removed the error.
     position_size : ndarray (mh,)
-        The size of each row of Phi, in which `Projection` measures it.
+        Characteristic size of each component of Phi, by which `Projection` scales its tolerance.
     stats : dict
-        Counts (steps, evaluations, factorizations, ...), `seconds`, the time spent in the core, and `omega_h`, the largest
-        product of the motion's angular frequency and a step of fixed size: an explicit method needs it small. That and
-        `largest_kinetic`, in J, are looked at every few steps; `energy_corrected`, in J, is the largest error of the energy
-        balance that a single correction has taken out. `part_error` is what steps of fixed size, about a thousand in succession,
-        miss of the motion of one coordinate (or, where `kinematics` is given, velocity or rotation), estimated, in rad or parts
-        of the mechanism's length; `part` is the one where it is most. `unresolved` says how many looks found more of it than 0.03
-        and a thousandth of the way, `unresolved_time`, in s, when it was first. Of the constraints, `rank` are independent,
-        `redundant` lists rows that follow from the others, and in `rank_drops` steps the rank was less for a while. Where a
-        declared structure has more than 40 rows, `smallest_pivot` is the least that was left of a row, in squares of the mass
-        metric, once others were eliminated, `smallest_pivot_time`, in s, when, and `smallest_pivot_row` of which row: near a
-        bifurcation it is small, and accelerations lose digits. `matrix_path_reason` says why no step used the closed form of
-        the system, where systems of its kind have one. Of a run that was killed there are none.
+        Statistics of the run; empty for a killed run.
+
+        * `steps`, `evaluations`, `factorizations`, ...: counts; `seconds`: time spent in the core.
+        * `omega_h`: largest product of the motion's angular frequency and a fixed step, small if an explicit method is accurate.
+        * `largest_kinetic`: in J; it and `omega_h` are evaluated every few steps.
+        * `energy_corrected`: largest error of the energy balance that a single correction removed, in J.
+        * `part_error`: estimated error that about a thousand successive fixed steps make in the motion of one coordinate (with
+          `kinematics`, one velocity or rotation), in rad or relative to the mechanism's length; `part`: the coordinate with the
+          largest one. `unresolved`: number of checks at which it exceeded 0.03 and a thousandth of the distance moved;
+          `unresolved_time`: time of the first, in s.
+        * `rank`: number of independent constraints; `redundant`: indices of linearly dependent ones; `rank_drops`: number of
+          steps in which the rank was temporarily lower.
+        * `smallest_pivot`: for a declared structure with more than 40 constraints, smallest relative pivot (square of the
+          residual norm in the mass metric) of a constraint after elimination of others; `smallest_pivot_time`: its time in s;
+          `smallest_pivot_row`: the constraint. Near a bifurcation it is small, and accelerations lose digits.
+        * `matrix_path_reason`: reason why no step was evaluated in closed form; None if some were, or if systems of this kind
+          have no closed form.
     status : int
-        0 done, positive: ended early, negative: failed. What there is is valid in every case.
+        0: done, positive: ended early, negative: failed. All samples are valid in each case.
     success : bool
-        Whether the end was reached, or a terminal event.
+        True if the end or a terminal event was reached.
     message : str
-        What happened, in a sentence.
+        "done", or the reason for the end of the run.
     settings : dict
-        As `simulate` takes them: ``simulate(system, t_span, **settings)`` repeats the run; events, being functions, are not kept.
-        `vector` is the unit that the direct functions of the run were written for, None where it had none.
+        Arguments of `simulate`: ``simulate(system, t_span, **settings)`` repeats the run. Events are not included, as they are
+        functions. `vector` is the vector unit of the closed-form functions, None if the run used none.
     system : system
-        What moved.
+        The simulated system.
     t_span : tuple of float
-        (t0, t1) as asked for.
+        Requested (t0, t1) in s.
     t_events : tuple of ndarray, or None
-        For each event, the times at which it happened; None where no events were asked for.
+        Times of each event in s; None without `events`.
     p_events, v_events : tuple of ndarray (k, nq), (k, nv), or None
         Coordinates and velocities at those times.
     outputs : dict of str to ndarray (k,) or (k, size)
-        The measures that the run recorded, by name.
+        Recorded measures by name.
     """
 
     t: np.ndarray
@@ -124,9 +129,9 @@ class Solution:
 
     @classmethod
     def _of_run(cls, others: Callable[[], dict[str, Any]], **values: Any) -> Solution:
-        """With some fields, and a function that makes the others, which is asked when one of these is first wanted.
+        """Solution with some fields given and a function that makes the others at first use.
 
-        To make all of them, and to set them one by one as a frozen class does, takes longer than a short run.
+        Making all fields and assigning them individually, as a frozen dataclass does, takes longer than a short run.
         """
         made = object.__new__(cls)
         vars(made).update(values, _others=others)
@@ -134,7 +139,7 @@ class Solution:
 
     def __getattr__(self, name: str) -> Any:
         values = vars(self)
-        if (others := values.get("_others")) and name in FIELDS:    # other threads may do the same: they find equal ones
+        if (others := values.get("_others")) and name in FIELDS:    # other threads may do the same and get equal values
             values.update(others())
             self.__post_init__()
             values["_others"] = None
@@ -153,24 +158,24 @@ class Solution:
         return summary(self)
 
     def __getitem__(self, name: Any) -> np.ndarray:
-        """A coordinate, a velocity, the multiplier of a constraint, or a measure of a mechanism, by its name, at every row.
+        """Values of a coordinate, velocity, measure, or multiplier of a constraint at all samples, by name.
 
         Parameters
         ----------
         name : str or measure, or (that, body)
-            A measure of a mechanism, such as ``crank.angle`` or ``"C.force"``; or one of the names in
-            ``system.coordinates``, ``system.velocities`` and ``system.constraints``. With a body or its name behind it,
-            ``sol["C.force", "crank"]``, a vector is turned into that body's axes; scalars of the plane are the same in all.
+            A measure of a mechanism, such as ``crank.angle`` or ``"C.force"``; or a name in ``system.coordinates``,
+            ``system.velocities`` or ``system.constraints``. ``sol["C.force", "crank"]`` gives a vector in the axes of that
+            body.
 
         Returns
         -------
         ndarray (k,), or (k, 2) of a measure that is a vector
-            In the unit of that coordinate or velocity; of a constraint, what `multipliers` has in its column.
+            In the unit of the coordinate, velocity or measure; for a constraint, its column of `multipliers`.
 
         Raises
         ------
         KeyError
-            If nothing has that name, or more than one thing has.
+            If the name is unknown or ambiguous.
 
         Examples
         --------
@@ -192,7 +197,7 @@ class Solution:
             self._check_sign(name)
             return columns[0]
         if columns:
-            raise KeyError(f"{name!r} is the name of {len(columns)} things in {self.system.name}: "
+            raise KeyError(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
                            "take the column of p, v or multipliers")
         if why := self.system._why_unknown(getattr(name, "name", name)):
             raise KeyError(why)
@@ -200,7 +205,7 @@ class Solution:
         raise KeyError(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
 
     def _check_sign(self, name: str) -> None:
-        """Refuses the multiplier of a drive or a coupling by the name of that element: its effort has the opposite sign."""
+        """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
         for effort in ("force", "torque"):
             measure = f"{name}.{effort}"
             if self.system._is_scalar_measure(measure):
@@ -208,7 +213,7 @@ class Solution:
                                "multiplier is in sol.multipliers and has the opposite sign, by (7)")
 
     def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
-        """A vector in the axes of a body."""
+        """Values of a vector measure in the axes of a body."""
         name, body = (getattr(each, "name", each) for each in (name, body))
         base, _, axis = name.rpartition(".") if isinstance(name, str) else ("", "", "")
         if axis in AXES:
@@ -223,7 +228,7 @@ class Solution:
         return np.column_stack([c * values[:, 0] + s * values[:, 1], c * values[:, 1] - s * values[:, 0]])
 
     def _recorded(self, name: Any) -> np.ndarray | None:
-        """A measure of the record, or a component of one; None: that is not there."""
+        """A recorded measure or a component of one; None if it was not recorded."""
         if not self.outputs or not isinstance(name, str):
             return None
         if name in self.outputs:
@@ -233,10 +238,10 @@ class Solution:
         return vector[:, component] if vector is not None and vector.ndim == 2 and 0 <= component < vector.shape[1] else None
 
     def unique(self, name: str) -> Any:
-        """Whether a measure of a mechanism does not depend on which of all admissible multipliers are taken.
+        """Return whether a measure of a mechanism is determined uniquely, although constraints are redundant.
 
-        Where constraints are redundant, reactions are not determined by the motion of rigid bodies, and those that are told have
-        the least effect. Forces of this kind differ from one choice of coordinates to another; those that are unique do not.
+        With redundant constraints, the motion of rigid bodies does not determine all reactions; the smallest ones are reported
+        then, and these differ between choices of coordinates. Unique measures do not.
 
         Parameters
         ----------
@@ -246,12 +251,12 @@ class Solution:
         Returns
         -------
         bool, or ndarray of bool
-            One for each component: True where it is the same at every row.
+            For each component, True if it is unique at all samples.
 
         Raises
         ------
         KeyError
-            If nothing is measured by that name.
+            If there is no measure of that name.
 
         Examples
         --------
@@ -265,7 +270,7 @@ class Solution:
         return self.system._unique(name, self)
 
     def _named(self) -> tuple[tuple[np.ndarray, tuple[_gateway.Variable, ...]], ...]:
-        """Arrays whose columns have names, with these."""
+        """Arrays with named columns, each with the variables of its columns."""
         system = self.system
         return (self.p, system.coordinates), (self.v, system.velocities), (self.multipliers, system.constraints)
 
@@ -274,19 +279,15 @@ class Solution:
                 *(variable.name for _, variables in self._named() for variable in variables)]
 
     def __call__(self, t: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Coordinates and velocities at any time between the first and the last row.
+        """Coordinates and velocities at any times between the first and the last sample.
 
-        They are what `t_eval` gives, with the same bits where a step depends on nothing but where it begins. Between chosen
-        steps of a method that has a polynomial, of order 4 in `dormand_prince`, 7 in `dop853` (what its conditions miss of that,
-        8e-8, is below rounding in steps so short that it would show) and 3 in `radau`, the step from the row before to the row
-        after is made again and interpolated: values between steps have one order less than a step (of `radau`, two), which adds
-        no more to the error of the run than its steps do. Where steps are of fixed size, one shorter step is made from the row
-        before, with the order of the method. All values are corrected as the rows are.
+        With adaptive steps, the step around each time is repeated and its dense output evaluated, if the method has one: of
+        order 4 in `dormand_prince`, 7 in `dop853` and 3 in `radau`, one less than the step itself (two in `radau`). Otherwise
+        one shorter step is made from the previous sample, with the order of the method. All values satisfy the constraints.
 
-        By a part of the run's error they may differ from `t_eval` where a step has a memory: `radau` begins to solve its
-        equations where the step before leads, the integral term of `Baumgarte` begins at zero at the row, and `mixed` and
-        `independent` go on with the independent velocities of the run, where others may be chosen at the row: on a closed chain
-        that was a hundredth of the error of p or v, or less.
+        Values are bitwise those of `t_eval` if a step depends on its initial state alone. Otherwise they differ by a small part
+        of the error of the run: `radau` starts its iteration from the previous step, the integral term of `Baumgarte`
+        restarts from zero, and `mixed` and `independent` may select other independent velocities.
 
         Parameters
         ----------
@@ -300,7 +301,7 @@ class Solution:
         Raises
         ------
         ValueError
-            Outside the rows; or if not every step was saved.
+            For times outside the samples, or if not every step was saved.
 
         Examples
         --------
@@ -311,9 +312,9 @@ class Solution:
         (2, 1)
         """
         if self.settings["save_every"] != 1 or "t_eval" in self.settings:
-            raise ValueError("values between rows need every step saved: save_every=1, and no t_eval")
+            raise ValueError("values between samples need every step saved: save_every must be 1, and t_eval left out")
         if not len(self.t):
-            raise ValueError("this solution has no rows, and so no values")
+            raise ValueError("a solution must have samples to be evaluated between them, and this one has none")
         times = _check.times("t", t, self.t[0], self.t[-1])
         each, places = np.unique(times, return_inverse=True)
         p, v = self._states_at(each)
@@ -321,7 +322,7 @@ class Solution:
         return p[places], v[places]
 
     def _states_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """At times (k,) that increase."""
+        """Coordinates and velocities at increasing times (k,)."""
         rows = _rows_before(self.t, times)
         p, v = self.p[rows], self.v[rows]
         between = times > self.t[rows]
@@ -419,7 +420,7 @@ class Solution:
 
 
 def _rows_before(t: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """Rows at or before times; of t in a file only the entries that bisection compares are read."""
+    """Indices of the samples at or before times; if t is mapped from a file, bisection reads few of its entries."""
     if t.flags.c_contiguous:
         return np.searchsorted(t, times, side="right") - 1
     return np.array([bisect.bisect_right(t, time) - 1 for time in times], dtype=np.intp)

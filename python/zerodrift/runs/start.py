@@ -1,4 +1,4 @@
-"""The start of a run: a state in coordinates, or an equilibrium."""
+"""Initial state of a run, given in coordinates or as an equilibrium."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from .operations import project
 
 
 def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any, Any]:
-    """The system and the state (p0, v0) that the arguments of a run mean.
+    """System and initial state (p0, v0) from the arguments of a run.
 
-    An equilibrium stands for its position and velocities; these meet drives that run at t0.
+    An equilibrium gives its position and velocities; these are projected onto drives that move at t0.
 
     Raises
     ------
@@ -36,5 +36,5 @@ def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any,
 
 
 def _is_equilibrium(given: Any) -> bool:
-    """An argument is the result of `zerodrift.equilibrium`, known by its attributes: its class is made of runs."""
+    """Return whether an argument is a result of `zerodrift.equilibrium`; by its attributes, as its class imports this package."""
     return isinstance(getattr(given, "system", None), BaseSystem) and hasattr(given, "stiffness")

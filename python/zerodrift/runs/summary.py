@@ -1,4 +1,4 @@
-"""What `print(solution)` says."""
+"""Summary of a solution, as `print(solution)` shows it."""
 
 from __future__ import annotations
 
@@ -8,22 +8,22 @@ import numpy as np
 
 from .settings import corrections_of
 
-SMALLEST_PIVOT = 1e-8       # half of the digits are lost in what is solved with a smaller one
-MOST_NAMED = 8              # rows in a line
-PART = 2**26        # bytes of a column that are looked at together
+SMALLEST_PIVOT = 1e-8       # below it, half of the digits of accelerations are lost
+MOST_NAMED = 8              # redundant constraints named in the summary
+PART = 2**26        # bytes of a column that are read at once
 
 
 def summary(solution: Any) -> str:
-    """How it was made, what that cost, and how well its constraints and energy balance hold."""
+    """Lines on methods, cost, violation of constraints and energy error of a solution."""
     s, stats = solution.settings, solution.stats
     steps = max(1, stats.get("steps", 1))
     lines = [
-        f"Solution of {solution.system.name}: {len(solution.t)} rows, t = {solution.t_span[0]:g} ... {solution._last_time:g} s, "
-        f"{solution.message}",
+        f"Solution of {solution.system.name}: {len(solution.t)} samples, t = {solution.t_span[0]:g} ... {solution._last_time:g} "
+        f"s, {solution.message}",
         f"  how         {s['formulation']}, {s['integrator']}, {_step_sizes(s)}, "
         + ", ".join(map(str, corrections_of(s) if s["stabilization"] else ["no stabilization", *corrections_of(s)])),
     ]
-    if stats:       # which a run that was killed did not leave
+    if stats:       # absent for a killed run
         lines.append(
             f"  cost        {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each")
@@ -43,7 +43,7 @@ def summary(solution: Any) -> str:
     if stats.get("rank_drops"):
         lines.append(f"  singular    the rank dropped in {stats['rank_drops']} steps")
     if 0 < stats.get("smallest_pivot", 0) < SMALLEST_PIVOT:
-        lines.append(f"  digits      lost near a bifurcation: {stats['smallest_pivot']:.1g} was left of "
+        lines.append(f"  digits      lost near a bifurcation: relative pivot {stats['smallest_pivot']:.1g} of "
                      f"{solution.system.constraints[stats['smallest_pivot_row']].name} at t = {stats['smallest_pivot_time']:.6g}")
     if solution.energy_violation is not None:
         lines.append(f"  energy      max |Psi_E| = {_largest(solution.energy_violation)} J")
@@ -64,7 +64,7 @@ def _step_sizes(settings: dict[str, Any]) -> str:
 
 
 def _largest(violation: np.ndarray) -> str:
-    """Of a column that may be larger than memory."""
+    """Largest magnitude in a column, which may be larger than memory, as text."""
     size = violation.itemsize * max(1, violation[:1].size)
     parts = (violation[i:i + max(1, PART // size)] for i in range(0, len(violation), max(1, PART // size)))
     return f"{max((np.abs(part).max(initial=0.0) for part in parts), default=0.0):.2g}"

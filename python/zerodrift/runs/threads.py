@@ -1,4 +1,4 @@
-"""Work in the threads of this process, which can be stopped."""
+"""Work distributed over threads of this process, with cancellation."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from typing import Any
 
 from .. import _gateway
 
-LOOK = 0.05     # s between looks at the keyboard and the progress; a join without an end is deaf to Ctrl-C on some machines
+LOOK = 0.05     # s between checks of keyboard and progress; on some systems a join without timeout ignores Ctrl-C
 
 
 def processors() -> int:
-    """How many this process may use."""
+    """Number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class Threads:
-    """Threads that take part after part of some work; the first thing that goes wrong, or Ctrl-C, stops all of them.
+    """Threads that work through a sequence of parts; the first error, or Ctrl-C, stops all of them.
 
     Parameters
     ----------
     work : callable
-        ``work(part, stop)`` does one; what it does is of no use any more once ``stop()`` is true.
+        ``work(part, stop)`` does one part; it may return early once ``stop()`` is true, as its result is then discarded.
     parts : iterator
     """
 
@@ -32,7 +32,7 @@ class Threads:
         self._lock, self._error, self._stop = threading.Lock(), None, _gateway.Stop()
 
     def run(self, count: int, look: Callable[[], None]) -> None:
-        """All parts, in so many threads; meanwhile `look` is called now and then in this one."""
+        """Do all parts in `count` threads; meanwhile this thread calls `look` regularly."""
         workers = [threading.Thread(target=self._take, daemon=True) for _ in range(count)]
         try:
             for worker in workers:
@@ -55,7 +55,7 @@ class Threads:
         try:
             while (taken := self._next()) is not None:
                 self._work(taken, self._stop)
-        except BaseException as error:      # of ensembles what is no failed run: a full disk, Ctrl-C within a user's function
+        except BaseException as error:      # in an ensemble: not a failed run, but a full disk or Ctrl-C within a user's function
             self._error = self._error or error
             self._stop.set()
 
@@ -66,7 +66,7 @@ class Threads:
 
 def side_by_side(work: Callable[[Any, _gateway.Stop | None], None], parts: Sequence[Any], look: Callable[[], None] = int, *,
                  in_threads: bool) -> None:
-    """All parts in as many threads as this process may use; or one after the other here, as Python has to take turns in them."""
+    """Do all parts in one thread per available processor, or one after the other if they call Python functions."""
     if in_threads:
         Threads(work, iter(parts)).run(min(len(parts), processors()), look)
         return

@@ -1,4 +1,4 @@
-"""Runs of one motion in many ways: what each costs, and how far it is from a reference."""
+"""Runs of one motion with many settings: their time, and their difference from a reference."""
 
 from __future__ import annotations
 
@@ -37,36 +37,36 @@ class Setting(NamedTuple):
 
     @property
     def settings(self) -> dict[str, Any]:
-        """As `simulate` takes them."""
+        """Arguments of `simulate` for this setting."""
         steps = {"step": self.step} if self.tolerance is None else {"rtol": self.tolerance, "atol": self.tolerance}
         return {"formulation": self.formulation, "integrator": self.integrator, **steps,
                 "stabilization": self.stabilization, "energy": self.energy}
 
     @property
     def method(self) -> tuple[Any, ...]:
-        """What stays the same along a line of the diagram: all but the number that says how fine."""
+        """Key of the curve in a work-precision diagram: the setting without its step or tolerance."""
         return self._replace(step=None, tolerance=None), self.tolerance is not None
 
 
 class Row(NamedTuple):
-    """What one way to simulate costs and gives; numbers are NaN where there is nothing to measure.
+    """Measured cost and error of one setting; NaN where a value does not exist.
 
     Attributes
     ----------
     setting : Setting
     success : bool
-        Whether the end was reached.
+        True if the end was reached.
     message : str
-        "done", or what happened.
+        "done", or the reason for the end of the run.
     seconds : float
-        The least of all rounds.
+        Minimum time over all rounds, in s.
     steps, evaluations : int
-        Counts of the core.
+        Numbers of steps and of evaluations of the system.
     error : float
-        ``max |p - p_ref|`` over all coordinates and up to 200 times, the same for all runs and the end among them: what a run
-        gives there with ``t_eval``.
+        ``max |p - p_ref|`` over all coordinates and up to 200 output times, which include the end and are the same for all
+        runs.
     position_violation, velocity_violation, energy_violation : float
-        The largest of all rows.
+        Maxima over all samples.
     """
 
     setting: Setting
@@ -81,24 +81,24 @@ class Row(NamedTuple):
     energy_violation: float
 
     def flat(self) -> dict[str, Any]:
-        """The columns of a table."""
+        """Values by column of a table."""
         return {**self.setting._asdict(), **{name: value for name, value in self._asdict().items() if name != "setting"}}
 
 
 class Outcome(NamedTuple):
-    """What came of a run, as far as a row tells of it."""
+    """Results of a run that are needed for a `Row`."""
 
     success: bool
     message: str
     seconds: float
     steps: int
     evaluations: int
-    p: np.ndarray | None                        # (k, nq), of the rows that were asked for
-    violations: tuple[float, float, float]      # the largest of positions, velocities and energy; NaN where there are none
+    p: np.ndarray | None                        # (k, nq): coordinates at the output times
+    violations: tuple[float, float, float]      # maxima of position, velocity and energy violation; NaN if undefined
 
 
 class Bench:
-    """A motion, and the reference against which runs of it are measured."""
+    """A motion, and the reference to which its runs are compared."""
 
     def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any,
                  direct: bool | None = False) -> None:
@@ -110,19 +110,19 @@ class Bench:
 
     @property
     def needs_python(self) -> bool:
-        """Whether runs call what is written in Python, so that they cannot go side by side."""
+        """True if runs call Python functions, so that they cannot execute in parallel threads."""
         return core_of(self.system).for_run() is not core_of(self.system)
 
     def prepare(self, setting: Setting) -> None:
-        """Compiles what such runs take, so that threads find it."""
+        """Compile the functions that runs with this setting need, before threads use them."""
         self._core(self._plan(setting))
 
     def rows(self, combinations: Sequence[Setting], stop: _gateway.Stop | None = None) -> list[Row]:
-        """Runs with steps of fixed size, many in one call of the core; nothing where that is stopped."""
+        """Entries for runs with fixed steps, many in one call of the core; empty if stopped."""
         return self._rows(combinations, self._outcomes(combinations, stop), stop)
 
     def timed(self, combinations: Sequence[Setting]) -> Iterator[Row]:
-        """Each run by itself, while nothing else runs here; then, some at a time, their errors side by side."""
+        """Time each run while nothing else executes here; then, for groups of runs, compute errors in parallel."""
         while combinations:
             outcomes: list[Outcome] = []
             while len(outcomes) < len(combinations) and (len(outcomes) < processors() or _seconds_of(outcomes) < TOGETHER):
@@ -174,7 +174,7 @@ class Bench:
     # ---- many in one call of the core ----
 
     def _outcomes(self, combinations: Sequence[Setting], stop: _gateway.Stop | None = None, **saved: Any) -> list[Outcome]:
-        """What came of the runs, with the bits that each has by itself; nothing where they are stopped."""
+        """Results of runs, bitwise those of individual runs; empty if stopped."""
         if self.needs_python:
             return [self.run(setting, **saved) for setting in combinations]
         plans = [self._plan(setting, **saved) for setting in combinations]

@@ -1,4 +1,4 @@
-"""`check`: compare everything a system supplies against derivatives and balances, and say in words what is wrong."""
+"""`check`: comparison of all terms of a system with derivatives and balances, with the errors found in words."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from ..runs.operations import acceleration, project
 from ..runs.settings import Projection
 from ..systems.base import BaseSystem, Terms, system_of
 
-STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, in units of what is varied
-AGREE = 1e-5                            # relative: far above the 1e-10 a difference leaves, far below any mistake
-NEGLIGIBLE = 1e-9                       # relative: eigenvalues and singular values that are zero but for rounding
-SPREAD = 0.1                            # of the sampled states about the start
+STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity
+AGREE = 1e-5                            # relative: far above the error 1e-10 of a difference, far below any mistake
+NEGLIGIBLE = 1e-9                       # relative: smaller eigenvalues and singular values are zero to rounding
+SPREAD = 0.1                            # relative distance of the sampled states from the start
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What `check` found: true where nothing is wrong.
+    """Result of `check`; true if no problem was found.
 
     Attributes
     ----------
     system : str
         Name of the system.
     states : int
-        How many states were looked at.
+        Number of states at which terms were compared.
     checks : tuple of str
-        What was compared.
+        Names of the comparisons.
     problems : tuple of str
-        What is wrong, a sentence each.
+        Problems found, a sentence each.
     """
 
     system: str
@@ -50,27 +50,27 @@ class Report:
 
 
 def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, samples: int = 5, seed: int = 0) -> Report:
-    """Compare what a system supplies against derivatives, symmetry, definiteness and the balance of power.
+    """Check the terms of a system against derivatives, symmetry, definiteness and the balance of power.
 
-    Derivatives are central differences, so that nothing is shared with what they are compared to.
+    Derivatives are central differences, which share no code with the terms to which they are compared.
 
     Parameters
     ----------
     system : system
-        One of `zerodrift.systems`, or a `zerodrift.System`.
+        System or Mechanism, as in `simulate`.
     p, v : array_like (nq,), (nv,), optional
-        A state to look at; left out: the system's start.
+        First state of the comparison; by default the start of the system.
     t : float
         Time in s.
     samples : int
-        How many further states about it are looked at; they are drawn at random and put onto the constraints.
+        Number of further states near it, drawn at random and projected onto the constraints.
     seed : int
-        Of the random states.
+        Seed of the random states.
 
     Returns
     -------
     Report
-        True where nothing is wrong; printed, it says what is.
+        True if no problem was found; it prints the problems.
 
     Examples
     --------
@@ -104,7 +104,7 @@ class _State:
         return v if self.terms.A is None else self.terms.A @ v
 
     def derivative_along(self, quantity: Callable[[Terms, np.ndarray], Any], *, pdot: Any = 0.0, tdot: float = 0.0) -> Any:
-        """The derivative of quantity(terms, v) in the direction (tdot, pdot)."""
+        """Derivative of quantity(terms, v) in the direction (tdot, pdot)."""
         size = max(np.abs(pdot).max(initial=0.0), abs(tdot), 1e-300)
         h = STEP / size * max(1.0, np.abs(self.p).max(initial=0.0))
         ends = []
@@ -153,7 +153,7 @@ def _mass(state: _State) -> Iterator[tuple[str, str]]:
 
 
 def _free_directions(C: np.ndarray | None, M: np.ndarray) -> np.ndarray:
-    """Columns that span what C leaves free."""
+    """Columns that span the null space of C."""
     if C is None:
         return np.eye(len(M))
     _, values, vectors = np.linalg.svd(C)
@@ -165,7 +165,7 @@ def _consistency(state: _State) -> Iterator[tuple[str, str]]:
     if C is None:
         return
     length = np.linalg.norm(C, axis=1)
-    length = np.maximum(length, max(NEGLIGIBLE * length.max(), 1e-300))     # what is left of a row that vanishes is rounding
+    length = np.maximum(length, max(NEGLIGIBLE * length.max(), 1e-300))     # a row of zeros consists of rounding
     C, xi = C / length[:, None], xi / length
     vdot = np.linalg.lstsq(C, xi, rcond=NEGLIGIBLE)[0]
     left = np.abs(C @ vdot - xi).max()

@@ -1,4 +1,4 @@
-"""Coordinates and velocities by name, and how far a solution is from a reference."""
+"""Coordinates and velocities by name, and differences between a solution and a reference."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from .._gateway import Variable
 from ..runs.solution import A_SOLUTION, Solution
 from .reference import Reference
 
-SAME_TIME = 1e-9    # of the larger of the time itself and 1 s: far above round-off, far below any step
+SAME_TIME = 1e-9    # relative to max(|t|, 1 s): far above rounding, far below any step
 
 
 def signals(solution: Solution, names: str | Sequence[str] | None = None) -> tuple[np.ndarray, tuple[Variable, ...]]:
-    """Columns of p and v by name.
+    """Coordinates and velocities of a solution by name.
 
     Parameters
     ----------
     solution : Solution
-        What is looked at.
+        Data.
     names : str or sequence of str, optional
-        Of coordinates and velocities; left out: all coordinates.
+        Names of coordinates and velocities; by default all coordinates.
 
     Returns
     -------
@@ -51,17 +51,17 @@ def signals(solution: Solution, names: str | Sequence[str] | None = None) -> tup
 
 def difference(solution: Solution, reference: Solution | Reference | Callable[[float], Any],
                names: str | Sequence[str] | None = None) -> np.ndarray:
-    """Solution minus reference, at the times of the solution.
+    """Difference of a solution from a reference, at the times of the solution.
 
     Parameters
     ----------
     solution : Solution
-        What is looked at.
+        Data.
     reference : Reference, Solution or callable
-        What `zerodrift.reference` gave, a solution whose times contain those of `solution`, or a function of the time that
+        Result of `zerodrift.reference`, a solution whose times contain those of `solution`, or a function of time that
         returns p (nq,).
     names : str or sequence of str, optional
-        Of coordinates and (with a Solution as reference) velocities; left out: all coordinates.
+        Names of coordinates and (if the reference is a Solution) velocities; by default all coordinates.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def difference(solution: Solution, reference: Solution | Reference | Callable[[f
     Raises
     ------
     ValueError
-        If the reference does not have the times or the names.
+        If the reference lacks a time or a name.
 
     Examples
     --------
@@ -92,7 +92,7 @@ def difference(solution: Solution, reference: Solution | Reference | Callable[[f
 
 
 def states_of(reference: Solution | Reference | Callable[[float], Any], times: np.ndarray, nq: int) -> np.ndarray:
-    """What a reference says at each of the times: p and v (k, nq + nv), or p (k, nq) if it is a callable."""
+    """States of a reference at given times: p and v (k, nq + nv), or p (k, nq) if it is a callable."""
     if isinstance(reference, Reference):
         return _interpolated(reference.solution, times)
     if isinstance(reference, Solution):
@@ -103,7 +103,7 @@ def states_of(reference: Solution | Reference | Callable[[float], Any], times: n
 
 
 def _interpolated(solution: Solution, times: np.ndarray) -> np.ndarray:
-    """The rows at these times; where every step was saved, values between rows, too."""
+    """States (k, nq + nv) at these times; if every step was saved, also between samples."""
     if "t_eval" in solution.settings:
         return _states(solution)[_rows_at(solution.t, times)]
     states = _states(solution)[nearest(solution.t, times)]
@@ -118,7 +118,7 @@ def _states(solution: Solution) -> np.ndarray:
 
 
 def _evaluated(reference: Callable[[float], Any], times: np.ndarray, size: int) -> np.ndarray:
-    """What a callable says at each of the times, (k, size)."""
+    """Values (k, size) of a callable at given times."""
     exact = np.empty((len(times), size))
     for row, t in zip(exact, times, strict=True):
         value = _say_where(reference, float(t))
@@ -130,7 +130,7 @@ def _evaluated(reference: Callable[[float], Any], times: np.ndarray, size: int) 
 
 
 def _say_where(reference: Callable[[float], Any], t: float) -> Any:
-    """What a callable returns; a note of an error says where it was raised."""
+    """Value of a callable at t; an error gets a note with the time."""
     try:
         return reference(t)
     except BaseException as error:
@@ -139,23 +139,23 @@ def _say_where(reference: Callable[[float], Any], t: float) -> Any:
 
 
 def nearest(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """The rows of `times` (ascending) that are nearest to the times wanted."""
+    """Indices of the entries of `times` (ascending) nearest to the wanted times."""
     after = np.searchsorted(times, wanted).clip(max=len(times) - 1)
     before = (after - 1).clip(min=0)
     return np.where(np.abs(times[before] - wanted) < np.abs(times[after] - wanted), before, after)
 
 
 def _rows_at(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """The rows of `times` that have the times wanted."""
+    """Indices of the wanted times in `times`; ValueError if one is missing."""
     if not len(times):
-        raise ValueError("the reference solution has no rows")
+        raise ValueError("the reference solution must have samples")
     missing = _have_no_row(times, wanted)
     if missing.any():
-        raise ValueError(f"the reference has no row at t = {wanted[missing][0]:g} s; "
+        raise ValueError(f"the reference has no sample at t = {wanted[missing][0]:g} s; "
                          "its times must contain the solution's")
     return nearest(times, wanted)
 
 
 def _have_no_row(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Which of the times wanted are not among `times`."""
+    """Mask of the wanted times that are not among `times`."""
     return np.abs(times[nearest(times, wanted)] - wanted) > SAME_TIME * np.maximum(1, np.abs(wanted))

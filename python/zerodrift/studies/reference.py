@@ -1,4 +1,4 @@
-"""`reference`: a motion whose error is known, from runs that could have contradicted it.
+"""`reference`: a motion with a certified error, from comparisons with independent runs.
 
 The motion is computed with fixed steps by the integrator of highest order, and the step is halved until two such runs do not
 come closer any more. What is certified is ten times the *largest* of its differences from four other runs, each of which has
@@ -75,22 +75,22 @@ SENSITIVE = ("the motion multiplies roundings by some {growth:.1g}: the error fo
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Reference:
-    """A solution and how wrong it is at most.
+    """A solution with a certified bound of its error.
 
     Attributes
     ----------
     solution : Solution
         The motion.
     error : float
-        Bound of ``abs(p - exact)`` at every row, each coordinate in its own unit: what follows from the start, the parameters and
-        the times of the rows, taken as the doubles they are.
+        Bound of ``abs(p - exact)`` at every sample, each coordinate in its own unit. The exact motion is that of the start, the
+        parameters and the times as they are in double precision.
     velocity_error : float
-        The same of v.
+        The same bound for v.
     differences : tuple of Difference(steps, formulation, p, v, integrator, rounded)
-        The evidence: for each of the other runs its steps and formulation, the largest differences in p and v from the solution,
-        its integrator, and whether its terms were off by rounding.
+        Comparisons: for each other run its number of steps and formulation, its largest differences from the solution in p
+        and v, its integrator, and whether its terms were perturbed by rounding.
     caveats : tuple of str
-        What was not excluded, a sentence each; empty: nothing that is known of.
+        Known sources of error that the comparisons cannot exclude, a sentence each; empty if there are none.
     """
 
     solution: Solution
@@ -101,7 +101,7 @@ class Reference:
 
     def __repr__(self) -> str:
         lines = [f"Reference of {self.solution.system.name}: |error of p| <= {self.error:.2g}, "
-                 f"|error of v| <= {self.velocity_error:.2g}, {len(self.solution.t)} rows"]
+                 f"|error of v| <= {self.velocity_error:.2g}, {len(self.solution.t)} samples"]
         lines += [f"  {d.steps:8} steps, {d.formulation:19} {d.integrator:14} {'rounded otherwise, ' if d.rounded else '':19}"
                   f"differ by {d.p:.2g} in p, {d.v:.2g} in v" for d in self.differences]
         return "\n".join(lines + [f"  not excluded: {caveat}" for caveat in self.caveats])
@@ -121,53 +121,53 @@ def reference(
     formulations: tuple[str, str] | None = None,
     stabilization: str | settings.Stabilization = settings.STABILIZATION,
 ) -> Reference:
-    """A motion with a certified error.
+    """Compute a motion with a certified error.
 
-    The integrator of the highest order halves its fixed step until the runs agree. Runs with other steps, by another method, in
-    another formulation, and with everything off by rounding are compared with it; the error certified is ten times the
-    largest difference, and what the rounding of time may add. Where that is more than `error`, or none was asked for, systems
-    of expressions are taken by `taylor`, too, whose fewer steps are rounded less, and the better of both is returned.
+    The fixed step of the integrator of highest order is halved until successive runs agree. The result is compared with runs
+    with other steps, by another method, in another formulation, and with start and terms perturbed by rounding. The certified
+    error is ten times the largest difference, plus the effect of rounding of time. If that exceeds `error`, or without `error`,
+    systems with Taylor coefficients are also computed by `taylor`, which needs fewer steps, and the better result is returned.
 
     Parameters
     ----------
     system : system
-        One of `zerodrift.systems`, or a `zerodrift.System`.
+        System or Mechanism, as in `simulate`.
     t_span : float or (float, float)
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
-        Start; left out: the system's own.
+        Initial state; by default that of the system.
     error : float, optional
-        Largest error of any coordinate at any row, each in its own unit. Left out: what can be certified.
+        Largest allowed error of any coordinate at any sample, in its own unit. By default the smallest that can be certified.
     first_step, max_step : float, optional
-        In s, as in `simulate`: the first step of the run that finds how many the motion needs, and the largest of any run. Where
-        something acts for a short time, a `max_step` of that time is needed for it to be seen.
+        In s, as in `simulate`: first step of the run that determines the number of steps, and largest step of any run. A short
+        action may be missed unless `max_step` is at most its duration.
     max_move : float, optional
-        As in `simulate`: the largest change of a coordinate in any step of any run, in m and rad. Where something acts in a
-        narrow place, a `max_move` of a third of its width is needed for it to be seen.
+        As in `simulate`: largest change of a coordinate in any step of any run, in m or rad. A force in a narrow region may be
+        missed unless `max_move` is at most a third of its width.
     t_eval : array_like (k,), optional
-        Times to save. Left out: every step, and then values at any other time are there, too: `zerodrift.plot.error` and
-        `zerodrift.compare.difference` take them by a shorter step of the same method.
+        Output times in s. By default every step; `zerodrift.plot.error` and `zerodrift.compare.difference` then evaluate the
+        motion at any other time, too, by a shorter step of the same method.
     formulations : (str, str), optional
-        That of the solution, and that of the check. Left out: of those that can take the system, the first and the last.
+        Formulations of the solution and of the check; by default the first and the last that suit the system.
     stabilization : None, "projection", "baumgarte", Projection or Baumgarte
         As in `simulate`. Near singular positions a smaller ``Projection(tol=...)`` may allow a smaller error.
 
     Returns
     -------
     Reference
-        It may be given wherever a reference is asked for. Its `caveats` say what was not excluded.
+        For any argument `reference`. Its `caveats` list the sources of error that are not excluded.
 
     Raises
     ------
     UnreachableTolerance
-        If `error` is below what double precision can give for this motion; the message says what it can.
+        If `error` is below the limit of double precision for this motion, which the message gives.
     ZerodriftError
-        If the motion itself cannot be followed.
+        If the motion cannot be simulated.
 
     Notes
     -----
-    The start and the parameters are taken as the doubles they are. Where the motion multiplies small differences, theirs
-    from some exact number may grow beyond `error`; that is a property of the motion and is not part of the certificate.
+    Start and parameters count as exact in double precision. In a sensitive motion, the rounding of a decimal parameter may
+    change the motion by more than `error`; this is not part of the certificate.
 
     Examples
     --------
@@ -197,7 +197,7 @@ def reference(
 
 
 def _pairs(system: BaseSystem, formulations: Any) -> list[tuple[str, str]]:
-    """Formulations of the motion and of the checks: those given, or those to be tried, one pair after the other."""
+    """Pairs of formulations (motion, check): the given one, or candidates in the order in which they are tried."""
     if formulations is None:
         first, *others = settings.formulations(system)
         return [(first, other) for other in reversed(others)] if system.m and others else [(first, first)]
@@ -210,13 +210,13 @@ def _pairs(system: BaseSystem, formulations: Any) -> list[tuple[str, str]]:
 
 
 class _Search:
-    """Halves the step until the error is certified, or does not fall any more."""
+    """Search that halves the step until the error is certified or stops decreasing."""
 
     def __init__(self, motion: Motion, pairs: list[tuple[str, str]], wanted: float | None) -> None:
         self.motion, self.pairs, self.wanted = motion, pairs, wanted or 0.0
 
     def found(self) -> Reference:
-        """What can be certified: with enough steps for the error that is wanted, or as many as rounding allows."""
+        """Certified reference with enough steps for the wanted error, or with as many as rounding allows."""
         motion, steps, stalls, forgotten = self.motion, self.motion.steps, 0, 0
         previous, coarse, best = math.inf, None, None
         for doublings in range(REFINEMENTS):
@@ -244,7 +244,7 @@ class _Search:
         return Way(steps, self.pairs[0][0], self.motion.method)
 
     def _certified(self, fine: Solution, steps: int, halved: Difference, previous: float) -> Reference:
-        """What all runs say of that of so many steps."""
+        """Reference from the run with `steps` steps and its comparisons with all other runs."""
         motion = self.motion
         motion.run_side_by_side(self._checks(steps), steps)
         differences = [halved, motion.difference(self._rounded(steps), fine, steps), self._by_other_method(fine, steps)]
@@ -309,30 +309,30 @@ class _Search:
         return self.pairs[0][1]
 
     def _of_instants(self, found: Reference, steps: int) -> int:
-        """In so many steps of the integrator of highest order were the terms evaluated."""
+        """Number of steps of the run with the densest points of evaluation."""
         return found.differences[CHECKS].steps if self._looks_for_places else steps
 
     def _is_forgotten(self, fine: Solution, steps: int) -> bool:
-        """Whether rounding alone makes another motion of it. With steps that are much too long, it may by chance."""
+        """True if rounding alone changes the motion completely. With far too long steps this may happen by chance."""
         rounded = self.motion.difference(self._rounded(steps), fine, steps)
         return RESOLVED * self.motion.size < rounded.p < math.inf
 
     def _is_final(self, found: Reference, stalls: int) -> bool:
-        """Whether shorter steps are of no use, or help so little that only an error which is wanted is worth them."""
+        """True if shorter steps would not reduce the error, or only slightly and no error was requested."""
         if self._is_missing_something(found):
             return False
         enough = stalls >= MOST_STALLS and found.error <= RESOLVED * self.motion.size
         return self._is_rounding(found) or (enough and not self.wanted)
 
     def _is_missing_something(self, found: Reference) -> bool:
-        """Whether the run with the densest points of evaluation differs from the motion by more than all others."""
+        """True if the run with the densest points of evaluation differs from the motion far more than all others."""
         if not self._looks_for_places:
             return False
         others, dense = found.differences[:CHECKS], found.differences[CHECKS]
         return dense.p > EXPLAINED * (max(each.p for each in others) + ROUNDING * self.motion.size)
 
     def _is_rounding(self, found: Reference) -> bool:
-        """Whether runs differ by what rounding was seen to do, or may do where each step rounds the same way."""
+        """True if the differences of runs are explained by rounding, observed or accumulated with the same sign in each step."""
         size, steps = self.motion.size, max(d.steps for d in found.differences)
         seen = found.differences[1].p + self.motion.shift[0] + SPACING * size
         return max(d.p for d in found.differences) <= EXPLAINED * seen + steps * ROUNDING / 2 * size

@@ -1,4 +1,4 @@
-"""Runs of a motion that is to be known: with steps of one size, in any formulation, and with everything off by rounding."""
+"""Runs that `reference` compares: with fixed steps, in any formulation, optionally perturbed by rounding."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from ..runs.solution import Solution
 from ..runs.threads import side_by_side
 from ..systems.base import BaseSystem, core_of
 
-SERIES = "taylor"   # the integrator whose order is as high as one wants
+SERIES = "taylor"   # integrator of arbitrary order
 ROUNDING = np.finfo(float).eps
-PROBE = 1e-5        # tolerance of the run that tells how many steps the motion takes
+PROBE = 1e-5        # tolerance of the adaptive run that determines the number of steps
 _NOT_MADE = object()
-UNIT = 3            # numbers of steps are multiples of this, as two and five thirds of them are taken
+UNIT = 3            # numbers of steps are multiples of this, as other runs have two and five thirds of them
 
 
 class Difference(NamedTuple):
-    """How far a run is from the solution."""
+    """Largest differences of a run from the solution, with the settings of the run."""
 
     steps: int
     formulation: str
@@ -38,7 +38,7 @@ class Difference(NamedTuple):
 
 
 class Perturbed(BaseSystem):
-    """A system that is off by rounding."""
+    """A system whose arguments and terms are perturbed by rounding."""
 
     def __init__(self, system: BaseSystem, seed: int, size: float = ROUNDING) -> None:
         self.name, self.parameters, self.p0, self.v0 = system.name, system.parameters, None, None
@@ -49,7 +49,7 @@ class Perturbed(BaseSystem):
         return self._system._with_series_of_perturbed(core, vector)
 
     def shifted(self, x: np.ndarray, seed: int) -> np.ndarray:
-        """A state off by a rounding or two."""
+        """A state with each entry perturbed by one or two units of rounding."""
         return x * (1.0 + ROUNDING * np.random.default_rng(seed).choice([-2.0, -1.0, 1.0, 2.0], x.shape))
 
 
@@ -63,17 +63,17 @@ class Rows(NamedTuple):
 
 @dataclass(frozen=True)
 class Way:
-    """How a run is made: its steps, equations and method, and how it is rounded (0: as it comes)."""
+    """Settings of a run: number of steps, formulation, integrator, and seed of its rounding (0: not perturbed)."""
 
     steps: int
     formulation: str
     integrator: str
     rounding: int = 0
-    is_elsewhere: bool = False      # in the other coordinates of the system
+    is_elsewhere: bool = False      # in the other coordinates of a mechanism
 
 
 class Motion:
-    """What is to be known: runs of it, and how large and fast it is."""
+    """The motion of a reference: its runs, its size and its speed."""
 
     def __init__(self, system, span, p0, v0, t_eval, stabilization, formulation, bounds) -> None:
         self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
@@ -84,7 +84,7 @@ class Motion:
         self.elsewhere = system._in_other_coordinates() if p0 is None and v0 is None else None
         self.elsewhere_failed = False
         taken = settings.evaluating_integrators(system)
-        cards = sorted(taken.values(), key=lambda card: -card.order)    # as they stand, where equal
+        cards = sorted(taken.values(), key=lambda card: -card.order)    # stable: table order for equal orders
         self.method, self.other = cards[0].name, cards[1].name
         with unwarned():
             probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,
@@ -98,12 +98,12 @@ class Motion:
         self.shift = [_shift(probe.t, x) for x in (probe.p, probe.v)]
 
     def follows_series(self, formulation: str) -> bool:
-        """Whether Taylor's method takes the system so."""
+        """True if Taylor's method can integrate the system in this formulation."""
         chosen = self.probe.settings | {"integrator": SERIES, "formulation": formulation}
         return self.system._brings_series and not settings.disagreement(chosen)
 
     def by_series(self, formulation: str) -> Motion:
-        """The same by Taylor's method, and by what it was found by before for the check."""
+        """The same motion by Taylor's method, with the previous method as the check."""
         found = copy.copy(self)
         found.method, found.other = SERIES, self.method
         with unwarned():
@@ -113,7 +113,7 @@ class Motion:
         return found
 
     def run(self, way: Way, rows: int | None = None) -> Solution | None:
-        """A run, of which so many rows after the first are saved; None where its steps were too long for it."""
+        """Solution of a run with `rows` samples after the first; None if it failed, as its steps were too long."""
         made = self._made_before.pop((way, rows), _NOT_MADE)
         if isinstance(made, Exception):
             raise made
@@ -123,11 +123,11 @@ class Motion:
             return self._run(way, rows)
 
     def run_side_by_side(self, ways: Sequence[Way], steps: int) -> None:
-        """Makes runs that `difference` to the motion of so many steps will ask for, in threads, if no Python is in the way."""
+        """Make the runs that `difference` will need in advance, in threads, unless they call Python functions."""
         def make(asked: tuple[Way, int], stop: _gateway.Stop | None) -> None:
             try:
                 self._made_before[asked] = self._run(*asked, stop)
-            except Exception as error:      # raised when the run is asked for
+            except Exception as error:      # raised by `run`
                 self._made_before[asked] = error
 
         self._made_before.clear()
@@ -153,17 +153,17 @@ class Motion:
                            direct=False, progress=look if stop else False, **saved)
             return self._in_own_coordinates(run) if way.is_elsewhere else run
         except ZerodriftError as error:
-            if error.solution is None:      # it did not even start
+            if error.solution is None:      # the run could not start
                 raise
             return None
 
     def _in_own_coordinates(self, run: Solution) -> Rows:
-        """A run in other coordinates, in those of the motion: these are measures there."""
+        """A run in other coordinates, converted to those of the motion, which are measures of it."""
         own = ([run[variable.name] for variable in group] for group in (self.system.coordinates, self.system.velocities))
         return Rows(run.t, *(np.column_stack(columns) for columns in own))
 
     def difference(self, way: Way, motion: Solution, steps: int, run: Solution | None = None) -> Difference:
-        """How far that run is from the motion of so many steps, at the rows that both have."""
+        """Difference of a run from the motion with `steps` steps, at the samples that both have."""
         rows = math.gcd(steps, way.steps)
         run = run or self.run(way, rows)
         apart = [math.inf, math.inf]
@@ -175,6 +175,6 @@ class Motion:
 
 
 def _shift(t: np.ndarray, x: np.ndarray) -> float:
-    """The most that a rounding of the time, and of the time that has passed, makes of x."""
+    """Largest change of x by rounding of the time and of the elapsed time."""
     rates = np.abs(np.diff(x, axis=0)).max(axis=1) / np.diff(t)
     return float(ROUNDING * (rates * (np.abs(t) + t - t[0])[1:]).max())

@@ -1,4 +1,4 @@
-"""`stability_map`: over the step and one parameter, which way to simulate survives, and how accurately."""
+"""`stability_map`: success and error of methods over the step and one parameter."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from . import reference as certified
 from .bench import Bench, Row, Setting
 from .work_precision import default_steps, not_excluded
 
-GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s, of Baumgarte's method where nothing else is varied
+GAINS = tuple(np.geomspace(1.0, 1000.0, 13))    # 1/s: default values of the parameter, alpha of Baumgarte's method
 OPTIONS = {"formulation": settings.FORMULATION, "integrator": settings.INTEGRATOR, "stabilization": settings.STABILIZATION,
            "energy": None}
 
@@ -33,21 +33,21 @@ WAYS = {"nothing": {"stabilization": None}, "Baumgarte": _critically_damped, "pr
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StabilityMap:
-    """What became of the runs, for each way, value of the parameter, and step.
+    """Results of runs for each method, value of the parameter, and step.
 
     Attributes
     ----------
     parameter : str
-        What the values are, with its unit.
+        Name of the varied parameter with its unit.
     values : ndarray (n,)
     steps : ndarray (k,)
         In s.
     rows : dict of str to tuple of tuple of Row
-        For each way (n,) times (k,) rows as in `WorkPrecision`; after Ctrl-C, only of the ways that were done.
+        For each method, (n,) times (k,) entries as in `WorkPrecision`; after Ctrl-C, only for finished methods.
     reference_error : float
         The largest certified error of the references.
     reference_caveats : tuple of str
-        What their certificates did not exclude, see `Reference.caveats`.
+        Sources of error that their certificates do not exclude, see `Reference.caveats`.
     """
 
     parameter: str
@@ -58,11 +58,11 @@ class StabilityMap:
     reference_caveats: tuple[str, ...] = ()
 
     def survived(self, way: str) -> np.ndarray:
-        """Which runs of that way reached their end, (n, k)."""
+        """Mask (n, k) of the runs with that method that reached their end."""
         return self._column(way, "success").astype(bool)
 
     def error(self, way: str) -> np.ndarray:
-        """``max |p - p_ref|`` of the runs of that way, (n, k); NaN where they did not reach their end."""
+        """Error ``max |p - p_ref|`` (n, k) of the runs with that method; NaN for runs that did not reach their end."""
         return self._column(way, "error").astype(float)
 
     def _column(self, way: str, name: str) -> np.ndarray:
@@ -92,31 +92,32 @@ def stability_map(
     reference: Any = None,
     progress: bool | Callable[[float], None] = False,
 ) -> StabilityMap:
-    """Run all ways to simulate over steps and values of one parameter, and compare them with a reference.
+    """Simulate with several methods over steps and values of one parameter, and compare with a reference.
 
-    Runs go side by side, in as many threads as this process may use processors, each with the bits that it has by itself; one
-    after the other where the system needs Python. So `Row.seconds` are those of runs beside others.
+    Runs execute in one thread per available processor, or sequentially if the system needs Python. Results are bitwise those
+    of single runs; `Row.seconds` includes the influence of parallel runs.
 
     Parameters
     ----------
     system : system, or callable value -> system
-        A callable where the parameter is one of the system's, such as a mass.
+        A callable if the parameter is one of the system, such as a mass.
     t_span : float or (float, float)
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
-        Start; left out: the system's own.
+        Initial state; by default that of the system.
     steps : iterable of float, optional
-        In s. Left out: 4, 2, 1, 1/2 ... 1/16 times the mean step that the integrator of highest order chooses at a tolerance
-        of 1e-6.
+        Fixed steps in s. By default 4, 2, 1, 1/2 ... 1/16 times the mean adaptive step of the integrator of highest order at a
+        tolerance of 1e-6.
     parameter : str, optional
-        What the values are, with its unit: the label of the picture. Left out: Baumgarte's gain.
+        Name of the varied parameter with its unit, for labels; by default Baumgarte's gain.
     values : iterable of float
-        Left out: 1 to 1000, for the gain alpha of Baumgarte's method in 1/s with beta = alpha**2 / 4.
+        Values of the parameter. By default 1 to 1000, for Baumgarte's gain alpha in 1/s with beta = alpha**2 / 4.
     ways : mapping of str to dict, or to callable value -> dict, optional
-        For each name, what `simulate` is told of ``formulation, integrator, stabilization, energy``, or how that follows from
-        the value. Left out: nothing, Baumgarte's method, projection, and projection with energy correction.
+        Methods by name: arguments of `simulate` among ``formulation, integrator, stabilization, energy``, or a function of the
+        value that returns them. By default no stabilization, Baumgarte's method, projection, and projection with energy
+        correction.
     reference : Reference, Solution or callable, optional
-        What errors are measured against; left out, or where the system varies: the best that `reference` certifies.
+        Motion to which runs are compared. By default, and if the system varies, the most accurate that `reference` certifies.
     progress : bool or callable
         As in `simulate`.
 
@@ -128,7 +129,7 @@ def stability_map(
     Raises
     ------
     Interrupted
-        On Ctrl-C; its `.solution` is the StabilityMap of the ways that were done.
+        On Ctrl-C; its attribute `solution` is the StabilityMap of the finished methods.
 
     Examples
     --------

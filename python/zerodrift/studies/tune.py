@@ -1,4 +1,4 @@
-"""`tune`: the settings that reach an error in the least time, or the least error in a given time, found by measurement."""
+"""`tune`: settings that reach a given error in the shortest time, or the smallest error in a given time, by measurement."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ FACTOR = {False: 0.5, True: 0.1}        # to the next finer step, and tolerance
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Tuning:
-    """Settings, and why these.
+    """Best settings found, and the measurements behind them.
 
     Attributes
     ----------
     settings : dict
-        For ``simulate(system, t_span, **settings)``.
+        Arguments for ``simulate(system, t_span, **settings)``.
     row : Row
-        What they cost and give.
+        Measured cost and error of these settings.
     evidence : WorkPrecision
-        All that was measured.
+        All measurements.
     """
 
     settings: dict[str, Any]
@@ -59,29 +59,30 @@ def tune(
     progress: bool | Callable[[float], None] = False,
     rounds: int = 5,
 ) -> Tuning:
-    """Find the cheapest settings that reach an error, or the most accurate within a time.
+    """Find the fastest settings that reach an error, or the most accurate ones within a time.
 
-    A sweep over all methods comes first, then the step or tolerance of the best of each is refined, and the best of all are
-    timed again, in turn. Errors and times are those of `work_precision`.
+    All methods are swept first; then the step or tolerance of the promising ones is refined, and the best are timed again.
+    Errors and times are measured as in `work_precision`.
 
     Parameters
     ----------
     system : system
-        One of `zerodrift.systems`, or a `zerodrift.System`.
+        System or Mechanism, as in `simulate`.
     t_span : float or (float, float)
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
-        Start; left out: the system's own.
+        Initial state; by default that of the system.
     error : float, optional
-        Largest error of any coordinate at any time, each in its own unit; that of the reference is added to those measured.
+        Largest allowed error of any coordinate at any time, in its own unit. The error of the reference is added to measured
+        errors.
     budget : float, optional
-        Largest time of a run in s, of this machine. Either `error` or `budget` is given.
+        Largest allowed time of a run on this machine, in s. Exactly one of `error` and `budget` must be given.
     formulations, integrators : iterable of str, optional
-        Among which to choose; left out: all that can take the system.
+        Candidates; by default all that suit the system.
     progress : bool or callable
         As in `simulate`; it shows the first sweep, which is most of the work.
     rounds : int
-        How often the best are timed.
+        Number of timings of the best settings.
 
     Returns
     -------
@@ -90,11 +91,11 @@ def tune(
     Raises
     ------
     UnreachableTolerance
-        If `error` is below what double precision can give, or the methods allowed do not reach it.
+        If `error` is below the limit of double precision for this motion, or none of the methods reaches it.
     ValueError
-        If no method keeps the budget.
+        If no method is fast enough.
     Interrupted
-        On Ctrl-C; its `.solution` is the WorkPrecision of all that was measured.
+        On Ctrl-C; its attribute `solution` is the WorkPrecision of the measurements so far.
 
     Examples
     --------
@@ -199,14 +200,14 @@ class _Search:
             self._measure(_scaled(row.setting, FACTOR[_chooses_steps(row.setting)]**sign) for row in ends)
 
     def refine(self) -> None:
-        """Of the promising methods: ever closer to the last step that meets the goal."""
+        """Refine the step or tolerance of the promising methods towards the last value that meets the goal."""
         for _ in range(REFINEMENTS):
             candidates = [rows for rows in self._methods() if any(map(self._meets_goal, rows))]
             candidates.sort(key=lambda rows: min(self.goal.cost(row) for row in rows if self._meets_goal(row)))
             self._measure(self._closer_to_goal(rows) for rows in candidates[:PROMISING])
 
     def best(self, rounds: int) -> Row:
-        """Of those timed again."""
+        """Best setting, after the leading ones were timed again."""
         met = sorted(self._rows_meeting_goal(), key=self.goal.cost)
         if not met:
             raise self.goal.refusal(list(self.rows.values()))

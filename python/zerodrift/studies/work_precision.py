@@ -1,4 +1,4 @@
-"""`work_precision`: what an error costs, measured for any combination of methods."""
+"""`work_precision`: time and error of runs, measured for combinations of methods."""
 
 from __future__ import annotations
 
@@ -24,29 +24,29 @@ from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
 
-PROBE = 1e-6                                        # tolerance of the run whose mean step the default steps are multiples of
-STEPS = tuple(2.0**-k for k in range(-2, 5))        # those multiples
+PROBE = 1e-6                                        # tolerance of the run whose mean step defines the default steps
+STEPS = tuple(2.0**-k for k in range(-2, 5))        # default steps as multiples of it
 TOLERANCES = tuple(10.0**-k for k in range(3, 12))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WorkPrecision:
-    """What was measured.
+    """Measured times and errors of many settings.
 
     Attributes
     ----------
     system : system
     t_span : (float, float)
     rows : tuple of Row
-        One per way to simulate, failures included.
+        One entry for each setting, including failed runs.
     reference_error : float
-        Certified error of the reference; NaN where it was given without one. Errors below it say nothing.
+        Certified error of the reference; NaN if it has none. Measured errors below it are not significant.
     rounds : int
-        How often each was timed.
+        Number of timings of each run.
     complete : bool
         False after Ctrl-C.
     reference_caveats : tuple of str
-        What the certificate of the reference did not exclude, see `Reference.caveats`.
+        Sources of error that the certificate of the reference does not exclude, see `Reference.caveats`.
     """
 
     system: BaseSystem
@@ -58,9 +58,9 @@ class WorkPrecision:
     reference_caveats: tuple[str, ...] = ()
 
     def pareto(self) -> tuple[Row, ...]:
-        """The rows than which none is both faster and more accurate, from the fastest on.
+        """Pareto front: entries than which no other is both faster and more accurate, fastest first.
 
-        Errors below the reference's own count as that.
+        Errors below that of the reference count as equal to it.
         """
         front: list[Row] = []
         floor = np.nan_to_num(self.reference_error)
@@ -71,7 +71,7 @@ class WorkPrecision:
         return tuple(front)
 
     def to_csv(self, path: str | Path) -> Path:
-        """Write all rows as comma-separated values.
+        """Write all entries to a CSV file.
 
         Parameters
         ----------
@@ -80,7 +80,7 @@ class WorkPrecision:
         Returns
         -------
         Path
-            Where it was written.
+            The file.
         """
         table = io.StringIO(newline="")
         writer = csv.DictWriter(table, [*Setting._fields, *Row._fields[1:]])
@@ -90,7 +90,7 @@ class WorkPrecision:
         return Path(path)
 
     def to_dataframe(self) -> Any:
-        """All rows as a pandas.DataFrame, if pandas is installed."""
+        """All entries as a pandas.DataFrame; pandas must be installed."""
         try:
             import pandas
         except ImportError:
@@ -109,7 +109,7 @@ class WorkPrecision:
 
 
 def not_excluded(caveats: Iterable[str]) -> list[str]:
-    """Lines that say what was not excluded of the reference."""
+    """Lines on the errors that the certificate of the reference does not exclude."""
     return [f"  not excluded of the reference: {caveat}" for caveat in caveats]
 
 
@@ -138,47 +138,47 @@ def work_precision(
     progress: bool | Callable[[float], None] = False,
     rounds: int = 3,
 ) -> WorkPrecision:
-    """Measure time and error of all combinations of what is chosen.
+    """Measure time and error of all combinations of methods, steps and tolerances.
 
-    Time is what the core needs for a run that saves every step. All runs are made once, then all again, `rounds` times, and
-    the least time of each counts: so what else the machine does for a while slows all alike, and the least is hardly slowed.
-    Errors come from further runs, which go side by side in threads while nothing is timed.
+    The time of a run is that spent in the core when every step is saved. All runs are timed `rounds` times in turn, and the
+    minimum of each counts, which reduces the influence of other load. Errors come from separate runs in threads, during which
+    nothing is timed.
 
     Parameters
     ----------
     system : system
-        One of `zerodrift.systems`, or a `zerodrift.System`.
+        System or Mechanism, as in `simulate`.
     t_span : float or (float, float)
         End time, or start and end, in s.
     p0, v0 : array_like (nq,), (nv,), optional
-        Start; left out: the system's own.
+        Initial state; by default that of the system.
     formulations, integrators : iterable of str, optional
-        Left out: all there are that can take the system.
+        Names of methods; by default all that suit the system.
     steps : iterable of float, optional
-        Fixed steps in s, for every integrator. Left out: 4, 2, 1, 1/2 ... 1/16 times the mean step that the integrator of
-        highest order chooses at a tolerance of 1e-6.
+        Fixed steps in s, for every integrator. By default 4, 2, 1, 1/2 ... 1/16 times the mean adaptive step of the integrator
+        of highest order at a tolerance of 1e-6.
     tolerances : iterable of float, optional
-        rtol and atol, for the integrators that choose their steps. Left out: 1e-3, 1e-4 ... 1e-11.
+        Values of rtol = atol for integrators with adaptive steps. By default 1e-3, 1e-4 ... 1e-11.
     stabilizations, energy : iterable, optional
-        Values of `stabilization` and `energy` as `simulate` takes them. Left out: projection, and no energy correction.
+        Values of `stabilization` and `energy`, as in `simulate`. By default projection without energy correction.
     reference : Reference, Solution or callable, optional
-        What errors are measured against; left out: the best that `reference` certifies. Errors are measured at its times.
+        Motion to which runs are compared, at its times. By default the most accurate that `reference` can certify.
     direct : None or False
-        As in `simulate`. Left out: False, so that formulations differ.
+        As in `simulate`. The default False uses the matrices of each formulation, so that formulations differ.
     progress : bool or callable
         As in `simulate`.
     rounds : int
-        How often each run is timed.
+        Number of timings of each run.
 
     Returns
     -------
     WorkPrecision
-        A run that fails is a row, too, with its message.
+        Failed runs are included with their message.
 
     Raises
     ------
     Interrupted
-        On Ctrl-C; its `.solution` is the WorkPrecision of what was measured until then.
+        On Ctrl-C; its attribute `solution` is the WorkPrecision of the measurements so far.
 
     Examples
     --------
@@ -203,14 +203,14 @@ def work_precision(
         for fineness in _steps_and_tolerances(integrator, steps, tolerances)]
     combinations = [setting for setting in combinations if not settings.disagreement(setting.settings)]
     if not combinations:
-        raise ValueError("there is nothing to measure: fixed steps need `steps`, and `tolerances` an integrator that chooses its")
+        raise ValueError("at least one combination must be possible: steps, or tolerances with an integrator that adapts its steps")
     rounds = _check.count("rounds", rounds)
     reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
     return measured(Bench(system, span, p0, v0, reference, direct), combinations, rounds, progress)
 
 
 def measured(bench: Bench, combinations: Sequence[Setting], rounds: int, progress: Any = False) -> WorkPrecision:
-    """All combinations, `rounds` times in turn."""
+    """Time all combinations, `rounds` times in turn."""
     rows: dict[Setting, Row] = {}
     show, close = progress_of(progress)
     try:
@@ -227,12 +227,12 @@ def measured(bench: Bench, combinations: Sequence[Setting], rounds: int, progres
 
 
 def found(bench: Bench, rows: Iterable[Row], rounds: int, complete: bool = True) -> WorkPrecision:
-    """What was measured so far."""
+    """WorkPrecision of the entries measured so far."""
     return WorkPrecision(bench.system, bench.span, tuple(rows), bench.reference_error, rounds, complete, bench.caveats)
 
 
 def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> list[str]:
-    """The formulations that can take the system where it starts: some invert a mass matrix that may be singular."""
+    """Formulations that suit the system at its start: some invert a mass matrix that may be singular."""
     def can(name: str) -> bool:
         try:
             acceleration(system, *system._state_or_start(p0, v0, t=span[0]), span[0], name)
@@ -244,7 +244,7 @@ def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> li
 
 
 def _names(table: str, available: Iterable[str], chosen: Iterable[str] | None) -> list[str]:
-    """Those chosen of a table, or all."""
+    """Chosen names of a table, checked; all if none are chosen."""
     if isinstance(chosen, str):
         raise TypeError(f"{table} must be a list of names, not {chosen!r}")
     return [_check.choice(table, name, available) for name in (available if chosen is None else chosen)]
@@ -257,7 +257,7 @@ def _steps_and_tolerances(integrator: str, steps: Iterable[float], tolerances: I
 
 
 def default_steps(system, span, p0, v0) -> list[float]:
-    """Fixed steps around the mean one of an accurate run, in s."""
+    """Default fixed steps in s: multiples of the mean adaptive step of an accurate run."""
     method = max(settings.evaluating_integrators(system).values(), key=lambda card: card.order).name
     probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method,
                      formulation=next(iter(settings.formulations(system))))

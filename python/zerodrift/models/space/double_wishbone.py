@@ -1,4 +1,4 @@
-"""A quarter of a car on double wishbones, over a wavy road."""
+"""A quarter of a car on double wishbones, with a sinusoidal excitation of the tyre."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ POINTS = {"car": (0, 0, 0.5), "lower front": (0.15, 0.3, 0.2), "lower rear": (-0
 def double_wishbone(*, body_mass: float = 350.0, lower_mass: float = 3.0, upper_mass: float = 2.0, upright_mass: float = 8.0,
                     wheel_mass: float = 15.0, stiffness: float = 4e4, preload: float = 6000.0, damping: float = 3000.0,
                     tyre_stiffness: float = 2e5, amplitude: float = 0.02, rate: float = 12.0, gravity: float = 9.81) -> Mechanism:
-    """A car's corner that heaves, with two arms, an upright, a tie rod, a strut, and a wheel on a road.
+    """Double wishbone suspension: a quarter car that heaves, two arms, an upright, a tie rod, a strut, and a wheel.
 
     x is forward, y to the side, z up. The bodies are ``car``, ``lower arm``, ``upper arm``, ``upright`` and ``wheel``; the
     joints are ``heave``, ``lower bushings``, ``upper bushings``, ``lower ball``, ``upper ball``, ``tie rod`` and ``axle``; the
@@ -33,7 +33,7 @@ def double_wishbone(*, body_mass: float = 350.0, lower_mass: float = 3.0, upper_
     tyre_stiffness : float
         In N/m. It carries the weight of all as drawn, and pulls where the wheel would lift off.
     amplitude, rate : float
-        Of the road under the wheel, in m and rad/s.
+        Amplitude in m and angular frequency in rad/s of the ground under the wheel.
     gravity : float
         Downwards, along -z, in m/s^2.
 

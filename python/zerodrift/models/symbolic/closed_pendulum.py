@@ -12,7 +12,7 @@ from ...runs.settings import Projection
 from ...symbolics.define import symbolic
 from ...symbolics.system import SymbolicSystem
 
-LEAN = np.radians(75.0)     # of the first link at the start, as the last leans the other way but for a quarter
+LEAN = np.radians(75.0)     # initial inclination of the first link in rad
 
 
 def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, gravity: float = 9.81,
