@@ -13,7 +13,8 @@ from vocabulary import PAGES, PYTHON, C, texts
 PLACES = (PYTHON, C, PAGES, "README.md", "tests")
 GLOSSARY = "notebooks/glossary.md"      # it names the older words
 REFUSED = (
-    "general road", "direct road", r"(?<!\ba )(?<!\ba ``)\broads?\b", "rows that count", r"what is left of a", "natural units", "somebody",
+    "general road", "direct road", r"(?<!\ba )(?<!\ba ``)\broads?\b", "rows that count",
+    r"what is left of a", "natural units", "somebody",
     "nobody",
     r"\b(is|are|was|were|be|been) told",
     r"(?<!there )\b(is|are|was|were) no\b(?! (longer|more|less|slower|faster|larger|smaller|later))",

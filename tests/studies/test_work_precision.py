@@ -208,7 +208,7 @@ def test_one_line_per_method_and_the_front(result):
     ({"integrators": "rk4"}, TypeError, "integrators must be a list of names"),
     ({"steps": [0.0]}, ValueError, "steps must be greater than 0"),
     ({"rounds": 0}, ValueError, "rounds must be between 1"),
-    ({"steps": [], "integrators": ["rk4"]}, ValueError, "nothing to measure"),
+    ({"steps": [], "integrators": ["rk4"]}, ValueError, "at least one combination must be possible"),
     ({"reference": 3.0}, TypeError, "reference must be a Reference"),
     ({"stabilizations": ["glue"]}, ValueError, "stabilization must be one of"),
 ])

@@ -17,8 +17,8 @@ def quarter_car(*, body_mass: float = 2500.0, wheel_mass: float = 320.0, stiffne
     """Quarter car: wheel and body on springs and dampers, excited by a base that moves vertically by amplitude sin(rate t).
 
     It starts in static equilibrium, from which displacements are measured. The bodies are the base, called a
-    ``road``, ``wheel`` and ``body``, each on its own guide, ``body guide``, ...; the springs are ``tyre`` and ``suspension``, and the motor is
-    ``drive``. The tyre cannot lift off.
+    ``road``, ``wheel`` and ``body``, each on its own guide, ``body guide``, ...; the springs are ``tyre`` and ``suspension``,
+    and the motor is ``drive``. The tyre cannot lift off.
 
     Parameters
     ----------

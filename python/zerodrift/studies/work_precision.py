@@ -203,7 +203,7 @@ def work_precision(
         for fineness in _steps_and_tolerances(integrator, steps, tolerances)]
     combinations = [setting for setting in combinations if not settings.disagreement(setting.settings)]
     if not combinations:
-        raise ValueError("at least one combination must be possible: steps, or tolerances with an integrator that adapts its steps")
+        raise ValueError("at least one combination must be possible: steps, or tolerances with an integrator of adaptive steps")
     rounds = _check.count("rounds", rounds)
     reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
     return measured(Bench(system, span, p0, v0, reference, direct), combinations, rounds, progress)
