@@ -174,7 +174,7 @@ def test_solutions_can_be_kept():
     ens = zd.ensemble(pendulum, 0.1, parameters={"gravity": [5.0, 10.0]}, step=0.01, keep="solutions")
     assert ens[0] is ens[0]
     assert list(ens._ipython_key_completions_()) == ["link.angle"]
-    with pytest.raises(TypeError, match="not gone through"):
+    with pytest.raises(TypeError, match="an ensemble must not be iterated"):
         list(ens)
 
 
@@ -268,5 +268,5 @@ def test_keys_that_are_none():
     ens = zd.ensemble(pendulum, 0.1, parameters={"gravity": [5.0, 10.0]}, step=0.01)
     with pytest.raises(IndexError, match="there are 2 runs"):
         _ = ens[2]
-    with pytest.raises(TypeError, match="name of an output or the number of a run"):
+    with pytest.raises(TypeError, match="key of an ensemble must be"):
         _ = ens[0.5]
