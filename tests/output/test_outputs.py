@@ -134,7 +134,7 @@ def test_columns_that_every_run_has_may_be_asked_for(bar):
 
 @pytest.mark.parametrize(("outputs", "error", "sentence"), [
     (["C.forces"], ValueError, r"outputs\[0\] must name a measure or a variable of four-bar, not 'C.forces'; the clos"),
-    (["C.force", "crank.angle.x"], ValueError, r"outputs\[1\] must name a measure or a variable of four-bar, not 'crank.angle.x'"),
+    (["C.force", "crank.angle.x"], ValueError, r"outputs\[1\] must name a measure or a variable of four-bar, not 'crank.angle.x"),
     (["C.force.z"], ValueError, r"outputs\[0\] must name a measure or a variable of four-bar, not 'C.force.z'"),
     ([3], TypeError, r"outputs\[0\] must be a measure or the name of one, not 3"),
     ({"C.force"}, TypeError, "outputs must be a list of measures or their names"),
