@@ -266,7 +266,7 @@ def test_functions_that_make_no_systems():
 
 def test_keys_that_are_none():
     ens = zd.ensemble(pendulum, 0.1, parameters={"gravity": [5.0, 10.0]}, step=0.01)
-    with pytest.raises(IndexError, match="there are 2 runs"):
+    with pytest.raises(IndexError, match="index of a run must be below 2"):
         _ = ens[2]
     with pytest.raises(TypeError, match="key of an ensemble must be"):
         _ = ens[0.5]
