@@ -13,7 +13,7 @@ typedef struct zd_pattern {
 /* The order, and what is below the diagonal once fill is added. */
 typedef struct zd_ordering {
     int count;
-    int *place;             /* (count,) where each block row stands in the order */
+    int *place;             /* (count,) position of each block row in the order */
     int *size;              /* (count,) rows of each, in the order */
     int *begin;             /* (count + 1,) in the order: where the block rows begin that are below the diagonal in each column */
     int *row;               /* (begin[count],) their places, increasing in each column */

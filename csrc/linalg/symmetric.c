@@ -37,7 +37,7 @@ static void swap_both(int n, double *A, int first, int a, int b)
     for (int j = b + 1; j < n; j++) swap(row_a + j, row_b + j);
 }
 
-/* The largest entry of row r beside its diagonal, in what is left from `first` on, and its column. */
+/* Largest off-diagonal entry of row r in the reduced matrix, from `first` on, and its column. */
 static double largest_beside(int n, double *A, int first, int r, int *column)
 {
     const double *row = zd_triangle_row(n, A, r);

@@ -2,7 +2,7 @@
 
 #include "../linalg/small.h"
 
-/* A diagonal M: D in reciprocals, and nothing of L. Returns n, or the index of an entry that is not positive. */
+/* Factors a diagonal M: the reciprocals of D. Returns n, or the index of an entry that is not positive. */
 static int invert_diagonal(int n, const double *M, double *L)
 {
     for (int i = 0; i < n; i++) {

@@ -44,7 +44,7 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
     return zd_take_filled(arena, &point, sizeof point);
 }
 
-/* to <- from; returns whether that changed a bit */
+/* to <- from; returns true if any bit has changed */
 ZD_INLINE int replace(const int n, double *to, const double *from)
 {
     if (memcmp(to, from, (size_t)n * sizeof *to) == 0) return 0;

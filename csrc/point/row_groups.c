@@ -158,7 +158,7 @@ void zd_row_groups_subtract_weighted(const zd_row_groups *self, const double *C,
         FOR_SIZES(subtract, subtract_any(group, self->column, C, W, y, x), group, C, W, y, x)
 }
 
-/* `step` rows at once, which stand together on both sides */
+/* `step` rows at once, contiguous on both sides */
 ZD_INLINE void gather(const int step, const zd_row_groups *self, const double *a, const double *b, double *y)
 {
     const int rows = self->rows, *place = self->place;

@@ -112,7 +112,7 @@ static zd_piece weld_of(const zd_weighted *self, int b, int is_behind)
                       .is_diagonal = layout->is_diagonal[b], .copies = copies_of(layout, b), .is_weld = 1};
 }
 
-/* For bodies of the plane and of space, and two groups of as many rows; behind those, for one of them with itself. */
+/* Kernel of two pieces: for bodies in the plane and in space, and groups with equal numbers of rows; 0: none. */
 static int kernel_of(const zd_piece *a, const zd_piece *b)
 {
     const int is_plain = a->is_diagonal && a->copies == 1 && a->rows == b->rows;
@@ -140,7 +140,7 @@ static void list_pairs(zd_weighted *self, const int *piece, const int *member, i
         }
 }
 
-/* Pieces of the joints come first, those of welds stand behind all of them. `piece` has room for those of a clique. */
+/* Fills pieces and pairs: pieces of joints first, then those of welds. `piece`: temporary indices of the pieces of one clique. */
 static void fill(zd_weighted *self, const zd_pattern *pattern, int *piece)
 {
     const zd_layout *layout = self->layout;

@@ -1,6 +1,6 @@
-/* Between the core and Python stands a little C, as it costs a hundredth there: it copies the state and the terms between the core's memory,
- * which goes with the run, and Python's own, and notices whether the state has changed, and numbers that are not finite. The extension
- * module includes this text and has ZD_FINGERPRINT defined before it.
+/* Evaluation of systems written in Python. It copies the state and the terms between the core's memory, which is freed with the run, and
+ * that of Python, detects changes of the state, and terms that are not finite, at a hundredth of the cost in Python. The extension module
+ * includes this text with ZD_FINGERPRINT defined.
  */
 #ifndef ZD_PYTHON_EVALUATE_H
 #define ZD_PYTHON_EVALUATE_H
@@ -11,7 +11,7 @@
 
 const char *const zd_fingerprint = ZD_FINGERPRINT;
 
-/* to <- from; returns whether that changed a bit */
+/* to <- from; returns true if any bit has changed */
 static int replace(double *to, const double *from, int n)
 {
     if (memcmp(to, from, (size_t)n * sizeof *to) == 0) return 0;

@@ -13,7 +13,7 @@
 #include "explain.h"
 #include "start.h"
 
-/* The values of parameters, which are the initial ones where none are given. */
+/* Parameters as given, or the default ones. */
 static const void *complete(zd_given *given, const zd_card *card)
 {
     if (!given->given) *given = zd_initial(card);
@@ -55,8 +55,8 @@ int zd_direct_unit(const zd_system *system, const zd_settings *settings)
     return direct ? (int)direct->unit : -1;
 }
 
-/* Lays out everything a run has; `independent` has the system's sizes with as many constraints as count. Done twice: with an empty
- * arena to learn the size, then for good. */
+/* Allocates and initializes a run; `independent` is the system with its independent constraints only. Called twice, see workspace.h: to
+ * count bytes, then to assign addresses. */
 static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
 {
     zd_run nowhere, *here = zd_take(arena, sizeof *here), *run = here ? here : &nowhere;
@@ -72,7 +72,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     zd_variables dependent = zd_variables_of(motion, integrator, independent);
     zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent,
                     independent);
-    /* Also of a step that is made again, whose size is given, but whose run chose it. */
+    /* Also for a repeated step of given size in resampling, whose run had adaptive steps. */
     if (run->stepper.memory && integrator->aim && settings->atol > 0) integrator->aim(run->stepper.memory, settings->rtol, settings->atol);
     zd_safeguards_take(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
     run->loop = (zd_step_loop){
@@ -94,8 +94,8 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* The system with so many constraints and no more. A complement D or an embedding g of its own is left out: these are for all its
- * constraints, and only right where all of them count. */
+/* The system with `rows` constraints, of which `holonomic` are holonomic. Its own complement D and embedding g are left out: they are for
+ * all constraints, and right only if all of them are independent. */
 static zd_system with_rows(const zd_system *system, enum zd_on_singular on_singular, int rows, int holonomic)
 {
     if (rows == zd_constraints(system) && on_singular == ZD_STOP) return *system;
@@ -126,7 +126,7 @@ static int find_rank(zd_motion *motion, enum zd_on_singular on_singular)
     return status == ZD_CALLBACK ? status : zd_redundancy_find(motion->point, on_singular);
 }
 
-/* Laid out as if all constraints counted; and where some turn out to be redundant, again for those that are not. */
+/* Created for all constraints; and again for the independent ones, if some are found redundant. */
 zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
                     char *message, int size)
 {
@@ -152,7 +152,7 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
 void zd_run_free(zd_run *run)
 {
     if (run) zd_store_release(&run->motion.store);
-    zd_release(run);    /* it stands first in its own arena */
+    zd_release(run);    /* the run is at the start of its arena */
 }
 
 static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size)

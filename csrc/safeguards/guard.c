@@ -144,7 +144,7 @@ ZD_INLINE int evaluate_end(zd_guard *guard, int64_t next_step)
     zd_motion *motion = guard->motion;
     zd_point *point = motion->point;
     int status = zd_point_need_times_A(point, 0);
-    /* The next step begins with this acceleration, so that it costs nothing. */
+    /* The next step needs this acceleration anyway. */
     if (!status && (guard->watches_step || next_step >= guard->next_look)) status = zd_motion_accelerate(motion);
     if (!status && point->terms.A) zd_point_rate(point, point->v, guard->rate);
     return status;

@@ -105,7 +105,7 @@ static zd_structure take_structure(zd_arena *arena, const holding *it, int rows)
 
 /* ---- terms ---- */
 
-/* The inner system writes its rows behind its own scratch: C, then A. */
+/* The inner system writes C, then A, after its own scratch. */
 static zd_terms inner_terms(const zd_system *inner, const zd_terms *out)
 {
     zd_terms terms = *out;
@@ -119,7 +119,7 @@ static void copy(double *to, const double *from, int entries)
     if (entries) memcpy(to, from, (size_t)entries * sizeof *to);
 }
 
-/* Row i of A (coordinates, n) of a body; A NULL: the identity. Returns what stands behind it. */
+/* Writes row i of A (coordinates, n) of a body; A NULL: the identity. Returns the end of the row. */
 static double *write_row(int n, const double *A, int i, double *row)
 {
     for (int j = 0; j < n; j++) row[j] = A ? A[i * n + j] : i == j;     /* C = dPhi/dp A */

@@ -58,7 +58,7 @@ typedef long long zd_eight_bits __attribute__((vector_size(64)));
 #define zd_real ZD_NAMED(zd_real_of)
 #define zd_stored ZD_NAMED(zd_stored_of)
 #define zd_condition ZD_NAMED(zd_condition_of)
-/* Numbers beside each other: of the lanes, or angles of one trajectory. */
+/* Vectors of numbers: of the lanes, or of several angles of one trajectory. */
 #define zd_vector ZD_NAMED(zd_vector_of)
 #define zd_vector_stored ZD_NAMED(zd_vector_stored_of)
 #define zd_vector_words ZD_NAMED(zd_vector_words_of)

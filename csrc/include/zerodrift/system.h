@@ -155,53 +155,51 @@ typedef struct zd_operations {
     void (*add_weighted)(const void *data, const zd_terms *terms, const double *W, const int *at, double *S);
 } zd_operations;
 
-/* Bodies in the plane that are joined by pins alone, and of which nothing but their weight asks anything: all that there is to know of
- * them, so that the core can make several trajectories at once by itself. It says the same as the structure, in which each body is a block
- * of two coordinates, or of three with its angle, and each pin a group of two rows, in the same order. */
+/* Plane bodies joined by revolute joints (pins), under gravity only: the complete data of such a system, by which the core computes several
+ * trajectories at once. Must agree with the structure, in which each body is a block of two coordinates, or three with its angle, and each
+ * pin a group of two rows, in the same order. */
 typedef struct zd_pinned {
     int bodies, pins;
-    const int *at;              /* (bodies + 1,) where the coordinates of each begin: x and y of its mass centre, and its angle */
+    const int *at;              /* (bodies + 1,) offset of the coordinates of each body: x and y of its mass centre, and its angle */
     const int *first, *second;  /* (pins,) bodies; -1: the ground */
-    /* 2 and 6 for each body and pin: 1 / mass, 1 / inertia, 0 without an angle; from mass centre to pin in the axes of the first body and
-     * of the second, on the ground from its origin; and what Phi = x2 + w - x1 - u is where the pin is closed.
-     * Behind all of them the two of gravity. */
+    /* 2 per body: 1 / mass, 1 / inertia (0 without an angle); 6 per pin: vectors from mass centre to pin in the axes of the first and of the
+     * second body (on the ground from its origin), and the value of Phi = x2 + w - x1 - u when the pin is closed; 2 of gravity. */
     const double *numbers;
 } zd_pinned;
 
 /* The equations with their constraints eliminated in closed form: accelerations and corrections without a leading matrix.
  *
- * An order of elimination solves the rows of C, one or a few at a time, for as many velocities: C x = rhs is x = x0 + D a with a of the
- * degrees of freedom, and D^T M D a = D^T (force - M x0). So there are two kinds of pivots, which are written where `pivots` is not NULL:
+ * An order of elimination solves the rows of C, one or a few at a time, for as many velocities: the solution of C x = rhs is x = x0 + D a,
+ * with a (nv - m,) from D^T M D a = D^T (force - M x0). So there are two kinds of pivots, written if `pivots` is not NULL:
  *
- *     (solves,)       determinants of what each set of rows is solved with, as they are
- *     (nv - m,)       of D^T M D, each as the share that it is of its diagonal entry: positive, 1 where nothing was taken from that
+ *     (solves,)       determinants of the matrices of the sets of rows
+ *     (nv - m,)       relative pivots of D^T M D: positive, 1 if the elimination has not changed the diagonal entry
  *
- * Functions return 0, or anything else where they do not know; then, and where a pivot says so, the core does without them. They are pure. */
+ * Functions are pure, and return 0, or any other value if they fail; then, or if pivots are too small, the core takes the matrix path. */
 typedef struct zd_elimination {
     int solves;             /* number of sets of constraints that are solved simultaneously */
-    const int *solve;       /* (m,) which of them has the k-th of these rows and columns */
+    const int *solve;       /* (m,) set of the k-th of these rows and columns */
     const int *row, *column;    /* (m,) rows of C, and the velocities that they are solved for; each row once, each velocity at most once */
-    /* vdot at the state, with `added` (m,) on the right side of (6), NULL: zero. pdot is written by systems with A alone; lambda, power and
-     * pivots may be NULL: not wanted. The power is that of (28): ZD_POWER, and what moving constraints do, lambda^T Phi_t. */
+    /* vdot at the state, with `added` (m,) added to the right-hand side of (6), NULL: zero. pdot is written by systems with A only; lambda,
+     * power and pivots may be NULL: not requested. The power is that of (28): ZD_POWER, and that of moving constraints, lambda^T Phi_t. */
     int (*accelerate)(const void *data, const double *t, const double *p, const double *v, const double *added, double *pdot, double *vdot,
                       double *lambda, double *power, double *pivots);
-    /* Phi (3), and Newton's steps in the metric of M, dp (nq,) of (25a) ... (27a) and dv (nv,) of (25b) ... (27b), both at (t, p, v) and to
-     * be subtracted. NULL where there are no constraints. */
+    /* Phi (3), and Newton corrections in the metric of M, dp (nq,) of (25a) ... (27a) and dv (nv,) of (25b) ... (27b), both at (t, p, v), to
+     * be subtracted. NULL without constraints. */
     int (*correct)(const void *data, const double *t, const double *p, const double *v, double *Phi, double *dp, double *dv);
-    /* Both at once, for the end of a step: Phi, and where every |Phi| is as small as `allowed` (mh,), v less that dv, and what
-     * accelerate() has there with nothing added. Else only dp, v stays, and it returns ZD_NO_CONVERGENCE. NULL:
-     * the core calls both of the others. */
+    /* Both at once, for the end of a step: Phi, and if every |Phi| is at most `allowed` (mh,), the corrected v - dv and the results of
+     * accelerate() there with `added` zero. Otherwise dp only, with unchanged v and ZD_NO_CONVERGENCE. NULL: the core calls both other
+     * functions. */
     int (*land)(const void *data, const double *t, const double *p, double *v, const double *allowed, double *Phi, double *dp, double *pdot,
                 double *vdot, double *lambda, double *power, double *pivots);
-    /* The same for a state in the velocities that are not solved for, and where dp is wanted in as many coordinates: with `added` as
-     * above, and with steps that keep these instead of Newton's shortest, so that the v left is all that follows from them. D (m, nv - m),
-     * which goes with the pivots and may be NULL without them: dv of the velocities solved for to dv of each of the others,
-     * in their order. */
+    /* The same for formulations in independent velocities, which are those not solved for: corrections change the dependent coordinates and
+     * velocities only, instead of being shortest in the metric of M; `added` as above. D (m, nv - m), written together with the pivots, NULL
+     * without them: derivatives of the velocities solved for with respect to the others, in their order. */
     int (*embed)(const void *data, const double *t, const double *p, double *v, const double *added, const double *allowed, double *Phi,
                  double *dp, double *D, double *pdot, double *vdot, double *lambda, double *power, double *pivots);
 } zd_elimination;
 
-/* The processors' vector units: a processor that has one has those before it. */
+/* Vector units: a processor that has one has all before it, too. */
 enum zd_unit {
     ZD_BASELINE,            /* instructions of every processor of the architecture; products and sums are not contracted */
     ZD_AVX2,                /* AVX2 and FMA: contracted */
@@ -210,20 +208,20 @@ enum zd_unit {
 
 /* Functions for one unit and number of lanes. */
 typedef struct zd_direct {
-    enum zd_unit unit;      /* that they are compiled for */
-    int lanes;              /* trajectories at once, 1, 2, 4 or 8: entries of every array come in groups of so many, t and the doubles of `data`,
-                             * too; and what the functions return has a bit for each trajectory that they do not know */
-    int orders;             /* at most 4: the first whose pivots are large enough is taken, which depends on the state alone */
+    enum zd_unit unit;      /* the unit that they are compiled for */
+    int lanes;              /* SIMD lanes, trajectories per call, 1, 2, 4 or 8: each number of every array, of t and of `data` is a group of so
+                             * many; the value returned has a bit for each trajectory that failed */
+    int orders;             /* at most 4: the first with sufficiently large pivots is used, which depends on the state only */
     const zd_elimination *order;    /* (orders,) */
-    int embeddings;         /* at most 4, for formulations in independent velocities: the one is taken that solves for all but these */
-    const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and land(); of one lane alone */
+    int embeddings;         /* at most 4, for independent velocities: the one that solves for the dependent ones is used */
+    const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and land(); for one lane only */
 } zd_direct;
 
-/* Taylor coefficients of the motion from (t, p, v) on, up to t^order: p_series (order + 1, nq), v_series (order + 1, nv), the first ones
- * being p and v; and work (order + 1,), NULL: not wanted, of the energy that comes in (28), the first one being 0. Not 0:
- * there are none here. */
+/* Taylor coefficients of the motion from (t, p, v), up to the given order: p_series (order + 1, nq), v_series (order + 1, nv), the first
+ * ones being p and v; and work (order + 1,), NULL: not requested, of the energy input in (28), the first one being 0. Returns 0; any other
+ * value: not available at this state. */
 typedef struct zd_series {
-    int scratch;            /* doubles that a call needs, for each order and one more */
+    int scratch;            /* doubles of scratch memory per order; a call needs order + 1 times as many */
     int (*evaluate)(const void *data, int order, double t, const double *p, const double *v, double *p_series, double *v_series,
                     double *work, double *scratch);
 } zd_series;
