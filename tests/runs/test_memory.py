@@ -65,7 +65,7 @@ def test_a_record_that_outgrows_memory_keeps_what_was_computed():
         print(len(sol.t) > 1000, bool(np.isfinite(sol.p).all()), sol.success, sol.message.startswith("stopped by MemoryError"))
     """, 48)
     lines = output.splitlines()
-    assert "saved rows need" in lines[0]
+    assert "samples need" in lines[0]
     assert lines[1] == "True True False True"
 
 

@@ -39,7 +39,7 @@ def test_printed_systems_of_all_kinds():
     twice = zd.System(["x", "y"], mass=np.eye(2), units=["m", "m"], p0=[1.0, 0.0], parameters={"L": 1.0},
                       constraints=lambda p, L: np.array([p @ p - L, 2 * (p @ p - L)]))
     assert "x [m], y [m]" in str(twice)
-    assert "freedom       1, as 1 rows follow from others at the start" in str(twice)
+    assert "freedom       1, redundant constraints at the start: 1" in str(twice)
     assert "L = 1.0" in str(twice)
     nowhere = zd.System(["x", "y"], mass=np.eye(2), constraints=lambda p: np.array([p @ p - 1.0]))
     assert "freedom       at least 1" in str(nowhere)

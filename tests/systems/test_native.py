@@ -102,7 +102,7 @@ def test_a_library_may_be_overwritten_while_it_is_used(library, tmp_path):
     before = motion(system)
     copy.write_bytes(b"something else")
     assert_same_bits(motion(system), before)
-    with pytest.raises(ValueError, match=r"pendulum\.so is no shared library"):
+    with pytest.raises(ValueError, match=r"pendulum\.so must be a shared library"):
         pendulum(copy)
 
 

@@ -55,8 +55,8 @@ def test_a_symbolic_parameter_has_a_name_of_its_own(name):
     ([1, 2], TypeError, r"parameters must be a dict of values by name, not \[1, 2\]"),
     ("m", TypeError, "parameters must be a dict of values by name, not 'm'"),
     ({1: 2.0}, TypeError, "parameters must have strings for names, not 1"),
-    ({"m": "2.0"}, TypeError, "parameter 'm' must be a number, an array of numbers or an object that is no string, not '2.0'"),
-    ({"m": np.array(["2.0"])}, TypeError, "parameter 'm' must be a number, an array of numbers or an object that is no string"),
+    ({"m": "2.0"}, TypeError, "parameter 'm' must be a number, an array of numbers or an object except a string, not '2.0'"),
+    ({"m": np.array(["2.0"])}, TypeError, "parameter 'm' must be a number, an array of numbers or an object except a string"),
     ({"m": MASKED}, ValueError, "parameter 'm' must have no masked entries"),
 ])
 def test_what_are_no_parameters(parameters, error, message):

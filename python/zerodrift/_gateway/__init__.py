@@ -1,6 +1,6 @@
-"""The one door between Python and the C core: nothing outside this package touches ``ffi`` and ``lib``.
+"""Interface between Python and the C core: only this package uses ``ffi`` and ``lib``.
 
-Its module `mechanisms` is imported by whoever makes mechanisms, and by nobody else.
+Its modules of mechanisms are imported by `zerodrift.mechanisms` alone.
 """
 
 import importlib

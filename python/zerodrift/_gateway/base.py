@@ -1,4 +1,4 @@
-"""What all of the gateway shares: tables, statuses and their errors, and the check of memory that is handed to the core."""
+"""Shared parts of the gateway: the core's tables, its statuses as exceptions, and checks of arrays passed to the core."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def set_quaternions(system: Any, places: Sequence[int]) -> Any:
 
 
 def is_length(variable: Variable) -> bool:
-    """Whether a variable is a length or the rate of one: all are, but pure numbers and the rates of these."""
+    """True if a variable is a length or the rate of one: all variables are, except pure numbers and their rates."""
     return variable.unit not in {*DIMENSIONLESS, *(f"{unit}/s" for unit in DIMENSIONLESS), "1/s"}
 
 
@@ -124,7 +124,7 @@ def cards(table: str) -> tuple[Card, ...]:
 
 
 def default(table: str) -> str:
-    """The name of the row of a table of the core that is taken where nothing else is asked for."""
+    """Name of the default entry of a table of the core."""
     return cards(table)[lib.zd_default_row(TABLES[table])].name
 
 
@@ -191,7 +191,7 @@ def row_named(table: str, name: str) -> int:
 
 
 def clash(table: str, name: str, values: Sequence[float]) -> str:
-    """What is wrong with parameters of a row of a table of the core, as a sentence; nothing where they go together."""
+    """Error message for the parameters of an entry of a table of the core; empty if they are consistent."""
     message = ffi.new("char[]", MESSAGE_SIZE)
     row, given = row_named(table, name), ffi.new("zd_given *", {"given": 1, "value": values})
     return text(message) if lib.zd_check_given(TABLES[table], row, given, message, MESSAGE_SIZE) else ""

@@ -17,7 +17,7 @@ NOT_BEGUN, BY_ITSELF, IN_LANES, UNUSUAL = lib.ZD_NOT_BEGUN, lib.ZD_BY_ITSELF, li
 
 
 class Stop:
-    """What tells runs in other threads that nobody waits for them any more."""
+    """Flag that requests runs in other threads to stop."""
 
     def __init__(self) -> None:
         self.c = ffi.new("int *")
@@ -30,7 +30,7 @@ class Stop:
 
 
 class Assembly(NamedTuple):
-    """How starts are made consistent: settings for the core, and which coordinates and velocities are held."""
+    """Settings for making starts consistent: options of the core, and indices of held coordinates and velocities."""
 
     options: Any
     hold_p: list[int]
@@ -38,30 +38,30 @@ class Assembly(NamedTuple):
 
 
 class Happened(NamedTuple):
-    """Where the events of k runs have happened: the first of each, as many as there was room for."""
+    """Times and states of the events of k runs: the first occurrences of each event, up to `room`."""
 
-    count: np.ndarray       # (k, events): how often each has
+    count: np.ndarray       # (k, events): number of occurrences
     t: np.ndarray           # (k, events, room)
     p: np.ndarray | None    # (k, events, room, nq); None: not wanted
     v: np.ndarray | None    # (k, events, room, nv)
 
     def of(self, run: int) -> tuple[tuple[np.ndarray, ...], ...]:
-        """Those of one run: for each event t (n,); and likewise p (n, nq) and v (n, nv), where they were wanted."""
+        """Occurrences in one run: for each event t (n,), and p (n, nq) and v (n, nv) if requested."""
         return tuple(tuple(np.array(where[run, event, :count]) for event, count in enumerate(self.count[run].tolist()))
                      for where in (self.t, self.p, self.v) if where is not None)
 
 
 class BatchResults(NamedTuple):
-    """What came of k runs."""
+    """Results of k runs."""
 
-    columns: dict[str, np.ndarray]      # "t" (k, rows), "p" (k, rows, nq), and so on: those that were wanted
-    rows: np.ndarray                    # (k,): saved of each
+    columns: dict[str, np.ndarray]      # "t" (k, samples), "p" (k, samples, nq), and so on: requested ones
+    rows: np.ndarray                    # (k,): number of samples of each run
     status: np.ndarray                  # (k,): of the core
-    way: np.ndarray                     # (k,): how each was made
-    statistics: np.ndarray              # (k,): as the core counts
+    way: np.ndarray                     # (k,): way in which each run was computed
+    statistics: np.ndarray              # (k,): counts of the core
     kinetic: np.ndarray                 # (k,): the largest energy seen, J
-    energy_error: np.ndarray            # (k,): the largest |Psi_E| of the saved rows, J
-    measured: dict[str, np.ndarray]     # what `MEASURED` has of each, (k,), where it was wanted
+    energy_error: np.ndarray            # (k,): maximum |Psi_E| over the samples, J
+    measured: dict[str, np.ndarray]     # (k,): quantities of `MEASURED`, if requested
     events: Happened | None             # where events were looked for
     messages: list[str]                 # (k,): of those that did not reach their end
 
@@ -77,14 +77,14 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
               capacity: int, wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None, *,
               lanes: bool = True, family: Any = None, count: int | None = None, outputs: Any = None,
               events: Watcher | None = None, room: int = 0, measured: bool = False) -> BatchResults:
-    """Runs of systems that have their own data (k, size), from their own starts p0 (k, nq), v0 (k, nv).
+    """Execute runs of systems with their own data (k, size), from their own starts p0 (k, nq), v0 (k, nv).
 
-    The options are one `zd_settings` for all, or a list with one for each, which then are no runs in lanes.
-    Events have to be ones that the core knows; there is room for so many of each, of their states, too, where "p" is wanted.
+    `options` is one `zd_settings` for all runs, or a list with one per run; runs of a list do not use SIMD lanes.
+    Events must be evaluated by the core. Up to `room` occurrences of each are stored, with their states if "p" is requested.
 
-    Where data is None, that of the core serves all; it consists of `size` doubles, or of something else where that is 0.
-    Of a `family` each run has its own system; where p0 is None, `count` of them find their starts. `outputs` are measures that
-    are recorded. The interpreter is free for other threads meanwhile. The system must not be written in Python.
+    If data is None, all runs use the data of the core: `size` doubles, or other data if `size` is 0.
+    With a `family` each run has its own system. If p0 is None, `count` runs compute their starts. `outputs` are recorded
+    measures. The interpreter lock is released during the call. The system must not be written in Python.
     """
     k = count if p0 is None else len(p0)
     shapes = {"p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "outputs": (outputs.width if outputs else 0,)}
@@ -135,7 +135,7 @@ def _room_for(events: Watcher, core: CoreSystem, k: int, room: int, *, with_stat
 
 
 def error_name(status: int) -> str:
-    """What the exception is called that stands for a failed status."""
+    """Name of the exception for a failed status."""
     return ERRORS[status].__name__
 
 
@@ -160,5 +160,5 @@ def derive(address: int, data: np.ndarray) -> None:
 
 
 def has_lanes(unit: str) -> bool:
-    """Whether the compiler of the core could write functions for several trajectories at once."""
+    """True if the core was compiled with SIMD lanes for this vector unit."""
     return bool(lib.zd_lanes_of_unit({"baseline": lib.ZD_BASELINE, "avx2": lib.ZD_AVX2, "avx512": lib.ZD_AVX512}[unit]))

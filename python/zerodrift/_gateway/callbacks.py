@@ -16,12 +16,11 @@ from .systems import CoreSystem
 
 
 class Evaluator:
-    """Calls the callables of a system when the core evaluates it, in one run.
+    """Evaluation of a system by its callables, called by the core in one run.
 
-    Callables may keep what they are handed for as long as they like, and a debugger what it finds in the frames of an error. So
-    nothing here is a view of the core's memory, which is freed with the run: terms are written into arrays that belong to Python,
-    from which the core copies them, and each p and v has an object of bytes of its own, which nobody can change. An error that
-    `write` raises is kept, and the run stops.
+    Callables may store their arguments, and debuggers the frames of an error, beyond the end of the run. So no argument is a view
+    of the core's memory, which is freed with the run: terms are written into arrays owned by Python, from which the core copies
+    them, and each p and v is a separate immutable copy. An exception that `write` raises is stored, and the run stops.
     """
 
     def __init__(self, core: PythonCore) -> None:
@@ -61,7 +60,7 @@ class Evaluator:
 
 
 def _read_only(memory: Any) -> np.ndarray:
-    """A copy of the doubles in a buffer; it shares the memory of an object of bytes, so that nobody can make it writable."""
+    """Copy of the doubles in a buffer, backed by a `bytes` object, so that it cannot be made writable."""
     return np.frombuffer(memory[:])
 
 
@@ -103,7 +102,7 @@ class Watcher:
 
     @property
     def error(self) -> BaseException | None:
-        """What an event raised, or a measure that is not of the system which is run."""
+        """Exception that an event raised, or a measure of another system than the one that is run."""
         return self._error or (self._of.error if self._of else None)
 
     @error.setter
@@ -119,7 +118,7 @@ class Watcher:
         return tuple(np.array(ffi.unpack(pointer, *shape)) for pointer, shape in zip((p, v), self._shapes, strict=True))
 
     def arrays(self, event: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Where an event was found: t (k,), p (k, nq), v (k, nv)."""
+        """Times and states of the occurrences of an event: t (k,), p (k, nq), v (k, nv)."""
         columns = tuple(zip(*self.found[event], strict=True)) or ((), (), ())
         return tuple(np.array(column).reshape(-1, *shape) for column, shape in zip(columns, ((), *self._shapes), strict=True))
 
@@ -173,5 +172,5 @@ class PythonCore(CoreSystem):
 
     @property
     def error(self) -> BaseException | None:
-        """What a callable raised."""
+        """Exception that a callable raised; None: none did."""
         return self.evaluator.error if self.evaluator else None

@@ -1,4 +1,4 @@
-"""Names of rows of C, which the core asks for where it tells of one: then they are looked up, and not before."""
+"""Names of constraints, which the core requests for its messages; they are looked up at that time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .base import Variable
 
 
 class RowNames:
-    """What the rows of a system are called; it is the system that has the names, for as long as there is one."""
+    """Names of the constraints of a system, read from the system while it exists."""
 
     def __init__(self) -> None:
         self.handle = ffi.new_handle(self)

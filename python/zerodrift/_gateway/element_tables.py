@@ -1,4 +1,4 @@
-"""What gauges are used for, in the plane and in space alike: rows, forces and measures, as the core is told them."""
+"""Constraints, forces and measures along marker quantities, in the plane and in space, as tables for the core."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Observed(NamedTuple):
 
 
 class Row(NamedTuple):
-    """What a row of C is: of a joint (component: which row of its kind), or of a relation."""
+    """Origin of a constraint: a joint (component: index among its constraints), or a relation."""
 
     owner: str                  # "joint" or "relation"
     index: int
@@ -61,19 +61,19 @@ class Row(NamedTuple):
 
 
 def rows_of(rows: Any, m: int) -> tuple[Row, ...]:
-    """What each row of C is, of a `zd_row_owner *`."""
+    """Origin of each constraint, from a `zd_row_owner *`."""
     return tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
                  for i in range(m))
 
 
 def law_sizes(tables: Any) -> dict[int, tuple[int, int]]:
-    """How many gauges each law is handed, and how many numbers it gives."""
+    """Number of marker quantities that each user function takes, and number of values that it returns, by its index."""
     sizes = {effort.law: (len(effort.inputs), 1) for effort in tables.efforts if effort.law >= 0}
     return sizes | {row.law: (len(row.gauges), len(row.gauges) + 3) for row in tables.relations if row.law >= 0}
 
 
 def written_uses(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
-    """What a `zd_uses` is filled with, and the words that have to live as long as what is made from it."""
+    """Fields of a `zd_uses`, and the words that must live as long as the objects made from it."""
     terms: list[tuple[int, float]] = []
     relations, efforts = [], []
     for row in tables.relations:

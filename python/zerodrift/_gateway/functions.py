@@ -104,9 +104,9 @@ def load_library(path: str | Path) -> ctypes.CDLL:
 
 
 def load_data(data: bytes, otherwise: str | Path | None = None, *, copied: bool = True) -> ctypes.CDLL:
-    """A shared library that is these bytes, from a copy that nobody else can change; where that fails, from a path.
+    """Load a shared library from its bytes, by a copy that other users cannot change; if that fails, from a path.
 
-    `copied` False: from the path at once, where it is known that nobody changes what is there.
+    `copied` False: from the path directly; the file there must not change.
     """
     digest = fingerprint(data)
     if digest not in _loaded:
@@ -148,12 +148,12 @@ def _content(path: Path) -> bytes:
 
 
 def digest_of(path: Path) -> str:
-    """What a file holds, as a hash."""
+    """Hash of the content of a file."""
     return fingerprint(_content(path))
 
 
 def address_of(library: ctypes.CDLL, symbol: str) -> int:
-    """Where a symbol of a library is; ValueError where there is none."""
+    """Address of a symbol of a library; ValueError if it is missing."""
     return ctypes.addressof(ctypes.c_char.in_dll(library, symbol))
 
 
@@ -175,7 +175,7 @@ def in_library(path: str | Path, symbol: Any) -> Function:
     try:
         library = load_library(path)
     except OSError as error:
-        raise ValueError(f"{path} is no shared library that can be loaded here: {error}") from None
+        raise ValueError(f"{path} must be a shared library that can be loaded here: {error}") from None
     try:
         version = ctypes.c_int.in_dll(library, "zd_interface_version").value
     except ValueError:
@@ -287,7 +287,7 @@ def _numba_name(kind: Any) -> str:
 
 
 def _numba_origin(function: Any) -> Any:
-    """How another process gets the same function: by importing it, or by compiling the Python function again."""
+    """Origin from which another process obtains the same function: an import, or the Python function to compile again."""
     python = function.__wrapped__
     try:
         found = _imported(python.__module__, python.__qualname__)
@@ -306,7 +306,7 @@ def _imported(module: str, name: str) -> Any:
 
 
 def numba_signature() -> Any:
-    """What to hand to `numba.cfunc`; see `zerodrift.native`."""
+    """Signature for `numba.cfunc`; see `zerodrift.native`."""
     try:
         from numba import types
     except ImportError:

@@ -21,7 +21,7 @@ class Reading(NamedTuple):
 
 
 class KnownEvent(NamedTuple):
-    """What the core needs to evaluate an event."""
+    """Event that the core evaluates."""
 
     readings: tuple[Reading, ...]
     value: float                        # which it reaches
@@ -30,7 +30,7 @@ class KnownEvent(NamedTuple):
 
     @property
     def is_measured(self) -> bool:
-        """Whether a measure is read."""
+        """True if the event reads a measure."""
         return any(reading.what == MEASURE for reading in self.readings)
 
 

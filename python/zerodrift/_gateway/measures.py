@@ -23,7 +23,7 @@ class Named(NamedTuple):
 
 
 class Measuring:
-    """What a `CoreSystem` knows of its measures; they are called by their numbers."""
+    """Measures of a `CoreSystem`, identified by their indices."""
 
     c: Any
     nq: int
@@ -43,7 +43,7 @@ class Measuring:
         raise NotImplementedError
 
     def measure_size(self, index: int) -> int:
-        """How many components a measure has."""
+        """Number of components of a measure."""
         return self.c.measures.measure[index].size
 
     def measure_depends(self, index: int) -> str:
@@ -97,7 +97,7 @@ class Components(NamedTuple):
 
 def components(read: Any, mechanism: Any, core: Measuring, width: int, p: np.ndarray, v: np.ndarray,
                which: Sequence[tuple[int, int]]) -> Components:
-    """Those by the numbers of their measures and their own, which have to be measures of positions or velocities."""
+    """Components given by (measure, component) indices; the measures must depend on positions or velocities only."""
     for measure, _ in which:
         if core.measure_depends(measure) == "accelerations":
             raise core._lacks(measure)
@@ -123,7 +123,7 @@ class Outputs:
 
     @property
     def error(self) -> BaseException | None:
-        """What was raised while they were recorded; what the system that is run raised, that one knows."""
+        """Exception raised while measures were recorded, except by the system that is run, which stores its own."""
         return self._of.error if self._of else None
 
     def split(self, rows: np.ndarray) -> list[np.ndarray]:

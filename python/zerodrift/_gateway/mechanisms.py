@@ -99,7 +99,7 @@ class Gauge(NamedTuple):
 
 
 class Tables(NamedTuple):
-    """All that the core is told of a mechanism."""
+    """Tables from which the core makes a mechanism."""
 
     bodies: Sequence[Body]
     joints: Sequence[Joint] = ()
@@ -111,7 +111,7 @@ class Tables(NamedTuple):
 
 
 class Coordinate(NamedTuple):
-    """What an entry of p and of v is: "x", "y" or "angle" of a body, or "displacement" of the joint that carries it."""
+    """Meaning of an entry of p and of v: "x", "y" or "angle" of a body, or "displacement" of its inboard joint."""
 
     body: int
     kind: str
@@ -177,18 +177,18 @@ class MechanismCore(CoreSystem):
 
     @functools.cached_property
     def rows(self) -> tuple[Row, ...]:
-        """What each row of C is, holonomic ones first."""
+        """Origin of each constraint, holonomic ones first."""
         return rows_of(lib.zd_mechanism_rows(self._mechanism), self.m)
 
     @functools.cached_property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """What each entry of p is."""
+        """Meaning of each entry of p."""
         coordinates = lib.zd_mechanism_coordinates(self._mechanism)
         return tuple(Coordinate(coordinates[i].body, COORDINATES[coordinates[i].kind]) for i in range(self.nq))
 
     @property
     def motions(self) -> tuple[Coordinate, ...]:
-        """What each entry of v is the rate of."""
+        """Coordinate whose rate each entry of v is."""
         return self.coordinates
 
     @property
@@ -230,7 +230,7 @@ class MechanismCore(CoreSystem):
 
     @property
     def error(self) -> BaseException | None:
-        """What a law raised."""
+        """Exception that a user function raised; None: none did."""
         return self._owner.error if self._owner else None
 
     def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
@@ -262,7 +262,7 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, 
 
 
 def written_tables(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
-    """What a `zd_tables` is filled with, and the words that have to live as long as what is made from it."""
+    """Fields of a `zd_tables`, and the words that must live as long as the objects made from it."""
     bodies, joints = ffi.new("zd_body[]", list(tables.bodies)), ffi.new("zd_joint[]", list(tables.joints))
     gauges = ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
     uses, words = written_uses(tables, has_laws, laws_know_time)

@@ -88,9 +88,9 @@ class NativeCore(CoreSystem):
 
 
 def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
-    """What a compiled evaluation does wrong at (0, p, v), as a sentence; nothing where it is right.
+    """Error message for a compiled evaluation at (0, p, v); empty if it is correct.
 
-    It is to write the terms it is said to have, all of each, and nothing else.
+    It must write all entries of the terms that it declares, and no other memory.
     """
     shapes = {name: core.stored(name) for name in TERMS} | {"scratch": (core.c.scratch,)}
     if core.c.structure:        # then there is no D, which would be dense

@@ -1,4 +1,4 @@
-"""Structures of systems: as the core is told of them, and where the entries of packed matrices belong."""
+"""Block structures of systems: their tables for the core, and the indices of packed matrix entries."""
 
 from __future__ import annotations
 
@@ -58,12 +58,12 @@ class Packing:
         return c, (c, kept)
 
     def places(self, name: str) -> list[int]:
-        """Where in the dense matrix, row by row, each stored entry stands."""
+        """Index of each stored entry in the dense row-major matrix."""
         rows, columns = self._places[name]
         return (rows * self.shapes[name][1] + columns).tolist()
 
     def size(self, name: str) -> int:
-        """How many entries are stored of A, M or C."""
+        """Number of stored entries of A, M or C."""
         return self.offsets[name][-1]
 
     def expand(self, name: str, packed: np.ndarray) -> np.ndarray:
@@ -73,7 +73,7 @@ class Packing:
         return dense
 
     def pack(self, name: str, dense: np.ndarray) -> np.ndarray:
-        """What is stored of a matrix; ValueError where it has an entry elsewhere."""
+        """Stored entries of a dense matrix; ValueError if it is nonzero elsewhere."""
         packed = dense[self._places[name]]
         if np.count_nonzero(packed) != np.count_nonzero(dense):
             i, j = map(int, np.argwhere((dense != 0) & (self.expand(name, np.ones(packed.size)) == 0))[0])
@@ -117,7 +117,7 @@ def _places(first: np.ndarray, counts: np.ndarray, columns: np.ndarray) -> Place
 
 
 def _begins(sizes: np.ndarray) -> np.ndarray:
-    """Where things of such sizes begin that stand one after the other, and the end."""
+    """Offsets of consecutive parts of these sizes, and the end."""
     return np.concatenate([[0], np.cumsum(sizes)]).astype(int)
 
 

@@ -1,4 +1,4 @@
-"""Mechanisms that differ in their numbers: the core makes each from its own entries of these tables, and assembles it."""
+"""Mechanisms that differ in numbers only: the core makes each from its own entries of these tables and assembles it."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ class Held(NamedTuple):
 
 
 class Varied:
-    """So many mechanisms.
+    """Tables of `count` mechanisms.
 
     Parameters
     ----------
     moving, drawn : Tables
-        In the coordinates that they move in, with all measures; and in absolute ones, with those that the start holds. Numbers
-        that vary have `values` (count,).
+        In the coordinates of the runs, with all measures; and in absolute coordinates, with the measures held at the start.
+        Numbers that vary have `values` (count,).
     count : int
     poses : ndarray (count, bodies, 3)
-        Of mass centres as drawn. A mechanism where one is no number is left to whoever looks more closely.
+        Mass centres in the reference configuration. NaN: the caller assembles the mechanism in Python.
     length : ndarray (count,)
-        How large each is, in m.
+        Characteristic length of each, in m.
     held : sequence of Held
     drives : sequence of int
-        Relations that prescribe constant speeds, which begin where the start has their coordinates at t = 0.
+        Relations that prescribe constant speeds, from the coordinates of the start at t = 0.
     starts_are_known : bool
-        Whether nothing is to be assembled.
+        True if the starts need no assembly.
     """
 
     def __init__(self, moving: Tables, drawn: Tables, count: int, poses: np.ndarray, length: np.ndarray, held: Sequence[Held],
@@ -59,7 +59,7 @@ class Varied:
                                          "free": ffi.addressof(lib, "zd_varied_free")})
 
     def start(self, run: int, nq: int, nv: int) -> tuple[np.ndarray, np.ndarray, list[float]] | None:
-        """Where one of them starts, p (nq,) and v (nv,), and its drives; None: it has to be looked at more closely."""
+        """Start of one mechanism, p (nq,) and v (nv,), and its drives; None: it must be assembled in Python."""
         p, v, made = np.zeros(nq), np.zeros(nv), ffi.new("void **")
         found = self.c.make(self.c.of, run, doubles(p, nq, writable=True), doubles(v, nv, writable=True), made)
         places = [lib.zd_varied_place(self.c.of, made[0], drive) for drive in range(self.drives)] if found else []
@@ -75,7 +75,7 @@ class Varied:
         return doubles(array, array.size)
 
     def _tables(self, tables: Tables, count: int) -> dict[str, Any]:
-        """What a `zd_tables` is filled with: entries of all of them, one behind the other."""
+        """Fields of a `zd_tables`: the entries of all mechanisms, one after the other."""
         written, words = written_tables(_first(tables), False, False)
         self._kept((written, words))
         changes = {"body": _fields(tables.bodies), "joint": _fields(tables.joints), "gauge": _fields(tables.gauges),
@@ -122,7 +122,7 @@ def _first(tables: Tables) -> Tables:
 
 
 def _fields(rows: Sequence[Any]) -> Iterator[tuple[int, str, int, Any]]:
-    """Where rows have columns: which row, which field, which component of that, and the column."""
+    """Varying fields of table entries: index of the entry, name of the field, component, and column of values."""
     for i, row in enumerate(rows):
         for field, value in zip(row._fields, row, strict=True):
             for component, each in enumerate(value if isinstance(value, tuple) else (value,)):

@@ -1,4 +1,4 @@
-"""Systems that are off by rounding."""
+"""Systems perturbed by relative errors of the size of rounding."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class PerturbedCore(CoreSystem):
 
     @property
     def shapes(self) -> dict[str, tuple[int, ...]]:
-        """Of the factors, those of stored matrices with their zeros."""
+        """Shapes of the factors; those of packed matrices are dense."""
         return {name: self._dense(name).shape for name in self.factors}
 
     def _dense(self, name: str) -> np.ndarray:
@@ -50,7 +50,7 @@ class PerturbedCore(CoreSystem):
 
     @property
     def error(self) -> BaseException | None:
-        """What a callable raised."""
+        """Exception that a callable raised; None: none did."""
         return self.inner.error
 
 

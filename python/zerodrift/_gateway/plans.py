@@ -1,7 +1,7 @@
-"""What the core has made of a mechanism's tables: a tree of links, rows of gauges, and efforts along gauges.
+"""Plan of a planar mechanism, made by the core: a tree of links, constraints and forces on marker quantities.
 
-Joints are no longer among them, as each has become a link or rows. So who writes the equations out has to know how bodies
-hang on each other and what gauges read, and no joint.
+It has no joints, as each is converted to a link or to constraints. So generated equations need only the tree and the marker
+quantities.
 """
 
 from __future__ import annotations

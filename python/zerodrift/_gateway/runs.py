@@ -43,7 +43,7 @@ def settings(options: dict[str, Any], like: Any = None) -> Any:
 
 
 def takes_direct(core: CoreSystem, options: Any) -> bool:
-    """Whether a run of this system with this `zd_settings` takes direct functions, where there are any."""
+    """True if a run of this system with these settings uses closed-form functions, if the system has them."""
     return bool(lib.zd_takes_direct(options) and lib.zd_may_have_direct(core.c, options))
 
 
@@ -54,12 +54,12 @@ def disagreement(options: Any) -> str:
 
 
 def takes_series(options: Any) -> bool:
-    """Whether the integrator of these settings makes its steps by the series of the system."""
+    """True if the integrator of these settings uses the Taylor series of the system."""
     return bool(lib.zd_takes_series(options))
 
 
 def takes_jacobian(options: Any) -> bool:
-    """Whether it takes the derivatives of the system's rates, where there are any."""
+    """True if the integrator of these settings uses the Jacobian of the system's rates, if the system has one."""
     return bool(lib.zd_takes_jacobian(options))
 
 
@@ -69,7 +69,7 @@ def row_takes_series(integrator: int) -> bool:
 
 
 def takes_embeddings(options: Any) -> bool:
-    """Whether these are those for formulations in independent velocities."""
+    """True if the closed-form functions of these settings are those in independent velocities."""
     return bool(lib.zd_takes_embeddings(options))
 
 
@@ -91,11 +91,11 @@ _unpacked = struct.Struct("".join({"int64_t": "q", "double": "d"}[kind] for kind
 
 
 class _Layout(NamedTuple):
-    """How the columns of a record stand in one array, one behind the other: counts come last, two in the place of a double."""
+    """Layout of the columns of a record in one array, one after the other; counts are last, two per double."""
 
-    shapes: dict[str, tuple[int, ...]]      # of a row's numbers
-    starts: dict[str, int]                  # doubles of a row before those of this column
-    width: int                              # doubles of a row
+    shapes: dict[str, tuple[int, ...]]      # of a sample's numbers
+    starts: dict[str, int]                  # doubles of a sample before those of this column
+    width: int                              # doubles of a sample
 
 
 @functools.lru_cache
@@ -141,11 +141,11 @@ class Record:
             return take(*given)
         except (MemoryError, ValueError):
             size = capacity * (self._layout.width - 0.5) * 8 / 2**30
-            raise MemoryError(f"{capacity} saved rows need {size:.3g} GiB; save fewer with save_every, or write them to a file "
+            raise MemoryError(f"{capacity} samples need {size:.3g} GiB; save fewer with save_every, or write them to a file "
                               "with save_to") from None
 
     def keep(self) -> None:
-        """What has come is in memory already."""
+        """Do nothing, as the samples are in memory already."""
 
     def grow(self) -> None:
         """Go on in a block as large as all before it."""
@@ -168,7 +168,7 @@ class Record:
 
     @property
     def row_bytes(self) -> int:
-        """Of one row."""
+        """Bytes of one sample."""
         return 8 * self._layout.width
 
     @property
@@ -178,7 +178,7 @@ class Record:
 
     @property
     def columns(self) -> dict[str, tuple[int, tuple[int, ...]]]:
-        """Where the numbers of each column but the counts begin in a row that is written as one, and their shape."""
+        """Offset and shape of each column in a sample, except the counts."""
         return {name: (self._layout.starts[name], shape) for name, shape in self._layout.shapes.items()}
 
     def pack(self) -> np.ndarray:
@@ -212,17 +212,17 @@ class Record:
 
 
 class Results(NamedTuple):
-    """What a run did."""
+    """Results of a run, without its samples."""
 
-    statistics: Any         # as the core counts
-    omega_h: float          # the largest
+    statistics: Any         # counts of the core
+    omega_h: float          # maximum over the run
     largest_kinetic: float  # J
-    energy_error: float     # J: the largest |Psi_E| of the saved rows
-    redundant: list[int]    # the constraints that follow from others wherever the system goes
+    energy_error: float     # J: maximum |Psi_E| over the samples
+    redundant: list[int]    # constraints that are redundant in all positions
     phi_sizes: bytes     # of its rows (mh,), as doubles
 
     def as_stats(self) -> dict[str, Any]:
-        """What `Solution.stats` has of it."""
+        """Entries of `Solution.stats`."""
         return {**self.statistics._asdict(), "omega_h": self.omega_h, "largest_kinetic": self.largest_kinetic,
                 "redundant": self.redundant}
 
@@ -271,12 +271,12 @@ class Run:
 
     @property
     def has_raised(self) -> bool:
-        """Whether it is Python that stopped it."""
+        """True if an exception in Python stopped the run."""
         return self._raised is not None
 
     @property
     def notes(self) -> Sequence[str]:
-        """Where in the system it was raised."""
+        """Notes on the exception: the function of the system that raised it."""
         return getattr(self._core.error, "__notes__", ())
 
     @property
@@ -290,14 +290,14 @@ class Run:
         return text(lib.zd_run_message(self._run))
 
     def _redundant(self, rank: int) -> list[int]:
-        """The constraints that follow from others wherever the system goes."""
+        """Indices of constraints that are redundant in all positions."""
         if rank == self._core.m:
             return []
         rows = ffi.new("int[]", self._core.m)
         return list(rows[0:lib.zd_run_redundant(self._run, rows)])
 
     def results(self) -> Results:
-        """What is known of the run by now, besides its rows."""
+        """Results of the run so far, without its samples."""
         run, size = self._run, 8 * self._core.mh
         statistics = Statistics._make(_unpacked(ffi.buffer(lib.zd_run_statistics(run))))
         return Results(statistics, lib.zd_run_omega_h(run), lib.zd_run_kinetic(run), lib.zd_run_energy_error(run),

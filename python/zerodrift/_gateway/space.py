@@ -34,12 +34,12 @@ AS_DRAWN: Frame = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 class Freedom(NamedTuple):
-    """What a joint leaves free: a distance, an angle, or where `name` is None a unit quaternion."""
+    """Freedom of a joint: a distance, an angle, or a unit quaternion if `name` is None."""
 
     kind: str                   # "slides", "turns", "advances", "swings"
     name: str | None
     direction: int = 0          # of the joint's frame
-    from_along: bool = False    # whether the joint's `along` is the distance at which the coordinate is zero
+    from_along: bool = False    # True: the coordinate is zero at the distance `along` of the joint
 
 
 class JointKind(NamedTuple):
@@ -98,7 +98,7 @@ class Gauge(NamedTuple):
 
 
 class Tables(NamedTuple):
-    """All that the core is told of a mechanism in space."""
+    """Tables from which the core makes a mechanism in space."""
 
     bodies: Sequence[Body]
     joints: Sequence[Joint] = ()
@@ -172,12 +172,12 @@ class SpaceCore(CoreSystem):
 
     @functools.cached_property
     def rows(self) -> tuple[Row, ...]:
-        """What each row of C is, holonomic ones first."""
+        """Origin of each constraint, holonomic ones first."""
         return rows_of(lib.zd_space_rows(self._mechanism), self.m)
 
     @functools.cached_property
     def motions(self) -> tuple[Coordinate, ...]:
-        """What each entry of v is the rate of: a place, or an angle about an axis of a body."""
+        """Quantity whose rate each entry of v is: a coordinate of the mass centre, or an angle about an axis of a body."""
         return tuple(Coordinate(i, kind) for i, turns in enumerate(self._turning, 1)
                      for kind in ("x", "y", "z", *(("angle",) * 3 if turns else ()))[:6])
 
@@ -207,7 +207,7 @@ class SpaceCore(CoreSystem):
 
     @property
     def error(self) -> BaseException | None:
-        """What a law raised."""
+        """Exception that a user function raised; None: none did."""
         return self._owner.error if self._owner else None
 
     # ---- between the state and bodies ----

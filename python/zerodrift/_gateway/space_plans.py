@@ -1,7 +1,7 @@
-"""What the core has made of the tables of a mechanism in space: links of a tree, rows of gauges, and efforts along gauges.
+"""Plan of a mechanism in space, made by the core: a tree of links, constraints and forces on marker quantities.
 
-As in the plane, joints are no longer among them: a joint of the tree has become the freedoms of a link, any other rows of gauges.
-In absolute coordinates all links are free.
+As in the plane it has no joints: a tree joint is converted to the freedoms of a link, any other joint to constraints. In absolute
+coordinates all links are free.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class Way(NamedTuple):
 
 
 class Link(NamedTuple):
-    """How a body hangs on the one further in, by the joint's point and frame in the axes of both; a free body has none."""
+    """Link of the tree: a body and its inboard joint, as point and frame in the axes of both bodies; a free body has none."""
 
     inner: int
     turns: bool

@@ -26,7 +26,7 @@ class SpaceTreeCore(SpaceCore):
         told, twists = np.zeros((count, POSE)), None if v is None else np.zeros((count, TWIST))
         lib.zd_space_tree_poses(self._mechanism, doubles(p, self.nq), given(v, self.nv), given(told, told.size),
                                 given(twists, count * TWIST), doubles(scratch, scratch.size, writable=True))
-        R = told[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1)        # axes were told one after another, and are columns
+        R = told[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1)        # the core returns axes one after another; they are columns
         poses = np.array([[*each[:3], *quaternion_of(turned)] for each, turned in zip(told, R, strict=True)]).reshape(-1, 7)
         if twists is not None:
             twists[:, 3:] = np.einsum("kji,kj->ki", R, twists[:, 3:])

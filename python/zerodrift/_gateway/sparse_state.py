@@ -1,4 +1,4 @@
-"""What the core knows of a state of many bodies without dense matrices: the nearest velocities, and which rows are redundant."""
+"""Consistent velocities and redundant constraints of systems of many bodies, without dense matrices."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ def nearest_velocities(core: CoreSystem, t: float, p: np.ndarray, v: np.ndarray)
 
 
 def redundant_rows(core: CoreSystem, t: float, p: np.ndarray, v: np.ndarray) -> list[int]:
-    """The rows that follow from others, decided by the core at a consistent state.
+    """Indices of redundant constraints, determined by the core at a consistent state.
 
     Raises
     ------
     Bifurcation
-        If rows follow from others at this state only.
+        If constraints are redundant at this state only.
     """
     return Run(core, _settings(t), p, v).results().redundant
 
 
 def _settings(t: float, **given: float) -> Any:
-    """Of a run that is made but for its steps."""
+    """Settings of a run that is created but makes no steps."""
     parameters = next(card.parameters for card in cards("corrections") if card.name == "projection")
     values = [given.get(parameter.name, parameter.initial[0]) for parameter in parameters if parameter.initial]
     return settings({"formulation": row_named("formulations", "augmented"), "t0": t, "t1": t + 1.0, "step": 1.0, "save_every": 1,

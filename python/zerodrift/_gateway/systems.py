@@ -83,8 +83,9 @@ class CoreSystem(Measuring):
         self.row_names.take_from(system)
 
     def structure_work(self, p: np.ndarray) -> Any:
-        """What eliminating C W C^T of a declared structure takes, and how well it goes at p: see `zd_structure_work` in the core.
-        Where the system cannot be evaluated there, it is taken to go well.
+        """Operation count and accuracy of eliminating C W C^T of a declared structure at p: `zd_structure_work` of the core.
+
+        If the system cannot be evaluated there, the elimination is assumed to be accurate.
         """
         core, work = self.for_run(), ffi.new("zd_structure_work *")
         status = lib.zd_structure_count(core.c, doubles(p, self.nq), work)
@@ -96,7 +97,7 @@ class CoreSystem(Measuring):
 
     @property
     def has_direct(self) -> bool:
-        """Whether it brings direct functions."""
+        """True if the system has closed-form functions."""
         return self.c.directs > 0
 
     def for_run(self) -> CoreSystem:
@@ -126,11 +127,11 @@ class CoreSystem(Measuring):
         return found
 
     def suits(self, integrator: int) -> bool:
-        """Whether that row of the table of integrators can take the system."""
+        """True if that entry of the table of integrators accepts the system."""
         return bool(lib.zd_suits(self.c, integrator))
 
     def suits_formulation(self, formulation: int) -> bool:
-        """Whether that row of the table of formulations can take the system."""
+        """True if that entry of the table of formulations accepts the system."""
         return bool(lib.zd_formulation_suits(self.c, formulation))
 
     def stored(self, name: str) -> tuple[int, ...]:

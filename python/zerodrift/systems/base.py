@@ -1,4 +1,4 @@
-"""What every system is, wherever its equations are written."""
+"""`BaseSystem`: the interface common to all systems, built-in, in NumPy, compiled or symbolic."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ FIRST_PRINTED, LAST_PRINTED = 18, 6     # of many names, parameters and rows
 
 
 class BaseSystem:
-    """A mechanism: its sizes, names, start, and the equations behind them.
+    """Multibody system: sizes, names, start, and equations of motion.
 
     Attributes
     ----------
     name : str
     parameters : dict
-        What it depends on, by name; `with_parameters` changes it.
+        Parameters by name; `with_parameters` returns a system with other values.
     coordinates, velocities, constraints : tuple of Variable(name, unit)
-        What the entries of p, of v and of the multipliers are.
+        Names and units of the entries of p, of v and of the multipliers.
     p0, v0 : ndarray (nq,), (nv,)
-        Where `zerodrift.simulate` starts unless told otherwise; None: it has to be told.
+        Start of `zerodrift.simulate` if none is given; None: a start must be given.
     """
 
     name: str
@@ -48,8 +48,8 @@ class BaseSystem:
     mh = property(lambda self: self._core.mh, doc="Number of holonomic constraints.")
     mn = property(lambda self: self._core.mn, doc="Number of nonholonomic constraints.")
     m = property(lambda self: self._core.m, doc="Number of constraints.")
-    quaternions = property(lambda self: self._core.quaternions, doc="Where unit quaternions, of four entries each, begin in p.")
-    has_energy = property(lambda self: self._core.has_energy, doc="Whether a potential energy is declared.")
+    quaternions = property(lambda self: self._core.quaternions, doc="Indices in p of the first entries of unit quaternions.")
+    has_energy = property(lambda self: self._core.has_energy, doc="True if a potential energy is declared.")
 
     def evaluate(self, p: Any = None, v: Any = None, t: float = 0.0) -> Terms:
         """The terms of the equations of motion at (t, p, v); p and v left out: the system's own start.
@@ -71,7 +71,7 @@ class BaseSystem:
         return Terms(**self._core.evaluate(_check.number("t", t), p, v))
 
     def product(self, term: str, x: Any, p: Any = None, v: Any = None, t: float = 0.0, *, transposed: bool = False) -> np.ndarray:
-        """The product of "A", "M" or "C" at (t, p, v), or of its transpose, and a vector; of a system of any size.
+        """Product of "A", "M" or "C" at (t, p, v), or of its transpose, with a vector; for systems of any size.
 
         Parameters
         ----------
@@ -83,7 +83,7 @@ class BaseSystem:
         t : float
             s
         transposed : bool
-            Whether to multiply by the transpose.
+            True: multiply by the transpose.
 
         Returns
         -------
@@ -109,7 +109,7 @@ class BaseSystem:
 
     @property
     def structure(self) -> Structure | None:
-        """Of which bodies the system consists, and which constraints join which; None where that is not declared."""
+        """Declared block structure of A, M and C; None if there is none."""
         return of_core(self._core)
 
     def _sizes_in_words(self) -> str:
@@ -121,7 +121,7 @@ class BaseSystem:
 
     def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        """The state given, or the system's own start at t for what is left out."""
+        """The given state; missing parts are those of the system's start at t."""
         if p is None and self.p0 is None:
             raise ValueError(f"{p_name} is needed: {self.name} has no start of its own")
         p = self.p0 if p is None else _check.vector(p_name, p, self.nq)
@@ -178,7 +178,7 @@ class BaseSystem:
         return "\n".join([self.name, *(f"  {title:14}{what}" for title, what in rows)])
 
     def _freedom(self) -> str:
-        """Velocities that the constraints leave free, as far as the start tells."""
+        """Number of degrees of freedom, from the rank of the constraints at the start."""
         least = f"at least {max(0, self.nv - self.m)}"
         if not self.m:
             return str(self.nv)
@@ -188,16 +188,16 @@ class BaseSystem:
             rank = int(np.linalg.matrix_rank(C / np.where(size > 0, size, 1)))
         except Exception:       # there is no start, or a user's own function fails there
             return least
-        return f"{self.nv - rank}" + (f", as {self.m - rank} rows follow from others at the start" if rank < self.m else "")
+        return f"{self.nv - rank}" + (f", redundant constraints at the start: {self.m - rank}" if rank < self.m else "")
 
     def _direct_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
-        """With direct functions, of which those for formulations in independent velocities are others: they `embed`."""
+        """The core's system with closed-form functions; those for independent velocities (`embeds`) are separate functions."""
         return self._core
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
                        direct: tuple[str, bool] | None = None) -> NumberTables | None:
-        """So many systems with these parameters, (count,) or (count, size) each, and direct functions, if they are wanted and
-        there are any, for a vector unit and of those that embed or do not; None where each has to be made, or run, in Python.
+        """Tables of `count` systems with these parameters, (count,) or (count, size) each; None if each must be made or run in
+        Python. `direct`: the vector unit of closed-form functions, and True for those in independent velocities.
         """
         core = getattr(self, "_core", None)
         if parameters or core is None or core.for_run() is not core:
@@ -205,26 +205,26 @@ class BaseSystem:
         return NumberTables(core if direct is None else self._direct_core(*direct), None, 0, self.p0, self.v0, {})
 
     def _why_not_direct(self, embeds: bool = False) -> str | None:
-        """Why it has no direct functions, as far as is known; empty: it has some; None: systems of its kind have none."""
+        """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none."""
         core = getattr(self, "_core", None)
         return "" if core is not None and core.has_direct else None
 
     def _parameter_units(self) -> dict[str, str]:
-        """The units of the parameters, where they are known."""
+        """Units of the parameters, as far as they are known."""
         return {}
 
     def points(self, p: Any) -> np.ndarray | None:
-        """The drawing at p: points (n, 2) or (n, 3) in m, joined by lines where not NaN. None: there is no drawing."""
+        """Drawing at p: points (n, 2) or (n, 3) in m, joined by lines except at NaN. None: there is no drawing."""
         return None
 
     def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]] | None:
-        """What there is to draw at each of some positions, which may be of a motion, where more is known than points and
-        lines; None: that is all.
+        """Shapes to draw at each of some positions, which may be of a motion; None: only the points and lines of the drawing are
+        known.
         """
         return None
 
     def _shapes(self, p: np.ndarray) -> list[Shape] | None:
-        """The same at one position."""
+        """Shapes to draw at one position."""
         found = self._sketches([p])
         return None if found is None else found[0]
 
@@ -234,7 +234,7 @@ class BaseSystem:
 
     @property
     def _measuring(self) -> _gateway.CoreSystem | None:
-        """The core's system that has the measures; None where only a description is left."""
+        """The core's system that has the measures; None for systems read from a file as a description."""
         return getattr(self, "_core", None)
 
     @functools.cached_property
@@ -251,11 +251,11 @@ class BaseSystem:
         return found
 
     def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
-        """A measure at every row of a solution; None where nothing is measured by that name."""
+        """Values of a measure at all samples of a solution; None if there is no measure of that name."""
         return self._watching.values(getattr(name, "name", name), solution)
 
     def _reading(self, name: str, what: str) -> Reading:
-        """Where the core finds a scalar measure of positions or velocities, or a coordinate or a velocity."""
+        """Index of a scalar measure of positions or velocities, or of a coordinate or velocity, for the core."""
         place, core = self._watching.find(name), self._measuring
         if place is not None:
             is_scalar = place.component is not None or core.measure_size(place.number) == 1
@@ -268,7 +268,7 @@ class BaseSystem:
         return Reading(known_events.VELOCITY, velocities.index(_check.choice(what, name, [*coordinates, *velocities])))
 
     def _read(self, reading: Reading, t: float, p: np.ndarray, v: np.ndarray) -> float:
-        """What is found there."""
+        """Value of a reading at a state."""
         match reading.what:
             case known_events.TIME:
                 return t
@@ -281,27 +281,27 @@ class BaseSystem:
         return float(self._watching.at(Place(reading.index, reading.component), t, p, v))
 
     def _advice(self, error: Exception) -> str | None:
-        """What a system knows of an error at the start that the core has told in its own words; None: nothing."""
+        """Advice of the system on an error that the core reported at the start; None: there is none."""
         return None
 
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
-        """The same of a run that failed near a state."""
+        """Advice on the error of a run that failed near a state; None: there is none."""
         return None
 
     def _why_locked(self) -> str | None:
-        """What may be wrong where nothing is free to move; None: it is meant so."""
+        """Possible reason why the system has no degree of freedom; None: it is intended."""
         return None
 
     def _why_unknown(self, name: Any) -> str | None:
-        """What there is to say of a name that nothing has; None: it is a wrong one."""
+        """Explanation of a name that is not found; None: there is no measure or coordinate like it."""
         return None
 
     def _names_of_measures(self) -> list[str]:
-        """What is measured by names of its own."""
+        """Names of all measures."""
         return list(self._watching.number)
 
     def _unit_of_measure(self, name: str) -> str:
-        """The unit of a measure, or of a component of it; "" where it has none."""
+        """Unit of a measure, or of a component of it; "" if it has none."""
         place = self._watching.find(name)
         return "" if place is None else self._measuring.measures[place.number].unit
 
@@ -309,26 +309,26 @@ class BaseSystem:
         return name in self._watching.number and self._measuring.measure_size(self._watching.number[name]) == 1
 
     def _unique(self, name: Any, solution: Any) -> Any:
-        """Which components of a measure are the same whatever admissible multipliers there are."""
+        """Flags of the components of a measure that are equal for all admissible multipliers of redundant constraints."""
         if not self._watching.number:
-            raise KeyError(f"nothing is measured in {self.name}, which is no mechanism")
+            raise KeyError(f"measures need a mechanism, and {self.name} is not one")
         return self._watching.unique(getattr(name, "name", name), solution)
 
     def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
-        """That core of the system with the Taylor series of its motion, where there is one."""
+        """The core's system with the Taylor series of its motion, if there is one."""
         return core
 
     def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
-        """That core of the system with the Jacobian of its motion, where there is one."""
+        """The core's system with the Jacobian of its motion, if there is one."""
         return core
 
     def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
-        """That core, of the system off by rounding, with the series of what moves so."""
+        """The core's perturbed system, with the Taylor series of the perturbed motion."""
         return core
 
     @property
     def _brings_series(self) -> bool:
-        """Whether there is one."""
+        """True if the system has a Taylor series."""
         return False
 
     def _in_other_coordinates(self) -> BaseSystem | None:
@@ -337,26 +337,26 @@ class BaseSystem:
 
     @property
     def _has_plain_laws(self) -> bool:
-        """Whether its terms are known to be polynomials, sines and cosines, besides elements that are smooth."""
+        """True if all terms are known to be polynomials, sines and cosines, except smooth elements."""
         return False
 
     def _what_it_costs(self, steps: int | None) -> str | None:
-        """What so many steps (None: nobody knows how many) cost, where they could cost far less; None: they could not."""
+        """Advice on a cheaper description of the system for a number of steps (None: unknown); None: there is none."""
         return None
 
     def _described(self) -> dict[str, Any]:
-        """What a saved solution says of its system, as JSON."""
+        """Description of the system in a saved solution, as JSON."""
         return {"name": self.name, "coordinates": self.coordinates, "velocities": self.velocities,
                 "constraints": self.constraints, "has_energy": self.has_energy}
 
 
 class Makes:
-    """What is no system, but makes one: every function that takes a system takes it."""
+    """Description that makes a system, such as a mechanism; accepted by every function that takes a system."""
 
     name: str
 
     def system(self) -> BaseSystem:
-        """The system that is meant where none was made."""
+        """The system of this description."""
         raise NotImplementedError
 
 
@@ -383,7 +383,7 @@ def _shortened(entries: Sequence[str]) -> list[str]:
 
 
 def core_of(system: Any) -> _gateway.CoreSystem:
-    """What the core knows a system by; refuses what is no system, and what is only the description of one."""
+    """The core's system of a system; TypeError for other objects and for descriptions without equations."""
     core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
     if core is None:
         raise TypeError(f"system must be one of zd.systems or a zd.System, not {_check.shown(system)}")
@@ -407,7 +407,7 @@ def direct_core_of(system: Any, vector: str, options: Any) -> _gateway.CoreSyste
 
 
 def with_what_it_takes(system: Any, core: _gateway.CoreSystem, vector: str, options: Any) -> _gateway.CoreSystem:
-    """That core of a system with what the integrator of this `zd_settings` takes of it besides its terms."""
+    """The core's system with the series or the Jacobian that the integrator of these settings uses."""
     if _gateway.takes_series(options):
         return system._with_series(core, vector)
     return system._with_jacobian(core, vector) if _gateway.takes_jacobian(options) else core

@@ -25,20 +25,20 @@ class System(BaseSystem):
     """A multibody system from functions of NumPy arrays.
 
     Each callable names the arguments it wants, out of ``t`` (float), ``p`` (nq,), ``v`` (nv,) and the keys of
-    `parameters`. Arrays are read-only, and stay what they are for as long as they are kept. What is left out is absent: no
-    force, no constraint. A constant may stand in place of a callable.
+    `parameters`. Arrays are read-only, and may be stored, as they do not change later. An omitted term is absent: no force, no
+    constraint. A constant may replace a callable.
 
     Parameters
     ----------
     coordinates : int or sequence of str
-        How many coordinates there are, or their names.
+        Number of coordinates, or their names.
     units : sequence of str
-        The unit of each coordinate; where `kinematics` is given, of each velocity, too. What is no pure number (``""``,
-        ``"rad"``) is taken for a length: tolerances then mean the same in any unit, see `Projection`. Left out: all are
-        pure numbers.
+        Unit of each coordinate; with `kinematics`, of each velocity, too. Units other than those of pure numbers (``""``,
+        ``"rad"``) count as lengths, so that tolerances mean the same in any unit: see `Projection`. Default: all are pure
+        numbers.
     mass : callable or array_like -> (nv, nv)
-        M of (2): symmetric and positive definite; for formulations other than "schur" it may be singular where the constraints
-        hold what has no mass. Its size says how many velocities there are.
+        M of (2): symmetric and positive definite; for formulations other than "schur" it may be singular if the constraints
+        hold the massless directions. Its size is the number of velocities.
     force, bias : callable or array_like -> (nv,)
         f and d of (2).
     constraints : callable -> (mh,)
@@ -59,13 +59,13 @@ class System(BaseSystem):
     potential : callable -> float
         V in J. Without it there are no energies.
     power : callable -> float
-        Energy input rate of (28) in W: what the forces that V does not describe do, and dV/dt at fixed p.
+        Energy input rate of (28) in W: power of the forces that V does not describe, plus dV/dt at fixed p.
     structure : Structure
-        Of which bodies the system consists, and which constraints join which; see there. Callables return the same matrices as
-        without; the core stores and multiplies nothing else of them, and an entry that has no place there is an error.
+        Block structure of A, M and C by bodies. Callables return dense matrices as without it; the core stores and multiplies
+        only the entries of the structure, and an entry outside it is an error.
     parameters : dict
-        Values the callables may ask for by name, other than ``t``, ``p`` and ``v``: numbers, arrays, which are copied, or any
-        objects but strings.
+        Further arguments of the callables by name, except ``t``, ``p`` and ``v``: numbers, arrays, which are copied, or other
+        objects except strings.
     p0, v0 : array_like (nq,), (nv,)
         The start, unless `simulate` is given another; `v0` left out: at rest.
     name : str
@@ -73,15 +73,15 @@ class System(BaseSystem):
 
     Notes
     -----
-    What is derived is found by forward-mode automatic differentiation, exact up to rounding. For that, the callables are called
+    Derivatives are computed by forward-mode automatic differentiation, exact up to rounding. For that, the callables are called
     with arrays of dtype object. They must be written with operators and NumPy's elementwise functions, and build their results
     with ``np.array``, ``np.stack`` and the like.
 
     Raises
     ------
     ValueError, TypeError
-        If a callable asks for something there is not, or its result has the wrong shape or is not of real numbers. What a
-        callable itself raises gets a note of which it was, and at what t.
+        If a callable has an unknown argument, or its result has the wrong shape or is not of real numbers. Exceptions of a
+        callable get a note with its name and t.
 
     Examples
     --------
@@ -147,14 +147,14 @@ def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
 
 
 def _as_now(value: Any) -> Any:
-    """What was given, as it is now: a caller's array may change."""
+    """Copy of a given array or list, which the caller may change later; other objects as they are."""
     return copy.deepcopy(value) if isinstance(value, np.ndarray | list) else value
 
 
 def _parameter(name: str, value: Any) -> Any:
-    """What callables get for a parameter: arrays as they are now, to be read only; any object but strings as it is."""
+    """Parameter value for callables: a read-only copy of an array; other objects, except strings, as they are."""
     if isinstance(value, str | bytes) or (isinstance(value, np.ndarray) and value.dtype.kind not in "biufcO"):
-        raise TypeError(f"parameter {name!r} must be a number, an array of numbers or an object that is no string, not {value!r}")
+        raise TypeError(f"parameter {name!r} must be a number, an array of numbers or an object except a string, not {value!r}")
     if _check.is_masked(value):
         raise ValueError(f"parameter {name!r} must have no masked entries, not {value!r}")
     return _check.frozen(value) if isinstance(value, np.ndarray) and value.dtype != object else value
@@ -201,7 +201,7 @@ class _Function:
         _check.tell(error, f"in {self.name}, called at t = {t:g}{how}")
 
     def value(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """What the user's function returns, checked to be of real numbers; an error says where it was raised."""
+        """Result of the user's function, checked to be real; its exceptions get a note with the function and t."""
         try:
             value = self._call(self._function, t, p, v)
         except BaseException as error:

@@ -1,4 +1,4 @@
-"""Measures of a solution: evaluated at all of its rows by the core."""
+"""Measures of a solution, evaluated at all samples by the core."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from .._gateway import CoreSystem
 AXES = {"x": 0, "y": 1, "z": 2}     # names of components
 SAME = 1e-8             # of the largest: reactions that differ by less do not depend on which multipliers are taken
 PART = 2**28            # bytes of positions that a measure is evaluated at together
-DEPENDENT = 1e-9        # of the largest singular value: rows that follow from others
+DEPENDENT = 1e-9        # relative to the largest singular value: bound for redundant constraints
 
 
 class Place(NamedTuple):
-    """Where a measure is found: its number, and which of its components is meant; None: all of them."""
+    """Index of a measure and of one of its components; None: all components."""
 
     number: int
     component: int | None
 
     def pick(self, values: np.ndarray) -> np.ndarray:
-        """What is meant of values (k, size): (k,) of a scalar or a component, (k, size) of a vector."""
+        """Selected part of values (k, size): (k,) for a scalar or a component, (k, size) for a vector."""
         if self.component is not None:
             return values[:, self.component]
         return values[:, 0] if values.shape[1] == 1 else values
@@ -38,7 +38,7 @@ class Watching:
         self._accelerations: weakref.WeakKeyDictionary[Any, np.ndarray] = weakref.WeakKeyDictionary()
 
     def find(self, name: Any) -> Place | None:
-        """Where a measure is, or a component of one; None: there is none of that name."""
+        """Index of a measure or of a component by its name; None: there is none of that name."""
         if not isinstance(name, str):
             return None
         if name in self.number:

@@ -1,4 +1,4 @@
-"""The numbers of many systems that differ in their parameters alone: what the core makes their runs from, without Python."""
+"""Numbers of many systems that differ in parameters only, from which the core makes their runs without Python."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class NumberTables(NamedTuple):
 
 
 def refusals(make: Callable[..., Any], parameters: Mapping[str, np.ndarray], wrong: np.ndarray) -> dict[int, str]:
-    """What the systems of these runs say as they are made one by one, of those whose parameters look wrong (k,)."""
+    """Error messages for the runs that are marked as suspicious (k,), from making their systems individually, by run."""
     refused = {}
     for run in np.flatnonzero(wrong).tolist():
         try:
@@ -34,7 +34,7 @@ def refusals(make: Callable[..., Any], parameters: Mapping[str, np.ndarray], wro
 
 
 def not_finite(parameters: Mapping[str, np.ndarray], count: int) -> np.ndarray:
-    """Of which of so many runs a parameter is not finite (count,)."""
+    """Flags of the runs that have a parameter that is not finite (count,)."""
     wrong = np.zeros(count, dtype=bool)
     for each in parameters.values():
         wrong |= ~np.isfinite(each).reshape(count, -1).all(axis=1)

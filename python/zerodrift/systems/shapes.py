@@ -1,4 +1,4 @@
-"""What a drawing of the plane consists of, before anything is drawn."""
+"""Shapes of a drawing in the plane, independent of the plotting library."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`Structure`: of which bodies a system consists, and which of its constraints join which."""
+"""`Structure`: the block structure of A, M and C by bodies and groups of constraints."""
 
 from __future__ import annotations
 
@@ -17,35 +17,35 @@ WORDS = {"": 0, "constant": _gateway.CONSTANT, "diagonal": _gateway.DIAGONAL,
 
 @dataclass(frozen=True)
 class Structure:
-    """Of which bodies a system consists, and which of its constraints join which.
+    """Block structure of a system: its bodies, and the bodies that each group of constraints couples.
 
-    Where it is declared, the core stores and multiplies nothing else of the kinematic matrix A, the mass matrix M and the
-    constraint matrix C: A and M block after block, C group after group, each a small row-major matrix whose columns are the
-    velocities of the blocks that the group touches. From 41 rows or 301 velocities on, formulations make no dense matrix at all:
-    cost and memory follow the blocks. Then bifurcations are not looked for (`simulate`, `on_singular`). Up to 300 velocities
-    are taken by implicit integrators, but RATTLE takes any number; and by "independent" where there is a kinematic matrix.
+    The core then stores and multiplies only these entries of the kinematic matrix A, the mass matrix M and the constraint matrix
+    C: A and M block by block, C group by group, each as a small row-major matrix whose columns are the velocities of the blocks
+    of the group. From 41 constraints or 301 velocities on, formulations use no dense matrices, so that cost and memory are
+    proportional to the blocks; bifurcations are then not detected (`simulate`, `on_singular`). Implicit integrators except RATTLE
+    accept up to 300 velocities, and so does "independent" with a kinematic matrix.
 
     Parameters
     ----------
     blocks : int or sequence of int or of (int, int)
-        For each body, in the order of v, how many velocities it has; with a kinematic matrix, how many coordinates and how many
+        For each body, in the order of v, its number of velocities; with a kinematic matrix, its numbers of coordinates and
         velocities. M has no entries between different blocks.
     groups : sequence of (int, sequence of int)
-        For each group of constraints, in the order of their rows, how many rows it has, and which blocks these touch: C has no
-        entries for others. No group has holonomic and nonholonomic rows.
+        For each group of constraints, in order, its number of constraints and the indices of its blocks: C has no entries for
+        other blocks. A group must be either holonomic or nonholonomic.
     mass : str or sequence of str
-        What is known of each block of M: "", "constant", "diagonal" (then only its diagonal is stored) or "constant diagonal".
-        One word is for all.
+        Property of each block of M: "", "constant", "diagonal" (only its diagonal is stored) or "constant diagonal". One word
+        holds for all blocks.
 
     Attributes
     ----------
     nq, nv, m : int
-        Coordinates, velocities and rows in all.
+        Numbers of coordinates, velocities and constraints.
 
     Raises
     ------
     TypeError, ValueError
-        If something is no count, a group touches a block that there is not, or not in increasing order.
+        If a size is not a valid count, or the blocks of a group do not exist or are not in increasing order.
 
     Examples
     --------
@@ -79,15 +79,15 @@ class Structure:
     m = property(lambda self: self._packing.shapes["C"][0])
 
     def size(self, term: str) -> int:
-        """How many entries are stored of "A", "M" or "C"."""
+        """Number of stored entries of "A", "M" or "C"."""
         return self._packing.size(_check.choice("term", term, _gateway.PACKED))
 
     def offsets(self, term: str) -> tuple[int, ...]:
-        """Where, of what is stored of "A", "M" or "C", the matrix of each block or group begins; and the end."""
+        """Offset of each block or group among the stored entries of "A", "M" or "C", and the end."""
         return self._packing.offsets[_check.choice("term", term, _gateway.PACKED)]
 
     def places(self, term: str) -> list[int]:
-        """Where, in the dense matrix "A", "M" or "C" row by row, each stored entry stands."""
+        """Index of each stored entry in the dense row-major matrix "A", "M" or "C"."""
         return self._packing.places(_check.choice("term", term, _gateway.PACKED))
 
     def expand(self, term: str, packed: Any) -> np.ndarray:
@@ -95,7 +95,7 @@ class Structure:
         return self._packing.expand(term, _check.vector("packed", packed, self.size(term)))
 
     def pack(self, term: str, dense: Any) -> np.ndarray:
-        """What is stored of a dense matrix "A", "M" or "C"; ValueError where it has an entry that no block or group has."""
+        """Stored entries of a dense matrix "A", "M" or "C"; ValueError if it has an entry outside all blocks and groups."""
         self.size(term)
         given = _check.real("dense must be", dense).astype(float)
         if given.shape != self._packing.shapes[term]:
@@ -116,7 +116,7 @@ def of_core(core: _gateway.CoreSystem) -> Structure | None:
 
 
 def checked(structure: Any, sizes: tuple[int, int, int, int], has_A: bool) -> _gateway.Packing | None:
-    """What the gateway knows a structure by, where it fits a system of these sizes (nq, nv, mh, mn)."""
+    """The gateway's object of a structure, after checks against the sizes (nq, nv, mh, mn) of a system."""
     if structure is None:
         return None
     _check.instance("structure", structure, Structure, "a zd.Structure")

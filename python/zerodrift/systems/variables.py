@@ -1,4 +1,4 @@
-"""What the coordinates and velocities of a system are: their names, their units, and which of them are quaternions."""
+"""Names and units of the coordinates and velocities of a system, and its quaternions."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from .._gateway import Variable
 
 
 def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) -> tuple[int, ...]:
-    """Where unit quaternions begin in p, each given by the index or the name of its first coordinate; increasing."""
+    """Increasing indices in p at which unit quaternions begin, each given by index or name of its first coordinate."""
     listed = _check.instance("quaternions", given, Sequence, "a sequence of indices or names of coordinates")
     places = sorted(list(names).index(_check.choice("quaternions", first, names)) if isinstance(first, str) else
                     _check.count("quaternions", first, least=0) for first in listed)
     if places and not has_kinematics:
-        raise ValueError("quaternions need kinematics: their rates are no velocities")
+        raise ValueError("quaternions need kinematics, as their rates are not velocities")
     for k, place in enumerate(places):
         if place + 4 > min([*places[k + 1:k + 2], len(names)]):
             raise ValueError(f"quaternions must begin with four of the {len(names)} coordinates each, not shared; not {given!r}")

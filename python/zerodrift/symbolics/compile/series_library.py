@@ -1,4 +1,4 @@
-"""Functions of a symbolic system for Taylor and Radau integrators: written and compiled at first use."""
+"""Taylor series and Jacobian of a symbolic system, for integrators that use them: written and compiled at first use."""
 
 from __future__ import annotations
 
