@@ -35,7 +35,7 @@ def fingerprint() -> str:
 
 def declarations() -> str:
     """The headers as the compiler's preprocessor leaves them; functions written in Python are marked as CFFI wants it."""
-    names = ("include/zerodrift/system.h", "gauges/uses.h", "joints/joint.h", "mechanisms/link.h", "mechanisms/mechanism.h",
+    names = ("include/zerodrift/system.h", "gauges/elements.h", "joints/joint.h", "mechanisms/link.h", "mechanisms/mechanism.h",
              "mechanisms/varied.h",
              "space_joints/joint.h", "space/tables.h", "space_tree/tree.h", "zerodrift.h", "python/interface.h")
     headers = "".join((ROOT / "csrc" / name).read_text(encoding="utf-8") for name in names)

@@ -17,29 +17,29 @@ int zd_complain(zd_complaint to, const char *format, ...)
 
 /* What uses refer to. */
 typedef struct tables {
-    const zd_uses *uses;
+    const zd_elements *elements;
     int joints, gauges;
 } tables;
 
 static int terms_are_right(const tables *of, int first, int terms, int law, int joint)
 {
-    const zd_uses *uses = of->uses;
-    if (first < 0 || terms < 0 || first + terms > uses->terms || law < -1 || (law >= 0 && !uses->law)) return 0;
+    const zd_elements *elements = of->elements;
+    if (first < 0 || terms < 0 || first + terms > elements->terms || law < -1 || (law >= 0 && !elements->law)) return 0;
     for (int i = first; i < first + terms; i++)
-        if (!zd_is_in(uses->term[i].gauge, of->gauges)) return 0;
+        if (!zd_is_in(elements->term[i].gauge, of->gauges)) return 0;
     return joint == -1 || zd_is_in(joint, of->joints);
 }
 
 static int relation_is_right(const tables *of, int i, zd_complaint to)
 {
-    const zd_relation *row = of->uses->relation + i;
+    const zd_relation *row = of->elements->relation + i;
     return (row->terms > 0 && terms_are_right(of, row->first, row->terms, row->law, row->joint)) ||
            zd_complain(to, "relation %d: its gauges, law or joint are not there", i);
 }
 
 static int effort_is_right(const tables *of, int i, zd_complaint to)
 {
-    const zd_effort *effort = of->uses->effort + i;
+    const zd_effort *effort = of->elements->effort + i;
     const int needs_law = effort->kind == ZD_EFFORT_LAW;
     return (zd_is_in(effort->kind, ZD_EFFORT_LAW + 1) && zd_is_in(effort->gauge, of->gauges) && needs_law == (effort->law >= 0) &&
             terms_are_right(of, effort->first, effort->terms, effort->law, effort->joint)) ||
@@ -59,30 +59,30 @@ static int count_of(const tables *of, int quantity)
     case ZD_EFFORT_VALUE:
     case ZD_EFFORT_POWER:
     case ZD_EFFORT_FORCE:
-    case ZD_EFFORT_TORQUE: return of->uses->efforts;
+    case ZD_EFFORT_TORQUE: return of->elements->efforts;
     case ZD_DRIVE_VALUE:
-    case ZD_DRIVE_POWER: return of->uses->relations;
+    case ZD_DRIVE_POWER: return of->elements->relations;
     default: return 0;
     }
 }
 
 static int measure_is_right(const tables *of, int i, zd_complaint to)
 {
-    const zd_observed *measure = of->uses->measure + i;
+    const zd_output_spec *measure = of->elements->measure + i;
     const int quantity = measure->quantity, count = count_of(of, quantity), index = measure->index;
     const int size = quantity <= ZD_ACCELERATIONS || quantity >= ZD_EFFORT_FORCE ? measure->size : 1;
-    const int terms = quantity == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->uses->relation[index].terms : 1;
+    const int terms = quantity == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : 1;
     return (size > 0 && zd_is_in(index, count) && index + size <= count && zd_is_in(measure->term, terms)) ||
            zd_complain(to, "measure %s: what it is of is not there", measure->name);
 }
 
-int zd_uses_are_right(const zd_uses *uses, int joints, int gauges, zd_complaint to)
+int zd_elements_are_right(const zd_elements *elements, int joints, int gauges, zd_complaint to)
 {
-    const tables of = {uses, joints, gauges};
+    const tables of = {elements, joints, gauges};
     const struct {
         int count;
         int (*is_right)(const tables *, int, zd_complaint);
-    } all[] = {{uses->relations, relation_is_right}, {uses->efforts, effort_is_right}, {uses->measures, measure_is_right}};
+    } all[] = {{elements->relations, relation_is_right}, {elements->efforts, effort_is_right}, {elements->measures, measure_is_right}};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         for (int i = 0; i < all[k].count; i++)
             if (!all[k].is_right(&of, i, to)) return 0;

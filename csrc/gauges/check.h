@@ -2,7 +2,7 @@
 #ifndef ZD_GAUGES_CHECK_H
 #define ZD_GAUGES_CHECK_H
 
-#include "uses.h"
+#include "elements.h"
 
 typedef struct zd_complaint {
     char *message;
@@ -15,6 +15,6 @@ int zd_complain(zd_complaint to, const char *format, ...);
 static inline int zd_is_in(int index, int count) { return index >= 0 && index < count; }
 
 /* Whether relations, efforts and measures are of gauges and joints that there are; if not, says which is not. */
-int zd_uses_are_right(const zd_uses *uses, int joints, int gauges, zd_complaint to);
+int zd_elements_are_right(const zd_elements *elements, int joints, int gauges, zd_complaint to);
 
 #endif

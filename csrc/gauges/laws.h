@@ -14,11 +14,11 @@ typedef struct zd_combined {
 } zd_combined;
 
 /* These return ZD_DONE or ZD_CALLBACK. */
-int zd_combine(const zd_planned_uses *uses, const zd_readings *at, const zd_relation *row, double t, zd_combined *all);
+int zd_combine(const zd_planned_elements *elements, const zd_readings *at, const zd_relation *row, double t, zd_combined *all);
 /* value <- the effort; rate <- that of its gauge, NULL: not wanted. */
-int zd_effort_say(const zd_planned_uses *uses, const zd_readings *at, const zd_effort *effort, double t, double *value, double *rate);
-int zd_efforts_power(const zd_planned_uses *uses, const zd_readings *at, double t, double *power);     /* of (28) */
+int zd_effort_say(const zd_planned_elements *elements, const zd_readings *at, const zd_effort *effort, double t, double *value, double *rate);
+int zd_efforts_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power);     /* of (28) */
 /* What springs store besides V, which is that of gravity. */
-double zd_springs_potential(const zd_planned_uses *uses, const zd_readings *at, double V);
+double zd_springs_potential(const zd_planned_elements *elements, const zd_readings *at, double V);
 
 #endif

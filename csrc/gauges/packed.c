@@ -35,17 +35,17 @@ static int offset_of(const zd_packed *self, int first, int body)
     return body ? offset : -1;
 }
 
-static int is_in_group(const zd_planned_uses *uses, int before, int row)
+static int is_in_group(const zd_planned_elements *elements, int before, int row)
 {
-    const zd_row_owner *a = uses->owner_of_row + before, *b = uses->owner_of_row + row;
-    return a->owner == b->owner && a->index == b->index && (before < uses->mh) == (row < uses->mh);
+    const zd_row_owner *a = elements->owner_of_row + before, *b = elements->owner_of_row + row;
+    return a->owner == b->owner && a->index == b->index && (before < elements->mh) == (row < elements->mh);
 }
 
 /* How many rows the group from `row` on has. */
-static int rows_of_group(const zd_planned_uses *uses, int row)
+static int rows_of_group(const zd_planned_elements *elements, int row)
 {
     int count = 1;
-    while (row + count < uses->m && is_in_group(uses, row, row + count)) count++;
+    while (row + count < elements->m && is_in_group(elements, row, row + count)) count++;
     return count;
 }
 
@@ -55,27 +55,27 @@ typedef struct ends {
 } ends;
 
 /* The blocks of the group of rows from `row` on. */
-static void touch_all(zd_packed *self, const zd_planned_uses *uses, ends bodies, int row, int count, int *end)
+static void touch_all(zd_packed *self, const zd_planned_elements *elements, ends bodies, int row, int count, int *end)
 {
     const int first = *end;
-    for (const zd_relation *one = uses->row + row; one < uses->row + row + count; one++)
+    for (const zd_relation *one = elements->row + row; one < elements->row + row + count; one++)
         for (int i = one->first; i < one->first + one->terms; i++) {
             int body[2];
-            bodies.of(bodies.gauges, uses->term[i].gauge, body);
+            bodies.of(bodies.gauges, elements->term[i].gauge, body);
             touch(self, first, end, body[0]);
             touch(self, first, end, body[1]);
         }
 }
 
-static void place_rows(zd_packed *self, const zd_planned_uses *uses, ends bodies, int row, int count, int first, int end)
+static void place_rows(zd_packed *self, const zd_planned_elements *elements, ends bodies, int row, int count, int first, int end)
 {
     int width = 0;
     for (int i = first; i < end; i++) width += self->velocities[self->block[i]];
     for (int k = row; k < row + count; k++) {
-        const zd_relation *one = uses->row + k;
+        const zd_relation *one = elements->row + k;
         for (int i = one->first; i < one->first + one->terms; i++) {
             int body[2];
-            bodies.of(bodies.gauges, uses->term[i].gauge, body);
+            bodies.of(bodies.gauges, elements->term[i].gauge, body);
             self->near[i] = offset_of(self, first, body[0]);
             self->far[i] = offset_of(self, first, body[1]);
         }
@@ -84,7 +84,7 @@ static void place_rows(zd_packed *self, const zd_planned_uses *uses, ends bodies
     }
 }
 
-int zd_packed_plan(zd_packed *self, const zd_planned_uses *uses, int bodies, zd_bodies_of *bodies_of, const void *gauges)
+int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *gauges)
 {
     const ends those = {bodies_of, gauges};
     for (int b = 0; b < bodies; b++) self->mass[b] = ZD_CONSTANT | ZD_DIAGONAL;
@@ -92,13 +92,13 @@ int zd_packed_plan(zd_packed *self, const zd_planned_uses *uses, int bodies, zd_
     self->structure = (zd_structure){
         .blocks = bodies, .coordinates = self->coordinates, .velocities = self->velocities, .mass = self->mass,
         .rows = self->rows, .first = self->first, .block = self->block};
-    for (int row = 0, count; row < uses->m; row += count) {
+    for (int row = 0, count; row < elements->m; row += count) {
         const int group = self->structure.groups++, first = self->first[group];
         int end = first;
-        count = self->rows[group] = rows_of_group(uses, row);
-        touch_all(self, uses, those, row, count, &end);
+        count = self->rows[group] = rows_of_group(elements, row);
+        touch_all(self, elements, those, row, count, &end);
         if (end == first) return row;
-        place_rows(self, uses, those, row, count, first, end);
+        place_rows(self, elements, those, row, count, first, end);
         self->first[group + 1] = end;
     }
     return -1;

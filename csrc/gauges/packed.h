@@ -20,6 +20,6 @@ typedef void zd_bodies_of(const void *gauges, int gauge, int body[2]);
 void zd_packed_take(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms);
 /* Fills it in, where `coordinates` and `velocities` are there. Returns -1, or a row that touches the ground alone,
  * of which there must be none. */
-int zd_packed_plan(zd_packed *self, const zd_planned_uses *uses, int bodies, zd_bodies_of *bodies_of, const void *gauges);
+int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *gauges);
 
 #endif

@@ -78,5 +78,5 @@ int zd_tables_are_right(const zd_tables *tables, char *message, int message_size
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         for (int i = 0; i < all[k].count; i++)
             if (!all[k].is_right(tables, i, to)) return 0;
-    return zd_uses_are_right(&tables->uses, tables->joints, tables->gauges, to);
+    return zd_elements_are_right(&tables->elements, tables->joints, tables->gauges, to);
 }

@@ -22,7 +22,7 @@ typedef struct parts {
     int *lengths;
     zd_packing *packing;
     zd_hinged hinged;
-    zd_use_parts uses;
+    zd_element_parts elements;
     int gauges, angles;     /* so many are there by now */
 } parts;
 
@@ -40,13 +40,13 @@ static size_t most_rows(const zd_tables *tables)
 {
     int joints = tables->joints;
     for (int i = 0; i < tables->bodies; i++) joints -= tables->body[i].carrier >= 0;
-    return (size_t)(joints > 0 ? joints : 0) * ZD_JOINT_ROWS + (size_t)tables->uses.relations;
+    return (size_t)(joints > 0 ? joints : 0) * ZD_JOINT_ROWS + (size_t)tables->elements.relations;
 }
 
 /* Gauges of rows that are of no pin, of which a joint has x and y of the same points. */
 static size_t most_lines(const zd_tables *tables)
 {
-    size_t lines = (size_t)tables->uses.terms;
+    size_t lines = (size_t)tables->elements.terms;
     for (int j = 0; j < tables->joints; j++) {
         const zd_joint_kind *kind = zd_joint_kind_of(tables->joint[j].kind);
         for (const zd_joint_row *row = kind->row; row < kind->row + kind->rows; row++)
@@ -70,10 +70,10 @@ static void take_parts(const zd_tables *tables, zd_arena *arena, parts *to)
     TAKE(lengths, 6 * bodies);
     TAKE(packing, 1);
 #undef TAKE
-    zd_uses_take(&to->uses, arena, &tables->uses, extra, rows);
+    zd_elements_take(&to->elements, arena, &tables->elements, extra, rows);
     zd_packing none = {.weight = NULL};
     zd_hinged_take(&to->hinged, arena, has_tree(tables) ? bodies : 0, most_rows(tables));
-    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->uses.relations, (size_t)tables->uses.terms + extra,
+    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->elements.relations, (size_t)tables->elements.terms + extra,
                     most_lines(tables));
 }
 
@@ -207,7 +207,7 @@ static void add_term(const zd_joint *joint, int kind, enum zd_zero zero, double 
     to->gauge[to->gauges] = (zd_gauge){
         kind, joint->first, joint->second, {joint->point1[0], joint->point1[1]}, {joint->point2[0], joint->point2[1]},
         {joint->axis[0], joint->axis[1]}, zero_of(joint, zero)};
-    zd_uses_add_term(&to->uses, to->gauges++, coefficient);
+    zd_elements_add_term(&to->elements, to->gauges++, coefficient);
 }
 
 /* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
@@ -219,14 +219,14 @@ static void plan_rows(const zd_tables *tables, int nonholonomic, parts *to)
         for (int i = 0; i < kind->rows; i++) {
             const zd_joint_row *row = kind->row + i;
             if (row->nonholonomic != nonholonomic) continue;
-            const int first = to->uses.terms;
+            const int first = to->elements.terms;
             add_term(to->joint + j, (int)row->gauge, row->zero, 1, to);
             if (row->rolls) add_term(to->joint + j, ZD_GAUGE_ANGLE, ZD_ZERO_ANGLE, to->joint[j].length, to);
-            to->planned[j].rows[to->planned[j].row_count++] = to->uses.rows;
-            zd_uses_add_joint_row(&to->uses, first, nonholonomic, j, i);
+            to->planned[j].rows[to->planned[j].row_count++] = to->elements.rows;
+            zd_elements_add_joint_row(&to->elements, first, nonholonomic, j, i);
         }
     }
-    zd_uses_add_relations(&tables->uses, nonholonomic, &to->uses);
+    zd_elements_add_relations(&tables->elements, nonholonomic, &to->elements);
 }
 
 /* ---- the system ---- */
@@ -234,16 +234,16 @@ static void plan_rows(const zd_tables *tables, int nonholonomic, parts *to)
 static int terms_of(const zd_tables *tables, const zd_mechanism *self, int is_tree)
 {
     const int has_gravity = self->gravity.x != 0 || self->gravity.y != 0;
-    int terms = ZD_M | ZD_POTENTIAL | zd_uses_terms(&tables->uses, &self->uses);
+    int terms = ZD_M | ZD_POTENTIAL | zd_elements_terms(&tables->elements, &self->elements);
     if (is_tree) terms |= ZD_BIAS;
-    if (has_gravity || self->uses.efforts) terms |= ZD_FORCE;
+    if (has_gravity || self->elements.efforts) terms |= ZD_FORCE;
     return terms;
 }
 
 static void make_system(const zd_tables *tables, const parts *from, int coordinates, zd_mechanism *self)
 {
     self->system = (zd_system){
-        .nq = coordinates, .nv = coordinates, .mh = self->uses.mh, .mn = self->uses.m - self->uses.mh,
+        .nq = coordinates, .nv = coordinates, .mh = self->elements.mh, .mn = self->elements.m - self->elements.mh,
         .provides = terms_of(tables, self, has_tree(tables)),
         .scratch = zd_frame_divide(self, &self->frame_at),
         .evaluate = zd_mechanism_evaluate,
@@ -253,12 +253,12 @@ static void make_system(const zd_tables *tables, const parts *from, int coordina
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
         .structure = self->packing ? &self->packing->packed.structure : NULL,
-        .operations = self->packing && self->packing->pins.are_all ? &zd_mechanism_products : NULL,
+        .operations = self->packing && self->packing->revolutes.are_all ? &zd_mechanism_products : NULL,
         .pinned = self->packing && self->packing->pinned.pins ? &self->packing->pinned : NULL,
         .magnitudes = has_tree(tables) ? zd_mechanism_magnitudes : NULL,
         .magnitudes_scratch = zd_frame_divide(self, &self->frame_at),
     };
-    self->measures = zd_mechanism_measures(self, from->uses.measure);
+    self->measures = zd_mechanism_measures(self, from->elements.measure);
 }
 
 static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
@@ -266,22 +266,22 @@ static void plan(const zd_tables *tables, parts *all, zd_mechanism *self)
     int coordinates = plan_tree(tables, all);
     plan_joints(tables, all);
     copy_gauges(tables, all);
-    zd_uses_copy(&tables->uses, &all->uses);
+    zd_elements_copy(&tables->elements, &all->elements);
     plan_rows(tables, 0, all);
-    const int mh = all->uses.rows;
+    const int mh = all->elements.rows;
     plan_rows(tables, 1, all);
     *self = (zd_mechanism){
         .gravity = {tables->gravity[0], tables->gravity[1]},
         .tree = {tables->bodies, coordinates, all->link, all->angles, all->angle},
-        .joints = tables->joints, .uses = zd_uses_plan(&tables->uses, &all->uses, mh),
+        .joints = tables->joints, .elements = zd_elements_plan(&tables->elements, &all->elements, mh),
         .number = all->number, .joint = all->joint, .planned = all->planned, .gauge = all->gauge,
         .coordinate = all->coordinate,
     };
-    self->measures.count = tables->uses.measures;
+    self->measures.count = tables->elements.measures;
     if (!has_tree(tables) && zd_packing_plan(all->packing, self)) self->packing = all->packing;
-    self->pins = self->packing ? self->packing->pins.count : 0;
+    self->revolutes = self->packing ? self->packing->revolutes.count : 0;
     self->lines = self->packing ? self->packing->lines.count : 0;
-    zd_hinged_plan(&all->hinged, &self->tree, &self->uses, self->gauge);
+    zd_hinged_plan(&all->hinged, &self->tree, &self->elements, self->gauge);
     self->hinged = all->hinged;
     make_system(tables, all, coordinates, self);
 }
@@ -315,7 +315,7 @@ void zd_mechanism_free(zd_mechanism *mechanism)
 }
 
 const zd_system *zd_mechanism_system(const zd_mechanism *mechanism) { return &mechanism->system; }
-const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism) { return mechanism->uses.owner_of_row; }
+const zd_row_owner *zd_mechanism_rows(const zd_mechanism *mechanism) { return mechanism->elements.owner_of_row; }
 const zd_coordinate_owner *zd_mechanism_coordinates(const zd_mechanism *mechanism) { return mechanism->coordinate; }
 int zd_mechanism_data_size(void) { return (int)sizeof(zd_mechanism); }
 
@@ -324,12 +324,12 @@ void zd_mechanism_with(const zd_mechanism *mechanism, void *owner, const zd_comp
 {
     zd_mechanism *mine = data;
     *mine = *mechanism;
-    mine->uses.owner = owner;
-    mine->uses.compiled = compiled;
+    mine->elements.owner = owner;
+    mine->elements.compiled = compiled;
     mine->numbers = numbers;
 }
 
 zd_plan zd_mechanism_plan(const zd_mechanism *mechanism)
 {
-    return (zd_plan){mechanism->tree.link, mechanism->gauge, mechanism->uses.term, mechanism->uses.row, mechanism->uses.effort};
+    return (zd_plan){mechanism->tree.link, mechanism->gauge, mechanism->elements.term, mechanism->elements.row, mechanism->elements.effort};
 }

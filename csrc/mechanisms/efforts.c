@@ -9,9 +9,9 @@ int zd_efforts_apply(const zd_mechanism *self, const zd_frame *frame, double t)
     const zd_readings at = zd_frame_readings(self, frame);
     for (int i = 0; i <= self->tree.bodies; i++)
         frame->wrench[i] = (zd_wrench){zd_times(self->tree.link[i].mass, self->gravity), 0};
-    for (const zd_effort *effort = self->uses.effort; effort < self->uses.effort + self->uses.efforts; effort++) {
+    for (const zd_effort *effort = self->elements.effort; effort < self->elements.effort + self->elements.efforts; effort++) {
         double value;
-        if (zd_effort_say(&self->uses, &at, effort, t, &value, NULL)) return ZD_CALLBACK;
+        if (zd_effort_say(&self->elements, &at, effort, t, &value, NULL)) return ZD_CALLBACK;
         const zd_gauge *gauge = self->gauge + effort->gauge;
         zd_reading reading = zd_gauge_read(gauge, frame->pose);
         zd_add_wrench(frame->wrench + gauge->first, value, reading.first);
@@ -23,7 +23,7 @@ int zd_efforts_apply(const zd_mechanism *self, const zd_frame *frame, double t)
 int zd_mechanism_power(const zd_mechanism *self, const zd_frame *frame, double t, double *power)
 {
     const zd_readings at = zd_frame_readings(self, frame);
-    return zd_efforts_power(&self->uses, &at, t, power);
+    return zd_efforts_power(&self->elements, &at, t, power);
 }
 
 double zd_mechanism_potential(const zd_mechanism *self, const zd_frame *frame)
@@ -32,5 +32,5 @@ double zd_mechanism_potential(const zd_mechanism *self, const zd_frame *frame)
     double V = 0;
     for (int i = 1; i <= self->tree.bodies; i++)
         V -= self->tree.link[i].mass * zd_inner(self->gravity, frame->pose[i].at);
-    return zd_springs_potential(&self->uses, &at, V);
+    return zd_springs_potential(&self->elements, &at, V);
 }

@@ -25,11 +25,11 @@ static int write_force(const zd_mechanism *self, const zd_frame *frame, double t
 /* What is added up, long before it is: the machine waits where it adds to what a wider store has just cleared. */
 static void clear(const zd_mechanism *self, int want, const zd_terms *out)
 {
-    size_t nv = (size_t)self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->packed.size_of_C : (size_t)self->uses.m * nv;
+    size_t nv = (size_t)self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->packed.size_of_C : (size_t)self->elements.m * nv;
     if ((want & ZD_M) && !self->packing) memset(out->M, 0, nv * nv * sizeof *out->M);
     if (want & ZD_BIAS) memset(out->d, 0, nv * sizeof *out->d);
-    if ((want & ZD_FORCE) && (self->uses.efforts || !self->packing)) memset(out->f, 0, nv * sizeof *out->f);
-    if ((want & ZD_C) && !(self->packing && self->packing->pins.are_all)) memset(out->C, 0, size_of_C * sizeof *out->C);
+    if ((want & ZD_FORCE) && (self->elements.efforts || !self->packing)) memset(out->f, 0, nv * sizeof *out->f);
+    if ((want & ZD_C) && !(self->packing && self->packing->revolutes.are_all)) memset(out->C, 0, size_of_C * sizeof *out->C);
 }
 
 /* The diagonals of the bodies, one after another */
@@ -46,13 +46,13 @@ static void write_packed_mass(const zd_tree *tree, double *M)
 static int terms_of_bodies(const zd_mechanism *self, int want)
 {
     if (self->packing) {
-        const int known = ZD_M | (self->packing->is_whole ? ROWS : 0) | (self->uses.efforts ? 0 : ZD_FORCE);
+        const int known = ZD_M | (self->packing->is_whole ? ROWS : 0) | (self->elements.efforts ? 0 : ZD_FORCE);
         return want & ~known & (ROWS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     }
     int left = want & (ROWS | ZD_M | ZD_BIAS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     if (!self->hinged.is_whole) return left;
-    if (2 * self->hinged.closures == self->uses.m) left &= ~ROWS;
-    return left & ~(ZD_M | ZD_BIAS | (self->uses.efforts ? 0 : ZD_FORCE));
+    if (2 * self->hinged.closures == self->elements.m) left &= ~ROWS;
+    return left & ~(ZD_M | ZD_BIAS | (self->elements.efforts ? 0 : ZD_FORCE));
 }
 
 /* Bodies are placed once for each (t, p), when first a term needs it. */
@@ -60,7 +60,7 @@ static void place(const zd_mechanism *self, const zd_frame *frame, int left, con
 {
     if (*frame->is_placed == 0) zd_tree_place(&self->tree, p, frame->sines, frame->pose);
     *frame->is_placed = 1;
-    int is_moving = left & (ZD_BIAS | ZD_XI | ZD_POWER) || self->uses.has_velocity_forces || self->uses.law;
+    int is_moving = left & (ZD_BIAS | ZD_XI | ZD_POWER) || self->elements.has_velocity_forces || self->elements.law;
     if (is_moving) zd_tree_move(&self->tree, frame->pose, v, frame->twist);
 }
 
@@ -70,7 +70,7 @@ static void write_hinged(const zd_mechanism *self, const zd_frame *frame, int wa
     const zd_hinged *hinged = &self->hinged;
     if (want & ZD_M) zd_hinged_mass(hinged, &self->tree, frame->sines, out->M);
     if (want & ZD_BIAS) zd_hinged_bias(hinged, &self->tree, frame->sines, v, out->d);
-    if ((want & ZD_FORCE) && !self->uses.efforts) zd_hinged_weight(hinged, &self->tree, frame->sines, self->gravity, out->f);
+    if ((want & ZD_FORCE) && !self->elements.efforts) zd_hinged_weight(hinged, &self->tree, frame->sines, self->gravity, out->f);
     if (want & ROWS) zd_hinged_close(hinged, &self->tree, frame->sines, v, want, out);
 }
 
@@ -78,11 +78,11 @@ static void write_hinged(const zd_mechanism *self, const zd_frame *frame, int wa
 static void write_packed(const zd_mechanism *self, const zd_frame *frame, int want, double t, const double *p, const double *v,
                          const zd_terms *out)
 {
-    if (want & ZD_MOVED) zd_pins_turn(&self->packing->pins, self, frame);
+    if (want & ZD_MOVED) zd_revolute_joints_turn(&self->packing->revolutes, self, frame);
     if (want & ZD_M) write_packed_mass(&self->tree, out->M);
-    if ((want & ZD_FORCE) && !self->uses.efforts) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
-    zd_pins_write(&self->packing->pins, self, frame, want, p, v, out);
-    zd_lines_write(&self->packing->lines, &self->packing->pins, self, frame, want, t, p, v, out);
+    if ((want & ZD_FORCE) && !self->elements.efforts) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
+    zd_revolute_joints_write(&self->packing->revolutes, self, frame, want, p, v, out);
+    zd_lines_write(&self->packing->lines, &self->packing->revolutes, self, frame, want, t, p, v, out);
 }
 
 int zd_mechanism_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)

@@ -13,8 +13,8 @@ static size_t next(size_t *used, int count, size_t bytes)
 int zd_frame_divide(const zd_mechanism *self, zd_frame_at *to)
 {
     size_t used = 0;
-    const int bodies = self->tree.bodies + 1, longest = self->uses.longest;
-    to->arm = next(&used, 2 * self->pins, sizeof(zd_vector));     /* these two are first: see products.c */
+    const int bodies = self->tree.bodies + 1, longest = self->elements.longest;
+    to->arm = next(&used, 2 * self->revolutes, sizeof(zd_vector));     /* these two are first: see products.c */
     to->spread = next(&used, self->packing ? 3 * bodies : 0, sizeof(double));
     to->pull = next(&used, self->lines, sizeof(zd_pull));
     to->place = next(&used, self->lines ? 3 * bodies : 0, sizeof(double));

@@ -134,12 +134,12 @@ static int have_same_points(const zd_gauge *a, const zd_gauge *b)
            && a->point2[0] == b->point2[0] && a->point2[1] == b->point2[1];
 }
 
-static void plan_closures(zd_hinged *self, const zd_tree *tree, const zd_planned_uses *uses, const zd_gauge *gauge)
+static void plan_closures(zd_hinged *self, const zd_tree *tree, const zd_planned_elements *elements, const zd_gauge *gauge)
 {
-    const zd_relation *row = uses->row;
-    for (int i = 0; i + 1 < uses->mh; i++) {
-        if (!is_plain(row + i, uses->coefficient) || !is_plain(row + i + 1, uses->coefficient)) continue;
-        const zd_gauge *x = gauge + uses->term[row[i].first].gauge, *y = gauge + uses->term[row[i + 1].first].gauge;
+    const zd_relation *row = elements->row;
+    for (int i = 0; i + 1 < elements->mh; i++) {
+        if (!is_plain(row + i, elements->coefficient) || !is_plain(row + i + 1, elements->coefficient)) continue;
+        const zd_gauge *x = gauge + elements->term[row[i].first].gauge, *y = gauge + elements->term[row[i + 1].first].gauge;
         if (x->kind != ZD_GAUGE_X || y->kind != ZD_GAUGE_Y || !have_same_points(x, y)) continue;
         zd_closure *to = self->closure + self->closures++;
         *to = (zd_closure){.row = i, .first = self->arms, .constant = {-x->zero - row[i].constant, -y->zero - row[i + 1].constant}};
@@ -151,13 +151,13 @@ static void plan_closures(zd_hinged *self, const zd_tree *tree, const zd_planned
     }
 }
 
-void zd_hinged_plan(zd_hinged *self, const zd_tree *tree, const zd_planned_uses *uses, const zd_gauge *gauge)
+void zd_hinged_plan(zd_hinged *self, const zd_tree *tree, const zd_planned_elements *elements, const zd_gauge *gauge)
 {
     self->is_whole = is_hinged(tree);
     if (!self->is_whole) return;
     number_angles(self, tree);
     plan_mass(self, tree);
-    plan_closures(self, tree, uses, gauge);
+    plan_closures(self, tree, elements, gauge);
 }
 
 /* ---- terms ---- */

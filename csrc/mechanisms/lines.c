@@ -13,13 +13,13 @@ static int has_angle(const zd_mechanism *mechanism, int body) { return mechanism
 
 zd_line zd_line_of(const zd_mechanism *mechanism, int row, int term, int C, int near, int far)
 {
-    const zd_gauge *gauge = mechanism->gauge + mechanism->uses.term[term].gauge;
+    const zd_gauge *gauge = mechanism->gauge + mechanism->elements.term[term].gauge;
     const zd_vector axis = {gauge->axis[0], gauge->axis[1]};
     const int is_normal = gauge->kind == ZD_GAUGE_ACROSS || gauge->kind == ZD_GAUGE_SKID, has_near = near >= 0 && !is_of_second_alone(gauge->kind);
     return (zd_line){
-        gauge->kind, row, term == mechanism->uses.row[row].first, gauge->first, gauge->second, has_near ? C + near : -1, far >= 0 ? C + far : -1,
+        gauge->kind, row, term == mechanism->elements.row[row].first, gauge->first, gauge->second, has_near ? C + near : -1, far >= 0 ? C + far : -1,
         has_angle(mechanism, gauge->first), has_angle(mechanism, gauge->second), {gauge->point1[0], gauge->point1[1]},
-        {gauge->point2[0], gauge->point2[1]}, is_normal ? zd_turned(1, axis) : axis, gauge->zero, mechanism->uses.coefficient[term]};
+        {gauge->point2[0], gauge->point2[1]}, is_normal ? zd_turned(1, axis) : axis, gauge->zero, mechanism->elements.coefficient[term]};
 }
 
 /* ---- what is known from positions ---- */
@@ -118,10 +118,10 @@ static void write_xi(const zd_lines *self, const zd_frame *frame, const double *
 }
 
 /* What rows have besides their gauges. */
-static void begin_rows(const zd_lines *self, const zd_planned_uses *uses, int want, double t, const zd_terms *out)
+static void begin_rows(const zd_lines *self, const zd_planned_elements *elements, int want, double t, const zd_terms *out)
 {
     for (const zd_line *line = self->line; line < self->line + self->count; line++) {
-        const zd_relation *row = uses->row + line->row;
+        const zd_relation *row = elements->row + line->row;
         const double target = row->constant + row->slope * t;
         if (!line->is_first) continue;
         if (want & ZD_PHI && !row->nonholonomic) out->Phi[line->row] = -target;
@@ -130,14 +130,14 @@ static void begin_rows(const zd_lines *self, const zd_planned_uses *uses, int wa
     }
 }
 
-void zd_lines_write(const zd_lines *self, const zd_pins *pins, const zd_mechanism *mechanism, const zd_frame *frame, int want, double t,
+void zd_lines_write(const zd_lines *self, const zd_revolute_joints *revolutes, const zd_mechanism *mechanism, const zd_frame *frame, int want, double t,
                     const double *p, const double *v, const zd_terms *out)
 {
     if (!self->count) return;
     const zd_tree *tree = &mechanism->tree;
-    if (want & (ZD_PHI | ZD_PHI_T | ZD_XI)) begin_rows(self, &mechanism->uses, want, t, out);
-    const double *place = want & (ZD_MOVED | ZD_PHI | ZD_XI) ? zd_pins_spread(pins, tree, p, frame->place) : NULL;
-    if (want & (ZD_MOVED | ZD_PHI)) write_pulls(self, frame, want, mechanism->uses.mh, place, out->Phi);
+    if (want & (ZD_PHI | ZD_PHI_T | ZD_XI)) begin_rows(self, &mechanism->elements, want, t, out);
+    const double *place = want & (ZD_MOVED | ZD_PHI | ZD_XI) ? zd_revolute_joints_spread(revolutes, tree, p, frame->place) : NULL;
+    if (want & (ZD_MOVED | ZD_PHI)) write_pulls(self, frame, want, mechanism->elements.mh, place, out->Phi);
     if (want & ZD_C) write_C(self, frame, out->C);
-    if (want & ZD_XI) write_xi(self, frame, place, zd_pins_spread(pins, tree, v, frame->spread), out->xi);
+    if (want & ZD_XI) write_xi(self, frame, place, zd_revolute_joints_spread(revolutes, tree, v, frame->spread), out->xi);
 }

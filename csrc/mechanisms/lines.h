@@ -4,7 +4,7 @@
 #ifndef ZD_LINES_H
 #define ZD_LINES_H
 
-#include "pins.h"
+#include "revolute_joints.h"
 
 typedef struct zd_line {    /* a gauge of a row */
     int kind, row;          /* enum zd_gauge_kind; the row of C */
@@ -25,7 +25,7 @@ typedef struct zd_lines {
 /* The line of a term of row `row`. */
 zd_line zd_line_of(const zd_mechanism *mechanism, int row, int term, int C, int near, int far);
 /* Where want has ZD_MOVED the pulls of all lines, and Phi, C, Phi_t and xi of their rows, as far as they are wanted; C is zero before. */
-void zd_lines_write(const zd_lines *self, const zd_pins *pins, const zd_mechanism *mechanism, const zd_frame *frame, int want, double t,
+void zd_lines_write(const zd_lines *self, const zd_revolute_joints *revolutes, const zd_mechanism *mechanism, const zd_frame *frame, int want, double t,
                     const double *p, const double *v, const zd_terms *out);
 
 #endif

@@ -38,13 +38,13 @@ int zd_mechanism_magnitudes(const void *data, double t, const double *p, const d
     zd_tree_turn(&self->tree, p, frame.sines);
     zd_tree_place(&self->tree, p, frame.sines, frame.pose);
     zd_tree_move(&self->tree, frame.pose, v, frame.twist);
-    for (int i = 0; i < self->uses.m; i++, magnitude += 2) {
-        const zd_relation *row = self->uses.row + i;
+    for (int i = 0; i < self->elements.m; i++, magnitude += 2) {
+        const zd_relation *row = self->elements.row + i;
         zd_combined all;
-        const int status = zd_combine(&self->uses, &readings, row, t, &all);
+        const int status = zd_combine(&self->elements, &readings, row, t, &all);
         if (status) return status;
         magnitude[0] = magnitude[1] = 0;
-        for (int k = 0; k < row->terms; k++) add(self, &frame, self->uses.term[row->first + k].gauge, all.factors[k], magnitude);
+        for (int k = 0; k < row->terms; k++) add(self, &frame, self->elements.term[row->first + k].gauge, all.factors[k], magnitude);
     }
     return ZD_DONE;
 }

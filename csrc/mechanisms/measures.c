@@ -1,7 +1,7 @@
 /* Measures are gauges with their rates and accelerations, and what goes through joints, springs and drives. */
 #include "measures.h"
 
-#include "../gauges/observed.h"
+#include "../gauges/output_spec.h"
 #include "gauge.h"
 #include "reactions.h"
 
@@ -20,13 +20,13 @@ static void write_row(const zd_mechanism *self, const zd_frame *frame, const zd_
     zd_tree_inward(&self->tree, frame->pose, gauge->second, scale, reading.second, row);
 }
 
-static int needs_twists(const zd_observed *measure, const zd_measured *out)
+static int needs_twists(const zd_output_spec *measure, const zd_measured *out)
 {
     return measure->quantity != ZD_VALUES || out->rate || out->bias;
 }
 
 /* Finds the poses of the state, and the twists where the measure needs them, unless the call before has found them. */
-static void place_and_move(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const double *p, const double *v,
+static void place_and_move(const zd_mechanism *self, const zd_frame *frame, const zd_output_spec *measure, const double *p, const double *v,
                    const zd_measured *out)
 {
     if (!out->is_same_state) *frame->is_placed = *frame->is_moving = 0;
@@ -39,7 +39,7 @@ static void place_and_move(const zd_mechanism *self, const zd_frame *frame, cons
 }
 
 /* Component i of a measure that is a gauge, its rate, or the rate's rate. */
-static void measure_gauge(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, int i, const state *at,
+static void measure_gauge(const zd_mechanism *self, const zd_frame *frame, const zd_output_spec *measure, int i, const state *at,
                           const zd_measured *out)
 {
     const zd_gauge *gauge = self->gauge + measure->index + i;
@@ -68,22 +68,22 @@ static int measure_tension(const zd_mechanism *self, const zd_frame *frame, int 
     return status;
 }
 
-static int measure_effort_force(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
+static int measure_effort_force(const zd_mechanism *self, const zd_frame *frame, const zd_output_spec *measure, const state *at, double *value)
 {
     const zd_readings readings = zd_frame_readings(self, frame);
     zd_vector force = {0, 0};
     double effort;
     int status = ZD_DONE;
     for (int i = measure->index; i < measure->index + measure->size && !status; i++) {
-        const zd_gauge *gauge = self->gauge + self->uses.effort[i].gauge;
-        status = zd_effort_say(&self->uses, &readings, self->uses.effort + i, at->t, &effort, NULL);
+        const zd_gauge *gauge = self->gauge + self->elements.effort[i].gauge;
+        status = zd_effort_say(&self->elements, &readings, self->elements.effort + i, at->t, &effort, NULL);
         force = zd_plus(force, zd_times(effort, zd_gauge_read(gauge, frame->pose).second.force));
     }
     value[0] = force.x, value[1] = force.y;
     return status;
 }
 
-static int measure_transmitted(const zd_mechanism *self, const zd_frame *frame, const zd_observed *measure, const state *at, double *value)
+static int measure_transmitted(const zd_mechanism *self, const zd_frame *frame, const zd_output_spec *measure, const state *at, double *value)
 {
     const zd_readings readings = zd_frame_readings(self, frame);
     zd_wrench reaction;
@@ -91,10 +91,10 @@ static int measure_transmitted(const zd_mechanism *self, const zd_frame *frame, 
     switch (measure->quantity) {
     case ZD_JOINT_TENSION: return measure_tension(self, frame, measure->index, at, value);
     case ZD_EFFORT_VALUE:
-    case ZD_EFFORT_POWER: return zd_observed_effort(&self->uses, &readings, measure, at->t, value);
+    case ZD_EFFORT_POWER: return zd_output_effort(&self->elements, &readings, measure, at->t, value);
     case ZD_EFFORT_FORCE: return measure_effort_force(self, frame, measure, at, value);
     case ZD_DRIVE_VALUE:
-    case ZD_DRIVE_POWER: return zd_observed_drive(&self->uses, &readings, measure, at->t, at->lambda, value);
+    case ZD_DRIVE_POWER: return zd_output_drive(&self->elements, &readings, measure, at->t, at->lambda, value);
     default: status = zd_joint_reaction(self, frame, measure->index, at->t, at->vdot, at->lambda, &reaction);
     }
     if (measure->quantity == ZD_JOINT_TORQUE) *value = reaction.torque;
@@ -106,18 +106,18 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
                     const zd_measured *out, double *scratch)
 {
     const zd_mechanism *self = data;
-    const zd_observed *observed = self->uses.observed + measure;
+    const zd_output_spec *output = self->elements.output + measure;
     const zd_frame frame = zd_frame_of(self, scratch);
     const state at = {t, v, vdot, lambda};
-    if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
-    place_and_move(self, &frame, observed, p, v, out);
-    if (observed->quantity <= ZD_ACCELERATIONS) {
-        for (int i = 0; i < observed->size; i++) measure_gauge(self, &frame, observed, i, &at, out);
+    if (!zd_output_is_available(&self->elements, output, vdot, lambda)) return ZD_BAD_ARGUMENT;
+    place_and_move(self, &frame, output, p, v, out);
+    if (output->quantity <= ZD_ACCELERATIONS) {
+        for (int i = 0; i < output->size; i++) measure_gauge(self, &frame, output, i, &at, out);
         return ZD_DONE;
     }
     if (!out->value) return ZD_DONE;
-    int status = measure_transmitted(self, &frame, observed, &at, out->value);
-    for (int i = 0; i < zd_observed_size(observed, OF_FORCES, OF_TORQUES); i++) out->value[i] *= observed->scale;
+    int status = measure_transmitted(self, &frame, output, &at, out->value);
+    for (int i = 0; i < zd_output_size(output, OF_FORCES, OF_TORQUES); i++) out->value[i] *= output->scale;
     return status;
 }
 
@@ -137,7 +137,7 @@ void zd_mechanism_components(const zd_mechanism *self, const double *p, const do
     zd_tree_place(&self->tree, p, frame.sines, frame.pose);
     zd_tree_move(&self->tree, frame.pose, v, frame.twist);
     for (int i = 0; i < count; i++) {
-        const zd_observed *measure = self->uses.observed + which[2 * i];
+        const zd_output_spec *measure = self->elements.output + which[2 * i];
         const zd_gauge *gauge = self->gauge + measure->index + which[2 * i + 1];
         const zd_reading reading = zd_gauge_read(gauge, frame.pose);
         double bias;
@@ -151,6 +151,6 @@ void zd_mechanism_components(const zd_mechanism *self, const double *p, const do
 zd_measures zd_mechanism_measures(const zd_mechanism *self, zd_measure *measure)
 {
     const int count = self->measures.count;
-    zd_observed_list(&self->uses, count, OF_FORCES, OF_TORQUES, measure);
+    zd_output_list(&self->elements, count, OF_FORCES, OF_TORQUES, measure);
     return (zd_measures){count, measure, self->system.scratch, evaluate};
 }

@@ -10,7 +10,7 @@
 #ifndef ZD_MECHANISM_H
 #define ZD_MECHANISM_H
 
-#include "../gauges/uses.h"
+#include "../gauges/elements.h"
 #include "../joints/joint.h"
 #include "link.h"
 
@@ -44,7 +44,7 @@ typedef struct zd_tables {
     const zd_body *body;        /* (bodies,) from number 1 on */
     const zd_joint *joint;
     const zd_gauge *gauge;
-    zd_uses uses;
+    zd_elements elements;
 } zd_tables;
 
 /* What a coordinate of the system is. */

@@ -28,7 +28,7 @@ struct zd_mechanism {
     zd_vector gravity;
     zd_tree tree;
     int joints;
-    zd_planned_uses uses;
+    zd_planned_elements elements;
     const int *number;              /* (bodies + 1,): of each body as given, in the tree */
     const zd_joint *joint;
     const zd_planned_joint *planned;    /* (joints,) */
@@ -36,7 +36,7 @@ struct zd_mechanism {
     const zd_coordinate_owner *coordinate;      /* (nq,) */
     zd_hinged hinged;             /* where all bodies turn and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
-    int pins, lines;                /* in absolute coordinates, how many of these rows come down to: see pins.h, lines.h */
+    int revolutes, lines;                /* in absolute coordinates, how many of these rows come down to: see revolute_joints.h, lines.h */
     zd_frame_at frame_at;
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
@@ -55,7 +55,7 @@ typedef struct zd_frame {
     zd_wrench *wrench;
     zd_composite *composite;
     zd_spin *spin;                  /* of measures alone */
-    zd_vector *axis, *arm;          /* (bodies + 1,), (2 pins,): of each body its x, and of each pin the ways to it, see pins.c */
+    zd_vector *axis, *arm;          /* (bodies + 1,), (2 pins,): of each body its x, and of each pin the ways to it, see revolute_joints.c */
     double *spread;                 /* (3 bodies + 3,): a vector over the coordinates */
     zd_pull *pull;                  /* (lines,): see lines.c */
     double *place;                  /* (3 bodies + 3,) where there are lines: the coordinates */

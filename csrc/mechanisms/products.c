@@ -1,18 +1,18 @@
-/* The rows of each pin are those of pins.c, I and k x arm with opposite signs on its bodies. */
+/* The rows of each pin are those of revolute_joints.c, I and k x arm with opposite signs on its bodies. */
 #include "products.h"
 
 #include "structure.h"
 
 /* The ways to the points of all pins stand first in the scratch, and behind them is room for a vector. */
 static const zd_vector *arms_in(const double *scratch) { return (const zd_vector *)scratch; }
-static double *room_in(double *scratch, const zd_pins *self) { return scratch + 4 * self->count; }
+static double *room_in(double *scratch, const zd_revolute_joints *self) { return scratch + 4 * self->count; }
 
 static void times_C(const void *data, const zd_terms *terms, const double *x, double *restrict y)
 {
     const zd_mechanism *mechanism = data;
-    const zd_pins *self = &mechanism->packing->pins;
+    const zd_revolute_joints *self = &mechanism->packing->revolutes;
     const zd_vector *arm = arms_in(terms->scratch);
-    const double *of = zd_pins_spread(self, &mechanism->tree, x, room_in(terms->scratch, self));
+    const double *of = zd_revolute_joints_spread(self, &mechanism->tree, x, room_in(terms->scratch, self));
     for (int k = 0; k < self->count; k++, arm += 2) {
         const double *a = zd_of_body(of, self->between[k].first), *b = zd_of_body(of, self->between[k].second);
         y[2 * k] = b[0] - b[2] * arm[1].y - (a[0] - a[2] * arm[0].y);
@@ -38,7 +38,7 @@ static const double SIGN[] = {-1, 1}, SIGN_OF_TWO[] = {1, -1};
 ZD_INLINE void subtract(const int have_angles, const zd_mechanism *mechanism, const zd_vector *arm, const double *W, const double *restrict y,
                         const int *place, double *restrict x)
 {
-    const int *end_at = mechanism->packing->pins.end_at, *ends = mechanism->packing->pins.end;
+    const int *end_at = mechanism->packing->revolutes.end_at, *ends = mechanism->packing->revolutes.end;
     for (int i = 1, k = end_at[1]; i <= mechanism->tree.bodies; i++) {
         const coordinates at = coordinates_of(have_angles, mechanism, i);
         const double *w = W + at.first;
@@ -61,7 +61,7 @@ static void subtract_weighted(const void *data, const zd_terms *terms, const dou
 {
     const zd_mechanism *mechanism = data;
     const zd_vector *arm = arms_in(terms->scratch);
-    if (mechanism->packing->pins.have_angles) subtract(1, mechanism, arm, W, y, place, x);
+    if (mechanism->packing->revolutes.have_angles) subtract(1, mechanism, arm, W, y, place, x);
     else subtract(0, mechanism, arm, W, y, place, x);
 }
 
@@ -86,7 +86,7 @@ ZD_INLINE void add_square(double *to, const double *w, zd_vector a, zd_vector b)
 ZD_INLINE void add(const int have_angles, const zd_mechanism *mechanism, const zd_vector *arm, const double *W, const int *at,
                    double *restrict S)
 {
-    const int *end_at = mechanism->packing->pins.end_at, *ends = mechanism->packing->pins.end;
+    const int *end_at = mechanism->packing->revolutes.end_at, *ends = mechanism->packing->revolutes.end;
     for (int i = 1, k = end_at[1]; i <= mechanism->tree.bodies; i++) {
         const coordinates of = coordinates_of(have_angles, mechanism, i);
         const double *own = W + of.first, w[] = {own[0], own[1], of.turns ? own[2] : 0};
@@ -104,7 +104,7 @@ static void add_weighted(const void *data, const zd_terms *terms, const double *
 {
     const zd_mechanism *mechanism = data;
     const zd_vector *arm = arms_in(terms->scratch);
-    if (mechanism->packing->pins.have_angles) add(1, mechanism, arm, W, at, S);
+    if (mechanism->packing->revolutes.have_angles) add(1, mechanism, arm, W, at, S);
     else add(0, mechanism, arm, W, at, S);
 }
 

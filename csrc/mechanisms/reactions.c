@@ -3,7 +3,7 @@
  * their accelerations beyond what else acts on them. */
 #include "reactions.h"
 
-#include "../gauges/observed.h"
+#include "../gauges/output_spec.h"
 #include "efforts.h"
 #include "gauge.h"
 #include "rows.h"
@@ -31,10 +31,10 @@ static int write_needs(const zd_mechanism *self, const zd_frame *frame, double t
     const zd_readings at = zd_frame_readings(self, frame);
     int status = zd_efforts_apply(self, frame, t);
     if (status) return status;
-    for (int i = 0; i < self->uses.m; i++) {
+    for (int i = 0; i < self->elements.m; i++) {
         zd_combined all;
-        if (zd_combine(&self->uses, &at, self->uses.row + i, t, &all)) return ZD_CALLBACK;
-        zd_row_act(self, frame, self->uses.row + i, all.factors, -lambda[i]);
+        if (zd_combine(&self->elements, &at, self->elements.row + i, t, &all)) return ZD_CALLBACK;
+        zd_row_act(self, frame, self->elements.row + i, all.factors, -lambda[i]);
     }
     zd_tree_accelerate(&self->tree, frame->pose, frame->twist, vdot, frame->spin);
     for (int i = 1; i <= self->tree.bodies; i++) {
@@ -73,10 +73,10 @@ static void add_gauge(const zd_mechanism *self, const zd_frame *frame, int index
 static void of_rows(const zd_mechanism *self, const zd_frame *frame, int joint, zd_vector point, const double *lambda, zd_wrench *to)
 {
     for (int k = 0; k < self->planned[joint].row_count; k++) {
-        const zd_relation *row = self->uses.row + self->planned[joint].rows[k];
+        const zd_relation *row = self->elements.row + self->planned[joint].rows[k];
         for (int i = 0; i < row->terms; i++) {
-            const zd_gauge_term *term = self->uses.term + row->first + i;
-            add_gauge(self, frame, term->gauge, point, -lambda[row - self->uses.row] * term->coefficient, to);
+            const zd_gauge_term *term = self->elements.term + row->first + i;
+            add_gauge(self, frame, term->gauge, point, -lambda[row - self->elements.row] * term->coefficient, to);
         }
     }
 }
@@ -87,16 +87,16 @@ static int of_drives(const zd_mechanism *self, const zd_frame *frame, int joint,
 {
     const zd_readings at = zd_frame_readings(self, frame);
     double value;
-    for (int i = 0; i < self->uses.efforts; i++) {
-        if (self->uses.effort[i].joint != joint) continue;
-        if (zd_effort_say(&self->uses, &at, self->uses.effort + i, t, &value, NULL)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->uses.effort[i].gauge, point, value, to);
+    for (int i = 0; i < self->elements.efforts; i++) {
+        if (self->elements.effort[i].joint != joint) continue;
+        if (zd_effort_say(&self->elements, &at, self->elements.effort + i, t, &value, NULL)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->elements.effort[i].gauge, point, value, to);
     }
-    for (int i = 0; i < self->uses.relations; i++) {
-        const zd_relation *row = self->uses.row + self->uses.row_of_relation[i];
+    for (int i = 0; i < self->elements.relations; i++) {
+        const zd_relation *row = self->elements.row + self->elements.row_of_relation[i];
         if (row->joint != joint) continue;
-        if (zd_drive_effort(&self->uses, &at, i, 0, t, lambda, &value)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->uses.term[row->first].gauge, point, value, to);
+        if (zd_drive_effort(&self->elements, &at, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->elements.term[row->first].gauge, point, value, to);
     }
     return ZD_DONE;
 }

@@ -8,7 +8,7 @@
 void zd_row_act(const zd_mechanism *self, const zd_frame *frame, const zd_relation *row, const double *factors, double scale)
 {
     for (int i = 0; i < row->terms; i++) {
-        const zd_gauge *gauge = self->gauge + self->uses.term[row->first + i].gauge;
+        const zd_gauge *gauge = self->gauge + self->elements.term[row->first + i].gauge;
         zd_reading reading = zd_gauge_read(gauge, frame->pose);
         zd_add_wrench(frame->wrench + gauge->first, scale * factors[i], reading.first);
         zd_add_wrench(frame->wrench + gauge->second, scale * factors[i], reading.second);
@@ -23,7 +23,7 @@ static void add_packed(const zd_mechanism *self, int body, int at, double scale,
 
 static void add_to_row(const zd_mechanism *self, const zd_frame *frame, int term, double scale, const zd_reading *reading, double *to)
 {
-    const zd_gauge *gauge = self->gauge + self->uses.term[term].gauge;
+    const zd_gauge *gauge = self->gauge + self->elements.term[term].gauge;
     if (self->packing) {
         add_packed(self, gauge->first, self->packing->packed.near[term], scale, reading->first, to);
         add_packed(self, gauge->second, self->packing->packed.far[term], scale, reading->second, to);
@@ -38,7 +38,7 @@ static double add_readings(const zd_mechanism *self, const zd_frame *frame, cons
 {
     double sum = 0;
     for (int i = 0; i < row->terms; i++) {
-        const zd_gauge *gauge = self->gauge + self->uses.term[row->first + i].gauge;
+        const zd_gauge *gauge = self->gauge + self->elements.term[row->first + i].gauge;
         zd_reading reading = zd_gauge_read(gauge, frame->pose);
         sum += factors[i] * reading.value;
         if (to) add_to_row(self, frame, row->first + i, factors[i], &reading, to);
@@ -50,7 +50,7 @@ static double sum_of_biases(const zd_mechanism *self, const zd_frame *frame, con
 {
     double sum = 0, bias;
     for (int i = 0; i < row->terms; i++) {
-        zd_gauge_rate(self->gauge + self->uses.term[row->first + i].gauge, frame->pose, frame->twist, &bias);
+        zd_gauge_rate(self->gauge + self->elements.term[row->first + i].gauge, frame->pose, frame->twist, &bias);
         sum += factors[i] * bias;
     }
     return sum;
@@ -60,12 +60,12 @@ int zd_rows_write(const zd_mechanism *self, const zd_frame *frame, int want, dou
 {
     const zd_readings readings = zd_frame_readings(self, frame);
     int nv = self->tree.nv;
-    for (int i = 0; i < self->uses.m; i++) {
+    for (int i = 0; i < self->elements.m; i++) {
         if (self->packing && self->packing->is_known[i]) continue;
-        const zd_relation *row = self->uses.row + i;
+        const zd_relation *row = self->elements.row + i;
         if (self->hinged.is_whole && self->hinged.is_closure[i]) continue;
         zd_combined all;
-        int status = zd_combine(&self->uses, &readings, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->uses.mh;
+        int status = zd_combine(&self->elements, &readings, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->elements.mh;
         if (status) return status;
         if (wants_Phi || want & ZD_C) {
             int at = self->packing ? self->packing->packed.at[i] : i * nv;

@@ -8,11 +8,11 @@ void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t ro
     zd_packed_take(&self->packed, arena, bodies, rows, terms);
 #define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
     TAKE(weight, 3 * bodies);
-    TAKE(pins.between, rows / 2);
-    TAKE(pins.points, rows / 2);
-    TAKE(pins.pin, rows / 2);
-    TAKE(pins.end_at, bodies + 2);
-    TAKE(pins.end, rows);
+    TAKE(revolutes.between, rows / 2);
+    TAKE(revolutes.points, rows / 2);
+    TAKE(revolutes.joint, rows / 2);
+    TAKE(revolutes.end_at, bodies + 2);
+    TAKE(revolutes.end, rows);
     TAKE(lines.line, lines);
     TAKE(is_known, rows);
     TAKE(at, bodies + 1);
@@ -25,25 +25,25 @@ void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t ro
 static int has_angle(const zd_mechanism *mechanism, int body) { return mechanism->tree.link[body].hang == ZD_HANGS_FREE; }
 
 /* The pins among the rows, which are packed by then. */
-static void plan_pins(zd_packing *self, const zd_mechanism *mechanism)
+static void plan_revolute_joints(zd_packing *self, const zd_mechanism *mechanism)
 {
     const zd_packed *packed = &self->packed;
-    zd_pins *pins = &self->pins;
-    for (int row = 0; row < mechanism->uses.m; row++) {
-        if (!zd_pin_is_at(mechanism, row)) continue;
-        const int term = mechanism->uses.row[row].first, next = mechanism->uses.row[row + 1].first;
-        const zd_gauge *x = mechanism->gauge + mechanism->uses.term[term].gauge, *y = mechanism->gauge + mechanism->uses.term[next].gauge;
-        pins->between[pins->count] = (zd_pin_bodies){x->first, x->second, row};
-        pins->points[pins->count] = (zd_points){{x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}};
-        pins->pin[pins->count++] = (zd_pin){
+    zd_revolute_joints *revolutes = &self->revolutes;
+    for (int row = 0; row < mechanism->elements.m; row++) {
+        if (!zd_is_revolute_joint_at(mechanism, row)) continue;
+        const int term = mechanism->elements.row[row].first, next = mechanism->elements.row[row + 1].first;
+        const zd_gauge *x = mechanism->gauge + mechanism->elements.term[term].gauge, *y = mechanism->gauge + mechanism->elements.term[next].gauge;
+        revolutes->between[revolutes->count] = (zd_revolute_bodies){x->first, x->second, row};
+        revolutes->points[revolutes->count] = (zd_points){{x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}};
+        revolutes->joint[revolutes->count++] = (zd_revolute_joint){
             {x->zero, y->zero}, packed->at[row], packed->at[row + 1] - packed->at[row], packed->near[term], packed->far[term],
             has_angle(mechanism, x->first), has_angle(mechanism, x->second)};
         self->is_known[row] = self->is_known[row + 1] = 1;
         row++;
     }
-    zd_pins_list(pins, mechanism->tree.bodies);
-    pins->are_all = 2 * pins->count == mechanism->uses.m && pins->count == packed->structure.groups;
-    pins->have_angles = mechanism->tree.angles == mechanism->tree.bodies;
+    zd_revolute_joints_list(revolutes, mechanism->tree.bodies);
+    revolutes->are_all = 2 * revolutes->count == mechanism->elements.m && revolutes->count == packed->structure.groups;
+    revolutes->have_angles = mechanism->tree.angles == mechanism->tree.bodies;
 }
 
 /* The lines of rows that are not of pins, but for those whose law somebody else computes. */
@@ -52,8 +52,8 @@ static void plan_lines(zd_packing *self, const zd_mechanism *mechanism)
     const zd_packed *packed = &self->packed;
     zd_lines *lines = &self->lines;
     self->is_whole = 1;
-    for (int row = 0; row < mechanism->uses.m; row++) {
-        const zd_relation *one = mechanism->uses.row + row;
+    for (int row = 0; row < mechanism->elements.m; row++) {
+        const zd_relation *one = mechanism->elements.row + row;
         if (self->is_known[row]) continue;
         self->is_known[row] = one->law < 0;
         self->is_whole &= one->law < 0;
@@ -81,9 +81,9 @@ static int has_mass(const zd_mechanism *mechanism, int body)
 /* What there is to know where pins and weight are all. */
 static void plan_pinned(zd_packing *self, const zd_mechanism *mechanism)
 {
-    const zd_pins *pins = &self->pins;
+    const zd_revolute_joints *revolutes = &self->revolutes;
     const int bodies = mechanism->tree.bodies;
-    int is_all = pins->are_all && pins->count && !mechanism->uses.efforts;
+    int is_all = revolutes->are_all && revolutes->count && !mechanism->elements.efforts;
     for (int b = 1; b <= bodies; b++) is_all &= has_mass(mechanism, b);
     if (!is_all) return;
     double *numbers = self->numbers;
@@ -93,16 +93,16 @@ static void plan_pinned(zd_packing *self, const zd_mechanism *mechanism)
         *numbers++ = 1 / link->mass;
         *numbers++ = link->hang == ZD_HANGS_FREE ? 1 / link->inertia : 0;
     }
-    for (int k = 0; k < pins->count; k++, numbers += 6) {
-        const zd_vector a = pins->points[k].first, b = pins->points[k].second, zero = pins->pin[k].zero;
-        self->pin_first[k] = pins->between[k].first - 1;
-        self->pin_second[k] = pins->between[k].second - 1;
+    for (int k = 0; k < revolutes->count; k++, numbers += 6) {
+        const zd_vector a = revolutes->points[k].first, b = revolutes->points[k].second, zero = revolutes->joint[k].zero;
+        self->pin_first[k] = revolutes->between[k].first - 1;
+        self->pin_second[k] = revolutes->between[k].second - 1;
         const double of_pin[] = {a.x, a.y, b.x, b.y, zero.x, zero.y};
         memcpy(numbers, of_pin, sizeof of_pin);
     }
     numbers[0] = mechanism->gravity.x;
     numbers[1] = mechanism->gravity.y;
-    self->pinned = (zd_pinned){bodies, pins->count, self->at, self->pin_first, self->pin_second, self->numbers};
+    self->pinned = (zd_pinned){bodies, revolutes->count, self->at, self->pin_first, self->pin_second, self->numbers};
 }
 
 static void write_bodies_of(const void *gauges, int gauge, int body[2])
@@ -117,8 +117,8 @@ int zd_packing_plan(zd_packing *self, const zd_mechanism *mechanism)
     const int bodies = mechanism->tree.bodies;
     for (int b = 0; b < bodies; b++)
         self->packed.coordinates[b] = self->packed.velocities[b] = mechanism->tree.link[b + 1].hang == ZD_HANGS_FREE ? 3 : 2;
-    if (zd_packed_plan(&self->packed, &mechanism->uses, bodies, write_bodies_of, mechanism->gauge) >= 0) return 0;
-    plan_pins(self, mechanism);
+    if (zd_packed_plan(&self->packed, &mechanism->elements, bodies, write_bodies_of, mechanism->gauge) >= 0) return 0;
+    plan_revolute_joints(self, mechanism);
     plan_lines(self, mechanism);
     plan_weight(self, mechanism);
     plan_pinned(self, mechanism);

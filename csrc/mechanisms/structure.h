@@ -4,12 +4,12 @@
 
 #include "../gauges/packed.h"
 #include "lines.h"
-#include "pins.h"
+#include "revolute_joints.h"
 
 typedef struct zd_packing {
     zd_packed packed;
     double *weight;         /* (nv,) f of (2), where nothing else acts */
-    zd_pins pins;
+    zd_revolute_joints revolutes;
     zd_pinned pinned;       /* the same for lanes; without pins where there is something else, or something without mass */
     int *at, *pin_first, *pin_second;   /* its arrays */
     double *numbers;

@@ -15,9 +15,9 @@ static zd_tables tables_of(const zd_tables *first, const double *gravity, int64_
     tables.body += run * tables.bodies;
     tables.joint += run * tables.joints;
     tables.gauge += run * tables.gauges;
-    tables.uses.term += run * tables.uses.terms;
-    tables.uses.relation += run * tables.uses.relations;
-    tables.uses.effort += run * tables.uses.efforts;
+    tables.elements.term += run * tables.elements.terms;
+    tables.elements.relation += run * tables.elements.relations;
+    tables.elements.effort += run * tables.elements.efforts;
     return tables;
 }
 
@@ -27,12 +27,12 @@ static zd_mechanism *create(const zd_varied *self, const zd_tables *first, int64
     char message[200];
     zd_tables tables = tables_of(first, self->gravity, run);
     if (!places || !self->drives) return zd_mechanism_create(&tables, message, sizeof message);
-    const size_t size = (size_t)tables.uses.relations * sizeof(zd_relation);
+    const size_t size = (size_t)tables.elements.relations * sizeof(zd_relation);
     zd_relation *relation = zd_allocate(size);
     if (!relation) return NULL;
-    memcpy(relation, tables.uses.relation, size);
+    memcpy(relation, tables.elements.relation, size);
     for (int i = 0; i < self->drives; i++) relation[self->drive[i]].constant = places[i];
-    tables.uses.relation = relation;
+    tables.elements.relation = relation;
     zd_mechanism *made = zd_mechanism_create(&tables, message, sizeof message);
     zd_release(relation);
     return made;
@@ -95,6 +95,6 @@ void zd_varied_free(void *made)
 double zd_varied_place(const void *of, const void *made, int drive)
 {
     const zd_varied *self = of;
-    const zd_planned_uses *uses = &((const zd_mechanism *)made)->uses;
-    return uses->row[uses->row_of_relation[self->drive[drive]]].constant;
+    const zd_planned_elements *elements = &((const zd_mechanism *)made)->elements;
+    return elements->row[elements->row_of_relation[self->drive[drive]]].constant;
 }

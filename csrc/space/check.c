@@ -4,7 +4,7 @@
 #include <stddef.h>
 
 #include "../gauges/check.h"
-#include "turns.h"
+#include "unwrapped_angles.h"
 
 static int is_particle(const zd_space_tables *tables, int body) { return body && tables->body[body - 1].is_particle; }
 
@@ -68,7 +68,7 @@ static int joint_is_right(const zd_space_tables *tables, int i, zd_complaint to)
 static int angles_of(const zd_space_tables *tables)
 {
     int angles = 0;
-    for (int i = 0; i < tables->joints; i++) angles += zd_turns_of(tables->joint + i);
+    for (int i = 0; i < tables->joints; i++) angles += zd_unwrapped_angles_of(tables->joint + i);
     return angles;
 }
 
@@ -96,5 +96,5 @@ int zd_space_tables_are_right(const zd_space_tables *tables, char *message, int 
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         for (int i = 0; i < all[k].count; i++)
             if (!all[k].is_right(tables, i, to)) return 0;
-    return zd_uses_are_right(&tables->uses, tables->joints, tables->gauges, to);
+    return zd_elements_are_right(&tables->elements, tables->joints, tables->gauges, to);
 }

@@ -6,8 +6,8 @@
 #include "measures.h"
 #include "picked.h"
 #include "products.h"
-#include "sockets.h"
-#include "turns.h"
+#include "point_joints.h"
+#include "unwrapped_angles.h"
 
 /* What is filled in here, and constant afterwards. */
 typedef struct parts {
@@ -16,11 +16,11 @@ typedef struct parts {
     zd_space_joint *joint;
     zd_planned_joint3 *planned;
     zd_space_gauge *gauge;
-    zd_use_parts uses;
+    zd_element_parts elements;
     int *lengths, *quaternion;
     zd_packed packed;
-    zd_sockets sockets;
-    zd_turns turns;
+    zd_point_joints point_joints;
+    zd_unwrapped_angles unwrapped;
     double *weight;
     int gauges, quaternions, nq, nv;       /* so many are there by now */
 } parts;
@@ -28,7 +28,7 @@ typedef struct parts {
 static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
 {
     const size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints, extra = joints * (ZD_SPACE_ROWS + 1);
-    const size_t rows = joints * ZD_SPACE_ROWS, relations = (size_t)tables->uses.relations, terms = (size_t)tables->uses.terms;
+    const size_t rows = joints * ZD_SPACE_ROWS, relations = (size_t)tables->elements.relations, terms = (size_t)tables->elements.terms;
 #define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
     TAKE(self, 1);
     TAKE(body, bodies + 1);
@@ -39,9 +39,9 @@ static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to
     TAKE(quaternion, bodies);
     TAKE(weight, ZD_BODY_VELOCITIES * bodies);
 #undef TAKE
-    zd_turns_take(&to->turns, arena, joints);
-    zd_sockets_take(&to->sockets, arena, bodies, joints, rows + relations);
-    zd_uses_take(&to->uses, arena, &tables->uses, extra, rows);
+    zd_unwrapped_angles_take(&to->unwrapped, arena, joints);
+    zd_point_joints_take(&to->point_joints, arena, bodies, joints, rows + relations);
+    zd_elements_take(&to->elements, arena, &tables->elements, extra, rows);
     zd_packed_take(&to->packed, arena, bodies, rows + relations, terms + extra);
 }
 
@@ -59,8 +59,8 @@ static void plan_bodies(const zd_space_tables *tables, parts *to)
         to->nv += nv;
         A += (turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES) * nv;
     }
-    zd_turns_plan(&to->turns, tables->joints, tables->joint, to->nq);
-    to->nq += to->turns.count;
+    zd_unwrapped_angles_plan(&to->unwrapped, tables->joints, tables->joint, to->nq);
+    to->nq += to->unwrapped.count;
     for (const zd_body3 *body = to->body + 1; body <= to->body + tables->bodies; body++)
         for (int k = 0; k < ZD_POINT_COORDINATES; k++) {
             to->lengths[body->p + k] = to->lengths[to->nq + body->v + k] = 1;
@@ -72,7 +72,7 @@ static void plan_bodies(const zd_space_tables *tables, parts *to)
 
 static void copy(const zd_space_tables *tables, parts *to)
 {
-    for (int i = 0, angles = 0; i < tables->joints; angles += zd_turns_of(tables->joint + i++)) {
+    for (int i = 0, angles = 0; i < tables->joints; angles += zd_unwrapped_angles_of(tables->joint + i++)) {
         to->joint[i] = tables->joint[i];
         to->planned[i].angles = angles;
     }
@@ -83,14 +83,14 @@ static void copy(const zd_space_tables *tables, parts *to)
         to->planned[carrier].sign = tables->joint[carrier].second == body ? 1 : -1;
     }
     for (int i = 0; i < tables->gauges; i++) to->gauge[i] = tables->gauge[i];
-    zd_uses_copy(&tables->uses, &to->uses);
+    zd_elements_copy(&tables->elements, &to->elements);
     to->gauges = tables->gauges;
 }
 
 static void add_term(parts *to, zd_space_gauge gauge, double coefficient)
 {
     to->gauge[to->gauges] = gauge;
-    zd_uses_add_term(&to->uses, to->gauges++, coefficient);
+    zd_elements_add_term(&to->elements, to->gauges++, coefficient);
 }
 
 /* A row that advances does so with the joint's angle, its first coordinate. */
@@ -98,11 +98,11 @@ static void add_joint_row(parts *to, int j, int component)
 {
     const zd_space_joint *joint = to->joint + j;
     const zd_space_row *row = zd_space_joint_kind_of(joint->kind)->row + component;
-    const int first = to->uses.terms;
+    const int first = to->elements.terms;
     add_term(to, zd_space_picked_gauge(joint, &row->pick), 1);
     if (row->advances) add_term(to, zd_space_coordinate_gauge(joint, 0, to->planned[j].angles), -joint->length);
-    to->planned[j].rows[to->planned[j].row_count++] = to->uses.rows;
-    zd_uses_add_joint_row(&to->uses, first, row->nonholonomic, j, component);
+    to->planned[j].rows[to->planned[j].row_count++] = to->elements.rows;
+    zd_elements_add_joint_row(&to->elements, first, row->nonholonomic, j, component);
 }
 
 /* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
@@ -114,7 +114,7 @@ static void plan_rows(const zd_space_tables *tables, int nonholonomic, parts *to
         for (int i = 0; i < kind->rows; i++)
             if (kind->row[i].nonholonomic == nonholonomic) add_joint_row(to, j, i);
     }
-    zd_uses_add_relations(&tables->uses, nonholonomic, &to->uses);
+    zd_elements_add_relations(&tables->elements, nonholonomic, &to->elements);
 }
 
 /* ---- the system ---- */
@@ -136,8 +136,8 @@ static void make_system(const zd_space_tables *tables, const parts *from)
 {
     zd_space *self = from->self;
     self->system = (zd_system){
-        .nq = from->nq, .nv = from->nv, .mh = self->uses.mh, .mn = self->uses.m - self->uses.mh,
-        .provides = ZD_A | ZD_M | ZD_BIAS | ZD_POTENTIAL | ZD_FORCE | zd_uses_terms(&tables->uses, &self->uses),
+        .nq = from->nq, .nv = from->nv, .mh = self->elements.mh, .mn = self->elements.m - self->elements.mh,
+        .provides = ZD_A | ZD_M | ZD_BIAS | ZD_POTENTIAL | ZD_FORCE | zd_elements_terms(&tables->elements, &self->elements),
         .scratch = zd_frame3_size(self),
         .evaluate = zd_space_evaluate,
         .data = self,
@@ -146,12 +146,12 @@ static void make_system(const zd_space_tables *tables, const parts *from)
         .failure = "a law of the mechanism failed",
         .measures = &self->measures,
         .structure = &self->packed.structure,
-        .operations = self->sockets.are_all && self->uses.m ? &zd_socket_products : &zd_space_products,
+        .operations = self->point_joints.are_all && self->elements.m ? &zd_point_joint_products : &zd_space_products,
         .quaternions = from->quaternions, .quaternion = from->quaternion,
-        .followers = from->turns.count, .follow = from->turns.count ? zd_space_follow : NULL,
+        .followers = from->unwrapped.count, .follow = from->unwrapped.count ? zd_space_follow : NULL,
     };
-    self->measures.count = tables->uses.measures;
-    self->measures = zd_space_measures(self, from->uses.measure);
+    self->measures.count = tables->elements.measures;
+    self->measures = zd_space_measures(self, from->elements.measure);
 }
 
 static void write_bodies_of(const void *gauges, int gauge, int body[2])
@@ -167,24 +167,24 @@ static int plan(const zd_space_tables *tables, parts *all)
     plan_bodies(tables, all);
     copy(tables, all);
     plan_rows(tables, 0, all);
-    const int mh = all->uses.rows;
+    const int mh = all->elements.rows;
     plan_rows(tables, 1, all);
     zd_space *self = all->self;
     *self = (zd_space){
         .gravity = zd_vector3_of(tables->gravity),
-        .bodies = tables->bodies, .joints = tables->joints, .uses = zd_uses_plan(&tables->uses, &all->uses, mh),
+        .bodies = tables->bodies, .joints = tables->joints, .elements = zd_elements_plan(&tables->elements, &all->elements, mh),
         .body = all->body, .joint = all->joint, .planned = all->planned, .gauge = all->gauge,
-        .weight = all->weight, .turns = all->turns,
+        .weight = all->weight, .unwrapped = all->unwrapped,
     };
     for (int b = 0; b < tables->bodies; b++) {
         const int turns = all->body[b + 1].turns;
         all->packed.coordinates[b] = turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES;
         all->packed.velocities[b] = turns ? ZD_BODY_VELOCITIES : ZD_POINT_COORDINATES;
     }
-    const int alone = zd_packed_plan(&all->packed, &self->uses, tables->bodies, write_bodies_of, all->gauge);
+    const int alone = zd_packed_plan(&all->packed, &self->elements, tables->bodies, write_bodies_of, all->gauge);
     self->packed = all->packed;
-    zd_sockets_plan(&all->sockets, self);
-    self->sockets = all->sockets;
+    zd_point_joints_plan(&all->point_joints, self);
+    self->point_joints = all->point_joints;
     make_system(tables, all);
     return alone;
 }
@@ -216,12 +216,12 @@ void zd_space_free(zd_space *space)
 
 const zd_system *zd_space_system(const zd_space *space) { return &space->system; }
 
-const zd_row_owner *zd_space_rows(const zd_space *space) { return space->uses.owner_of_row; }
+const zd_row_owner *zd_space_rows(const zd_space *space) { return space->elements.owner_of_row; }
 
 int zd_space_angles(const zd_space *space, int *place)
 {
-    if (place) memcpy(place, space->turns.place, (size_t)space->turns.count * sizeof *place);
-    return space->turns.count;
+    if (place) memcpy(place, space->unwrapped.place, (size_t)space->unwrapped.count * sizeof *place);
+    return space->unwrapped.count;
 }
 
 int zd_space_data_size(void) { return (int)sizeof(zd_space); }
@@ -229,13 +229,13 @@ int zd_space_data_size(void) { return (int)sizeof(zd_space); }
 void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data)
 {
     zd_space copied = *space;
-    copied.uses.owner = owner;
-    copied.uses.compiled = compiled;
+    copied.elements.owner = owner;
+    copied.elements.compiled = compiled;
     copied.numbers = numbers;
     memcpy(data, &copied, sizeof copied);
 }
 
 zd_space_plan zd_space_planned(const zd_space *space)
 {
-    return (zd_space_plan){space->gauge, space->uses.term, space->uses.row, space->uses.effort};
+    return (zd_space_plan){space->gauge, space->elements.term, space->elements.row, space->elements.effort};
 }

@@ -9,9 +9,9 @@ int zd_space_efforts_apply(const zd_space *self, const zd_frame3 *frame, double 
     const zd_readings at = zd_frame3_readings(self, frame);
     for (int i = 0; i <= self->bodies; i++)
         frame->wrench[i] = (zd_wrench3){zd_times3(self->body[i].mass, self->gravity), {0, 0, 0}};
-    for (const zd_effort *effort = self->uses.effort; effort < self->uses.effort + self->uses.efforts; effort++) {
+    for (const zd_effort *effort = self->elements.effort; effort < self->elements.effort + self->elements.efforts; effort++) {
         double value;
-        if (zd_effort_say(&self->uses, &at, effort, t, &value, NULL)) return ZD_CALLBACK;
+        if (zd_effort_say(&self->elements, &at, effort, t, &value, NULL)) return ZD_CALLBACK;
         const zd_space_gauge *gauge = self->gauge + effort->gauge;
         const zd_reading3 reading = zd_space_gauge_read(gauge, frame->pose);
         zd_add_wrench3(frame->wrench + gauge->first, value, reading.first);
@@ -23,7 +23,7 @@ int zd_space_efforts_apply(const zd_space *self, const zd_frame3 *frame, double 
 int zd_space_power(const zd_space *self, const zd_frame3 *frame, double t, double *power)
 {
     const zd_readings at = zd_frame3_readings(self, frame);
-    return zd_efforts_power(&self->uses, &at, t, power);
+    return zd_efforts_power(&self->elements, &at, t, power);
 }
 
 double zd_space_potential(const zd_space *self, const zd_frame3 *frame)
@@ -31,5 +31,5 @@ double zd_space_potential(const zd_space *self, const zd_frame3 *frame)
     const zd_readings at = zd_frame3_readings(self, frame);
     double V = 0;
     for (int i = 1; i <= self->bodies; i++) V -= self->body[i].mass * zd_inner3(self->gravity, frame->pose[i].at);
-    return zd_springs_potential(&self->uses, &at, V);
+    return zd_springs_potential(&self->elements, &at, V);
 }

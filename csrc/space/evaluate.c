@@ -3,13 +3,13 @@
 
 #include "efforts.h"
 #include "rows.h"
-#include "sockets.h"
+#include "point_joints.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 
 static int write_force(const zd_space *self, const zd_frame3 *frame, double t, double *f)
 {
-    if (!self->uses.efforts) {
+    if (!self->elements.efforts) {
         memcpy(f, self->weight, (size_t)self->system.nv * sizeof *f);
         return ZD_DONE;
     }
@@ -21,7 +21,7 @@ static int write_force(const zd_space *self, const zd_frame3 *frame, double t, d
 /* Whether what is wanted depends on how bodies move. */
 static int is_moving(const zd_space *self, int want)
 {
-    return want & (ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->uses.has_velocity_forces) || (want & ROWS && self->uses.law);
+    return want & (ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->elements.has_velocity_forces) || (want & ROWS && self->elements.law);
 }
 
 int zd_space_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
@@ -31,7 +31,7 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
     const zd_frame3 frame = zd_frame3_of(self, out->scratch);
     if (want & ZD_MOVED) {
         zd_frame3_place(self, &frame, p);
-        zd_sockets_turn(&self->sockets, &frame);
+        zd_point_joints_turn(&self->point_joints, &frame);
     }
     if (is_moving(self, want)) zd_bodies_move(bodies, self->body, frame.pose, v, frame.twist);
     if (want & ZD_A) zd_bodies_write_A(bodies, self->body, p, out->A);
@@ -41,6 +41,6 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
     if ((want & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
     if ((want & ZD_POWER) && zd_space_power(self, &frame, t, out->power)) return ZD_CALLBACK;
     if (want & ZD_C) memset(out->C, 0, (size_t)self->packed.size_of_C * sizeof *out->C);
-    zd_sockets_write(&self->sockets, &frame, want, out);
-    return want & ROWS && !self->sockets.are_all ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
+    zd_point_joints_write(&self->point_joints, &frame, want, out);
+    return want & ROWS && !self->point_joints.are_all ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
 }

@@ -1,7 +1,7 @@
 /* The scratch of a mechanism in space, laid out once for its size and once for its parts. */
 #include "gauge.h"
 #include "plan.h"
-#include "turns.h"
+#include "unwrapped_angles.h"
 
 enum { POSE = sizeof(zd_pose3) / sizeof(double), TWIST = sizeof(zd_twist3) / sizeof(double), WRENCH = sizeof(zd_wrench3) / sizeof(double),
        QUATERNION = 4, ARMS = sizeof(zd_arms) / sizeof(double), DIRECTIONS = sizeof(zd_directions) / sizeof(double) };
@@ -18,37 +18,37 @@ zd_frame3 zd_frame3_of(const zd_space *space, double *scratch)
     frame.quaternion = scratch;
     scratch += all * QUATERNION;
     frame.angle = scratch;
-    scratch += space->turns.count;
+    scratch += space->unwrapped.count;
     frame.arms = (zd_arms *)scratch;
-    scratch += space->sockets.count * ARMS;
+    scratch += space->point_joints.count * ARMS;
     frame.directions = (zd_directions *)scratch;
-    scratch += space->sockets.count * DIRECTIONS;
+    scratch += space->point_joints.count * DIRECTIONS;
     frame.turns = scratch;
-    scratch += space->sockets.turns;
+    scratch += space->point_joints.turns;
     frame.row = scratch;
     scratch += all * ZD_BODY_VELOCITIES;
     frame.is_placed = scratch++;
     frame.is_moving = scratch++;
     frame.x = scratch;
-    frame.xdot = frame.x + space->uses.longest;
-    frame.out = frame.xdot + space->uses.longest;
+    frame.xdot = frame.x + space->elements.longest;
+    frame.out = frame.xdot + space->elements.longest;
     if (!space->carrying.place) return frame;
-    frame.bias = (zd_twist3 *)(frame.out + space->uses.longest + 3);
+    frame.bias = (zd_twist3 *)(frame.out + space->elements.longest + 3);
     frame.carried = (double *)(frame.bias + all);
     return frame;
 }
 
 int zd_frame3_size(const zd_space *space)
 {
-    return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->sockets.count * (ARMS + DIRECTIONS)
-         + space->turns.count + space->sockets.turns + 2 + 3 * space->uses.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
+    return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->point_joints.count * (ARMS + DIRECTIONS)
+         + space->unwrapped.count + space->point_joints.turns + 2 + 3 * space->elements.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
 }
 
 void zd_frame3_place(const zd_space *space, const zd_frame3 *frame, const double *p)
 {
     if (space->carrying.place) space->carrying.place(space, frame, p);
     else zd_bodies_place(space->bodies, space->body, p, frame->pose, frame->quaternion);
-    zd_turns_read(space, frame, p);
+    zd_unwrapped_angles_read(space, frame, p);
 }
 
 void zd_frame3_move(const zd_space *space, const zd_frame3 *frame, const double *v)

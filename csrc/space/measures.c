@@ -1,7 +1,7 @@
 /* Measures are gauges with their rates and accelerations, and what goes through joints, springs and drives, as in the plane. */
 #include "measures.h"
 
-#include "../gauges/observed.h"
+#include "../gauges/output_spec.h"
 #include "gauge.h"
 #include "reactions.h"
 
@@ -31,7 +31,7 @@ static void write_row(const zd_space *self, const zd_frame3 *frame, const zd_spa
 }
 
 /* Component i of a measure that is a gauge, its rate, or the rate's rate. */
-static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, int i, const state *at,
+static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd_output_spec *measure, int i, const state *at,
                           const zd_measured *out)
 {
     const zd_space_gauge *gauge = self->gauge + measure->index + i;
@@ -51,7 +51,7 @@ static void measure_gauge(const zd_space *self, const zd_frame3 *frame, const zd
 }
 
 /* Finds the poses of the state, and the twists where the measure needs them, unless the call before has found them. */
-static void place_and_move(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const double *p, const double *v,
+static void place_and_move(const zd_space *self, const zd_frame3 *frame, const zd_output_spec *measure, const double *p, const double *v,
                    const zd_measured *out)
 {
     if (!out->is_same_state) *frame->is_placed = *frame->is_moving = 0;
@@ -79,15 +79,15 @@ static void write_vector(zd_vector3 what, double *to)
 }
 
 /* Of efforts from measure->index on, the force or the moment on their second body */
-static int measure_efforts(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
+static int measure_efforts(const zd_space *self, const zd_frame3 *frame, const zd_output_spec *measure, const state *at, double *value)
 {
     const zd_readings readings = zd_frame3_readings(self, frame);
     zd_vector3 sum = {0, 0, 0};
     double effort;
     int status = ZD_DONE;
     for (int i = measure->index; i < measure->index + measure->size && !status; i++) {
-        const zd_space_gauge *gauge = self->gauge + self->uses.effort[i].gauge;
-        status = zd_effort_say(&self->uses, &readings, self->uses.effort + i, at->t, &effort, NULL);
+        const zd_space_gauge *gauge = self->gauge + self->elements.effort[i].gauge;
+        status = zd_effort_say(&self->elements, &readings, self->elements.effort + i, at->t, &effort, NULL);
         const zd_wrench3 what = zd_space_gauge_read(gauge, frame->pose).second;
         sum = zd_plus3(sum, zd_times3(effort, measure->quantity == ZD_EFFORT_FORCE ? what.force : what.torque));
     }
@@ -95,18 +95,18 @@ static int measure_efforts(const zd_space *self, const zd_frame3 *frame, const z
     return status;
 }
 
-static int measure_transmitted(const zd_space *self, const zd_frame3 *frame, const zd_observed *measure, const state *at, double *value)
+static int measure_transmitted(const zd_space *self, const zd_frame3 *frame, const zd_output_spec *measure, const state *at, double *value)
 {
     const zd_readings readings = zd_frame3_readings(self, frame);
     zd_wrench3 reaction;
     switch (measure->quantity) {
     case ZD_JOINT_TENSION: return measure_tension(self, frame, measure->index, at, value);
     case ZD_EFFORT_VALUE:
-    case ZD_EFFORT_POWER: return zd_observed_effort(&self->uses, &readings, measure, at->t, value);
+    case ZD_EFFORT_POWER: return zd_output_effort(&self->elements, &readings, measure, at->t, value);
     case ZD_EFFORT_FORCE:
     case ZD_EFFORT_TORQUE: return measure_efforts(self, frame, measure, at, value);
     case ZD_DRIVE_VALUE:
-    case ZD_DRIVE_POWER: return zd_observed_drive(&self->uses, &readings, measure, at->t, at->lambda, value);
+    case ZD_DRIVE_POWER: return zd_output_drive(&self->elements, &readings, measure, at->t, at->lambda, value);
     default: break;
     }
     const int status = zd_space_joint_reaction(self, frame, measure->index, at->t, at->vdot, at->lambda, &reaction);
@@ -118,18 +118,18 @@ static int evaluate(const void *data, int measure, double t, const double *p, co
                     const zd_measured *out, double *scratch)
 {
     const zd_space *self = data;
-    const zd_observed *observed = self->uses.observed + measure;
+    const zd_output_spec *output = self->elements.output + measure;
     const zd_frame3 frame = zd_frame3_of(self, scratch);
     const state at = {t, v, vdot, lambda};
-    if (!zd_observed_suffices(&self->uses, observed, vdot, lambda)) return ZD_BAD_ARGUMENT;
-    place_and_move(self, &frame, observed, p, v, out);
-    if (observed->quantity <= ZD_ACCELERATIONS) {
-        for (int i = 0; i < observed->size; i++) measure_gauge(self, &frame, observed, i, &at, out);
+    if (!zd_output_is_available(&self->elements, output, vdot, lambda)) return ZD_BAD_ARGUMENT;
+    place_and_move(self, &frame, output, p, v, out);
+    if (output->quantity <= ZD_ACCELERATIONS) {
+        for (int i = 0; i < output->size; i++) measure_gauge(self, &frame, output, i, &at, out);
         return ZD_DONE;
     }
     if (!out->value) return ZD_DONE;
-    const int status = measure_transmitted(self, &frame, observed, &at, out->value);
-    for (int i = 0; i < zd_observed_size(observed, OF_FORCES, OF_TORQUES); i++) out->value[i] *= observed->scale;
+    const int status = measure_transmitted(self, &frame, output, &at, out->value);
+    for (int i = 0; i < zd_output_size(output, OF_FORCES, OF_TORQUES); i++) out->value[i] *= output->scale;
     return status;
 }
 
@@ -148,7 +148,7 @@ void zd_space_components(const zd_space *self, const double *p, const double *v,
     zd_frame3_place(self, &frame, p);
     zd_frame3_move(self, &frame, v);
     for (int i = 0; i < count; i++, row += 2 * ZD_BODY_VELOCITIES, at += 2) {
-        const zd_observed *measure = self->uses.observed + which[2 * i];
+        const zd_output_spec *measure = self->elements.output + which[2 * i];
         const zd_space_gauge *gauge = self->gauge + measure->index + which[2 * i + 1];
         const zd_reading3 reading = zd_space_gauge_read(gauge, frame.pose);
         const int is_rate = measure->quantity == ZD_RATES;
@@ -162,6 +162,6 @@ void zd_space_components(const zd_space *self, const double *p, const double *v,
 zd_measures zd_space_measures(const zd_space *self, zd_measure *measure)
 {
     const int count = self->measures.count;
-    zd_observed_list(&self->uses, count, OF_FORCES, OF_TORQUES, measure);
+    zd_output_list(&self->elements, count, OF_FORCES, OF_TORQUES, measure);
     return (zd_measures){count, measure, zd_frame3_size(self), evaluate};
 }

@@ -5,7 +5,7 @@
 #include "../gauges/packed.h"
 #include "../gauges/readings.h"
 #include "gauge.h"
-#include "socket.h"
+#include "point_joint_tables.h"
 #include "tables.h"
 
 typedef struct zd_planned_joint3 {
@@ -32,28 +32,28 @@ typedef struct zd_carrying {
     void *tree;                     /* what it knows; released with the mechanism */
 } zd_carrying;
 
-/* Angles of joints that count turns: see turns.h. */
-typedef struct zd_turns {
+/* Angles of joints that count turns: see unwrapped_angles.h. */
+typedef struct zd_unwrapped_angles {
     int count;
     zd_space_gauge *angle;          /* (count,) what reads it */
     zd_vector3 *axis;               /* (count,) in the axes of the gauge's first body */
     int *joint, *place;             /* (count,) of which joint it is, and which entry of p has it */
-} zd_turns;
+} zd_unwrapped_angles;
 
 struct zd_space {
     const double *numbers;          /* of functions that were written out from the plan; NULL: there are none */
     zd_vector3 gravity;
     int bodies, joints;
-    zd_planned_uses uses;
+    zd_planned_elements elements;
     const zd_body3 *body;           /* (bodies + 1,) the first one, of the ground, unused */
     const zd_space_joint *joint;
     const zd_planned_joint3 *planned;   /* (joints,) */
     const zd_space_gauge *gauge;    /* those given, then those of the joints' rows */
     zd_packed packed;
     const double *weight;           /* (nv,) of the bodies, as generalized force */
-    zd_sockets sockets;
+    zd_point_joints point_joints;
     zd_carrying carrying;           /* its functions are NULL where all bodies are free */
-    zd_turns turns;
+    zd_unwrapped_angles unwrapped;
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
 };
@@ -67,7 +67,7 @@ typedef struct zd_frame3 {
     double *angle;                  /* (turns,) of joints */
     zd_arms *arms;                  /* (sockets,), and so are these: */
     zd_directions *directions;
-    double *turns;                  /* of the sockets' rows, see sockets.h */
+    double *turns;                  /* of the sockets' rows, see point_joints.h */
     double *is_placed, *is_moving;  /* of measures alone: whether poses and twists are those of the state */
     double *row;                    /* (nv,) of measures alone */
     double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */

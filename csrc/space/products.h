@@ -5,6 +5,6 @@
 #include "plan.h"
 
 extern const zd_operations zd_space_products;       /* of any mechanism: with A alone */
-extern const zd_operations zd_socket_products;      /* where self->sockets.are_all */
+extern const zd_operations zd_point_joint_products;      /* where self->sockets.are_all */
 
 #endif

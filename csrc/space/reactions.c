@@ -2,7 +2,7 @@
  * what goes through a joint of the tree is asked of the tree. */
 #include "reactions.h"
 
-#include "../gauges/observed.h"
+#include "../gauges/output_spec.h"
 #include "gauge.h"
 
 typedef struct place {
@@ -15,8 +15,8 @@ static place place_of(const zd_space *self, const zd_frame3 *frame, int joint)
 {
     const zd_space_joint *of = self->joint + joint;
     if (zd_space_joint_kind_of(of->kind)->rolls) {
-        const zd_relation *row = self->uses.row + self->planned[joint].rows[0];
-        return (place){of->second, zd_space_contact(self->gauge + self->uses.term[row->first].gauge, frame->pose)};
+        const zd_relation *row = self->elements.row + self->planned[joint].rows[0];
+        return (place){of->second, zd_space_contact(self->gauge + self->elements.term[row->first].gauge, frame->pose)};
     }
     return (place){of->second, zd_point3_of(frame->pose + of->second, of->point2)};
 }
@@ -35,9 +35,9 @@ static void of_rows(const zd_space *self, const zd_frame3 *frame, int joint, pla
 {
     for (int k = 0; k < self->planned[joint].row_count; k++) {
         const int index = self->planned[joint].rows[k];
-        const zd_relation *row = self->uses.row + index;
+        const zd_relation *row = self->elements.row + index;
         for (int i = row->first; i < row->first + row->terms; i++)
-            add_gauge(self, frame, self->uses.term[i].gauge, at, -lambda[index] * self->uses.coefficient[i], to);
+            add_gauge(self, frame, self->elements.term[i].gauge, at, -lambda[index] * self->elements.coefficient[i], to);
     }
 }
 
@@ -46,16 +46,16 @@ static int of_drives(const zd_space *self, const zd_frame3 *frame, int joint, pl
 {
     const zd_readings readings = zd_frame3_readings(self, frame);
     double value;
-    for (int i = 0; i < self->uses.efforts; i++) {
-        if (self->uses.effort[i].joint != joint) continue;
-        if (zd_effort_say(&self->uses, &readings, self->uses.effort + i, t, &value, NULL)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->uses.effort[i].gauge, at, value, to);
+    for (int i = 0; i < self->elements.efforts; i++) {
+        if (self->elements.effort[i].joint != joint) continue;
+        if (zd_effort_say(&self->elements, &readings, self->elements.effort + i, t, &value, NULL)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->elements.effort[i].gauge, at, value, to);
     }
-    for (int i = 0; i < self->uses.relations; i++) {
-        const zd_relation *row = self->uses.row + self->uses.row_of_relation[i];
+    for (int i = 0; i < self->elements.relations; i++) {
+        const zd_relation *row = self->elements.row + self->elements.row_of_relation[i];
         if (row->joint != joint) continue;
-        if (zd_drive_effort(&self->uses, &readings, i, 0, t, lambda, &value)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->uses.term[row->first].gauge, at, value, to);
+        if (zd_drive_effort(&self->elements, &readings, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        add_gauge(self, frame, self->elements.term[row->first].gauge, at, value, to);
     }
     return ZD_DONE;
 }

@@ -6,12 +6,12 @@
 
 static const zd_space_gauge *gauge_of(const zd_space *self, const zd_relation *row, int i)
 {
-    return self->gauge + self->uses.term[row->first + i].gauge;
+    return self->gauge + self->elements.term[row->first + i].gauge;
 }
 
 static void add_to_row(const zd_space *self, const zd_frame3 *frame, int term, double scale, const zd_reading3 *reading, double *to)
 {
-    const zd_space_gauge *gauge = self->gauge + self->uses.term[term].gauge;
+    const zd_space_gauge *gauge = self->gauge + self->elements.term[term].gauge;
     const int first = gauge->first, second = gauge->second;
     if (self->carrying.act) {
         self->carrying.act(self, frame, gauge, scale, reading, to);
@@ -44,11 +44,11 @@ static double sum_of_biases(const zd_space *self, const zd_frame3 *frame, const 
 int zd_space_rows_write(const zd_space *self, const zd_frame3 *frame, int want, double t, const zd_terms *out)
 {
     const zd_readings readings = zd_frame3_readings(self, frame);
-    for (int i = 0; i < self->uses.m; i++) {
-        if (self->sockets.has_row[i]) continue;
-        const zd_relation *row = self->uses.row + i;
+    for (int i = 0; i < self->elements.m; i++) {
+        if (self->point_joints.has_row[i]) continue;
+        const zd_relation *row = self->elements.row + i;
         zd_combined all;
-        const int status = zd_combine(&self->uses, &readings, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->uses.mh;
+        const int status = zd_combine(&self->elements, &readings, row, t, &all), wants_Phi = (want & ZD_PHI) && i < self->elements.mh;
         if (status) return status;
         if (wants_Phi || want & ZD_C) {
             const int at = self->carrying.act ? i * self->system.nv : self->packed.at[i];

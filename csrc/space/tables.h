@@ -4,7 +4,7 @@
  * quaternion, scalar first, which turns its own axes into the drawing's; its velocities are that of its mass centre in the drawing's axes,
  * and its angular velocity in its own. These are its principal axes, so that M is constant and diagonal. A particle has a position and a
  * velocity alone. Body 0 is the ground; bodies given have the numbers from 1 on. Behind the bodies are the angles of joints, in their
- * order, which count turns: turns.h. All points are in the axes of their body and from its mass centre (on the ground: in the drawing's
+ * order, which count turns: unwrapped_angles.h. All points are in the axes of their body and from its mass centre (on the ground: in the drawing's
  * axes, from its origin). Relations, efforts, measures and laws are of gauges in space; forces and torques have three components.
  *
  * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
@@ -12,7 +12,7 @@
 #ifndef ZD_SPACE_TABLES_H
 #define ZD_SPACE_TABLES_H
 
-#include "../gauges/uses.h"
+#include "../gauges/elements.h"
 #include "../space_joints/joint.h"
 
 typedef struct zd_space_body {
@@ -48,7 +48,7 @@ typedef struct zd_space_tables {
     const zd_space_body *body;  /* (bodies,) from number 1 on */
     const zd_space_joint *joint;
     const zd_space_gauge *gauge;
-    zd_uses uses;
+    zd_elements elements;
 } zd_space_tables;
 
 typedef struct zd_space zd_space;

@@ -10,7 +10,7 @@
 #include "magnitudes.h"
 #include "motion.h"
 #include "reactions.h"
-#include "turns.h"
+#include "unwrapped_angles.h"
 
 typedef struct parts {
     zd_tree3 *tree;
@@ -148,9 +148,9 @@ static int place_of_angle(const zd_link3 *link, int number)
 static void place_angles(zd_space *self, parts *to)
 {
     const int end = to->tree->nq;
-    for (int k = 0; k < self->turns.count; k++) {
-        const zd_planned_joint3 *joint = self->planned + self->turns.joint[k];
-        self->turns.place[k] = joint->carried ? place_of_angle(to->link + joint->carried, k - joint->angles) : end + to->followers++;
+    for (int k = 0; k < self->unwrapped.count; k++) {
+        const zd_planned_joint3 *joint = self->planned + self->unwrapped.joint[k];
+        self->unwrapped.place[k] = joint->carried ? place_of_angle(to->link + joint->carried, k - joint->angles) : end + to->followers++;
     }
     to->tree->nq += to->followers;
 }
@@ -159,8 +159,8 @@ static void place_angles(zd_space *self, parts *to)
 static void carry_bodies(zd_space *self, const parts *from)
 {
     const zd_tree3 *tree = from->tree;
-    memset(self->sockets.has_row, 0, (size_t)self->uses.m * sizeof *self->sockets.has_row);
-    self->sockets.count = self->sockets.turns = self->sockets.are_all = 0;
+    memset(self->point_joints.has_row, 0, (size_t)self->elements.m * sizeof *self->point_joints.has_row);
+    self->point_joints.count = self->point_joints.turns = self->point_joints.are_all = 0;
     self->carrying = (zd_carrying){zd_tree3_place, zd_tree3_move, zd_tree3_act, zd_tree3_reaction, zd_tree_frame3_size(tree->bodies, tree->nv),
                                    from->tree};
     zd_system *system = &self->system;

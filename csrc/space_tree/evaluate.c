@@ -8,14 +8,14 @@
 #include "inertia.h"
 #include "inward.h"
 #include "motion.h"
-#include "turns.h"
+#include "unwrapped_angles.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 
 /* Whether what is wanted depends on how bodies move. */
 static int is_moving(const zd_space *self, int want)
 {
-    return want & (ZD_BIAS | ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->uses.has_velocity_forces) || (want & ROWS && self->uses.law);
+    return want & (ZD_BIAS | ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->elements.has_velocity_forces) || (want & ROWS && self->elements.law);
 }
 
 static int write_force(const zd_space *self, const zd_frame3 *frame, double t, double *f)
@@ -42,6 +42,6 @@ int zd_space_tree_evaluate(const void *data, int want, double t, const double *p
     if (want & ZD_POTENTIAL) *out->V = zd_space_potential(self, &frame);
     if ((want & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
     if ((want & ZD_POWER) && zd_space_power(self, &frame, t, out->power)) return ZD_CALLBACK;
-    if (want & ZD_C) memset(out->C, 0, (size_t)(self->uses.m * tree->nv) * sizeof *out->C);
+    if (want & ZD_C) memset(out->C, 0, (size_t)(self->elements.m * tree->nv) * sizeof *out->C);
     return want & ROWS ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
 }

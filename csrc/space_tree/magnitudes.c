@@ -29,13 +29,13 @@ int zd_tree3_magnitudes(const void *data, double t, const double *p, const doubl
     const zd_readings readings = zd_frame3_readings(self, &frame);
     zd_frame3_place(self, &frame, p);
     zd_frame3_move(self, &frame, v);
-    for (int i = 0; i < self->uses.m; i++, magnitude += 2) {
-        const zd_relation *row = self->uses.row + i;
+    for (int i = 0; i < self->elements.m; i++, magnitude += 2) {
+        const zd_relation *row = self->elements.row + i;
         zd_combined all;
-        const int status = zd_combine(&self->uses, &readings, row, t, &all);
+        const int status = zd_combine(&self->elements, &readings, row, t, &all);
         if (status) return status;
         magnitude[0] = magnitude[1] = 0;
-        for (int k = 0; k < row->terms; k++) add(self, &frame, self->uses.term[row->first + k].gauge, all.factors[k], magnitude);
+        for (int k = 0; k < row->terms; k++) add(self, &frame, self->elements.term[row->first + k].gauge, all.factors[k], magnitude);
     }
     return ZD_DONE;
 }

@@ -12,7 +12,7 @@
 static void add_row(const zd_space *space, const zd_frame3 *frame, const zd_relation *row, const double *factors, double scale)
 {
     for (int i = 0; i < row->terms; i++) {
-        const zd_space_gauge *gauge = space->gauge + space->uses.term[row->first + i].gauge;
+        const zd_space_gauge *gauge = space->gauge + space->elements.term[row->first + i].gauge;
         const zd_reading3 reading = zd_space_gauge_read(gauge, frame->pose);
         zd_add_wrench3(frame->wrench + gauge->first, scale * factors[i], reading.first);
         zd_add_wrench3(frame->wrench + gauge->second, scale * factors[i], reading.second);
@@ -24,10 +24,10 @@ static int write_needs(const zd_space *space, const zd_frame3 *frame, double t, 
 {
     const zd_readings readings = zd_frame3_readings(space, frame);
     if (zd_space_efforts_apply(space, frame, t)) return ZD_CALLBACK;
-    for (int i = 0; i < space->uses.m; i++) {
+    for (int i = 0; i < space->elements.m; i++) {
         zd_combined all;
-        if (zd_combine(&space->uses, &readings, space->uses.row + i, t, &all)) return ZD_CALLBACK;
-        add_row(space, frame, space->uses.row + i, all.factors, -lambda[i]);
+        if (zd_combine(&space->elements, &readings, space->elements.row + i, t, &all)) return ZD_CALLBACK;
+        add_row(space, frame, space->elements.row + i, all.factors, -lambda[i]);
     }
     zd_tree3_accelerate(space, frame, vdot);
     const zd_twist3 *change = zd_tree_frame3_of(zd_tree3_of(space), frame).change;

@@ -41,7 +41,7 @@ class Effort(NamedTuple):
 
 
 class Observed(NamedTuple):
-    """A row of `zd_observed`: a measure by its name; `quantity` is a key of QUANTITIES."""
+    """A row of `zd_output_spec`: a measure by its name; `quantity` is a key of QUANTITIES."""
 
     name: str
     unit: str
@@ -72,8 +72,8 @@ def law_sizes(tables: Any) -> dict[int, tuple[int, int]]:
     return sizes | {row.law: (len(row.gauges), len(row.gauges) + 3) for row in tables.relations if row.law >= 0}
 
 
-def written_uses(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
-    """Fields of a `zd_uses`, and the words that must live as long as the objects made from it."""
+def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
+    """Fields of a `zd_elements`, and the words that must live as long as the objects made from it."""
     terms: list[tuple[int, float]] = []
     relations, efforts = [], []
     for row in tables.relations:
@@ -87,9 +87,9 @@ def written_uses(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple[dic
     names = [ffi.new("char[]", row.name.encode()) for row in tables.measures]
     measures = [(name, units[row.unit], QUANTITIES[row.quantity], *row[3:])
                 for name, row in zip(names, tables.measures, strict=True)]
-    uses = {
+    elements = {
         "terms": len(terms), "relations": len(relations), "efforts": len(efforts), "measures": len(measures),
         "term": ffi.new("zd_gauge_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
-        "effort": ffi.new("zd_effort[]", efforts), "measure": ffi.new("zd_observed[]", measures),
+        "effort": ffi.new("zd_effort[]", efforts), "measure": ffi.new("zd_output_spec[]", measures),
         "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time}
-    return uses, (names, units)
+    return elements, (names, units)

@@ -11,7 +11,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, Card, card_of, doubles, text
-from .element_tables import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
+from .element_tables import Effort, Observed, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, compiled_table
 from .measures import Components, components, given
 from .systems import CoreSystem
@@ -265,6 +265,6 @@ def written_tables(tables: Tables, has_laws: bool, laws_know_time: bool) -> tupl
     """Fields of a `zd_tables`, and the words that must live as long as the objects made from it."""
     bodies, joints = ffi.new("zd_body[]", list(tables.bodies)), ffi.new("zd_joint[]", list(tables.joints))
     gauges = ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
-    uses, words = written_uses(tables, has_laws, laws_know_time)
+    elements, words = written_elements(tables, has_laws, laws_know_time)
     return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
-            "body": bodies, "joint": joints, "gauge": gauges, "uses": uses}, words
+            "body": bodies, "joint": joints, "gauge": gauges, "elements": elements}, words

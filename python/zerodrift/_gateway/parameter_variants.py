@@ -81,7 +81,7 @@ class Varied:
         changes = {"body": _fields(tables.bodies), "joint": _fields(tables.joints), "gauge": _fields(tables.gauges),
                    "term": _coefficients(tables), "relation": _fields(tables.relations), "effort": _fields(tables.efforts)}
         for name, found in changes.items():
-            place = written if name in written else written["uses"]
+            place = written if name in written else written["elements"]
             place[name] = self._repeated(place[name], count, list(found))
         return written
 

@@ -12,7 +12,7 @@ import numpy as np
 from .._core import ffi, lib
 from .._rotations import product, turn, turn_between
 from .base import MESSAGE_SIZE, Card, card_of, doubles, text
-from .element_tables import Effort, Observed, Relation, Row, law_sizes, rows_of, written_uses
+from .element_tables import Effort, Observed, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, compiled_table
 from .measures import Components, components
 from .mechanisms import Coordinate
@@ -264,10 +264,10 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool, made_by: Any) 
     """The core's mechanism, and words that have to live as long."""
     bodies, joints = ffi.new("zd_space_body[]", list(tables.bodies)), ffi.new("zd_space_joint[]", list(tables.joints))
     gauges = ffi.new("zd_space_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
-    uses, words = written_uses(tables, has_laws, laws_know_time)
+    elements, words = written_elements(tables, has_laws, laws_know_time)
     c = ffi.new("zd_space_tables *", {
         "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
-        "body": bodies, "joint": joints, "gauge": gauges, "uses": uses})
+        "body": bodies, "joint": joints, "gauge": gauges, "elements": elements})
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = made_by(c, message, MESSAGE_SIZE)
     if not mechanism:

@@ -13,7 +13,7 @@ from . import shared_library
 from .scalar_function import HEADING, Program, computed
 
 SYMBOL = "zd_symbolic_law"
-TAKES = "const double *k, double t, const double *p, const double *v, double *out"     # a `zd_law_function` of csrc/gauges/uses.h
+TAKES = "const double *k, double t, const double *p, const double *v, double *out"     # as `zd_law_function`
 
 
 class Leaves:

@@ -5,8 +5,8 @@
  *
  * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
  */
-#ifndef ZD_USES_H
-#define ZD_USES_H
+#ifndef ZD_ELEMENTS_H
+#define ZD_ELEMENTS_H
 
 /* A number that a relation or an effort depends on: a gauge times a coefficient. */
 typedef struct zd_gauge_term {
@@ -61,14 +61,14 @@ enum zd_quantity {
     ZD_EFFORT_TORQUE            /* N m: in space, the moments of such efforts, about the mass centre */
 };
 
-typedef struct zd_observed {
+typedef struct zd_output_spec {
     const char *name, *unit;
     int quantity;               /* enum zd_quantity */
     int index;
     int size;                   /* of values, rates and accelerations: how many gauges; of effort forces and torques: how many efforts */
     double scale;               /* what it is multiplied with: -1 for tensions of springs */
     int term;                   /* of drive values: which of the relation's terms; else 0 */
-} zd_observed;
+} zd_output_spec;
 
 /* A law that somebody else computes; k is the number of its terms. For an effort it writes out[0] alone. For a relation: g, dg/dx_i (k),
  * dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one: 0, a_i (k), a_0, and da_i/dt xdot_i + da_0/dt.
@@ -83,16 +83,16 @@ typedef struct zd_compiled_law {
     const double *numbers;
 } zd_compiled_law;
 
-typedef struct zd_uses {
+typedef struct zd_elements {
     int terms, relations, efforts, measures;
     const zd_gauge_term *term;
     const zd_relation *relation;
     const zd_effort *effort;
-    const zd_observed *measure;
+    const zd_output_spec *measure;
     zd_law *law;                /* NULL: there is none */
     void *owner;                /* what it is called with */
     int laws_know_time;         /* whether a law depends on t but through positions and velocities */
-} zd_uses;
+} zd_elements;
 
 /* What a row of C is. */
 enum zd_owner { ZD_OF_JOINT, ZD_OF_RELATION };

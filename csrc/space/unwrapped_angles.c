@@ -5,11 +5,11 @@
  * where a x o is perpendicular to b, as it is where the joint is closed. The angle itself is atan2(o . b, a . b) and as many turns as
  * bring it nearest to the coordinate: what rates lose in a step is then taken out, and no turn is lost unless that is half a turn.
  */
-#include "turns.h"
+#include "unwrapped_angles.h"
 
 #include "gauge.h"
 
-int zd_turns_of(const zd_space_joint *joint)
+int zd_unwrapped_angles_of(const zd_space_joint *joint)
 {
     const zd_space_coordinate *coordinate = zd_space_joint_kind_of(joint->kind)->coordinate;
     int turns = 0;
@@ -17,7 +17,7 @@ int zd_turns_of(const zd_space_joint *joint)
     return turns;
 }
 
-void zd_turns_take(zd_turns *self, zd_arena *arena, size_t joints)
+void zd_unwrapped_angles_take(zd_unwrapped_angles *self, zd_arena *arena, size_t joints)
 {
     self->angle = zd_take(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->angle);
     self->axis = zd_take(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->axis);
@@ -25,11 +25,11 @@ void zd_turns_take(zd_turns *self, zd_arena *arena, size_t joints)
     self->place = zd_take(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->place);
 }
 
-void zd_turns_plan(zd_turns *self, int joints, const zd_space_joint *joint, int at)
+void zd_unwrapped_angles_plan(zd_unwrapped_angles *self, int joints, const zd_space_joint *joint, int at)
 {
     for (int j = 0; j < joints; j++) {
         const int before = self->count;
-        for (int i = 0, angles = zd_turns_of(joint + j); i < ZD_SPACE_COORDINATES && self->count < before + angles; i++) {
+        for (int i = 0, angles = zd_unwrapped_angles_of(joint + j); i < ZD_SPACE_COORDINATES && self->count < before + angles; i++) {
             const zd_space_gauge gauge = zd_space_coordinate_gauge(joint + j, i, before);
             if (!gauge.counted) continue;
             self->axis[self->count] = zd_cross3(zd_vector3_of(gauge.a), zd_vector3_of(gauge.o));
@@ -40,9 +40,9 @@ void zd_turns_plan(zd_turns *self, int joints, const zd_space_joint *joint, int 
     }
 }
 
-void zd_turns_read(const zd_space *space, const zd_frame3 *frame, const double *p)
+void zd_unwrapped_angles_read(const zd_space *space, const zd_frame3 *frame, const double *p)
 {
-    for (int k = 0; k < space->turns.count; k++) frame->angle[k] = p[space->turns.place[k]];
+    for (int k = 0; k < space->unwrapped.count; k++) frame->angle[k] = p[space->unwrapped.place[k]];
 }
 
 static zd_vector3 spin_of(const zd_space *space, const zd_frame3 *frame, int body, const double *x)
@@ -52,12 +52,12 @@ static zd_vector3 spin_of(const zd_space *space, const zd_frame3 *frame, int bod
     return zd_rotated3(&frame->pose[body].turned, zd_vector3_of(x + of->v + ZD_POINT_COORDINATES));
 }
 
-void zd_turns_rate(const zd_space *space, const zd_frame3 *frame, const double *x, double *pdot)
+void zd_unwrapped_angles_rate(const zd_space *space, const zd_frame3 *frame, const double *x, double *pdot)
 {
-    for (int k = 0; k < space->turns.count; k++) {
-        const zd_space_gauge *angle = space->turns.angle + k;
-        const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->turns.axis[k]);
-        pdot[space->turns.place[k]] = zd_inner3(axis, zd_minus3(spin_of(space, frame, angle->second, x), spin_of(space, frame, angle->first, x)));
+    for (int k = 0; k < space->unwrapped.count; k++) {
+        const zd_space_gauge *angle = space->unwrapped.angle + k;
+        const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->unwrapped.axis[k]);
+        pdot[space->unwrapped.place[k]] = zd_inner3(axis, zd_minus3(spin_of(space, frame, angle->second, x), spin_of(space, frame, angle->first, x)));
     }
 }
 
@@ -73,10 +73,10 @@ static zd_vector3 turned(const zd_space *space, int body, const double *p, doubl
 void zd_space_follow(const void *data, double *p)
 {
     const zd_space *self = data;
-    for (int k = 0; k < self->turns.count; k++) {
-        const zd_space_gauge *angle = self->turns.angle + k;
+    for (int k = 0; k < self->unwrapped.count; k++) {
+        const zd_space_gauge *angle = self->unwrapped.angle + k;
         const zd_vector3 b = turned(self, angle->first, p, -1, turned(self, angle->second, p, 1, zd_vector3_of(angle->b)));
-        double *follower = p + self->turns.place[k];
+        double *follower = p + self->unwrapped.place[k];
         *follower = zd_with_turns(atan2(zd_inner3(zd_vector3_of(angle->o), b), zd_inner3(zd_vector3_of(angle->a), b)), *follower);
     }
 }

@@ -4,27 +4,27 @@
  *
  * Gauges along x and y say the same one by one, and turn both points each time. Vectors over the coordinates are spread to three entries for
  * each body and for the ground, whose are zero, so that nothing asks which bodies a pin has. */
-#include "pins.h"
+#include "revolute_joints.h"
 
 static int is_plain(const zd_mechanism *mechanism, const zd_relation *row, int kind)
 {
-    const zd_gauge_term *term = mechanism->uses.term + row->first;
+    const zd_gauge_term *term = mechanism->elements.term + row->first;
     return row->law < 0 && !row->nonholonomic && row->terms == 1 && row->constant == 0 && row->slope == 0 && term->coefficient == 1
         && mechanism->gauge[term->gauge].kind == kind;
 }
 
 static int are_alike(const double *a, const double *b) { return a[0] == b[0] && a[1] == b[1]; }
 
-int zd_pin_is_at(const zd_mechanism *mechanism, int row)
+int zd_is_revolute_joint_at(const zd_mechanism *mechanism, int row)
 {
-    if (row + 1 >= mechanism->uses.mh) return 0;
-    const zd_relation *x = mechanism->uses.row + row, *y = x + 1;
+    if (row + 1 >= mechanism->elements.mh) return 0;
+    const zd_relation *x = mechanism->elements.row + row, *y = x + 1;
     if (!is_plain(mechanism, x, ZD_GAUGE_X) || !is_plain(mechanism, y, ZD_GAUGE_Y)) return 0;
-    const zd_gauge *a = mechanism->gauge + mechanism->uses.term[x->first].gauge, *b = mechanism->gauge + mechanism->uses.term[y->first].gauge;
+    const zd_gauge *a = mechanism->gauge + mechanism->elements.term[x->first].gauge, *b = mechanism->gauge + mechanism->elements.term[y->first].gauge;
     return a->first == b->first && a->second == b->second && are_alike(a->point1, b->point1) && are_alike(a->point2, b->point2);
 }
 
-void zd_pins_list(zd_pins *self, int bodies)
+void zd_revolute_joints_list(zd_revolute_joints *self, int bodies)
 {
     int *at = self->end_at;
     for (int k = 0; k < self->count; k++) at[self->between[k].first + 1]++, at[self->between[k].second + 1]++;
@@ -39,7 +39,7 @@ void zd_pins_list(zd_pins *self, int bodies)
 
 /* ---- where the points are ---- */
 
-void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame)
+void zd_revolute_joints_turn(const zd_revolute_joints *self, const zd_mechanism *mechanism, const zd_frame *frame)
 {
     const zd_tree *tree = &mechanism->tree;
     const double *sine = frame->sines + tree->angles, *cosine = sine + tree->angles;
@@ -57,7 +57,7 @@ void zd_pins_turn(const zd_pins *self, const zd_mechanism *mechanism, const zd_f
     }
 }
 
-const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const double *x, double *to)
+const double *zd_revolute_joints_spread(const zd_revolute_joints *self, const zd_tree *tree, const double *x, double *to)
 {
     if (self->have_angles) return x;
     double *of = to;
@@ -72,25 +72,25 @@ const double *zd_pins_spread(const zd_pins *self, const zd_tree *tree, const dou
 
 /* ---- terms ---- */
 
-static void write_Phi(const zd_pins *self, const zd_frame *frame, const double *p, double *Phi)
+static void write_Phi(const zd_revolute_joints *self, const zd_frame *frame, const double *p, double *Phi)
 {
     for (int k = 0; k < self->count; k++) {
-        const zd_pin_bodies *pin = self->between + k;
-        const double *a = zd_of_body(p, pin->first), *b = zd_of_body(p, pin->second);
-        const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1], zero = self->pin[k].zero;
-        Phi[pin->row] = b[0] + w.x - (a[0] + u.x) - zero.x;
-        Phi[pin->row + 1] = b[1] + w.y - (a[1] + u.y) - zero.y;
+        const zd_revolute_bodies *joint = self->between + k;
+        const double *a = zd_of_body(p, joint->first), *b = zd_of_body(p, joint->second);
+        const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1], zero = self->joint[k].zero;
+        Phi[joint->row] = b[0] + w.x - (a[0] + u.x) - zero.x;
+        Phi[joint->row + 1] = b[1] + w.y - (a[1] + u.y) - zero.y;
     }
 }
 
-static void write_xi(const zd_pins *self, const zd_frame *frame, const double *v, double *xi)
+static void write_xi(const zd_revolute_joints *self, const zd_frame *frame, const double *v, double *xi)
 {
     for (int k = 0; k < self->count; k++) {
-        const zd_pin_bodies *pin = self->between + k;
-        const double turn1 = zd_of_body(v, pin->first)[2], turn2 = zd_of_body(v, pin->second)[2], square1 = turn1 * turn1, square2 = turn2 * turn2;
+        const zd_revolute_bodies *joint = self->between + k;
+        const double turn1 = zd_of_body(v, joint->first)[2], turn2 = zd_of_body(v, joint->second)[2], square1 = turn1 * turn1, square2 = turn2 * turn2;
         const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1];
-        xi[pin->row] = square2 * w.x - square1 * u.x;
-        xi[pin->row + 1] = square2 * w.y - square1 * u.y;
+        xi[joint->row] = square2 * w.x - square1 * u.x;
+        xi[joint->row + 1] = square2 * w.y - square1 * u.y;
     }
 }
 
@@ -105,20 +105,20 @@ ZD_INLINE void write_body(double *x, int width, double sign, zd_vector arm, int 
     y[2] = sign * arm.x;
 }
 
-static void write_C(const zd_pins *self, const zd_frame *frame, double *C)
+static void write_C(const zd_revolute_joints *self, const zd_frame *frame, double *C)
 {
     for (int k = 0; k < self->count; k++) {
-        const zd_pin *pin = self->pin + k;
-        if (pin->near >= 0) write_body(C + pin->C + pin->near, pin->width, -1, frame->arm[2 * k], pin->near_turns);
-        if (pin->far >= 0) write_body(C + pin->C + pin->far, pin->width, 1, frame->arm[2 * k + 1], pin->far_turns);
+        const zd_revolute_joint *joint = self->joint + k;
+        if (joint->near >= 0) write_body(C + joint->C + joint->near, joint->width, -1, frame->arm[2 * k], joint->near_turns);
+        if (joint->far >= 0) write_body(C + joint->C + joint->far, joint->width, 1, frame->arm[2 * k + 1], joint->far_turns);
     }
 }
 
-void zd_pins_write(const zd_pins *self, const zd_mechanism *mechanism, const zd_frame *frame, int want, const double *p, const double *v,
+void zd_revolute_joints_write(const zd_revolute_joints *self, const zd_mechanism *mechanism, const zd_frame *frame, int want, const double *p, const double *v,
                    const zd_terms *out)
 {
-    if (want & ZD_PHI) write_Phi(self, frame, zd_pins_spread(self, &mechanism->tree, p, frame->spread), out->Phi);
-    if (want & ZD_XI) write_xi(self, frame, zd_pins_spread(self, &mechanism->tree, v, frame->spread), out->xi);
+    if (want & ZD_PHI) write_Phi(self, frame, zd_revolute_joints_spread(self, &mechanism->tree, p, frame->spread), out->Phi);
+    if (want & ZD_XI) write_xi(self, frame, zd_revolute_joints_spread(self, &mechanism->tree, v, frame->spread), out->xi);
     if (want & ZD_C) write_C(self, frame, out->C);
     for (int k = 0; (want & ZD_PHI_T) && k < self->count; k++) out->Phi_t[self->between[k].row] = out->Phi_t[self->between[k].row + 1] = 0;
 }

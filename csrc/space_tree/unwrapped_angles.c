@@ -1,21 +1,21 @@
-/* As in ../space/turns.c: rates are those of the joint's axis, and the angle is that of both attitudes, with as many turns as are nearest. */
-#include "turns.h"
+/* As in ../space/unwrapped_angles.c: rates are those of the joint's axis, and the angle is that of both attitudes, with as many turns as are nearest. */
+#include "unwrapped_angles.h"
 
 #include "../space/gauge.h"
 #include "inward.h"
 #include "motion.h"
 
 /* Whether the k-th angle is of a joint that carries nothing, so that it follows. */
-static int follows(const zd_space *space, int k) { return !space->planned[space->turns.joint[k]].carried; }
+static int follows(const zd_space *space, int k) { return !space->planned[space->unwrapped.joint[k]].carried; }
 
 void zd_tree3_write_rates(const zd_space *space, const zd_frame3 *frame, double *A)
 {
-    for (int k = 0; k < space->turns.count; k++) {
-        const zd_space_gauge *angle = space->turns.angle + k;
+    for (int k = 0; k < space->unwrapped.count; k++) {
+        const zd_space_gauge *angle = space->unwrapped.angle + k;
         if (!follows(space, k)) continue;
-        const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->turns.axis[k]);
+        const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->unwrapped.axis[k]);
         const zd_reading3 rate = {.first = {.torque = zd_times3(-1, axis)}, .second = {.torque = axis}};
-        zd_tree3_act(space, frame, angle, 1, &rate, A + space->turns.place[k] * zd_tree3_of(space)->nv);
+        zd_tree3_act(space, frame, angle, 1, &rate, A + space->unwrapped.place[k] * zd_tree3_of(space)->nv);
     }
 }
 
@@ -23,13 +23,13 @@ void zd_tree3_follow(const void *data, double *p)
 {
     const zd_space *space = data;
     const zd_tree3 *tree = zd_tree3_of(space);
-    for (int k = 0; k < space->turns.count; k++) {
-        const zd_space_gauge *angle = space->turns.angle + k;
+    for (int k = 0; k < space->unwrapped.count; k++) {
+        const zd_space_gauge *angle = space->unwrapped.angle + k;
         if (!follows(space, k)) continue;
         const zd_rotation first = zd_tree3_attitude(tree, angle->first, p), second = zd_tree3_attitude(tree, angle->second, p);
         const zd_vector3 b = zd_rotated3(&second, zd_vector3_of(angle->b));
         const double x = zd_inner3(zd_rotated3(&first, zd_vector3_of(angle->a)), b), y = zd_inner3(zd_rotated3(&first, zd_vector3_of(angle->o)), b);
-        double *at = p + space->turns.place[k];
+        double *at = p + space->unwrapped.place[k];
         *at = zd_with_turns(atan2(y, x), *at);
     }
 }

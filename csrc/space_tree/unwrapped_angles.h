@@ -1,7 +1,7 @@
 /* Angles of joints, which count turns: of joints in the tree they are coordinates of their own,
  * and of the others they follow the rest of p. */
-#ifndef ZD_SPACE_TREE_TURNS_H
-#define ZD_SPACE_TREE_TURNS_H
+#ifndef ZD_SPACE_TREE_UNWRAPPED_ANGLES_H
+#define ZD_SPACE_TREE_UNWRAPPED_ANGLES_H
 
 #include "links.h"
 

@@ -55,7 +55,7 @@ def test_measures_are_of_what_there_is(room, wrong):
 
 
 def test_a_quantity_that_there_is_not(room, monkeypatch):
-    monkeypatch.setitem(room.written_uses.__globals__["QUANTITIES"], "none", 99)
+    monkeypatch.setitem(room.written_elements.__globals__["QUANTITIES"], "none", 99)
     with pytest.raises(ValueError, match="measure it: what it is of is not there"):
         core(room, **measure("none", 0))
 
