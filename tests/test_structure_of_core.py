@@ -81,7 +81,8 @@ def test_there_are_no_circles_of_folders(uses):
 @pytest.mark.parametrize("room", ["integrators", "corrections"])
 def test_integrators_and_corrections_see_the_motion_and_no_run(uses, room):
     """They include nothing from the rooms above them; below the motion they may use all that it is made of."""
-    below = {"motion", "formulations", "constraints", "point", "linalg", "zerodrift", "include/zerodrift", "workspace"}
+    below = {"motion", "formulations", "constraints", "point", "linalg", "step_limits", "zerodrift", "include/zerodrift",
+             "workspace"}
     assert {folder_of(b) for a, b in uses if folder_of(a) == room} <= below | {room}
 
 
@@ -98,3 +99,15 @@ def test_functions_are_short():
     lengths = dict(functions())
     assert len(lengths) > 300
     assert {name: lines for name, lines in lengths.items() if lines > LONGEST} == {}
+
+
+def test_lanes_and_single_runs_share_the_limits_of_steps():
+    """Each name of step_limits.h is used by single runs; those used in batch/ are defined nowhere else."""
+    limits = set(re.findall(r"^(?:#define|    )\s*(ZD_\w+) ", (CSRC / "step_limits.h").read_text(), re.MULTILINE))
+    files = [path for path in CSRC.rglob("*.[ch]") if path.name != "step_limits.h"]
+    in_lanes = " ".join(path.read_text() for path in files if path.parent.name == "batch")
+    in_runs = " ".join(path.read_text() for path in files if path.parent.name != "batch")
+    assert len(limits) > 20
+    assert {name for name in limits if not re.search(rf"\b{name}\b", in_runs)} == set()
+    assert len([name for name in limits if re.search(rf"\b{name}\b", in_lanes)]) > 15
+    assert [name for name in limits if re.search(rf"\b{name} = |#define {name}\b", in_lanes + in_runs)] == []

@@ -1,7 +1,6 @@
 /* Full checks of the steps of lanes: selection of the lanes in which they are due, and their energy. */
+#include "../step_limits.h"
 #include "group.h"
-
-enum { CHECK_EVERY = 8 };    /* steps, as in guard.c */
 
 void zd_lane_group_check_closely(zd_lane_group *self)
 {
@@ -15,6 +14,6 @@ void zd_lane_group_check_closely(zd_lane_group *self)
     if (!any) return;
     self->functions->check(lanes);
     for (int lane = 0; lane < lanes->lanes; lane++)
-        if (lanes->is_wanted[lane] != 0 && lanes->number[lane] >= (double)CHECK_EVERY)
+        if (lanes->is_wanted[lane] != 0 && lanes->number[lane] >= (double)ZD_CHECK_EVERY)
             self->run_of[lane].is_off |= !zd_lane_group_keeps_energy(self, lane);
 }

@@ -4,10 +4,10 @@
  */
 #include <math.h>
 
+#include "../step_limits.h"
 #include "event_samples.h"
 #include "group.h"
 
-static const double RESOLUTION = 4 * 0x1p-52;   /* relative resolution of t, as in events.c */
 
 zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes)
 {
@@ -49,7 +49,7 @@ static int happens(const zd_lane_group *self, const zd_lane_search *search, int 
 
 static double resolution_of(const zd_lanes *lanes, int lane)
 {
-    return RESOLUTION * fmax(fabs(lanes->t_before[lane]), fabs(lanes->t[lane]));
+    return ZD_TIME_RESOLUTION * fmax(fabs(lanes->t_before[lane]), fabs(lanes->t[lane]));
 }
 
 static int is_wide(const zd_lanes *lanes, int lane, const zd_bracket *bracket)
@@ -166,8 +166,8 @@ static void find_state(zd_lane_group *self, int lane)
 {
     zd_lane_run *run = &self->run_of[lane];
     const zd_bracket *located = &run->search.bracket[run->search.event];
-    zd_bracket it = zd_bracket_of(0, 1, located->ga, located->gb, RESOLUTION);
-    while (is_mixed(self, &run->search) && it.gb != 0 && it.b - it.a > RESOLUTION) {
+    zd_bracket it = zd_bracket_of(0, 1, located->ga, located->gb, ZD_TIME_RESOLUTION);
+    while (is_mixed(self, &run->search) && it.gb != 0 && it.b - it.a > ZD_TIME_RESOLUTION) {
         const double share = zd_bracket_choose(&it);
         mix(self, lane, share, run->search.mixed);
         zd_bracket_narrow(&it, share, evaluate(self, lane, run->search.event, located->b));

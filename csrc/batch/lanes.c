@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "../output/reading.h"
+#include "../step_limits.h"
 #include "group.h"
 
 static zd_weights without_zeros(int count, const double *weight)
@@ -230,9 +231,8 @@ static void clear(const zd_lanes *self, int lane, int64_t count, double *numbers
 /* Sets the step of the first full check: see guard.c. */
 static void set_first_check(zd_lanes *self, int lane)
 {
-    enum { CHECK_EVERY = 8, CHECK_SELDOM = 64 };
-    self->next_check[lane] = self->is_fixed ? 1 : CHECK_SELDOM;
-    self->check_pause[lane] = self->is_fixed ? CHECK_EVERY : CHECK_SELDOM;
+    self->next_check[lane] = self->is_fixed ? 1 : ZD_CHECK_SELDOM;
+    self->check_pause[lane] = self->is_fixed ? ZD_CHECK_EVERY : ZD_CHECK_SELDOM;
 }
 
 void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles)

@@ -3,10 +3,6 @@
  */
 #include "lanes_steps.h"
 
-static const double FORGET = 1.0 / 128, SHARE = 1e-3, UNRESOLVED = 0.03, NOTED = 1e-3, AMPLE_PART = 0x1p-4;    /* resolution.c */
-static const double AMPLE_CHANGE = 0x1p-8;     /* guard.c, as are the following */
-enum { CHECK_EVERY = 8, CHECK_SELDOM = 64 };  /* steps */
-
 /* Error of coordinate i in the step, in its own unit. */
 ZD_KERNEL zd_real ZD_NAMED(missed)(const zd_lanes *self, int i, zd_real h)
 {
@@ -19,7 +15,7 @@ ZD_KERNEL zd_real ZD_NAMED(missed)(const zd_lanes *self, int i, zd_real h)
 /* Records a significant error of coordinate i. */
 ZD_KERNEL void ZD_NAMED(note_part)(zd_lanes *self, int i, zd_condition counts, zd_real error)
 {
-    const zd_condition is_unresolved = counts & (error > UNRESOLVED), is_first = is_unresolved & (*REAL(self->unresolved) == 0.0);
+    const zd_condition is_unresolved = counts & (error > ZD_UNRESOLVED_ERROR), is_first = is_unresolved & (*REAL(self->unresolved) == 0.0);
     *REAL(self->unresolved_time) = ZD_WHERE(is_first, *REAL(self->t), *REAL(self->unresolved_time));
     *REAL(self->unresolved) += AS_NUMBER(is_unresolved);
     const zd_condition is_largest = counts & (error > *REAL(self->part_error));
@@ -30,13 +26,13 @@ ZD_KERNEL void ZD_NAMED(note_part)(zd_lanes *self, int i, zd_condition counts, z
 /* True if an error is significant relative to `share` of the bounds. */
 ZD_KERNEL zd_condition ZD_NAMED(counts)(zd_real error, zd_real path, double share)
 {
-    return (error > share * NOTED) & (error > share * SHARE * path);
+    return (error > share * ZD_NOTED_ERROR) & (error > share * ZD_ERROR_SHARE * path);
 }
 
 /* Accumulates error and path of coordinate i in the lanes checked; returns whether the error is well below the significant ones. */
 ZD_KERNEL zd_condition ZD_NAMED(add_up)(zd_lanes *self, int i, zd_condition checks, zd_real h, zd_real steps)
 {
-    const zd_real forget = ZD_WHERE(steps > 8.0, steps / 8 * FORGET, ZD_SPLAT(FORGET)), unit = REAL(self->inverse_unit)[i];
+    const zd_real forget = ZD_WHERE(steps > 8.0, steps / 8 * ZD_FORGET, ZD_SPLAT(ZD_FORGET)), unit = REAL(self->inverse_unit)[i];
     const zd_condition first = *REAL(self->last_checked) == 0.0;
     const zd_real led = steps * h / 2 * (REAL(self->y0)[self->nq + i] + REAL(self->y)[self->nq + i]) * unit;
     const zd_real at = self->has_A ? REAL(self->place)[i] + led : REAL(self->y)[i] * unit;
@@ -52,7 +48,7 @@ ZD_KERNEL zd_condition ZD_NAMED(add_up)(zd_lanes *self, int i, zd_condition chec
     const zd_real range = high - low, bounded = SMALLER(error, range);
     const zd_condition counts = checks & ZD_NAMED(counts)(bounded, path, 1);
     if (ZD_ANY(counts)) ZD_NAMED(note_part)(self, i, counts, bounded);
-    return ~ZD_NAMED(counts)(error, path, AMPLE_PART);
+    return ~ZD_NAMED(counts)(error, path, ZD_AMPLE_RESOLUTION);
 }
 
 /* True if the step was well below the stability limit, by (omega h)^4 as in guard.c. */
@@ -68,19 +64,19 @@ ZD_KERNEL zd_condition ZD_NAMED(is_ample)(const zd_lanes *self, zd_real h)
         const zd_real x = (REAL(self->y)[i] - REAL(self->y0)[i]) * REAL(self->inverse_unit_p)[i];
         moved += x * x;
     }
-    return square * square * changed <= AMPLE_CHANGE * self->limit * moved;
+    return square * square * changed <= ZD_AMPLE_STABILITY * self->limit * moved;
 }
 
 /* Sets the step of the next check in the lanes checked. */
 ZD_KERNEL void ZD_NAMED(pause)(zd_lanes *self, zd_condition checks, zd_condition ample)
 {
     const zd_real magic = ZD_SPLAT(0x1p52), number = *REAL(self->number);
-    zd_real pause = ZD_WHERE(HOLDS(self->check_soon) | ~ample, ZD_SPLAT((double)CHECK_EVERY), *REAL(self->check_pause));
+    zd_real pause = ZD_WHERE(HOLDS(self->check_soon) | ~ample, ZD_SPLAT((double)ZD_CHECK_EVERY), *REAL(self->check_pause));
     const zd_real part = number / pause, whole = (part - 63.0 / 128 + magic) - magic;      /* a pause is no longer than 64 steps, a power of two */
-    const zd_condition grows = ample & (pause < (double)CHECK_SELDOM) & (part == whole);
+    const zd_condition grows = ample & (pause < (double)ZD_CHECK_SELDOM) & (part == whole);
     pause = ZD_WHERE(grows, 2.0 * pause, pause);
     const zd_real pauses = (number / pause - 63.0 / 128 + magic) - magic;
-    const zd_real next = ZD_WHERE(number < (double)CHECK_EVERY, 2.0 * number, (pauses + 1.0) * pause);
+    const zd_real next = ZD_WHERE(number < (double)ZD_CHECK_EVERY, 2.0 * number, (pauses + 1.0) * pause);
     *REAL(self->check_pause) = ZD_WHERE(checks, pause, *REAL(self->check_pause));
     *REAL(self->next_check) = ZD_WHERE(checks, next, *REAL(self->next_check));
     *REAL(self->check_soon) = ZD_WHERE(checks, ZD_SPLAT(0.0), *REAL(self->check_soon));

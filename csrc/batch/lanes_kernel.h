@@ -2,6 +2,7 @@
  * depend on the other lanes.
  */
 #include "../include/zerodrift/lanes.h"
+#include "../step_limits.h"
 #include "lane_numbers.h"
 
 #define REAL(pointer) ((zd_stored *)(pointer))
@@ -11,13 +12,6 @@
 #define SMALLER(a, b) ZD_WHERE((a) < (b), a, b)
 #define ZD_KERNEL ZD_ON_UNIT static
 #define ZD_SUMS 6       /* adjacent sums, whose fused multiply-adds overlap in time */
-
-static const double LARGE_PIVOT = 0x1p-3, SUFFICIENT_PIVOT = 0x1p-5, SMALL_PIVOT = 0x1p-6, SHRUNK_PIVOT = 0x1p-4; /* motion/direct.c */
-static const double TRUSTED_SHARE = 0.25, LONG_PATH = 0.25;      /* motion.h, guard.h */
-static const double CALM_DETOUR = 48.0, FASTER_SPEED = 1.5;              /* also guard.h */
-enum { STIFF_AFTER = 10, NOT_STIFF_AFTER = 3, CHECK_STIFFNESS_EVERY = 32 };     /* steps: adaptive.c, runge_kutta.h */
-static const double AT_THE_LIMIT = 0.95, STATE_ROUNDING = 0x1p-42;
-static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10;     /* and adaptive.c */
 
 ZD_KERNEL zd_real ZD_NAMED(size_of)(zd_real x)
 {

@@ -26,7 +26,7 @@ ZD_KERNEL zd_condition ZD_NAMED(correct_state)(zd_lanes *self, const double *t, 
         ZD_NAMED(correct)(self, t, y, v);
         zd_condition open = ZD_NAMED(is_open)(self, &residual) & wanted & ~failed;
         if (iteration == 0) first = residual;
-        if (iteration == 1) failed |= open & ~(residual <= TRUSTED_SHARE * first);
+        if (iteration == 1) failed |= open & ~(residual <= ZD_TRUSTED_SHARE * first);
         if (iteration == self->max_iterations) failed |= open;
         open &= ~failed;
         if (!ZD_ANY(open)) break;
@@ -107,12 +107,12 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
         if (!ZD_ANY(has)) continue;
         zd_real of_rows, of_mass;
         ZD_NAMED(smallest)(self, self->direct->order + i, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
-        sound |= has & (of_rows >= SMALL_PIVOT) & (of_mass >= LARGE_PIVOT);
-        if (i == 0) *continues = has & (of_rows >= LARGE_PIVOT) & (of_mass >= LARGE_PIVOT);
+        sound |= has & (of_rows >= ZD_SMALL_PIVOT) & (of_mass >= ZD_LARGE_PIVOT);
+        if (i == 0) *continues = has & (of_rows >= ZD_LARGE_PIVOT) & (of_mass >= ZD_LARGE_PIVOT);
     }
     for (int k = 0; k < self->nv; k++) {
         const zd_real x = REAL(self->pivots1)[k], x0 = REAL(self->pivots)[k];
-        sound &= x * x0 >= SHRUNK_PIVOT * x0 * x0;
+        sound &= x * x0 >= ZD_SHRUNK_PIVOT * x0 * x0;
     }
     return sound;
 }
@@ -135,19 +135,18 @@ ZD_KERNEL zd_condition ZD_NAMED(is_short_of_many)(const zd_lanes *self)
 {
     zd_condition is_short = ZD_SPLAT(0.0) == 0.0;
     for (int i = 0; i < self->nq; i++)
-        is_short &= ZD_NAMED(size_of)(REAL(self->y1)[i] - REAL(self->y)[i]) * REAL(self->inverse_unit_p)[i] <= LONG_PATH;
+        is_short &= ZD_NAMED(size_of)(REAL(self->y1)[i] - REAL(self->y)[i]) * REAL(self->inverse_unit_p)[i] <= ZD_LONG_PATH;
     return is_short;
 }
 
 /* True if the step to y1 is accepted; else the run has to be made individually. */
 ZD_KERNEL zd_condition ZD_NAMED(is_accepted)(zd_lanes *self, zd_real h, zd_real *speed, zd_condition *continues)
 {
-    enum { STREAK = 3 };
     const ZD_NAMED(path) path = ZD_NAMED(find_path)(self, h);
     *speed = path.speed;
-    const zd_condition is_short = self->pins ? ZD_NAMED(is_short_of_many)(self) : path.moved <= 1.0;
-    const zd_condition is_calm = (CALM_DETOUR * CALM_DETOUR * path.detour <= path.moved + self->nearby)
-                               & (path.speed <= FASTER_SPEED * *REAL(self->fastest) + self->nearby);
+    const zd_condition is_short = self->pins ? ZD_NAMED(is_short_of_many)(self) : path.moved <= ZD_FAR_PATH * ZD_FAR_PATH;
+    const zd_condition is_calm = (ZD_CALM_DETOUR * ZD_CALM_DETOUR * path.detour <= path.moved + self->nearby)
+                               & (path.speed <= ZD_FASTER_SPEED * *REAL(self->fastest) + self->nearby);
     *REAL(self->check_soon) = ZD_WHERE(is_calm, *REAL(self->check_soon), ZD_SPLAT(1.0));
     zd_condition accepted = ZD_NAMED(pivots_are_sound)(self, continues) & is_short;
     if (self->mh && self->corrects) {
@@ -155,11 +154,11 @@ ZD_KERNEL zd_condition ZD_NAMED(is_accepted)(zd_lanes *self, zd_real h, zd_real 
         zd_condition near = path.detour <= bound;
         if (ZD_ANY(~near)) near |= ZD_NAMED(is_near)(self, h, bound);
         accepted &= near;
-        if (!self->pins) *REAL(self->is_long) = AS_NUMBER(path.moved > LONG_PATH * LONG_PATH);
+        if (!self->pins) *REAL(self->is_long) = AS_NUMBER(path.moved > ZD_LONG_PATH * ZD_LONG_PATH);
     }
     if (self->is_fixed) {
         ZD_NAMED(watch_stability)(self, h, path.moved);
-        accepted &= *REAL(self->streak) < (double)STREAK;
+        accepted &= *REAL(self->streak) < (double)ZD_UNSTABLE_STREAK;
     }
     return accepted & (path.moved == path.moved);
 }
@@ -175,7 +174,7 @@ ZD_KERNEL void ZD_NAMED(try_order)(zd_lanes *self, int i, double enough)
     ZD_NAMED(call)(self, order, self->t, self->y, self->y + self->nq * ZD_LANES, &to);
     ZD_NAMED(smallest)(self, order, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
     const zd_real has = *REAL(self->order);
-    const zd_condition takes = (has != has) & (of_rows >= enough) & (of_mass >= LARGE_PIVOT);
+    const zd_condition takes = (has != has) & (of_rows >= enough) & (of_mass >= ZD_LARGE_PIVOT);
     *REAL(self->order) = ZD_WHERE(takes, ZD_SPLAT((double)i), has);
     ZD_NAMED(take_where)(takes, self->has_A ? self->nq : 0, self->pdot1, self->pdot);
     ZD_NAMED(take_where)(takes, self->nv, self->vdot1, self->vdot);
@@ -188,7 +187,7 @@ ZD_KERNEL void ZD_NAMED(choose)(zd_lanes *self)
 {
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < self->direct->orders; i++)
-            if (ZD_ANY(*REAL(self->order) != *REAL(self->order))) ZD_NAMED(try_order)(self, i, pass ? SUFFICIENT_PIVOT : LARGE_PIVOT);
+            if (ZD_ANY(*REAL(self->order) != *REAL(self->order))) ZD_NAMED(try_order)(self, i, pass ? ZD_SUFFICIENT_PIVOT : ZD_LARGE_PIVOT);
     const zd_real order = *REAL(self->order);
     const zd_condition has_none = order != order;
     *REAL(self->leaves) = ZD_WHERE(has_none & HOLDS(self->is_active), ZD_SPLAT(1.0), *REAL(self->leaves));
@@ -240,30 +239,30 @@ ZD_KERNEL void ZD_NAMED(watch_stiffness)(zd_lanes *self, zd_condition checks, zd
     zd_real rates = ZD_SPLAT(0.0), states = rates, rounding = rates;
     for (int i = 0; i < size; i++) {
         const zd_real unit = 1.0 / REAL(self->tolerated)[i], rate = (of_y[i] - of_stage[i]) * unit;
-        const zd_real state = (REAL(self->y1)[i] - REAL(self->stage)[i]) * unit, least = STATE_ROUNDING * REAL(self->y1)[i] * unit;
+        const zd_real state = (REAL(self->y1)[i] - REAL(self->stage)[i]) * unit, least = ZD_STATE_ROUNDING * REAL(self->y1)[i] * unit;
         rates = ZD_FMA(rate, rate, rates);
         states = ZD_FMA(state, state, states);
         rounding = ZD_FMA(least, least, rounding);
     }
     const zd_condition known = checks & (states > rounding) & (rates > 0.0);
-    const zd_condition is_long = known & (h * h * rates > AT_THE_LIMIT * AT_THE_LIMIT * self->decay * self->decay * states);
+    const zd_condition is_long = known & (h * h * rates > ZD_STABILITY_LIMIT * ZD_STABILITY_LIMIT * self->decay * self->decay * states);
     const zd_real below = ZD_WHERE(is_long, ZD_SPLAT(0.0), *REAL(self->below_limit) + AS_NUMBER(known));
-    const zd_condition is_calm = known & ~is_long & (below >= (double)NOT_STIFF_AFTER);
+    const zd_condition is_calm = known & ~is_long & (below >= (double)ZD_NOT_STIFF_AFTER);
     const zd_real at = ZD_WHERE(is_calm, ZD_SPLAT(0.0), *REAL(self->at_limit) + AS_NUMBER(is_long));
     *REAL(self->below_limit) = below;
     *REAL(self->at_limit) = at;
-    const zd_real more = ZD_WHERE(at == (double)STIFF_AFTER, at, ZD_WHERE(at > (double)STIFF_AFTER, ZD_SPLAT(1.0), ZD_SPLAT(0.0)));
+    const zd_real more = ZD_WHERE(at == (double)ZD_STIFF_AFTER, at, ZD_WHERE(at > (double)ZD_STIFF_AFTER, ZD_SPLAT(1.0), ZD_SPLAT(0.0)));
     *REAL(self->stiff) += ZD_WHERE(is_long, more, ZD_SPLAT(0.0));
 }
 
-/* Lanes in which stiffness is checked: if that takes an evaluation, every CHECK_STIFFNESS_EVERY steps. */
+/* Lanes in which stiffness is checked: if that takes an evaluation, every ZD_CHECK_STIFFNESS_EVERY steps. */
 ZD_KERNEL zd_condition ZD_NAMED(checks_stiffness)(const zd_lanes *self)
 {
     const zd_method *method = &self->method;
     const zd_condition none = ZD_SPLAT(0.0) != 0.0;
     if (method->tableau->c[method->stages - 1] != 1) return none;
     if (method->tableau->e[method->stages] != 0) return ~none;
-    return ZD_NAMED(is_multiple)(*REAL(self->number) + *REAL(self->rejected) + 1.0, CHECK_STIFFNESS_EVERY);
+    return ZD_NAMED(is_multiple)(*REAL(self->number) + *REAL(self->rejected) + 1.0, ZD_CHECK_STIFFNESS_EVERY);
 }
 
 /* Error of the step to y1, root mean square relative to the tolerances: see runge_kutta.h. */
@@ -290,6 +289,6 @@ ZD_KERNEL zd_real ZD_NAMED(error)(zd_lanes *self, const double *t1, zd_real h)
 ZD_KERNEL zd_real ZD_NAMED(factor)(const zd_lanes *self, zd_real norm)
 {
     const zd_real bounded = SMALLER(LARGER(norm, ZD_SPLAT(0x1p-40)), ZD_SPLAT(0x1p40));
-    const zd_real wanted = SAFETY * ZD_NAMED(inverse_root)(bounded, self->method.error_order + 1);
-    return SMALLER(LARGER(wanted, ZD_SPLAT(SMALLEST)), ZD_SPLAT(LARGEST));
+    const zd_real wanted = ZD_SAFETY * ZD_NAMED(inverse_root)(bounded, self->method.error_order + 1);
+    return SMALLER(LARGER(wanted, ZD_SPLAT(ZD_MIN_FACTOR)), ZD_SPLAT(ZD_MAX_FACTOR));
 }

@@ -6,8 +6,6 @@
  */
 #include "runge_kutta.h"
 
-static const double ROUNDING = 0x1p-42;     /* relative difference of states that errors of accelerations near a bifurcation cause */
-
 void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)given;
@@ -35,7 +33,7 @@ double zd_runge_kutta_lambda_h(const zd_tableau *T, const zd_runge_kutta *self, 
         double rate = (of_y[i] - of_stage[i]) / scale[i], state = (y[i] - self->stage[i]) / scale[i];
         rates += rate * rate;
         states += state * state;
-        rounding += (ROUNDING * y[i] / scale[i]) * (ROUNDING * y[i] / scale[i]);
+        rounding += (ZD_STATE_ROUNDING * y[i] / scale[i]) * (ZD_STATE_ROUNDING * y[i] / scale[i]);
     }
     return states > rounding ? fabs(h) * sqrt(rates / states) : 0;
 }

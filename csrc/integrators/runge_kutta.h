@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "../linalg/small.h"
+#include "../step_limits.h"
 #include "integrator.h"
 
 enum { ZD_MOST_STAGES = 16 };   /* largest number of rates of a method, including those at the end of a step and for dense output */
@@ -154,8 +155,7 @@ double zd_runge_kutta_lambda_h(const zd_tableau *T, const zd_runge_kutta *self, 
 ZD_INLINE int zd_runge_kutta_error(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t1, double h, const double *y,
                                    const double *scale, double *norm, double *lambda_h)
 {
-    enum { LOOK_EVERY = 32 };   /* steps between looks at stiffness, where these cost an evaluation */
-    const int looking = T->e[T->stages] != 0 || ++self->calls % LOOK_EVERY == 0;
+    const int looking = T->e[T->stages] != 0 || ++self->calls % ZD_CHECK_STIFFNESS_EVERY == 0;
     int status = looking ? rate->evaluate(rate->context, t1, y, self->k + T->stages * self->size) : ZD_DONE;
     if (status) return status;
     double sum = zd_squares(T->stages + 1, T->e, self, scale);

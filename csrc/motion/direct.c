@@ -12,16 +12,9 @@
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
+#include "../step_limits.h"
 #include "embed.h"
 #include "pivots.h"
-
-static const double LARGE = 0x1p-3;     /* pivots: the first order with none below is preferred */
-static const double LARGE_ENOUGH = 0x1p-5;  /* pivots at the start of a step: otherwise the first order with none below; x0 + D a then loses
-                                             * about five bits in D and ten in M */
-static const double SMALL = 0x1p-6;         /* pivots at the end of a step: below, the matrix path is ill-conditioned, too */
-static const double SHRUNK = 0x1p-4;    /* ratio of a pivot to that at the start of the step: below, its values in between are unknown */
-static const double LIGHT = 0x1p-20;        /* pivots of D^T M D, relative to its diagonal: below, too many of 53 bits are lost */
-static const double LONG = 1;               /* displacement in characteristic scales: longer steps need the checks of the matrix path */
 
 const zd_direct *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
 {
@@ -62,12 +55,12 @@ static double *scale_of(const zd_motion *motion, const zd_elimination *order)
 }
 
 /* Scale of each pivot. A determinant is a sum of products of one entry from each row and column, and so is its scale. Pivots of D^T M D are
- * relative already; their factor makes LARGE mean LIGHT. */
+ * relative already; their factor makes ZD_LARGE_PIVOT mean ZD_LOST_PIVOT. */
 static void measure(const zd_motion *motion, const zd_elimination *order)
 {
     const zd_point *point = motion->point;
     double *scale = scale_of(motion, order);
-    for (int k = 0; k < motion->system.nv; k++) scale[k] = k < order->solves ? 1 : LARGE / LIGHT;
+    for (int k = 0; k < motion->system.nv; k++) scale[k] = k < order->solves ? 1 : ZD_LARGE_PIVOT / ZD_LOST_PIVOT;
     for (int k = 0; k < zd_constraints(&motion->system); k++)
         scale[order->solve[k]] *= point->unit[order->column[k]] * point->inverse_size[order->row[k]];
 }
@@ -89,7 +82,7 @@ static double smallest_pivot(const zd_motion *motion)
         if (!(share >= smallest)) smallest = share == share ? share : 0;
     }
     for (int k = solves; k < all; k++)
-        if (!(pivots[k] >= LIGHT)) return 0;
+        if (!(pivots[k] >= ZD_LOST_PIVOT)) return 0;
     return smallest;
 }
 
@@ -130,10 +123,10 @@ static void forget_pivots(zd_motion *motion)
 static void remember_pivots(zd_motion *motion)
 {
     zd_path *path = &motion->path;
-    const double *scale = scale_of(motion, path->order), factor = 1 / sqrt(SHRUNK);
+    const double *scale = scale_of(motion, path->order), factor = 1 / sqrt(ZD_SHRUNK_PIVOT);
     if (path->order != path->first) return;
     for (int k = 0; k < count_pivots(motion); k++) {
-        const double x = path->pivots[k], least = fmax(fabs(x) / factor, LARGE / scale[k]), most = fabs(x) * factor;
+        const double x = path->pivots[k], least = fmax(fabs(x) / factor, ZD_LARGE_PIVOT / scale[k]), most = fabs(x) * factor;
         const uint64_t from = bits_of(copysign(least, x)), to = bits_of(copysign(most, x));
         path->range[k] = least <= most ? (zd_range){from, to - from} : NOWHERE;
     }
@@ -205,7 +198,7 @@ static int find_order(zd_motion *motion, double enough)
 static int find_embedding(zd_motion *motion)
 {
     const zd_elimination *order = zd_embed_find(motion);
-    return order && takes(motion, order, LARGE_ENOUGH);
+    return order && takes(motion, order, ZD_SUFFICIENT_PIVOT);
 }
 
 void zd_direct_choose(zd_motion *motion)
@@ -213,8 +206,8 @@ void zd_direct_choose(zd_motion *motion)
     const zd_path *path = &motion->path;
     int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
     /* Usually the order of the previous step, which ended at this point. */
-    if (all_count && path->order == path->first && (motion->point->known & ZD_ACCELERATED) && path->smallest >= LARGE) begin(motion);
-    else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, LARGE) || find_order(motion, LARGE_ENOUGH)))
+    if (all_count && path->order == path->first && (motion->point->known & ZD_ACCELERATED) && path->smallest >= ZD_LARGE_PIVOT) begin(motion);
+    else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, ZD_LARGE_PIVOT) || find_order(motion, ZD_SUFFICIENT_PIVOT)))
         use(motion, NULL);
 }
 
@@ -224,10 +217,10 @@ int zd_direct_compare(zd_motion *motion, double moved)
     int status = zd_motion_accelerate(motion);
     if (status) return status;
     const double smallest = smallest_pivot(motion);
-    if (!(moved <= LONG * LONG) || !(smallest >= SMALL)) return ZD_SINGULAR;
+    if (!(moved <= ZD_FAR_PATH * ZD_FAR_PATH) || !(smallest >= ZD_SMALL_PIVOT)) return ZD_SINGULAR;
     const int count = count_pivots(motion);
     for (int k = 0; k < count; k++)     /* a pivot that has changed its sign fails, too */
-        if (!(path->pivots[k] * path->before[k] >= SHRUNK * path->before[k] * path->before[k])) return ZD_SINGULAR;
+        if (!(path->pivots[k] * path->before[k] >= ZD_SHRUNK_PIVOT * path->before[k] * path->before[k])) return ZD_SINGULAR;
     if (path->embeds && zd_embed_is_steep(motion)) return ZD_SINGULAR;
     path->smallest = smallest;
     path->was_taken = 1;

@@ -4,6 +4,7 @@
 #define ZD_MOTION_H
 
 #include "../formulations/formulation.h"
+#include "../step_limits.h"
 #include "correction.h"
 
 /* An enabled correction. */
@@ -229,9 +230,6 @@ int zd_embed_settle(zd_motion *motion);
  * are the point's own, or the caller copies them there. */
 int zd_direct_land(zd_motion *motion, double t, double *p, double *v);
 
-/* Largest ratio of the violation after the first iteration of a position correction to that before: by Kantorovich's theorem there is then
- * one solution near the start of the iteration. */
-#define ZD_TRUSTED_SHARE 0.25
 static inline void zd_count_position_iterations(zd_motion *motion, int iterations)
 {
     zd_statistics *statistics = &motion->statistics;

@@ -17,8 +17,8 @@
 #include <math.h>
 
 #include "../point/quaternions.h"
+#include "../step_limits.h"
 
-static const double RESOLUTION = 4 * 0x1p-52;   /* final width of a bracket, relative to its largest absolute value */
 
 zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *output)
 {
@@ -95,7 +95,7 @@ static int move(zd_watch *self, double t)
 static zd_bracket bracket_of_step(const zd_watch *self, int event)
 {
     const double t0 = self->output->before.t, t1 = self->end.t;
-    return zd_bracket_of(t0, t1, self->before[event], self->now[event], RESOLUTION * fmax(fabs(t0), fabs(t1)));
+    return zd_bracket_of(t0, t1, self->before[event], self->now[event], ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(t1)));
 }
 
 static int locate(zd_watch *self, int event, zd_bracket *it)
@@ -171,8 +171,8 @@ static const zd_state *mix(zd_watch *self, double share)
 static int settle_between(zd_watch *self, int event, const zd_state **there)
 {
     const zd_bracket *found = &self->bracket[event];
-    zd_bracket it = zd_bracket_of(0, 1, found->ga, found->gb, RESOLUTION);
-    while (it.gb != 0 && it.b - it.a > RESOLUTION) {
+    zd_bracket it = zd_bracket_of(0, 1, found->ga, found->gb, ZD_TIME_RESOLUTION);
+    while (it.gb != 0 && it.b - it.a > ZD_TIME_RESOLUTION) {
         double g, share = zd_bracket_choose(&it);
         const zd_state *mixed = mix(self, share);
         int status = evaluate(self, event, mixed->t, mixed->p, mixed->v, &g);

@@ -1,6 +1,6 @@
 /* Quick check of a step on the closed-form path. It passes nearly all steps, and only those that the full checks of guard.c and
  * motion/direct.c would pass without saving anything. Executed in every step, it takes fewer instructions by sufficient conditions: if
- * the detour is at most 1 / ZD_CALM of the displacement, it satisfies the bound by the velocities at both ends, too; and pivots of one
+ * the detour is at most 1 / ZD_CALM_DETOUR of the displacement, it satisfies the bound by the velocities at both ends, too; and pivots of one
  * sign within a factor of four of one number have neither changed sign nor shrunk by more than 16. */
 #ifndef ZD_GLANCE_H
 #define ZD_GLANCE_H
@@ -52,7 +52,7 @@ ZD_INLINE int zd_safeguards_glance(const int n, zd_safeguards *self, double h, i
     const zd_last *last = guard->last;
     if (guard->watches_step) return 0;
     const zd_seen seen = zd_see(n, 0.5 * h, last->p, last->v, p, v, guard->motion->point->inverse_unit_p);
-    if (!(ZD_CALM * ZD_CALM * seen.detour <= seen.moved + guard->nearby) || !(seen.moved <= guard->reach)) return 0;
+    if (!(ZD_CALM_DETOUR * ZD_CALM_DETOUR * seen.detour <= seen.moved + guard->nearby) || !(seen.moved <= guard->reach)) return 0;
     if (!zd_pivots_stay(&guard->motion->path)) return 0;
     if (next_step >= guard->next_look) zd_guard_watch_next(guard);
     return 1;

@@ -14,7 +14,7 @@
  * others; then vdot1 - vdot0 = -omega^2 (p1 - p0) gives its angular frequency omega. This is checked in every eighth step, and in every
  * step once one was too long. The other checks made in these steps, with adaptive steps, too, are in safeguards.c.
  *
- * When a check finds all quantities far from their limits, the interval to the next is doubled, up to LOOK_SELDOM steps. The first
+ * When a check finds all quantities far from their limits, the interval to the next is doubled, up to ZD_CHECK_SELDOM steps. The first
  * comparison, made in each step, ends such an interval: up to terms of higher order its left side is h^2 / 12 (vdot1 - vdot0), and so
  * (omega h)^2 / 12 of p1 - p0. After a step in which this is more than a small part, or which is faster than at any check, checks are
  * eight steps apart again.
@@ -32,12 +32,6 @@ static const double ASTRAY = 0.5;
 static const double NEARBY = 1e-8;      /* in characteristic scales: smaller detours come from rounding and tolerances */
 static const double RESOLVED = 2;       /* largest omega h that steps resolve: one period is pi steps */
 static const double AT_REST = 1e-24;    /* in characteristic scales, squared: below, the difference of accelerations is rounding */
-static const double AMPLE = 0x1p-8;     /* fraction of `limit`, a fourth power: a quarter of the largest omega h */
-enum {
-    STREAK = 3,             /* consecutive steps that must be too long: in a single one p1 - p0 may be zero by chance */
-    LOOK_EVERY = 8,         /* steps between checks, at first */
-    LOOK_SELDOM = 64,       /* at most: LOOK_EVERY times a power of two, not above the interval of consistency.c */
-};
 
 zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
                        zd_crossing *crossing)
@@ -56,7 +50,7 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
         .astray = 0.5 * astray * astray,
         .nearby = least * least,
         .limit = resolved * resolved * resolved * resolved,
-        .pause = LOOK_EVERY,
+        .pause = ZD_CHECK_EVERY,
         .is_ample = 1,
         .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : last->v,
         .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
@@ -123,14 +117,14 @@ static void estimate_omega(zd_guard *guard, double moved, double h)
     const zd_point *point = guard->motion->point;
     double changed = ZD_SIZED(squared_difference, point->system->nv, point->vdot, guard->vdot, point->inverse_unit);
     double power = h * h * h * h * changed;                 /* (omega h)^4 moved; a division would cost as much as all of this */
-    guard->is_ample = power <= AMPLE * guard->limit * moved;
+    guard->is_ample = power <= ZD_AMPLE_STABILITY * guard->limit * moved;
     if (!(moved > AT_REST)) {
         guard->streak = 0;
         return;
     }
     if (power > guard->largest_fourth * moved && power < INFINITY) guard->largest_fourth = power / moved;
     guard->streak = power > guard->limit * moved ? guard->streak + 1 : 0;
-    if (guard->streak >= STREAK) guard->motion->statistics.too_long += guard->streak == STREAK ? STREAK : 1;
+    if (guard->streak >= ZD_UNSTABLE_STREAK) guard->motion->statistics.too_long += guard->streak == ZD_UNSTABLE_STREAK ? ZD_UNSTABLE_STREAK : 1;
 }
 
 /* The next multiple of `every` after this step. */
@@ -168,8 +162,8 @@ ZD_INLINE void keep(zd_guard *guard, int64_t next_step)
 
 static void look_soon(zd_guard *guard, int64_t next_step)
 {
-    const int64_t soon = next_of(LOOK_EVERY, next_step);
-    guard->pause = LOOK_EVERY;
+    const int64_t soon = next_of(ZD_CHECK_EVERY, next_step);
+    guard->pause = ZD_CHECK_EVERY;
     if (guard->next_look > soon) guard->next_look = soon;
 }
 
@@ -200,7 +194,7 @@ int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *fo
     const double allowed = zd_guard_allows(guard, h, &sum);
     if (!guard->checks_branch) return ZD_DONE;
     if (!(sum.detour <= allowed) && !(least_detour(guard, h) <= allowed)) return ZD_BRANCH;
-    if (sum.moved <= ZD_LONG * ZD_LONG || (point->rank->is_large && largest_move(guard) <= ZD_LONG)) return ZD_DONE;
+    if (sum.moved <= ZD_LONG_PATH * ZD_LONG_PATH || (point->rank->is_large && largest_move(guard) <= ZD_LONG_PATH)) return ZD_DONE;
     int unresolved = is_unresolved(guard, &status);
     return status ? status : unresolved ? ZD_BRANCH : ZD_DONE;
 }
@@ -209,16 +203,16 @@ int zd_guard_watch(zd_guard *guard, const zd_detour *found, double h)
 {
     if (guard->checks_stability) estimate_omega(guard, found->moved, h);
     guard->fastest = fmax(guard->fastest, found->speed);
-    guard->reach = ZD_LONG * ZD_LONG;
-    if (guard->checks_stability) guard->reach = fmin(guard->reach, ZD_FASTER * h * h * guard->fastest + guard->nearby);
+    guard->reach = ZD_LONG_PATH * ZD_LONG_PATH;
+    if (guard->checks_stability) guard->reach = fmin(guard->reach, ZD_FASTER_SPEED * h * h * guard->fastest + guard->nearby);
     return zd_has_energy(&guard->motion->system) ? note_energy(guard) : ZD_DONE;
 }
 
 void zd_guard_pause(zd_guard *guard, int64_t step, int is_ample)
 {
-    if (!is_ample || !guard->is_ample) guard->pause = LOOK_EVERY;
-    else if (guard->pause < LOOK_SELDOM && step % guard->pause == 0) guard->pause *= 2;
-    guard->next_look = guard->streak ? step + 1 : step < LOOK_EVERY ? 2 * step : next_of(guard->pause, step);
+    if (!is_ample || !guard->is_ample) guard->pause = ZD_CHECK_EVERY;
+    else if (guard->pause < ZD_CHECK_SELDOM && step % guard->pause == 0) guard->pause *= 2;
+    guard->next_look = guard->streak ? step + 1 : step < ZD_CHECK_EVERY ? 2 * step : next_of(guard->pause, step);
 }
 
 void zd_guard_keep(zd_guard *guard, int64_t next_step)

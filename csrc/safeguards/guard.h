@@ -3,6 +3,7 @@
 #define ZD_GUARD_H
 
 #include "../linalg/small.h"
+#include "../step_limits.h"
 #include "crossing.h"
 
 /* The start of a step, with which its end is compared, and the schedule of checks. */
@@ -50,10 +51,6 @@ double zd_guard_speed(const zd_guard *guard);       /* |pdot| at the start of th
 
 /* ---- detour of a step ---- */
 
-#define ZD_LONG 0.25    /* in characteristic scales: a longer step may rotate a row of C noticeably */
-#define ZD_CALM 48.0    /* ratio of |p1 - p0| to the left side of guard.c: above, omega h is below a half */
-#define ZD_FASTER 1.5   /* ratio of |pdot|^2 to the largest at a full check: below, the motion has not changed much */
-
 ZD_INLINE zd_detour zd_guard_find(const int n, const zd_guard *guard, const double *p0, const double *p, double h, const double *inverse_unit)
 {
     zd_detour sum = {0, 0, 0, 0};
@@ -77,7 +74,7 @@ ZD_INLINE double zd_guard_allows(const zd_guard *guard, double h, const zd_detou
 /* True if detour and speed give reason to keep the interval to the next full check. */
 ZD_INLINE int zd_guard_is_calm(const zd_guard *guard, const zd_detour *found)
 {
-    return ZD_CALM * ZD_CALM * found->detour <= found->moved + guard->nearby && found->speed <= ZD_FASTER * guard->fastest + guard->nearby;
+    return ZD_CALM_DETOUR * ZD_CALM_DETOUR * found->detour <= found->moved + guard->nearby && found->speed <= ZD_FASTER_SPEED * guard->fastest + guard->nearby;
 }
 
 #endif

@@ -18,13 +18,9 @@
 #include <math.h>
 
 #include "../linalg/small.h"
+#include "../step_limits.h"
 
-static const double FORGET = 1.0 / 128;     /* decay of the sums per check, or per eight steps if checks are further apart */
-static const double SHARE = 1e-3;           /* error allowed, relative to the distance covered */
-static const double UNRESOLVED = 0.03;      /* in characteristic scales: larger errors are reported to the user */
 static const double HALF_TURN = 3.141592653589793;
-static const double NOTED = 1e-3;           /* in characteristic scales: smaller errors are not recorded in the statistics */
-static const double AMPLE = 0x1p-4;         /* fraction of SHARE and NOTED below which checks may be less frequent */
 
 /* Factor from the defect of Hermite's formula to the error of a step, by the order of the method. */
 static double error_by_defect(int order)
@@ -79,18 +75,18 @@ ZD_INLINE double locate(const zd_resolution *self, int i, double led)
 /* True if an error exceeds both bounds times `share`. */
 ZD_INLINE int counts(double error, double path, double share)
 {
-    return error > share * NOTED && error > share * SHARE * path;
+    return error > share * ZD_NOTED_ERROR && error > share * ZD_ERROR_SHARE * path;
 }
 
 static double forgotten(double steps)
 {
-    return steps > 8 ? steps / 8 * FORGET : FORGET;
+    return steps > 8 ? steps / 8 * ZD_FORGET : ZD_FORGET;
 }
 
 static void note(zd_motion *motion, int i, double error)
 {
     zd_statistics *statistics = &motion->statistics;
-    if (error > UNRESOLVED && !statistics->unresolved++) statistics->unresolved_time = motion->point->t;
+    if (error > ZD_UNRESOLVED_ERROR && !statistics->unresolved++) statistics->unresolved_time = motion->point->t;
     if (!(error > statistics->part_error)) return;
     statistics->part_error = error;
     statistics->part = i;
@@ -111,7 +107,7 @@ ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
         self->lowest[i] = first || at < self->lowest[i] ? at : self->lowest[i];
         self->highest[i] = first || at > self->highest[i] ? at : self->highest[i];
         double range = self->highest[i] - self->lowest[i], error = self->error[i] < range ? self->error[i] : range;
-        near |= counts(self->error[i], self->path[i], AMPLE);
+        near |= counts(self->error[i], self->path[i], ZD_AMPLE_RESOLUTION);
         if (counts(error, self->path[i], 1)) note(self->motion, i, error);
     }
     self->is_ample = !near;
@@ -128,7 +124,7 @@ static void add_up_turns(zd_resolution *self, double h, double steps)
         self->error[i] += steps * error_by_defect(self->order) * missed - forget * self->error[i];
         self->path[i] += steps * turned - forget * self->path[i];
         double error = fmin(self->error[i], HALF_TURN);
-        self->is_ample &= !counts(error, self->path[i], AMPLE);
+        self->is_ample &= !counts(error, self->path[i], ZD_AMPLE_RESOLUTION);
         if (counts(error, self->path[i], 1)) note(self->motion, i, error);
     }
 }

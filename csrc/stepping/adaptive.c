@@ -12,17 +12,13 @@
 
 #include "../linalg/norms.h"
 #include "../linalg/roots.h"
+#include "../step_limits.h"
 #include "passage.h"
 #include "path.h"
 #include "short_step.h"
 #include "variables.h"
 
-enum {
-    STIFF_AFTER = 10,       /* steps at the stability limit after which the problem counts as stiff */
-    NOT_STIFF_AFTER = 3,    /* consecutive shorter steps after which it no longer does */
-};
-static const double AT_THE_LIMIT = 0.95;    /* ratio of |lambda h| to the largest stable value */
-static const double SAFETY = 0.8, SMALLEST = 0.2, LARGEST = 10, AFTER_FAILURE = 0.25;
+static const double AFTER_FAILURE = 0.25;   /* ratio of the size after a failed step to that before */
 static const double SHARE_OF_MOVE = 0.9;    /* ratio of the intended change of coordinates to the largest allowed */
 
 zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0)
@@ -79,11 +75,11 @@ static void watch_stiffness(zd_step_loop *loop, double lambda_h)
 {
     zd_control *control = &loop->control;
     if (!(lambda_h > 0)) return;
-    if (lambda_h > AT_THE_LIMIT * loop->stepper->integrator->decay) {
+    if (lambda_h > ZD_STABILITY_LIMIT * loop->stepper->integrator->decay) {
         control->at_limit++;
         control->below_limit = 0;
-        if (control->at_limit >= STIFF_AFTER) loop->motion->statistics.stiff += control->at_limit == STIFF_AFTER ? STIFF_AFTER : 1;
-    } else if (++control->below_limit >= NOT_STIFF_AFTER) control->at_limit = 0;
+        if (control->at_limit >= ZD_STIFF_AFTER) loop->motion->statistics.stiff += control->at_limit == ZD_STIFF_AFTER ? ZD_STIFF_AFTER : 1;
+    } else if (++control->below_limit >= ZD_NOT_STIFF_AFTER) control->at_limit = 0;
 }
 
 void zd_adaptive_weigh(zd_step_loop *loop)
@@ -153,9 +149,9 @@ static int attempt_on_either_path(zd_step_loop *loop, double h, double t1, doubl
 
 static double factor(const zd_step_loop *loop, double norm)
 {
-    if (norm == 0) return LARGEST;
-    double wanted = SAFETY / zd_root(norm, loop->stepper->integrator->card.error_order + 1);
-    return fmin(LARGEST, fmax(SMALLEST, wanted));
+    if (norm == 0) return ZD_MAX_FACTOR;
+    double wanted = ZD_SAFETY / zd_root(norm, loop->stepper->integrator->card.error_order + 1);
+    return fmin(ZD_MAX_FACTOR, fmax(ZD_MIN_FACTOR, wanted));
 }
 
 /* Size of the next step after one of size h, bounded by max_move. */
@@ -176,7 +172,7 @@ int zd_adaptive_step(zd_step_loop *loop)
 {
     const int64_t most = loop->settings->max_steps;
     if (most && loop->step > most) return ZD_TOO_MANY_STEPS;
-    double t = loop->stepper->t, norm = 0, largest = LARGEST;
+    double t = loop->stepper->t, norm = 0, largest = ZD_MAX_FACTOR;
     double tiny = 16 * 0x1p-52 * fmax(fabs(t), fabs(loop->end));
     int foreseen = foresee(loop);
     if (foreseen) return foreseen;

@@ -5,10 +5,10 @@
 
 #include "../constraints/rows.h"
 #include "../linalg/bracket.h"
+#include "../step_limits.h"
 #include "variables.h"
 
 static const double SHORT = 0.25 * ZD_LIMITS_REGION;    /* in characteristic scales: displacements that only a jump exceeds */
-static const double RESOLUTION = 4 * 0x1p-52;   /* relative to t */
 
 static int finish_and_check(zd_step_loop *loop, double t1)
 {
@@ -38,7 +38,7 @@ static int find(zd_step_loop *loop, double t1, int *found)
     zd_point *point = loop->motion->point;
     const zd_safeguards *safeguards = loop->safeguards;
     double t0 = stepper->last.t, resolution = fmin(SHORT / zd_guard_speed(&safeguards->guard), (t1 - t0) / 2);
-    resolution = fmax(resolution, RESOLUTION * fmax(fabs(t0), fabs(t1)));
+    resolution = fmax(resolution, ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(t1)));
     *found = 0;
     int status = zd_rows_find(point);
     if (status || zd_crossing_is_at_one(point)) return status;
