@@ -65,14 +65,14 @@ typedef struct zd_lanes {
     double *order;          /* index of its order of elimination; NAN: to be chosen */
     double *speed;          /* |pdot|^2 at y, characteristic scales */
     double *streak;         /* number of successive steps beyond the stability limit */
-    double *inverse_unit_p, *inverse_unit;  /* (nq,), (nv,) */
+    double *inverse_unit_p, *inverse_unit;  /* (nq,), (nv,): 1 / characteristic scales of p, of v */
     double *allowed, *inverse_size;         /* (mh,): tolerance, and 1 / size of Phi */
     double *scale;          /* (orders, nv): scales of the pivots */
     double *iterations, *rejected;          /* counts of iterations and of rejected steps */
     double *most_iterations;                /* largest number of iterations of a step since the last sample */
     double *leaves;         /* 1: the run cannot be made in lanes and is repeated individually */
     double *is_long;        /* 1: the last step was so long that the row space of C may have reversed */
-    double *is_corrected;
+    double *is_corrected;   /* 1: correct_rest() applies to the lane */
     double *next_check, *check_soon;      /* step after which full checks are due; 1: they are due sooner */
     double *check_pause, *last_checked;     /* number of steps between full checks; step of the last one */
     /* (nv,), fixed steps: zd_resolution of each velocity, and the unresolved ones recorded. */
