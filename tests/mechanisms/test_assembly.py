@@ -256,8 +256,8 @@ def parallelogram(arms=3):
 def test_what_print_says_of_the_papers_four_bar():
     first, second, *rest = str(known.four_bar()).splitlines()
     assert first == "<Mechanism four_bar: plane, 3 bodies, 4 joints; no forces but gravity (0, -9.81)>"
-    assert second == (" freedom 1 (Gruebler 1); joint coordinates 3, 2 rows closing 1 loop at C; absolute 9, 8 rows; "
-                      "no redundant rows")
+    assert second == (" freedom 1 (Gruebler 1); joint coordinates 3, 2 constraints closing 1 loop at C; "
+                      "absolute 9, 8 constraints; no redundant constraints")
     assert [line.partition(":")[0] for line in rest] == [       # its links are drawn by rounded lengths
         " drawn open, and closed at the start (m, or rad)", " moved from the drawing", " a simulation takes joint coordinates"]
     assert repr(known.four_bar()) == first
@@ -272,7 +272,7 @@ def test_what_print_says_of_drives():
 def test_redundant_rows_are_named_by_joint():
     text = str(parallelogram())
     assert "freedom 1 (Gruebler 0)" in text
-    assert "1 of 12 rows follows from others: Q2.y" in text
+    assert "1 of 12 constraints is redundant: Q2.y" in text
     assert "reactions not determined: P0.y, Q0.y, P1.y, Q1.y, P2.y, Q2.y" in text
     assert "singular" not in text
 
@@ -285,8 +285,8 @@ def test_a_drawing_that_is_singular_is_told_from_redundancy():
         m.revolute(name, first, second)
     m.revolute("D", c.end, m.ground.point((4, 0)))
     text = str(m)
-    assert "no redundant rows" in text
-    assert "a singular pose: D.x follows from others as drawn, and not nearby" in text
+    assert "no redundant constraints" in text
+    assert "a singular pose: D.x is redundant as drawn, and not nearby" in text
 
 
 def test_reactions_that_are_not_determined_are_not_unique():

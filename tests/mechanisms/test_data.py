@@ -48,7 +48,7 @@ def test_a_force_from_measured_data():
 
 
 def test_beyond_its_ends_a_table_is_an_error_that_says_where():
-    with pytest.raises(ValueError, match=r"the table goes from t = 0 to 1, and is asked for 1\.\d+"):
+    with pytest.raises(ValueError, match=r"the table goes from t = 0 to 1, and its value at 1\.\d+"):
         zd.simulate(driven(zd.table([0, 1], [0, 1])), 2.0, step=0.3)
 
 

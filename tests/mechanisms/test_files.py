@@ -190,7 +190,7 @@ def test_expressions_that_cannot_be_saved(expression, sentence):
 @pytest.mark.parametrize(("written", "sentence"), [
     (["system", "t"], "law has the operation 'system'"), ([], "law has the operation 'None'"),
     ([["sin"], "t"], "law has the operation"),
-    ({"sin": "t"}, "which is no part of an expression"), (["+", None], "law has None"), (["+", True], "law has True"),
+    ({"sin": "t"}, "which is not part of an expression"), (["+", None], "law has None"), (["+", True], "law has True"),
     (["/", 1, 0], "law has the operation '/'"), (["cases", 3], "law has the operation 'cases' of 3"),
     (["sin", "t", "t", "t"], "law has the operation 'sin' of t, t, t"), (["<", ["true"], 1], "law has the operation '<'"),
 ], ids=str)

@@ -203,15 +203,15 @@ def test_what_is_printed_is_what_dense_matrices_say(make, few):
     few()
     found = str(make(4)).splitlines()
     assert found[0] == dense[0]
-    assert found[1].partition(" from others: ")[0] == dense[1].partition(" from others: ")[0]
+    assert found[1].partition(" redundant: ")[0] == dense[1].partition(" redundant: ")[0]
     assert found[-1] == dense[-1]
-    assert any("was not looked for among so many rows" in line for line in found) == (make is doubled)
+    assert any("undetermined reactions are not listed for so many constraints" in line for line in found) == (make is doubled)
 
 
 def test_a_thousand_bodies_are_printed_and_start():
     """Dense matrices of 1800 rows are refused: what asked for them was refused, too."""
     m = four_bars(300)
-    assert "freedom 1 (Gruebler 1); joint coordinates 601, 600 rows closing 300 loops at C0, C1, " in str(m)
-    assert " and 260 others; absolute 1803, 1802 rows; no redundant rows" in str(m)
+    assert "freedom 1 (Gruebler 1); joint coordinates 601, 600 constraints closing 300 loops at C0, C1, " in str(m)
+    assert " and 260 others; absolute 1803, 1802 constraints; no redundant constraints" in str(m)
     sol = zd.simulate(m, 2e-3, step=1e-3)
     assert np.abs(sol.v[0][2:903:3] + 1.0).max() < 1e-10      # passed on by 300 couplers

@@ -55,7 +55,7 @@ def drawing():
     (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), normal=(0, 0, 1)), TypeError, "normal of 'A' goes with axis="),
     (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), axis=(0, 0, 1), normal=(0, 0, 2)), ValueError,
      "normal of 'A' must not be parallel"),
-    (lambda m, *_: m.torsion_spring("A", "x", stiffness=1.0), ValueError, "joint of 'A' names 'x', which is no element"),
+    (lambda m, *_: m.torsion_spring("A", "x", stiffness=1.0), ValueError, "joint of 'A' names 'x', which is not an element"),
     (lambda m, *_: m.torque("A", "wheel", value=1.0), TypeError, "torque 'A' needs axis="),
     (lambda m, *_: m.torque("A", "wheel", value=1.0, axis=(1, 0, 0), against="link", frame="link"), ValueError, "frame out"),
     (lambda m, link, *_: link.angle, AttributeError, "'link' is a body in space, which has a rotation and no angle"),
@@ -228,7 +228,7 @@ def test_a_singular_pose_has_a_way_out():
     for i, name in enumerate("ABCD"):
         m.revolute(name, ends[2 * i], ends[2 * i + 1], axis=(0, 0, 1))
     said = str(m)
-    assert "3 of 20 rows follow from others" in said
+    assert "3 of 20 constraints are redundant" in said
     assert "a singular pose: " in said
     with pytest.raises(zd.Bifurcation, match=r"zd\.assemble\(m, nudge=True\) starts beside it"):
         zd.simulate(m, 0.1, step=0.01)
@@ -262,11 +262,11 @@ def test_a_flat_cross_is_told_apart_from_redundancy():
     """Rows that follow anywhere are redundant; the one that follows where both arms lie along the shafts is a singular pose."""
     said = str(shafts(90, turned=90))
     assert "freedom 1 (" in said
-    assert "2 of 13 rows follow from others" in said
-    assert re.search(rf"pose: [^;]+ follows from others as drawn, and not nearby, {FLAT}; zd\.assemble\(m, nudge=", said)
+    assert "2 of 13 constraints are redundant" in said
+    assert re.search(rf"pose: [^;]+ (is|are) redundant as drawn, and not nearby, {FLAT}; zd\.assemble\(m, nudge=", said)
     for bend, turned in ((90, 0), (90, 80), (60, 90), (89.9, 90)):
         said = str(shafts(bend, turned))
-        assert "2 of 13 rows follow from others" in said
+        assert "2 of 13 constraints are redundant" in said
         assert "a singular pose" not in said
         assert ("are 90 degrees apart: at a right angle it hands no turning on" in said) == (bend == 90)
 

@@ -27,7 +27,7 @@ def linkage(points: Mapping[str, Any], links: Mapping[str, Any], *, lengths: Map
     Parameters
     ----------
     points : dict of str to array_like (2,)
-        The sketch: where the points are, roughly. Lengths count, and what they leave open is as near to the sketch as can be.
+        The sketch: approximate positions. Given lengths override it; what they leave open is as near to it as possible.
     links : dict of str to points
         The points of each link: a string of one-letter names, or a sequence of names. The fixed points are those of ``"ground"``.
     lengths : dict of points to float, optional
@@ -55,8 +55,8 @@ def linkage(points: Mapping[str, Any], links: Mapping[str, Any], *, lengths: Map
     Raises
     ------
     ValueError, TypeError
-        For points that nobody defined or uses, links of one point, lengths of links that nobody drew, lengths that make no
-        triangle or contradict each other.
+        For points that are undefined or unused, links of one point, lengths between points of different links, lengths that
+        make no triangle or contradict each other.
     CorrectionFailed
         If links cannot be joined; it says which loop stays open, and by how much.
 
@@ -131,7 +131,7 @@ def _join(m: Mechanism, name: str, sides: Mapping[str, Point]) -> None:
 
 
 def _read_points(points: Any, scale: float) -> dict[str, np.ndarray]:
-    """Where the sketch has each point, in m."""
+    """Position of each point in the sketch, in m."""
     _check.instance("points", points, Mapping, "a dict of places by name")
     for name in points:
         if not isinstance(name, str):
@@ -190,7 +190,7 @@ def _pair(given: Any, links: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     if len(pair) != 2 or len(given) != 2:
         raise ValueError(f"lengths must be between two points, such as {''.join(list(points)[:2])!r}, not {_check.shown(given)}")
     if not any(pair <= set(names) for names in links.values()):
-        raise ValueError(f"lengths[{given!r}] is of a link that nobody drew: no link has both points")
+        raise ValueError(f"lengths[{given!r}] must name two points of one link, and no link has both")
     return pair
 
 
@@ -201,6 +201,6 @@ def _read_masses(mass: Any, links: Mapping[str, Any]) -> dict[str, float]:
         return {link: 0.0 if link == GROUND else mass for link in links}
     for link in mass:
         if link not in links or link == GROUND:
-            raise ValueError(f"mass names {link!r}, which is no link that moves; "
+            raise ValueError(f"mass names {link!r}, which is not a link that moves; "
                              f"{_check.closest(link, [each for each in links if each != GROUND])}")
     return {link: _check.number(f"mass[{link!r}]", mass.get(link, 0.0), least=0) for link in links}

@@ -171,7 +171,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         Returns
         -------
         Mechanism
-            With the same names. What is told of bodies has three components: ``"crank.angular_velocity.z"``,
+            With the same names. Measures of bodies have three components: ``"crank.angular_velocity.z"``,
             ``"crank.rotation"`` in place of an angle.
 
         Raises
@@ -234,7 +234,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     def save(self, path: str | Path) -> Path:
         """Write the mechanism to a JSON file, which `zerodrift.load` reads; to the last bit the same, and no pickle.
 
-        Points, axes and directions are told in the frames of the bodies that they belong to, lengths, masses and angles as they
+        Points, axes and directions are written in the frames of their bodies, lengths, masses and angles as they
         were given; SymPy expressions as lists of operations.
 
         Parameters

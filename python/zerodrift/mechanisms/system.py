@@ -40,7 +40,7 @@ from .pictures.space_shapes import space_sketches
 from .reports import advice, cost
 
 LAYOUTS = ("joint", "absolute")
-MANY = 32       # joint coordinates: of fewer, none is told what they cost
+MANY = 32       # joint coordinates: their cost is reported only from this number on
 
 
 class MechanismSystem(BaseSystem):
@@ -74,7 +74,7 @@ class MechanismSystem(BaseSystem):
         self._is_written_out, self._given_direct = compiled, direct
         if compiled:
             self._tables.laws.check_written()
-            self._written       # noqa: B018 - it takes its time where it was asked for
+            self._written       # noqa: B018 - generates the code now
 
     # What follows is made when it is first asked for: for a hundred bodies it takes longer than all else.
 
@@ -151,7 +151,7 @@ class MechanismSystem(BaseSystem):
             return self._given_direct
         try:
             p0 = self.p0
-        except ZerodriftError:      # whoever starts elsewhere is told nothing of it
+        except ZerodriftError:      # a run from another start does not need this one
             p0 = None
         is_length = np.array([is_length_of(variable) for variable in (*self.coordinates, *self.velocities)])
         return self._written.key, self._written.direct_functions(p0, is_length)
@@ -181,7 +181,7 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def p0(self) -> np.ndarray:
-        """Where `simulate` starts, at t = 0."""
+        """Initial coordinates of `simulate`, at t = 0."""
         return self.start_at(0.0)[0]
 
     @functools.cached_property
@@ -189,7 +189,7 @@ class MechanismSystem(BaseSystem):
         """The velocities there."""
         return self.start_at(0.0)[1]
 
-    @functools.lru_cache(maxsize=4)     # noqa: B019 - a system lives as long as its start is asked for
+    @functools.lru_cache(maxsize=4)     # noqa: B019 - the cache lives as long as the system
     def start_at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
         """The assembled start (p, v) at a time: what is held, drives, and the rest as near to the drawing as can be."""
         p, v = self._core.state(*self._start.at(t))
@@ -240,7 +240,7 @@ class MechanismSystem(BaseSystem):
         return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._is_written_out, direct)
 
     def _driven_from(self, places: list[float]) -> MechanismSystem:
-        """The same whose drives of constant speed begin there, which is where its start has them but for rounding."""
+        """The same system with these initial positions of its motors of constant speed, as assembled or nearly."""
         other = self._with({})
         other._start.drives = dict(zip(other._start.drives_by_name, places, strict=True))
         return other
@@ -265,7 +265,7 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def _cost(self) -> cost.Cost | None:
-        """Of many joint coordinates, as absolute ones may be cheaper; the count is of interpreted tables."""
+        """Computing cost, for many joint coordinates, as absolute ones may be cheaper; None for few or for generated code."""
         return cost.cost(self._tables) if self.layout == "joint" and self.nq >= MANY and not self._is_written_out else None
 
     def _what_it_costs(self, steps: int | None) -> str | None:
@@ -301,7 +301,7 @@ class MechanismSystem(BaseSystem):
                 for element in elements]
 
     def _advice(self, error: Exception) -> str | None:
-        """What helps where the start is singular."""
+        """Advice for a singular start, or None."""
         if isinstance(self._tables, SpaceTables) and "follow" in str(error):
             tables, assembly, p = self._start.closed(0.0)
             told = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
@@ -316,7 +316,7 @@ class MechanismSystem(BaseSystem):
         return space_advice.locked(self._tables, self.name)
 
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
-        """Whether a motor has come to a dead centre; in space, whether a disc falls flat, or shafts are at a right angle."""
+        """Known cause of a failure at p: a motor at a dead centre; in space a disc lying flat, or shafts at a right angle."""
         if isinstance(self._tables, SpaceTables):
             told = space_advice.on_failure(self._started_tables, self._interpreted, t, p)
             if told:

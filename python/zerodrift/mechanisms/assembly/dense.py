@@ -26,7 +26,7 @@ TRACKED = 0.1           # how far a target moves at once, in rad or parts of the
 LONGEST = 0.4           # how far a step moves any coordinate at most, in the same units
 NUDGE = 1e-3            # how far a pose is moved to see what is singular in it alone
 LEAST_MASS = 1e-6       # of the largest, in the metric: what has no mass has so much
-MET = 1e-9              # of the largest velocity that is asked for or found: how nearly all are met
+MET = 1e-9              # of the largest prescribed or computed velocity: tolerance of prescribed velocities
 
 
 class Assembly:
@@ -53,7 +53,7 @@ class Assembly:
         self.of_drawing = np.array([core.rows[row].owner == "joint" or row in couplings for row in self.kept], dtype=bool)
         self.is_joint = np.array([core.rows[row].owner == "joint" for row in self.kept], dtype=bool)
         angles = np.array([coordinate.kind == "angle" for coordinate in core.motions])
-        self.scale = np.where(angles, 1.0, length)      # of coordinates: steps are told in rad and parts of the length
+        self.scale = np.where(angles, 1.0, length)      # of coordinates: steps are in rad and parts of the length
         self._size: dict[int, np.ndarray] = {}
         self._weigh()
 
@@ -110,14 +110,14 @@ class Assembly:
         return [each._replace(value=float(value[each.component])) for each, value in zip(staying, values, strict=True)]
 
     def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
-        """Whether all rows and held targets are met."""
+        """True if all constraints and all held targets are satisfied."""
         if not held and self._rows_are_met(p):
             return True     # whatever the sizes of the rows, for which their matrix would have to be made
         residual, _ = self._residual(p, held)
         return bool(np.abs(residual).max(initial=0.0) <= CLOSED)
 
     def _rows_are_met(self, p: np.ndarray) -> bool:
-        """Whether all rows are met, of whatever size they are."""
+        """True if all constraints are satisfied to the tightest tolerance, whatever their sizes."""
         stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
         Phi = stored["Phi"][self.kept] if self.core.mh else np.zeros(0)
         return bool(np.abs(Phi).max(initial=0.0) <= CLOSED * SMALLEST * self.length)
@@ -217,7 +217,7 @@ class Assembly:
         return p if closed is None else closed
 
     def _left_over(self, p: np.ndarray, held: Sequence[Target], residual: np.ndarray) -> np.ndarray:
-        """What remains as near to what is held as closed joints allow; that of least squares, where drives are not met there."""
+        """Residuals where held values are as near as closed joints allow; those of least squares where drives are not met."""
         if not self.is_joint.all() or not held:
             return residual
         return self._residual(self._approach(self._aside(p), (), held), held)[0]
@@ -244,7 +244,7 @@ class Assembly:
         return residual - shift, rows
 
     def _way(self, p: np.ndarray, held: Sequence[Target]) -> float:
-        """How far drives, couplings and targets are from where they shall be, in rad or parts of the length."""
+        """Largest deviation of drives, couplings and targets from their prescribed values, in rad or parts of the length."""
         residual, _ = self._residual(p, held)
         residual[: len(self.kept)][self.is_joint] = 0.0
         return float(np.abs(residual).max(initial=0.0))
@@ -371,7 +371,7 @@ class Assembly:
         return scaled * self.scale
 
     def _may_rest(self, p: np.ndarray) -> bool:
-        """Whether no row asks for a velocity."""
+        """True if no constraint depends on time, so that zero velocities satisfy all of them."""
         Phi_t = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv)).get("Phi_t")
         return Phi_t is None or not Phi_t.any()
 
@@ -389,6 +389,6 @@ class Assembly:
         return stacked, np.concatenate([*right, []]), self._asked(held)[self.core.m - m:]
 
     def _asked(self, held: Sequence[Target]) -> list[str]:
-        """What each row asks a velocity for, nothing where it is a joint's, and each target."""
+        """Names of the drives, couplings and targets that prescribe velocities, one per constraint; "" for those of joints."""
         owners = ["" if self.core.rows[i].owner == "joint" else self.rows[i] for i in range(self.core.m)]
         return [*owners, *(target.name for target in held)]

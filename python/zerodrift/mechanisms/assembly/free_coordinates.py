@@ -46,13 +46,13 @@ class Forced(NamedTuple):
 
 
 def is_driven(drawing: Drawing) -> bool:
-    """Whether a motor, an actuator or a law of a constraint prescribes a motion."""
+    """True if a motor, an actuator or a user's constraint prescribes a motion."""
     drives = any(each.prescribes for each in drawing.of((Motor, Actuator)))
     return drives or any(each.law is not None for each in drawing.of(Coupling))
 
 
 def is_forced(drawing: Drawing) -> bool:
-    """Whether anything but joints says where the mechanism starts."""
+    """True if the start depends on anything besides joints: held or wished values, drives, couplings."""
     return bool(drawing.held or drawing.wished or is_driven(drawing) or drawing.of(Coupling))
 
 
@@ -147,7 +147,7 @@ def bodies_of(element: Any) -> tuple[Body, ...]:
 
 
 def swings(tables: Tables, coordinates: Iterable[Coordinate], first: int) -> tuple[list[Gauge], list[Observed]]:
-    """What reads the rotations of spherical joints: gauges, to be put behind `first` others, and the measures that they make."""
+    """Marker quantities, numbered from `first`, and measures of the rotations of spherical joints."""
     gauges: list[Gauge] = []
     observed: list[Observed] = []
     for each in coordinates:
@@ -162,7 +162,7 @@ def swings(tables: Tables, coordinates: Iterable[Coordinate], first: int) -> tup
 
 
 def _is_of(name: str, coordinate: Coordinate) -> bool:
-    """Whether a measure that is held is this coordinate, or its rate."""
+    """True if a held measure is this coordinate or its rate."""
     base, _, axis = name.rpartition(".")
     return name in (coordinate.position, coordinate.rate) or (
         base in (coordinate.position, coordinate.rate) and axis == coordinate.axis)

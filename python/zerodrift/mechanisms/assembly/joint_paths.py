@@ -109,7 +109,7 @@ class Reach:
         return found
 
     def _led(self) -> Iterator[set[int]]:
-        """Of each joint that connects a free body: the edges of the tree between its two bodies."""
+        """For each joint that connects a free body: the edges of the tree between its two bodies."""
         for joint in self._connecting:
             first, second = self.ends[joint]
             yield (self._in_tree(first) ^ self._in_tree(second)) | {-1 - joint}

@@ -1,4 +1,4 @@
-"""Ways out of a pose in which rows follow from others that do not nearby: positions aside of it."""
+"""Positions near a singular pose, in which constraints are independent that are redundant in it."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def nudged(assembly: Assembly, p: np.ndarray, left_out: Collection[int] = (), fa
 
 
 def aside(assembly: Assembly, p: np.ndarray, far: float, held: Sequence[Target]) -> np.ndarray:
-    """Positions so far aside, in which all rows are met.
+    """Positions at a distance `far` from p that satisfy all constraints.
 
-    Where velocities are asked for it goes along these: branches cross in a singular pose, and not each of them allows them.
+    They lie along the prescribed velocities, if any: branches cross in a singular pose, and not each allows these velocities.
     """
     found = _along(assembly, p, far, held)
     if found is None:
@@ -38,7 +38,7 @@ def aside(assembly: Assembly, p: np.ndarray, far: float, held: Sequence[Target])
 
 
 def _along(assembly: Assembly, p: np.ndarray, far: float, held: Sequence[Target]) -> np.ndarray | None:
-    """Positions along the velocities that are asked for; None: none are, or they lead back, as where drives hold the pose."""
+    """Positions along the prescribed velocities; None without such velocities, or if they lead back to p, as drives may."""
     try:
         v = assembly.velocities(p, held, ()) / assembly.scale
     except InconsistentStart:
@@ -56,7 +56,7 @@ def _moved(assembly: Assembly, p: np.ndarray, step: np.ndarray) -> np.ndarray:
 
 
 def way_out(assembly: Assembly, p: np.ndarray, held: Sequence[Target]) -> str:
-    """What helps in a singular pose: a nudge, where it leads to one that is less so and that the velocities allow."""
+    """Advice for a singular pose: a nudge, if that leads to a regular pose whose velocities can be satisfied."""
     if is_of_many(assembly.core):       # of which no dense matrices are made to see it
         return NUDGED
     try:

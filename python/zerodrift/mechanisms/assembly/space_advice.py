@@ -1,4 +1,4 @@
-"""What a mechanism in space knows of errors that the core tells in numbers.
+"""Causes of failures of mechanisms in space: discs that lie flat, shafts at right angles, joints that leave no motion.
 
 It is about discs that lie flat, shafts at right angles, and joints that leave no motion.
 """
@@ -27,7 +27,7 @@ SHAFTS = "revolute", "cylindrical"
 
 
 def on_failure(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray) -> str | None:
-    """What stands in the way near the state in which a run has failed; None: nothing that is known here."""
+    """Known cause near the state in which a run has failed, or None."""
     R = _rotations(core, p)
     for joint in tables.joints:
         told = _of_disc(tables, joint, R) if isinstance(joint, SpaceRolling) else (
@@ -49,7 +49,7 @@ def _of_disc(tables: SpaceTables, joint: SpaceRolling, R: Sequence[np.ndarray]) 
 
 
 def _of_shafts(tables: SpaceTables, joint: SpaceJoint, R: Sequence[np.ndarray], off: float = RIGHT_ANGLE) -> str | None:
-    """Of a universal joint whose two bodies each turn about an axis of their own, at nearly a right angle."""
+    """Sentence on a universal joint that connects two shafts with bearings at nearly a right angle, or None."""
     axes, names = _shafts(tables, joint, R)
     if len(axes) < 2 or abs((apart := _between(*axes)) - 90) > off:
         return None
@@ -70,7 +70,7 @@ def _shafts(tables: SpaceTables, joint: SpaceJoint, R: Sequence[np.ndarray]) -> 
 
 
 def at_right_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[str]:
-    """What is told of each universal joint whose shafts are at a right angle, and stay so."""
+    """Sentences on universal joints whose shafts are, and stay, at a right angle."""
     R = _rotations(core, p)
     told = [_of_shafts(tables, joint, R, PARALLEL) for joint in _with_shafts(tables)]
     return [each for each in told if each]
@@ -90,7 +90,7 @@ def flat_crosses(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[st
 
 
 def of_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray, names: Sequence[str]) -> str:
-    """Of angles of universal joints that cannot be met: how far apart bearings keep the shafts; nothing where none do."""
+    """Sentence on universal joints whose angles cannot be met: the angle that bearings keep between the shafts; or ""."""
     R, told = _rotations(core, p), []
     for joint in _with_shafts(tables):
         if {f"{joint.name}.angle1", f"{joint.name}.angle2"} & set(names):
@@ -118,19 +118,19 @@ def _shaft(tables: SpaceTables, body: Body) -> SpaceJoint | None:
 
 
 def _passes_through(shaft: SpaceJoint, joint: SpaceJoint, body: Body) -> bool:
-    """Whether the axis of the bearing goes through the joint, as the body of both is drawn."""
+    """True if the axis of the bearing passes through the joint, in the drawing of the body that both share."""
     places = [(each.first, each.second)[each.bodies.index(body)].drawn for each in (shaft, joint)]
     way = places[1] - places[0]
     return bool(np.linalg.norm(np.cross(shaft.axis_as_drawn(), way)) <= MEETS * max(np.linalg.norm(way), 1e-300))
 
 
 def _rotations(core: SpaceCore, p: np.ndarray) -> list[np.ndarray]:
-    """Of the ground and of the bodies."""
+    """Rotations (3, 3) of the ground and the bodies."""
     return [np.eye(3), *rotation_of(core.poses(p)[0][:, 3:])]
 
 
 def at_start(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray, name: str) -> str | None:
-    """Whether the joints leave no motion at all, and which axes may be why; None: they leave some."""
+    """Sentence on joints that leave no motion, with the axes that may cause it; None if they leave some."""
     if core.m > MOST_ROWS:
         return None
     C = core.evaluate(t, p, np.zeros(core.nv))["C"]
@@ -154,7 +154,7 @@ def locked(tables: SpaceTables, name: str) -> str | None:
 
 
 def _off_most(hinges: Sequence[Joint]) -> list[float]:
-    """How many degrees the axis of each hinge is off that to which most are parallel."""
+    """Angle of each hinge's axis from the direction that most axes share, in degrees."""
     axes = [hinge.axis_as_drawn() for hinge in hinges]
     angles = [[_between(axis, other) for other in axes] for axis in axes]
     return max(angles, key=lambda each: sum(angle <= PARALLEL for angle in each))

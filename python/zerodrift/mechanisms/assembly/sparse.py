@@ -34,7 +34,7 @@ def assembly_of(core: MechanismCore, rows: Sequence[str], left_out: Sequence[int
 
 
 def is_of_many(core: MechanismCore) -> bool:
-    """Whether there are so many rows that no dense matrix is made of them."""
+    """True if matrices are too large to be dense."""
     has_diagonal_mass = core.packing is not None and core.stored("M") == (core.nv,)
     return has_diagonal_mass and max(core.nv, core.m) > MOST_DENSE
 
@@ -113,7 +113,7 @@ class AssemblyOfMany(Assembly):
         raise self._unmet(self._left_over(p, held, residual), held)
 
     def _left_over(self, p: np.ndarray, held: Sequence[Target], residual: np.ndarray) -> np.ndarray:
-        """What remains as near to drives, couplings and what is held as closed joints allow."""
+        """Residuals at the positions nearest to drives, couplings and held values that closed joints allow."""
         is_soft = np.append(~self.is_joint, np.ones(len(held), dtype=bool))
         return self._residual(self._nearest_to_soft(self._aside(p), lambda p: self._residual(p, held), is_soft), held)[0]
 
@@ -142,7 +142,7 @@ class AssemblyOfMany(Assembly):
         return float(np.linalg.norm(self._apart(p, other) * self.weight))
 
     def _times(self, step: np.ndarray, last: np.ndarray | None, times: float) -> float:
-        """How many times as long as itself a step is to be taken, where the last one was taken `times` as long."""
+        """Factor by which a step is lengthened or shortened, from the last step and its factor `times`."""
         if last is None:
             return 1.0
         before, less = last * self.weight, (last - step) * self.weight

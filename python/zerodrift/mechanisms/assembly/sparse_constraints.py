@@ -23,7 +23,7 @@ class Target(NamedTuple):
 
 
 def are_met(core: MechanismCore, p: np.ndarray, held: Sequence[Target], allowed: float) -> bool:
-    """Whether positions that are held are met."""
+    """True if all held positions are met."""
     return bool((np.abs(read_targets(core, p, held)[1]) <= allowed).all())
 
 
@@ -101,6 +101,6 @@ def sparse_rows(core: MechanismCore, stored: Mapping[str, np.ndarray], p: np.nda
 
 
 def read_targets(core: MechanismCore, p: np.ndarray, held: Sequence[Target]) -> tuple[Components, np.ndarray]:
-    """What is held, at rest, and by how much each is off."""
+    """Components of the held measures at rest, and their deviations from the targets."""
     found = core.components(p, np.zeros(core.nv), [(target.measure, target.component) for target in held])
     return found, found.value - np.array([target.value for target in held])

@@ -1,13 +1,13 @@
-"""Least solutions of sparse rows, by eliminating one block of unknowns after another with orthogonal transformations.
+"""Minimum-norm solutions of sparse linear equations by block elimination with orthogonal transformations.
 
-The unknowns are blocks of few, as the velocities of a body, and each row touches few blocks. What is sought is least among all x
-with rows @ x = right; rows may follow from others, and where they contradict each other, their squares are least. A block is
-eliminated together with the rows that touch it. The singular value decomposition of their columns of the block splits it: where
-they have a rank they say what the block is for given neighbours; the rest of the rows is handed on to the neighbours. What the
-rows leave free of the block makes the sum of squares least, which is handed on as rows, too. So products of rows with each other,
-which have the square of their condition number, are never made.
+Unknowns come in small blocks, such as the velocities of one body, and each row touches few blocks. The solution minimizes a sum
+of squares among all x with rows @ x = right. Rows may be redundant; where they contradict each other, it minimizes their squared
+residuals. A block is eliminated together with the rows that touch it: the singular value decomposition of their columns of the
+block gives the independent ones, which determine it for given neighbours; the other rows pass to the neighbours. The part of the
+block that no row determines minimizes the sum of squares, which passes on as rows, too. Products of rows with each other, whose
+condition number is squared, are never formed.
 
-Blocks with the fewest neighbours come first: the cost of chains, trees and rows of loops is in proportion to their blocks.
+Blocks with the fewest neighbours are eliminated first: the cost of chains, trees and rows of loops is proportional to their size.
 """
 
 from __future__ import annotations

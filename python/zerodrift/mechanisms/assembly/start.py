@@ -1,4 +1,4 @@
-"""Where a mechanism starts: its drawing, what is held and wished, and its drives, assembled."""
+"""Start of a mechanism: positions and velocities assembled from the drawing, held and wished values, and drives."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Starting:
 
     @functools.cached_property
     def drives(self) -> dict[str, float]:
-        """Where the coordinates that drives of constant speed prescribe are at t = 0."""
+        """Values at t = 0 of the coordinates that motors of constant speed drive."""
         if not self.has_speeds:
             return {}
         tables = self._tables({})
@@ -64,7 +64,7 @@ class Starting:
 
     @functools.cached_property
     def has_mass(self) -> bool:
-        """Whether nothing moves without mass at t = 0, as it is drawn."""
+        """True if every motion has inertia at t = 0, in the drawn pose."""
         try:
             self.assembled(0.0)
         except (CorrectionFailed, InconsistentStart, SingularSystem):
@@ -101,7 +101,7 @@ class Starting:
         return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
 
     def way_out(self) -> str:
-        """What helps where the assembled start is singular: a nudge, if it leads out, and drives allow it."""
+        """Advice for a singular start: a nudge, if that leads to a regular pose that the drives allow."""
         assembly, p = self.assembled(0.0)
         held = self.targets(self.drawing.held, assembly.core, rates=True)
         return way_out(assembly, p, held)
@@ -142,7 +142,7 @@ class Starting:
         return self._stays
 
     def _staying(self, core: MechanismCore, *, rates: bool) -> list[Target]:
-        """What keeps such coordinates as drawn, their rates at zero; of positions the values are still to be read."""
+        """Targets that keep free coordinates as drawn and their rates at zero; positions get their values later."""
         index = {row.name: i for i, row in enumerate(core.measures)}
         targets = []
         for each in (self._stays or ((), ()))[rates]:
@@ -253,19 +253,19 @@ def _around(tables: Tables, bodies: Sequence[int], joints: Sequence[int]) -> tup
 
 
 def _component(name: str, i: int, shape: tuple[int, ...]) -> str:
-    """What an error calls an entry of what is held: of a number, a vector or a matrix."""
+    """Name of one component of a held number, vector or matrix."""
     return name if not shape else f"{name}.{'xyz'[i]}" if len(shape) == 1 else f"{name}[{i // 3}, {i % 3}]"
 
 
 def size_of(drawing: Drawing, numbers: Numbers) -> float:
-    """How large a drawing is, in m: the longest side of the box around its points; 1 where there is nothing."""
+    """Size of a drawing: the longest side of the box around its points, in m; 1 without extent."""
     places = [point.drawn_with(numbers) for point in drawing.joined_points()] + [body.pose.origin for body in drawing.parts()]
     size = columns.longest_side(places) if places else 0.0
     return size or 1.0
 
 
 def drives_of(drawing: Drawing) -> list[Motor]:
-    """Those of constant speed."""
+    """Motors of constant speed."""
     return [motor for motor in drawing.of(Motor) if _is_constant_speed(motor)]
 
 

@@ -21,7 +21,7 @@ from .start import Starting, drives_of, size_of
 
 
 def are_plain(drawing: Drawing, tables: Tables, start: Starting) -> bool:
-    """Whether there is nothing that Python has to do for each: no laws and no wishes, and nothing moves without mass."""
+    """True if starts need no Python per mechanism: no user functions, no wishes, and every motion has inertia."""
     if drawing.dimension != 2 or tables.laws.rows or drawing.wished:
         return False
     return all(tables.inertias.is_massive(body) for body in tables.parts) or start.has_mass
@@ -29,9 +29,9 @@ def are_plain(drawing: Drawing, tables: Tables, start: Starting) -> bool:
 
 def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[str, np.ndarray], layout: str, core: MechanismCore,
            *, wrong: np.ndarray, starts_are_known: bool) -> Varied | None:
-    """Mechanisms whose numbers are those of the drawing but for what has changed, and for parameters (count,) by their paths.
+    """Mechanisms that differ from the drawing in the changed numbers and in `parameters`, each (count,) by its path.
 
-    None where they differ in more than numbers. Those that are wrong (count,) are not assembled.
+    None if they differ in more than numbers. Mechanisms marked in `wrong` (count,) are not assembled.
     """
     count = len(wrong)
     numbers = Numbers({**changed, **{name: Column(np.asarray(each, dtype=float)) for name, each in parameters.items()}})
@@ -61,7 +61,7 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
 
 
 def _held(drawing: Drawing, index: Mapping[str, int]) -> list[Held]:
-    """What the start holds, component by component."""
+    """Held values of the start, by component."""
     held = []
     for name, value in drawing.held.items():
         is_rate, (base, _, axis) = reading(name, drawing.elements).is_rate, name.rpartition(".")
@@ -74,7 +74,7 @@ def _held(drawing: Drawing, index: Mapping[str, int]) -> list[Held]:
 
 def _staying(coordinates: Sequence[Coordinate], observed: Sequence[Observed], index: Mapping[str, int], *,
              is_rate: bool) -> Iterator[Held]:
-    """What keeps coordinates as drawn, or at rest."""
+    """Targets that keep coordinates as drawn, or at rest."""
     for each in coordinates:
         measure = index[each.rate if is_rate else each.position]
         components = range(observed[measure].size) if each.axis is None else ["xy".index(each.axis)]

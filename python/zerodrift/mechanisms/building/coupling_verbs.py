@@ -268,7 +268,7 @@ class _Sum:
 
 
 class _Follows:
-    """What is zero where a follower is where its cam has it."""
+    """Residual of a cam's follower: its displacement less that prescribed by the cam."""
 
     def __init__(self, profile: Any) -> None:
         self.profile = profile

@@ -39,7 +39,7 @@ class JointVerbs(SpaceJointVerbs):
         damping : float
             In N m s, at least 0.
         cut : bool
-            Whether this joint shall close a loop; left out, loops are cut where it is best.
+            True if this joint must close a loop; left out, the joint that closes a loop is chosen.
 
         Returns
         -------
@@ -117,17 +117,17 @@ class JointVerbs(SpaceJointVerbs):
                                    damping=_check.number(f"damping of {name!r}", damping, least=0)))
 
     def weld(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> Any:
-        """Join two bodies rigidly, as they are drawn.
+        """Rigid connection of two bodies, in their drawn relative pose.
 
         Parameters
         ----------
         name : str
         first, second : Body, Point or name
-            As of `revolute`; the reaction is told at the second's point.
+            As of `revolute`; the reaction is reported at the second's point.
         at : array_like (2,) or (3,)
             Where the joint is in the drawing, in m.
         cut : bool
-            Whether this joint shall close a loop; left out, loops are cut where it is best.
+            True if this joint must close a loop; left out, the joint that closes a loop is chosen.
 
         Returns
         -------
@@ -204,7 +204,7 @@ class JointVerbs(SpaceJointVerbs):
         axis : array_like (2,) or (3,)
             The line's direction in the drawing.
         cut : bool
-            Whether this joint shall close a loop; left out, loops are cut where it is best. In the plane a slot always does.
+            True if this joint must close a loop; left out, that joint is chosen. In the plane a slot always closes one.
 
         Returns
         -------
@@ -241,25 +241,25 @@ class JointVerbs(SpaceJointVerbs):
         ----------
         name : str
         first : Body or name
-            What the line, or the plane, belongs to.
+            Body of the line or plane.
         second : Body, Point or name
-            The wheel, whose origin is its centre, or the point of the body that is.
+            The wheel, with its centre at its origin, or the point that is its centre.
         radius : float
-            In m; in space of a sphere, or of a disc where there is an axle.
+            In m; in space that of a sphere, or with `axle` that of a disc.
         at : array_like (2,) or (3,)
-            A place of the line or plane in the drawing; left out: the drawing's origin.
+            A point of the line or plane in the drawing; left out: the drawing's origin.
         normal : array_like (2,) or (3,), optional
-            Of the line or plane in the drawing, towards the wheel; left out: against gravity, and where there is none, y, in
+            Normal of the line or plane in the drawing, towards the wheel; left out: against gravity, and without gravity y, in
             space z.
         axle : array_like (3,), optional
-            In space: of a disc, its axle in the drawing. It turns with the second body.
+            In space: axle of a disc in the drawing. It turns with the second body.
         semiaxes : array_like (3,), optional
-            In space, instead of the radius: those of an ellipsoid along the axes of the second body's frame, in m.
+            In space, instead of the radius: semiaxes of an ellipsoid along the axes of the second body's frame, in m.
 
         Returns
         -------
         Rolling, in space SpaceJoint
-            Its force acts where it touches. In space it has one holonomic row, and two nonholonomic ones, along the plane.
+            Its force acts at the contact point. In space it has one holonomic and two nonholonomic constraints.
 
         Raises
         ------
@@ -271,8 +271,8 @@ class JointVerbs(SpaceJointVerbs):
         >>> import zerodrift as zd
         >>> m = zd.Mechanism("wheel", gravity=(0, -9.81))
         >>> wheel = m.body("wheel", *zd.inertia.disc(mass=1.0, radius=0.5), at=(0, 0.5))
-        >>> m.rolling("road", m.ground, wheel, radius=0.5).force
-        VectorMeasure('road.force')
+        >>> m.rolling("contact", m.ground, wheel, radius=0.5).force
+        VectorMeasure('contact.force')
         """
         if self.dimension == 3:
             return self._space_rolling(name, first, second, radius, at, normal, axle, semiaxes)

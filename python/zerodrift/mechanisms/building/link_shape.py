@@ -10,7 +10,7 @@ from ..elements.bodies import MassProperties
 from ..elements.frames import Pose
 
 IN_LINE = 1e-12         # of the longest side: what three lengths may lack or have too much for three points in line
-AGREED = 1e-9           # of a length: how nearly lengths that follow from others have to agree with these
+AGREED = 1e-9           # of a length: agreement required of lengths that the others determine
 
 Lengths = Mapping[frozenset[str], float]
 
@@ -86,7 +86,7 @@ class Shape:
         return place
 
     def _on_two_circles(self, name: str, one: str, two: str, found: Mapping[str, np.ndarray]) -> np.ndarray:
-        """Where the circles about two points meet."""
+        """Intersections of the circles about two points."""
         a, b = (self.lengths[frozenset((name, other))] for other in (one, two))
         along = found[two] - found[one]
         c = self.lengths.get(frozenset((one, two)), float(np.hypot(*along)))

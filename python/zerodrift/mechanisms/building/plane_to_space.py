@@ -94,7 +94,7 @@ def _sides(m: Any, element: Any) -> tuple[Any, Any]:
 
 
 def _measure(m: Any, name: str) -> str:
-    """What a measure is called in space."""
+    """Name of a measure in space."""
     owner, _, quantity = name.rpartition(".")
     if not isinstance(body := m._elements.get(owner), Body):
         return name
@@ -104,7 +104,7 @@ def _measure(m: Any, name: str) -> str:
 
 
 def _law(m: Any, law: Law) -> dict[str, Any]:
-    """What a law was given, and its `of`."""
+    """Arguments of a user function: its value and `of`."""
     if law.constant is not None:
         return {"value": law.constant, "of": None}
     bound = {name: _measure(m, measure) for name, measure in law._bound.items()}
@@ -115,7 +115,7 @@ def _law(m: Any, law: Law) -> dict[str, Any]:
 
 
 def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:
-    """What a start says, in measures of space."""
+    """Start in measures of space."""
     said: dict[str, Any] = {}
     for name, value in given.items():
         owner, _, quantity = name.rpartition(".")

@@ -18,7 +18,7 @@ from ..equations.measure_names import reading
 
 
 class Elements:
-    """What a mechanism consists of; the verbs of `Mechanism` add to it."""
+    """Elements of a mechanism by name; the methods of `Mechanism` add to it."""
 
     name: str
     dimension: int
@@ -54,7 +54,7 @@ class Elements:
     # ---- reading arguments ----
 
     def _named(self, argument: str, value: Any) -> Any:
-        """What a name stands for: an element, a link's start or end, a body's center; what is no string is taken as it is."""
+        """Element of a name, also a link's start or end or a body's center; values other than strings are returned unchanged."""
         if not isinstance(value, str):
             return value
         if value in self._elements:
@@ -65,7 +65,7 @@ class Elements:
         if side == "center" and isinstance(body := self._elements.get(owner), Body):
             return body.center
         known = [*self._elements, *(f"{link.name}.{side}" for link in self._of(Link) for side in ("start", "end"))]
-        raise ValueError(f"{argument} names {value!r}, which is no element of {self.name!r}; {_check.closest(value, known)}")
+        raise ValueError(f"{argument} names {value!r}, which is not an element of {self.name!r}; {_check.closest(value, known)}")
 
     def _body(self, argument: str, value: Any) -> Body:
         """A body of this mechanism."""

@@ -295,7 +295,7 @@ class SpaceJointVerbs(Elements):
         return None if axis is None else self._direction(f"axis of {name!r}", axis)
 
     def _at_origin(self, at: Any, first: Any, second: Any) -> Any:
-        """Of two bodies without a place, the second's origin is meant."""
+        """Position of a joint: of two bodies without `at`, the second's origin."""
         first, second = self._named("first", first), self._named("second", second)
         if at is None and all(isinstance(side, Body) and side.turns for side in (first, second)):
             return second.pose.origin
@@ -332,7 +332,7 @@ def _frame(axis: np.ndarray, normal: np.ndarray | None) -> np.ndarray:
 
 
 def checked_cut(name: str, value: Any) -> bool:
-    """Whether a joint shall close a loop."""
+    """Check that `cut` is True or False."""
     if not isinstance(value, bool):
         raise TypeError(f"cut of {name!r} must be True or False, not {_check.shown(value)}")
     return value

@@ -1,4 +1,4 @@
-"""What a start holds and wishes: values of measures."""
+"""Start of a mechanism: values of measures that are held or wished."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class StartVerbs(Elements):
 
     def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None,
               equilibrium: bool | None = None) -> None:
-        """Say where and how fast the motion starts; all else starts as drawn and at rest, unless a loop has to move with it.
+        """Set initial positions and velocities; all else starts as drawn and at rest, unless a loop must move with it.
 
         Joint coordinates that neither values given here nor drives force stay as in the drawing with its joints closed, and
         their rates are zero: the angle of a pendulum on a cart does not change with the cart's place. Coordinates of a loop or a
@@ -37,10 +37,10 @@ class StartVerbs(Elements):
         Parameters
         ----------
         held : dict of measure to value
-            What is met: positions and velocities by object or by name, components or vectors; of a body in space its
+            Values to satisfy: positions and velocities by object or by name, components or vectors; of a body in space its
             ``rotation``, too, as a matrix or a unit quaternion. Later calls add and replace; None as a value takes back.
         wish : dict of measure to value
-            What is met as nearly as possible after that.
+            Values to approach as nearly as possible after that.
         equilibrium : bool, optional
             True: the motion starts in the stable equilibrium that `zerodrift.equilibrium` finds from that position, with drives
             at its time; held positions are where the search begins, held speeds are kept as nearly as the constraints allow.
@@ -49,7 +49,7 @@ class StartVerbs(Elements):
         Raises
         ------
         ValueError, TypeError
-            If nothing has such a measure, a value is no number or vector, or a motor prescribes it.
+            If there is no such measure, a value is not a number or vector, or a motor prescribes it.
 
         Examples
         --------

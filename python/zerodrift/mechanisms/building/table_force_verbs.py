@@ -1,4 +1,4 @@
-"""The verbs of force elements that nobody has written by hand: what they take, check and say is what the core's row says."""
+"""Methods of `Mechanism` for force elements, made from entries of the core's table: arguments, checks and documentation."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def force_verb(force: type[MadeForce]) -> Callable[..., MadeForce]:
 
 
 def taken(force: type[MadeForce]) -> dict[str, Any]:
-    """What a verb takes besides sides, and what it is where it is left out."""
+    """Arguments of the method besides the two sides, with their defaults."""
     axis = {"axis": NEEDED} if force.has("along", "across", "glide", "skid") else {}
     if not force.row.is_spring:
         return {**axis, "value": NEEDED, "of": None}

@@ -1,4 +1,4 @@
-"""The verbs of joints that nobody has written by hand: what they take, check and say is what the core's row of the kind says."""
+"""Methods of `Mechanism` for joints, made from entries of the core's table: arguments, checks and documentation."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def verb(joint: type[Joint]) -> Callable[..., Joint]:
 
 
 def _draws_length(joint: type[Joint]) -> bool:
-    """Whether its length, left out, is as drawn: that of a distance."""
+    """True if its length defaults to the drawn distance."""
     return any(row.gauge == "distance" and row.zero == "length" for row in joint.row.rows)
 
 
@@ -82,7 +82,7 @@ def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, secon
 
 
 def needs_angles(joint: type[Joint]) -> bool:
-    """Whether both bodies have to have an orientation."""
+    """True if both bodies must have an orientation."""
     return holds_angle(joint.row) or any(row.rolls for row in joint.row.rows)
 
 

@@ -48,7 +48,7 @@ class Point(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         if self.name is None:
             raise AttributeError(f"{self!r} has no name, and so no measures: give it one, {self.body.name}.point(..., name=...)")
         return self.name
@@ -60,7 +60,7 @@ class Point(Fixed):
 
     @property
     def drawn(self) -> np.ndarray:
-        """Where the drawing has it, (2,) in m."""
+        """Position in the drawing, (2,) or (3,) in m."""
         return self.drawn_with(AS_GIVEN)
 
     def local_with(self, numbers: Numbers) -> np.ndarray:
@@ -68,11 +68,11 @@ class Point(Fixed):
         return numbers.vector(self.name, "local", self._local)
 
     def drawn_with(self, numbers: Numbers) -> np.ndarray:
-        """Where the drawing has it, (2,) in m."""
+        """Position in the drawing, (2,) or (3,) in m, with parameters that may have been changed."""
         return self.body.pose.point(self.local_with(numbers))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path, of a point that has a name."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``; none without a name."""
         return {f"local.{axis}": float(value) for axis, value in zip("xyz", self.local_with(now), strict=False)}
 
     def __repr__(self) -> str:
@@ -112,7 +112,7 @@ class Body(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         return self.name
 
     @property
@@ -153,7 +153,7 @@ class Body(Fixed):
                               numbers.vector(self.name, "com", self._com))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         mass, inertia, com = self.properties(now)
         return {"mass": mass, "inertia": inertia, "com.x": float(com[0]), "com.y": float(com[1])}
 
@@ -165,7 +165,7 @@ class Body(Fixed):
 
 
 class Ground(Body):
-    """What does not move; its frame is the drawing's."""
+    """The ground: it does not move; its frame is the drawing's."""
 
     what = "ground"
 
@@ -215,7 +215,7 @@ class Link(Body):
         return MassProperties(mass, numbers(self, "inertia", inertia), np.array([length / 2, 0.0]))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         mass, inertia, _ = self.properties(now)
         return {"mass": mass, "length": self.length_with(now), "inertia": inertia}
 
@@ -255,7 +255,7 @@ class Particle(Body):
         self.carrier = carrier
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {"mass": self.properties(now).mass}
 
     @property

@@ -63,7 +63,7 @@ for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
 
 
 def _of(function: Callable[..., Any], *given: Any) -> Any:
-    """What a function of NumPy makes of numbers, of which some may be columns."""
+    """Apply a NumPy function to numbers, some of which may be columns."""
     found = function(*(each.values if isinstance(each, Column) else each for each in given))
     return Column(found) if any(isinstance(each, Column) for each in given) else float(found)
 
@@ -96,7 +96,7 @@ def spread(number: Any, count: int) -> np.ndarray:
 
 
 def longest_side(places: Sequence[np.ndarray]) -> Any:
-    """Of the box around some places, in m."""
+    """Longest side of the box around some points, in m."""
     columns = [each.values for place in places for each in place if isinstance(each, Column)]
     if not columns:
         return float(np.ptp(places, axis=0).max())

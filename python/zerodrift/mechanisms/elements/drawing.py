@@ -33,7 +33,7 @@ class Drawing(NamedTuple):
 
     @property
     def ground(self) -> Body:
-        """What does not move."""
+        """The body that does not move."""
         return self.elements["ground"]
 
     def joined_points(self) -> list[Point]:
@@ -69,7 +69,7 @@ class Inertias:
             self.of[body.name] = _together(*body.properties(numbers), carried.get(body.name, []))
 
     def is_massive(self, body: Body) -> bool:
-        """Whether no motion of a body is without mass."""
+        """True if every motion of a body has inertia."""
         mass, inertia, _ = self.of[body.name]
         return mass > 0 and (inertia > 0 or not body.turns)
 

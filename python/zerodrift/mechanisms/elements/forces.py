@@ -40,16 +40,16 @@ class Motor(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         return self.name
 
     @property
     def prescribes(self) -> bool:
-        """Whether it takes a freedom, by a row; one of effort does not."""
+        """True if it prescribes a motion, by a driving constraint; False if it prescribes a torque or force."""
         return self.drives not in ("torque", "force")
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {} if self.law.constant is None else {self.drives: self.law.constant}
 
     def __repr__(self) -> str:
@@ -84,16 +84,16 @@ class Actuator(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         return self.name
 
     @property
     def prescribes(self) -> bool:
-        """Whether it takes a freedom, by a row; one of force does not."""
+        """True if it prescribes the length, by a driving constraint; False if it prescribes the force."""
         return self.drives == "length"
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {} if self.law.constant is None else {self.drives: self.law.constant}
 
     def __repr__(self) -> str:
@@ -119,7 +119,7 @@ class Spring(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         return self.name
 
     def free_length_with(self, numbers: Numbers) -> float:
@@ -129,7 +129,7 @@ class Spring(Fixed):
         return numbers(self, "length", drawn if self.free_length is None else self.free_length)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {"stiffness": self.stiffness, "length": self.free_length_with(now), "damping": self.damping}
 
     def __repr__(self) -> str:
@@ -147,11 +147,11 @@ class TorsionSpring(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         return self.name
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {"stiffness": self.stiffness, "angle": self.angle, "damping": self.damping}
 
     def __repr__(self) -> str:
@@ -170,11 +170,11 @@ class Bushing(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         return self.name
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return dict(self.values)
 
     def __repr__(self) -> str:
@@ -208,7 +208,7 @@ class Force(Fixed):
         self.name, self.point, self.along, self.frame, self.law = name, point, along, frame, law
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {} if self.law.constant is None else {"value": self.law.constant}
 
     def __repr__(self) -> str:
@@ -225,7 +225,7 @@ class Torque(Fixed):
         self.name, self.body, self.against, self.law, self.axis, self.frame = name, body, against, law, axis, frame
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {} if self.law.constant is None else {"value": self.law.constant}
 
     def __repr__(self) -> str:

@@ -22,13 +22,13 @@ def turned_back(angle: float, vector: np.ndarray) -> np.ndarray:
 
 
 class Pose(NamedTuple):
-    """Where a frame is: its origin (2,) in m, and its x axis from the drawing's, in rad."""
+    """Pose of a frame in the plane: origin (2,) in m, and angle of its x axis from the drawing's, in rad."""
 
     origin: np.ndarray
     angle: float
 
     def point(self, local: np.ndarray) -> np.ndarray:
-        """Where a point of the frame is in the drawing, (2,)."""
+        """Position (2,) in the drawing of a point of the frame, in m."""
         return self.origin + turned(self.angle, local)
 
     def local(self, drawn: np.ndarray) -> np.ndarray:
@@ -48,13 +48,13 @@ ROTATION = 1e-6         # how nearly a matrix that is given has to be a rotation
 
 
 class Pose3(NamedTuple):
-    """Where a frame is: its origin (3,) in m, and its axes in the drawing, the columns of `rotation` (3, 3)."""
+    """Pose of a frame in space: origin (3,) in m, and its axes in the drawing, the columns of `rotation` (3, 3)."""
 
     origin: np.ndarray
     rotation: np.ndarray
 
     def point(self, local: np.ndarray) -> np.ndarray:
-        """Where a point of the frame is in the drawing, (3,)."""
+        """Position (3,) in the drawing of a point of the frame, in m."""
         return self.origin + self.rotation @ local
 
     def local(self, drawn: np.ndarray) -> np.ndarray:

@@ -70,7 +70,8 @@ class Table:
         at, = (*given, *named.values())
         value = float(autodiff.value(at))
         if not self.x[0] - self._allowed <= value <= self.x[-1] + self._allowed:
-            raise ValueError(f"the table goes from {self.argument} = {self.x[0]:g} to {self.x[-1]:g}, and is asked for {value:g}")
+            raise ValueError(f"the table goes from {self.argument} = {self.x[0]:g} to {self.x[-1]:g}, "
+                             f"and its value at {value:g} was requested")
         piece = min(max(int(np.searchsorted(self.x, value, side="right")) - 1, 0), self.x.size - 2)
         s, result = at - float(self.x[piece]), 0.0
         for coefficient in self.coefficients[:, piece]:
@@ -95,7 +96,7 @@ def recognised(given: Any) -> Any:
 
 
 def _coefficients(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Of the spline, (4, n - 1), by its slopes at the points."""
+    """Coefficients (4, n - 1) of the spline, from its slopes at the points."""
     h, steps = np.diff(x), np.diff(y) / np.diff(x)
     slopes = _slopes(h, steps)
     bend = (slopes[:-1] + slopes[1:] - 2 * steps) / h

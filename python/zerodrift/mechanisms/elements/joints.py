@@ -22,17 +22,17 @@ JOINTS = joint_kinds()
 
 
 class Joint(Fixed):
-    """What joins two bodies; verbs of `Mechanism` make it.
+    """Joint between two bodies; methods of `Mechanism` make it.
 
     Attributes
     ----------
     name : str
     first, second : Point
-        What it joins; its reaction is what the first body does to the second, at the second's point.
+        The points it joins. Its reaction is exerted by the first body on the second, at the second's point.
     damping : float
-        Of its coordinate, in N m s or N s/m.
+        Damping coefficient of its coordinate, in N m s or N s/m.
     cut : bool
-        Whether it shall close a loop, and own no coordinate.
+        True if the joint must close a loop, so that no joint coordinate belongs to it.
     """
 
     kind = ""                           # as the core's table calls it
@@ -42,7 +42,7 @@ class Joint(Fixed):
     takes: tuple[str, ...] = ()         # what its verb takes besides the sides
 
     def __init_subclass__(cls) -> None:
-        """What the row says; what a class says itself stays."""
+        """Sets class attributes from the entry of the core's table, except those that the class defines."""
         if not cls.kind:        # those in space have a table of their own
             return
         cls.row = JOINTS[cls.kind]
@@ -69,7 +69,7 @@ class Joint(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         return self.name
 
     @property
@@ -84,7 +84,7 @@ class Joint(Fixed):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """What motors and dampers may act along."""
+        """Coordinates along which motors and dampers may act."""
         return () if self.coordinate is None else (self.coordinate,)
 
     def length_with(self, numbers: Numbers) -> float:
@@ -95,7 +95,7 @@ class Joint(Fixed):
         return numbers(self, "length", drawn if self.length is None else self.length)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         length = {"length": self.length_with(now)} if self.row.takes_length else {}
         return length if self.coordinate is None else {**length, "damping": self.damping}
 
@@ -104,7 +104,7 @@ class Joint(Fixed):
         return self.second.body.pose.angle - self.first.body.pose.angle
 
     def offset_as_drawn(self, numbers: Numbers) -> float:
-        """How far the second's point is along the axis from the first's in the drawing, where the displacement is zero."""
+        """Offset of the second point from the first along the axis in the drawing, in m; its displacement counts from there."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         axis = self.axis_as_drawn()
         return columns.plain(apart[0] * axis[0] + apart[1] * axis[1])
@@ -118,7 +118,7 @@ class Joint(Fixed):
 
 
 def _taken(row: JointKind) -> tuple[str, ...]:
-    """What a verb takes for a joint besides its sides."""
+    """Arguments of the method that adds such a joint, besides the two sides."""
     words = {"axis": row.takes_axis, "length": row.takes_length, "damping": row.coordinate,
              "cut": row.carrier is not None}
     return tuple(word for word, is_taken in words.items() if is_taken)
@@ -148,12 +148,12 @@ TRANSMISSION = "The angle between the lines of its two links, in rad, where ther
 
 
 def is_hinge(row: JointKind) -> bool:
-    """Whether a joint is at one place of both bodies, about which they turn."""
+    """True if the joint holds one point of both bodies together and leaves their rotation free."""
     return {each.gauge for each in row.rows} == {"x", "y"}
 
 
 def holds_angle(row: JointKind) -> bool:
-    """Whether a row of the joint is an angle."""
+    """True if the joint constrains the relative angle."""
     return any(each.gauge == "angle" for each in row.rows)
 
 
@@ -204,7 +204,7 @@ class Rolling(Joint):
 
     @property
     def normal(self) -> np.ndarray:
-        """Of the line (2,) in the first's frame, towards the wheel."""
+        """Normal of the line (2,) in the first body's frame, towards the wheel."""
         return np.array([-self.axis[1], self.axis[0]])
 
     def length_with(self, numbers: Numbers) -> float:
@@ -212,7 +212,7 @@ class Rolling(Joint):
         return numbers(self, "radius", self.radius)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {"radius": self.radius}
 
 
@@ -255,7 +255,7 @@ class Coupling(Fixed):
 
     @property
     def efforts(self) -> dict[str, int]:
-        """What is measured of its effort, and along which of the measures in `of`."""
+        """Measures of its generalized force: the index in `of` of the measure along which each acts."""
         if self.kind in ("constraint", "nonholonomic"):
             return {}
         last = min(1, len(self.of) - 1)
@@ -284,7 +284,7 @@ class Coupling(Fixed):
         return Measure(f"{self.name}.{effort}")
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {} if self.ratio is None else {"ratio": self.ratio}
 
     def __repr__(self) -> str:
@@ -292,5 +292,5 @@ class Coupling(Fixed):
 
 
 def _effort_along(measure: str) -> str:
-    """What acts along a measure: a torque along an angle, a force along a length."""
+    """Kind of the generalized force along a measure: torque along an angle, force along a length."""
     return "torque" if measure.endswith(".angle") else "force"

@@ -1,4 +1,4 @@
-"""What can be read from a motion: handles for the names by which the core knows its measures."""
+"""Handles of measures: quantities of a motion by the names under which the core knows them."""
 
 from __future__ import annotations
 

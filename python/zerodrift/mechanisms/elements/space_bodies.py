@@ -110,14 +110,14 @@ class SpaceBody(Body):
         return changed
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         mass, J, com = self.properties(now)
         entries = {f"inertia.{path}": float(J[AXES.index(path[0]), AXES.index(path[1])]) for path in PATHS}
         return {"mass": mass, **entries, **{f"com.{axis}": float(com[i]) for i, axis in enumerate(AXES)}}
 
 
 class SpaceGround(Ground):
-    """What does not move; its frame is the drawing's."""
+    """The ground: it does not move; its frame is the drawing's."""
 
     def __init__(self) -> None:
         Body.__init__(self, "ground", Pose3(np.zeros(3), np.eye(3)), 0.0, 0.0, np.zeros(3))
@@ -159,7 +159,7 @@ class SpaceLink(SpaceBody, Link):
         return MassProperties(mass, self.tensor_with(numbers, J), np.array([length / 2, 0.0, 0.0]))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         found = super().numbers(now)
         return {"mass": found["mass"], "length": self.length_with(now), "thickness": self.thickness_with(now),
                 **{path: value for path, value in found.items() if path.startswith("inertia")}}
@@ -222,13 +222,13 @@ class SpaceInertias:
         return local if known is None else known.axes.T @ local
 
     def is_massive(self, body: Body) -> bool:
-        """Whether no motion of a body is without mass."""
+        """True if every motion of a body has inertia."""
         known = self.of[body.name]
         return bool(known.mass > 0 and (not body.turns or known.moments.min() > 0))
 
 
 def _principal(mass: float, J: Any, com: np.ndarray, others: list[tuple[float, np.ndarray]]) -> SpaceMass:
-    """Of a body with point masses on it."""
+    """Mass, principal moments and axes of a body together with point masses fixed to it."""
     J, total = np.zeros((3, 3)) if np.ndim(J) == 0 else J, mass + sum(other for other, _ in others)
     if others and total:
         centre = (mass * com + sum(other * place for other, place in others)) / total

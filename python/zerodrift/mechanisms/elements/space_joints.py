@@ -19,19 +19,19 @@ DIRECTIONS = ("axis", "normal", "third")
 
 
 class SpaceJoint(Joint):
-    """What joins two bodies in space; verbs of `Mechanism` make it.
+    """Joint between two bodies in space; methods of `Mechanism` make it.
 
     Attributes
     ----------
     name : str
     first, second : Point
-        What it joins; its reaction is what the first body does to the second, at the second's point.
+        The points it joins. Its reaction is exerted by the first body on the second, at the second's point.
     frames : tuple of ndarray (3, 3)
-        The rows are the joint's axis, a normal of it and the third direction, in the frame of the first body and of the second.
+        Axis of the joint, a normal of it and the third direction as rows, in the frame of the first body and of the second.
     damping : float
-        Of its coordinate, in N m s or N s/m.
+        Damping coefficient of its coordinate, in N m s or N s/m.
     cut : bool
-        Whether it shall close a loop, and own no coordinate.
+        True if the joint must close a loop, so that no joint coordinate belongs to it.
     """
 
     row: ClassVar[JointKind]    # type: ignore[assignment]
@@ -39,7 +39,7 @@ class SpaceJoint(Joint):
     angles: tuple[str, ...] = ()    # those of its coordinates that count turns
 
     def __init_subclass__(cls) -> None:
-        """What the row says."""
+        """Sets class attributes from the entry of the core's table."""
         cls.row = JOINTS[cls.kind]
         cls.coordinates = tuple(name for name, _ in cls.row.coordinates)
         cls.angles = tuple(name for name, gauge in cls.row.coordinates if gauge == "angle")
@@ -66,16 +66,16 @@ class SpaceJoint(Joint):
         return numbers(self, "length", float(np.linalg.norm(apart)) if self.length is None else self.length)
 
     def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
-        """Those of what rolls, along the rows of the second body's frame, in m; 0 where nothing does."""
+        """Semiaxes of the rolling body along the rows of the second frame, in m; zero for joints without rolling."""
         return 0.0, 0.0, 0.0
 
     def offset_as_drawn(self, numbers: Numbers) -> float:
-        """How far the second's point is along the axis from the first's in the drawing, where the displacement is zero."""
+        """Offset of the second point from the first along the axis in the drawing, in m; its displacement counts from there."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         return float(apart @ self.axis_as_drawn())
 
     def row_named(self, component: int) -> Variable:
-        """What a row of the joint is: a place along an axis of the drawing or of the joint's frame, or a turn about one."""
+        """Name and unit of a constraint of the joint: displacement along an axis of the drawing or joint, or rotation."""
         gauge, first, second = self.row.rows[component]
         if len(self.row.rows) == 1:
             return Variable(self.name, "m")
@@ -115,12 +115,12 @@ def _measures(row: JointKind) -> dict[str, str]:
 
 
 def has_torque(row: JointKind) -> bool:
-    """Whether a joint exerts a moment, by its rows or by what drives or damps it."""
+    """True if the joint transmits a moment, by its constraints or by a motor or damper."""
     return any(gauge == "cosine" for gauge, _, _ in row.rows)
 
 
 def is_at_point(row: JointKind) -> bool:
-    """Whether a joint is at one place of both bodies."""
+    """True if the joint holds one point of both bodies together."""
     return {"x", "y", "z"} <= {gauge for gauge, _, _ in row.rows}
 
 
@@ -142,11 +142,11 @@ class Screw(BY_KIND["screw"]):      # type: ignore[name-defined,misc]
     kind = "screw"
 
     def length_with(self, numbers: Numbers) -> float:
-        """How far it advances for each radian, in m."""
+        """Advance per radian, in m."""
         return numbers(self, "pitch", self.length) / (2 * np.pi)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         return {"pitch": now(self, "pitch", self.length)}
 
 
@@ -174,7 +174,7 @@ class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
         return tuple(numbers(self, f"semiaxes.{axis}", each) for axis, each in zip(AXES, self.semiaxes, strict=True))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         found = self.semiaxes_with(now)
         return {"radius": max(found)} if len({*found} - {0.0}) == 1 else {
             f"semiaxes.{axis}": each for axis, each in zip(AXES, found, strict=True)}

@@ -1,4 +1,4 @@
-"""Force elements that nobody has written by hand: what they are is what the core's row of the kind says."""
+"""Force elements without a class of their own: the entry of their kind in the core's table defines them."""
 
 from __future__ import annotations
 
@@ -48,12 +48,12 @@ class MadeForce(Fixed):
 
     @property
     def measured_name(self) -> str:
-        """What its measures are called by."""
+        """First part of the names of its measures."""
         return self.name
 
     @classmethod
     def has(cls, *gauges: str) -> bool:
-        """Whether it has one of these kinds of gauges."""
+        """True if the element has a marker quantity of one of these kinds."""
         return any(gauge in gauges for gauge, _ in cls.row.gauges)
 
     @classmethod
@@ -63,13 +63,13 @@ class MadeForce(Fixed):
         return tuple(f"{quantity}.{gauge}" if several else quantity for gauge, _ in cls.row.gauges)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """What can be addressed by path."""
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
         if self.law is None:
             return dict(self.values)
         return {} if self.law.constant is None else {"value": self.law.constant}
 
     def zero(self, which: str | None, numbers: Numbers) -> float:
-        """What is taken from the reading of a gauge: its reading as drawn, or the length that was given."""
+        """Offset of a marker quantity: its value as drawn, or the given length."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         if which in ("along", "across"):
             (x, y), axis = self.first.body.pose.local_direction(apart), self.axis if which == "along" else _turned(self.axis)

@@ -116,14 +116,14 @@ class Law:
 
     @property
     def is_plain(self) -> bool:
-        """Whether it depends on no measure, or is a polynomial of measures, and of sines and cosines of them."""
+        """True if it depends on no measure, or is a polynomial of measures and of sines and cosines of them."""
         if not self.measures:
             return True
         return self.expression is not None and is_plain_expression(self.expression, set(self._bound))
 
     @property
     def names(self) -> tuple[str, ...]:
-        """What it is a function of: t, parameters, and measures by what it calls them."""
+        """Names of its arguments: t, parameters, and its own names of measures."""
         return tuple(self._names)
 
     @property
@@ -133,11 +133,11 @@ class Law:
 
     @property
     def has_expression(self) -> bool:
-        """Whether SymPy has to read it before it can be written out."""
+        """True if SymPy must read it before code is generated."""
         return self.inner_expression is not None
 
     def check_written(self) -> None:
-        """Refuses a callable, of which nobody but Python knows what it computes."""
+        """Check that code can be generated: a callable's computation is known to Python only."""
         if self._function is not None and not hasattr(self._function, "written"):
             raise ValueError(f"{self.what} is a callable, which compiled=True cannot write out: give a SymPy expression in its "
                              "place, or take compiled=False")

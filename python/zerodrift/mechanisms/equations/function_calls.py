@@ -1,4 +1,4 @@
-"""How the core calls laws: rows and efforts, with exact derivatives, in Python or as nodes of a graph."""
+"""User functions as the core calls them, with exact derivatives: in constraints and forces, in Python or as nodes of a graph."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Call:
         return self.law.written(equations, [(rates if is_rate else values)[place] for place, is_rate in self.picks])
 
     def said(self, leaves: Any, node: Any) -> Sequence[Any]:
-        """What a call gives, as nodes, where that is the node of the row or of the effort: of a holonomic row."""
+        """Node of the result, from the node of the residual or force; here of a holonomic constraint."""
         return leaves.holonomic(node)
 
 
@@ -120,7 +120,7 @@ class Laws:
         return self.rows[number](t, x, xdot)
 
     def compiled(self, sizes: Mapping[int, tuple[int, int]]) -> list[Any]:
-        """Of each law the function that it is compiled to, as of `law_functions`, or None; they are handed so many gauges."""
+        """Result of `function_code.compiled` for each user function; `sizes` has the number of its marker quantities."""
         if len(self._compiled) != len(self.rows):
             self._compiled = [function_code.compiled(row, sizes[i][0]) for i, row in enumerate(self.rows)]
         return self._compiled
@@ -132,5 +132,5 @@ class Laws:
 
     @property
     def know_time(self) -> bool:
-        """Whether one of them depends on t."""
+        """True if one of them depends on t."""
         return any(row.law.depends_on_time for row in self.rows)

@@ -19,7 +19,7 @@ _functions: dict[Any, tuple[int, Any] | None] = {}      # by what they are writt
 
 
 def compiled(row: Any, k: int) -> Compiled | None:
-    """The function of a law that the core hands k gauges; None where it is no expression, or cannot be compiled here."""
+    """Compiled user function of k marker quantities; None if it has no expression, or if there is no compiler."""
     expression = row.law.inner_expression
     if expression is None:
         return None
@@ -42,7 +42,7 @@ def compiled(row: Any, k: int) -> Compiled | None:
 
 
 class _Equations:
-    """What a law is written into: `reads` the one expression that is in it, whose numbers stand behind the parameters."""
+    """Equations into which a user function is written: `reads` its one expression; decimal numbers follow the parameters."""
 
     def __init__(self, template: Any, names: Sequence[str], numbers: int, k: int) -> None:
         from ...symbolics.compile.law_terms import Leaves
@@ -73,7 +73,7 @@ class _Equations:
 
 
 def _without_numbers(expression: Any) -> tuple[Any, list[float]]:
-    """The expression with a symbol for each decimal number, and these; exponents stay, as a square root is no power to C."""
+    """Expression with a symbol for each decimal number, and these numbers; exponents stay, as C has roots but not such powers."""
     import sympy
 
     exponents = {power.exp for power in expression.atoms(sympy.Pow)}
@@ -84,7 +84,7 @@ def _without_numbers(expression: Any) -> tuple[Any, list[float]]:
 
 @cache
 def _number(i: int) -> Any:
-    """What stands for a number."""
+    """Symbol in the place of a number."""
     import sympy
 
     return sympy.Symbol(f"number {i}", real=True)

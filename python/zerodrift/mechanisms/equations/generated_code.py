@@ -42,7 +42,7 @@ OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in lanes i
 
 @dataclass(frozen=True)
 class Code:
-    """What is the same whatever the numbers are. Everything in it can be written as JSON."""
+    """Generated code without its numbers: equal plans share it. All fields can be written as JSON."""
 
     provides: list[str]
     timeless: bool
@@ -105,7 +105,7 @@ class Written:
         return code
 
     def _direct_alone(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
-        """What direct functions are written from, where there are not too many velocities to begin with."""
+        """Code for the closed form alone; with too many velocities only the reason why there is none."""
         from ...symbolics.emit import closed_form, closed_form_writer
         from ...symbolics.graph.lowering import Lowering
 
@@ -165,7 +165,7 @@ class Written:
 
 
 def _reader(laws: Laws) -> Any:
-    """What the graph is in: with SymPy where a law is an expression."""
+    """Builder of the graph: the one with SymPy if a user function is an expression."""
     if not any(row.law.has_expression for row in laws.rows):
         return Plain()
     from ...symbolics.graph.from_sympy import Reader
@@ -179,7 +179,7 @@ _codes: dict[str, Code] = {}
 
 
 def _kept_code(key: str) -> Code | None:
-    """What was derived before from the same plan."""
+    """Code derived earlier from an equal plan, or None."""
     if key not in _codes and (found := kept.read(key, dict)) is not None:
         _codes[key] = Code(**found)
     return _codes.get(key)

@@ -1,4 +1,4 @@
-"""What a measure of positions or velocities reads: which element, which of its quantities, and whether its rate."""
+"""Parser of measure names: element, quantity, and whether the quantity is a rate."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Reading(NamedTuple):
 
 
 def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
-    """What a measure reads; None where it is no measure of positions or velocities, or where there is no such."""
+    """Element and quantity of a measure of positions or velocities; None for other names."""
     owner, *rest = name.split(".")
     element = elements.get(owner)
     if rest and rest[0] in _points(element):
@@ -88,7 +88,7 @@ def reading_of_start(name: str, elements: Mapping[str, Any]) -> Reading | None:
 
 
 def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any]) -> Reading:
-    """What a start reads, which holds or wishes it to have a value; an error where there is no such."""
+    """Element and quantity of a measure that a start holds or wishes; unknown names are an error."""
     read = reading_of_start(name, elements)
     if read is None:
         owner = elements.get(name.partition(".")[0])
@@ -136,5 +136,5 @@ def quantities(element: Any) -> tuple[str, ...]:
 
 
 def has_coordinate(joint: Joint) -> bool:
-    """Whether a joint has a coordinate to be read; a hinge of a particle has none."""
+    """True if the joint has a measurable coordinate; the angle at a particle is not one."""
     return joint.coordinate is not None and (joint.coordinate != "angle" or all(body.turns for body in joint.bodies))

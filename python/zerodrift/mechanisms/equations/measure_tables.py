@@ -1,6 +1,6 @@
-"""The measures of a mechanism, as the core's table has them.
+"""Measures of a mechanism as entries of the core's table, made at first use.
 
-They are made when they are first asked for: a run that nobody measures needs none of them.
+A run without measures needs no such table.
 """
 
 from __future__ import annotations
@@ -61,9 +61,9 @@ def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Gaug
 
 
 def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Position]:
-    """What can be read of bodies, named points, joints and springs.
+    """Measures of positions of bodies, named points, joints and springs.
 
-    Transmission angles are looked for where they are wanted: each among all joints of two bodies.
+    Transmission angles are included only if wanted, as each search covers all joints of two bodies.
     """
     if isinstance(tables, SpaceTables):
         yield from _positions_in_space(tables)
@@ -144,7 +144,7 @@ def _of_joints(tables: Tables) -> Iterator[Observed]:
 
 
 def orientation(watching: Watching, name: Any, solution: Any) -> np.ndarray | None:
-    """What is called "body.rotation", (k, 3, 3), "body.quaternion", (k, 4), or "body.euler.zyx", (k, 3); None: nothing is."""
+    """Values of "body.rotation" (k, 3, 3), "body.quaternion" (k, 4) or "body.euler.zyx" (k, 3); None for other names."""
     if not isinstance(name, str):
         return None
     body, _, quantity = name.partition(".")

@@ -1,4 +1,4 @@
-"""What a mechanism prescribes between gauges, as nodes of a graph, in the plane and in space alike."""
+"""Constraints and forces along marker quantities as nodes of a graph, in the plane and in space."""
 
 from __future__ import annotations
 

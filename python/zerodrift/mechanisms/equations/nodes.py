@@ -80,7 +80,7 @@ def effort_with_nodes(effort: Effort, number: Numbering) -> Effort:
 
 
 class Frame(NamedTuple):
-    """Where a body is: its mass centre, its angle and that angle's cosine and sine."""
+    """Position of a body: mass centre, angle, and the angle's cosine and sine."""
 
     at: Vector
     angle: Node
@@ -89,7 +89,7 @@ class Frame(NamedTuple):
 
 
 class Reading(NamedTuple):
-    """What a gauge reads, and how fast that changes; what has a rate alone has the value zero."""
+    """Value and rate of a marker quantity; the value is zero where only a rate exists."""
 
     value: Node
     rate: Node
@@ -129,7 +129,7 @@ class Equations(Relations):
         self.readings = [self._reading(gauge) for gauge in plan.gauges]
 
     def terms(self) -> dict[str, list[Node]]:
-        """What there is of A, M, d, f, Phi, C, Phi_t, xi, V and power."""
+        """Nodes of A, M, d, f, Phi, C, Phi_t, xi, V and power, as far as the mechanism has them."""
         return Derivation(self.graph, self._given()).terms()
 
     def _given(self) -> Given:

@@ -1,4 +1,4 @@
-"""Where bodies in space are and how they turn, as nodes of a graph, from the links of a plan."""
+"""Positions and rotations of bodies in space as nodes of a graph, from the links of a plan."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Vector = tuple[Node, Node, Node]
 
 
 class Vectors:
-    """What is done with the vectors of a graph."""
+    """Operations on vectors whose components are nodes."""
 
     def __init__(self, graph: Graph) -> None:
         self.graph = graph
@@ -37,7 +37,7 @@ HALF = Fraction(1, 2)
 
 
 class Body(NamedTuple):
-    """Where a body is and how it turns; its own axes are not known of what does not turn."""
+    """Position and rotation of a body; a body without orientation has no axes."""
 
     at: Vector
     axes: tuple[Vector, Vector, Vector] | None
@@ -51,21 +51,21 @@ class Frames:
     Parameters
     ----------
     links : sequence of Link
-        With nodes in place of their numbers.
+        Links whose numbers are nodes.
     graph : Graph
     functions : Reader or Plain
-        Its sin and cos.
+        Sine and cosine.
     nq, nv : int
 
     Attributes
     ----------
     bodies : dict of int to Body
     A : list of list of Node
-        The rates of p in v, (nq, nv), but for what follows other coordinates.
+        Rates of p in v, (nq, nv), without coordinates that depend on others.
     rate_of : Derivative
-        The derivative along the motion at constant v.
+        Derivative along the motion at constant v.
     values : dict of Node to Node
-        What leaves of the graph stand for.
+        Expressions of the leaves of the graph.
     """
 
     def __init__(self, links: Sequence[Link], graph: Graph, functions: Any, nq: int, nv: int) -> None:
@@ -115,7 +115,7 @@ class Frames:
         return self._turned[body, local]
 
     def _sum_along(self, axes: Sequence[Vector], along: Vector, spin: Vector) -> Vector:
-        """Of one axis its multiple, which needs no leaves of its own."""
+        """Linear combination of the axes; a multiple of one axis needs no leaves of its own."""
         zero = self.graph.zero
         found = [(axis, factor) for axis, factor in zip(axes, along, strict=True) if factor is not zero]
         if len(found) == 1:

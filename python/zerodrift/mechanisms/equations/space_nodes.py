@@ -97,7 +97,7 @@ class Equations(Relations):
             self.A[angle.place] = self._row_of(self.graph.dot(self.frames.turned(angle.gauge.first, angle.axis), relative))
 
     def _row_of(self, rate: Node) -> list[Node]:
-        """What a rate has of v."""
+        """Coefficients of v in a rate, (nv,)."""
         slopes = self._by_velocity(rate)
         return [slopes.get(v, self.graph.zero) for v in self.v]
 
@@ -162,7 +162,7 @@ class Equations(Relations):
     # ---- terms ----
 
     def terms(self) -> dict[str, list[Node]]:
-        """What there is of A, M, d, f, Phi, C, Phi_t, xi, V and power; what is zero throughout is left out where it may be."""
+        """Nodes of A, M, d, f, Phi, C, Phi_t, xi, V and power; terms that are zero are omitted where the interface allows it."""
         M, d = self._inertia()
         A = [node for row in self.A for node in row] if self.plan.has_rates else []
         terms = {"A": A, "M": M, "d": d, **self._efforts(), **self._constraints()}
@@ -187,7 +187,7 @@ class Equations(Relations):
         return M, [graph.plus(*terms) for terms in bias]
 
     def _moving(self) -> Iterable[tuple[Node, Any]]:
-        """Of each velocity of a mass centre and about an own axis: its inertia, and with it what it takes where vdot is zero."""
+        """Inertia of each velocity of a mass centre or about an own axis, with the generalized force needed for vdot = 0."""
         graph = self.graph
         for i, link in enumerate(self.plan.links, 1):
             body = self.bodies[i]

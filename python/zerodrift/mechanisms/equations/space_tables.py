@@ -48,7 +48,7 @@ class SpaceTables(Tables):
         return made(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
 
     def joint_coordinates(self) -> int:
-        """How many velocities the bodies have along the tree."""
+        """Number of velocities of the bodies along the tree."""
         return len(self.velocities())
 
     def tree(self, *, with_cut: bool = False) -> list[int]:
@@ -113,29 +113,29 @@ class SpaceTables(Tables):
         return self.coordinate_gauge_of(of, quantity) if isinstance(of, SpaceJoint) else self.length_gauge(of)
 
     def place_gauges(self, of: Body | Point) -> tuple[Gauge, ...]:     # type: ignore[override]
-        """What reads x, y and z of a point, or of the origin of a body's frame."""
+        """Marker quantities x, y and z of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
             of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, np.zeros(3))
         body, local = self._place(of)
         return tuple(Gauge(axis, 0, body, point2=local) for axis in AXES)
 
     def spin_gauges(self, body: Body) -> tuple[Gauge, ...]:
-        """What reads the angular velocity of a body, in the drawing's axes."""
+        """Marker quantities of a body's angular velocity, in the drawing's axes."""
         return tuple(Gauge("spin", 0, self.number[body.name], a=axis) for axis in AS_DRAWN)
 
     def rotation_gauges(self, body: Body) -> tuple[Gauge, ...]:
-        """What reads the rotation of a body, row by row: the cosines of its axes to those of the drawing."""
+        """Marker quantities of a body's rotation, row by row: cosines between the drawing's axes and its own."""
         own = [self._direction(body, axis) for axis in np.eye(3)]
         return tuple(Gauge("cosine", 0, self.number[body.name], a=drawn, b=axis) for drawn in AS_DRAWN for axis in own)
 
     def coordinate_gauge_of(self, joint: SpaceJoint, coordinate: str) -> Gauge:
-        """What reads a coordinate of a joint."""
+        """Marker quantity of a joint's coordinate."""
         number = self.joint_number[joint.name]
         angles = sum(len(before.angles) for before in self.joints[:number])
         return space.coordinate_gauge(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
 
     def length_gauge(self, spring: Spring | Actuator) -> Gauge:     # type: ignore[override]
-        """What reads the length of a spring or an actuator."""
+        """Marker quantity of the length of a spring or an actuator."""
         (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
         return Gauge("distance", first, second, point1, point2)
 

@@ -21,7 +21,7 @@ def edges(joints: Sequence[SpaceJoint], number: dict[str, int], *, with_cut: boo
 
 
 def freedoms(joint: SpaceJoint) -> tuple[int, int]:
-    """How many velocities a joint needs to carry its first body, and to carry its second."""
+    """Numbers of velocities with which the joint is the inboard joint of its first body, and of its second."""
     return tuple(sum(SIZES[each.kind] for each in joint.row.freedoms if body.turns or each.kind != "swings")
                  for body in joint.bodies)
 

@@ -74,7 +74,7 @@ class Tables:
         return MechanismCore(self.written(gauges, observed), laws, laws_know_time=self.laws.know_time)
 
     def written(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[Observed] = ()) -> rows.Tables:
-        """What the core is told of it."""
+        """Tables for the core."""
         bodies = [rows.Body(*self.inertias.of[body.name][:2], not body.turns, carrier)
                   for body, carrier in zip(self.parts, self.carrier, strict=True)]
         return rows.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations, self.efforts,
@@ -93,7 +93,7 @@ class Tables:
         return other
 
     def joint_coordinates(self) -> int:
-        """How many coordinates the bodies have along the tree."""
+        """Number of coordinates of the bodies along the tree."""
         hung = [(body, self.joints[carrier]) for body, carrier in zip(self.parts, self.carrier, strict=True) if carrier >= 0]
         free = sum(3 if body.turns else 2 for body, carrier in zip(self.parts, self.carrier, strict=True) if carrier < 0)
         return free + sum(_freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
@@ -154,24 +154,24 @@ class Tables:
         return self.length_gauge(of) if isinstance(of, Spring | Actuator) else self.angle_gauge(of)
 
     def place_gauges(self, of: Body | Point) -> tuple[Gauge, Gauge]:
-        """What reads x and y of a point, or of the origin of a body's frame."""
+        """Marker quantities x and y of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
             of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, ORIGIN)
         body, local = self._place(of)
         return Gauge("x", 0, body, (0.0, 0.0), local), Gauge("y", 0, body, (0.0, 0.0), local)
 
     def angle_gauge(self, body: Body) -> Gauge:
-        """What reads the angle of a body."""
+        """Marker quantity of a body's angle."""
         return Gauge("angle", 0, self.number[body.name])
 
     def coordinate_gauge(self, joint: int) -> Gauge:
-        """What reads the coordinate of a joint."""
+        """Marker quantity of a joint's coordinate."""
         kind, row = self.joints[joint].row, self.joint_rows[joint]
         zero = getattr(row, kind.zero) if kind.zero else 0.0
         return Gauge(kind.gauge, row.first, row.second, row.point1, row.point2, row.axis, zero)
 
     def transmission_gauge(self, joint: Joint) -> Gauge:
-        """What reads the transmission angle at a hinge."""
+        """Marker quantity of the transmission angle at a hinge."""
         return transmission.gauge(joint, self.joints_by_body, self.numbers, self.number)
 
     @cached_property
@@ -180,7 +180,7 @@ class Tables:
         return transmission.joints_by_body(self.drawing.elements)
 
     def length_gauge(self, spring: Spring | Actuator) -> Gauge:
-        """What reads the length of a spring or an actuator."""
+        """Marker quantity of the length of a spring or an actuator."""
         (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
         return Gauge("distance", first, second, point1, point2)
 
@@ -352,7 +352,7 @@ class Tables:
 
 
 def _freedoms(joint: Joint) -> tuple[int, int]:
-    """How many coordinates a joint needs to carry its first body, and to carry its second."""
+    """Numbers of coordinates with which the joint is the inboard joint of its first body, and of its second."""
     if joint.row.carrier == "turns":
         return tuple(int(body.turns) for body in joint.bodies)
     return (0, 0) if joint.row.carrier == "fixed" else (1, 1)

@@ -20,7 +20,7 @@ from ..elements.bodies import Body, Point
 from ..elements.joints import Joint, is_hinge
 from ..elements.numbers import AS_GIVEN, Numbers
 
-SAME = 1e-9             # m or rad: joints that are no farther apart are at one place
+SAME = 1e-9             # m or rad: largest distance of joints that coincide
 
 
 class Line(NamedTuple):
@@ -56,7 +56,7 @@ def lines(joint: Joint, joints: Mapping[str, list[Joint]], numbers: Numbers = AS
 
 
 def has_one(joint: Any, joints: Mapping[str, list[Joint]]) -> bool:
-    """Whether there is a transmission angle at what may be a joint."""
+    """True if the element is a joint with a transmission angle."""
     if not isinstance(joint, Joint):
         return False
     try:
@@ -67,7 +67,7 @@ def has_one(joint: Any, joints: Mapping[str, list[Joint]]) -> bool:
 
 
 def gauge(joint: Joint, joints: Mapping[str, list[Joint]], numbers: Numbers, number: Mapping[str, int]) -> Gauge:
-    """What reads the angle; between 0 and pi in the drawing, and from there on it is smooth."""
+    """Marker quantity of the angle: between 0 and pi in the drawing, and smooth from there."""
     first, second = lines(joint, joints, numbers)
     drawn = (second.body.pose.angle if second.body.turns else 0.0) - first.body.pose.angle
     return Gauge("angle", number[first.body.name], number[second.body.name], zero=drawn - _turned(first, second))
@@ -101,7 +101,7 @@ def _direction(body: Body, drawn: np.ndarray) -> float:
 
 
 def _is_same(first: Line, second: Line) -> bool:
-    """Whether two lines are one, as those to two joints at one place."""
+    """True if two lines coincide, as those to two joints at one point."""
     return first.body is second.body and abs(first.angle - second.angle) < SAME
 
 

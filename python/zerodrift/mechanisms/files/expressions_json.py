@@ -80,7 +80,7 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
     if depth > DEEPEST:
         raise ValueError(f"{what} must have at most {DEEPEST} operations within operations")
     if isinstance(written, bool) or written is None or isinstance(written, dict):
-        raise ValueError(f"{what} has {written!r}, which is no part of an expression")
+        raise ValueError(f"{what} has {written!r}, which is not part of an expression")
     if isinstance(written, str):
         return sp.Symbol(written)
     if not isinstance(written, list):

@@ -86,7 +86,7 @@ def _element(m: Any, description: Any, where: str) -> None:
 
 
 def _fields(function: Callable[..., Any], description: Any, where: str, skip: tuple[str, ...]) -> dict[str, Any]:
-    """What a description has, by the names that the function takes; all that it needs, and nothing else."""
+    """Values of a description by the function's argument names: all that it requires, and no others."""
     wanted = {name: parameter for name, parameter in inspect.signature(function).parameters.items()
               if parameter.kind is parameter.KEYWORD_ONLY}
     known = [*skip, *(name for name in wanted if name not in skip)]
@@ -101,7 +101,7 @@ def _fields(function: Callable[..., Any], description: Any, where: str, skip: tu
 
 
 def _at(where: str, function: Callable[..., Any], *given: Any, **named: Any) -> Any:
-    """What a function makes; its errors say where in the file it was."""
+    """Call a function; its errors name the place in the file."""
     try:
         return function(*given, **named)
     except (ValueError, TypeError) as error:

@@ -1,4 +1,4 @@
-"""What of a mechanism in space is told in another way than in the plane: frames of bodies and joints, as they are kept."""
+"""JSON of elements that differ in space: frames of bodies and joints, as stored."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How parts of elements are read from JSON: points, directions, laws."""
+"""Parts of elements from JSON: points, directions, user functions."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def told_direction(what: str, given: Any, dimension: int = 2) -> np.ndarray:
 
 
 def law_and_of(given: Any, what: str) -> tuple[Any, Any]:
-    """What a verb takes for a law, and for its `of`."""
+    """Arguments of a method for a user function: its value and its `of`."""
     if not isinstance(given, Mapping):
         return given, None
     if set(given) != {"expression", "of"}:

@@ -1,4 +1,4 @@
-"""How parts of elements are told in JSON: numbers, points, laws."""
+"""Parts of elements as JSON: numbers, points, user functions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def numbers(array: Any) -> Any:
 
 
 def place(point: Point, drawing: Drawing) -> Any:
-    """How a point is told: by a name, such as ``"crank.end"``, or its body and where it is in that body's frame."""
+    """JSON of a point: its name, such as ``"crank.end"``, or its body and its coordinates in that body's frame."""
     body = point.body
     if isinstance(body, Particle):
         return body.name

@@ -20,7 +20,7 @@ HAVE_FORCES = (*SHOWN, Spring, Actuator, MadeForce)
 
 
 def chosen(drawing: Drawing, names: Any) -> list[Any]:
-    """The elements whose forces are asked for: by name, themselves, or, by True, all joints, bushings and forces."""
+    """Elements whose forces are requested: by name, as elements, or, by True, all joints, bushings and forces."""
     if names is True:
         return drawing.of(SHOWN)
     names = [names] if isinstance(names, str) or not isinstance(names, Iterable) else list(names)
@@ -30,7 +30,7 @@ def chosen(drawing: Drawing, names: Any) -> list[Any]:
 
 
 def acting(element: Any, moments: Sequence[Posed] | Sequence[SpacePosed], values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where a force acts, (k, d) in m, and what it is, (k, d) in N, from its measure at the moments, (k,) or (k, d)."""
+    """Points of application (k, d) in m and forces (k, d) in N at the moments, from the values (k,) or (k, d) of its measure."""
     point = element.point if isinstance(element, Force) else element.second
     is_rolling = isinstance(element, Joint) and element.kind == "rolling"
     places = np.array([posed.contact(element) if is_rolling else posed.at(point) for posed in moments])

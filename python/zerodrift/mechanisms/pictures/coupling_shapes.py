@@ -28,7 +28,7 @@ class Wheel(NamedTuple):
 
 
 class Couplings:
-    """What is drawn of couplings, whatever the pose."""
+    """Shapes of couplings: the parts that do not depend on the pose."""
 
     def __init__(self, parts: Parts) -> None:
         self.parts = parts
@@ -158,13 +158,13 @@ def profile(parts: Parts, coupling: Coupling) -> Cam | None:
 
 
 def _room(path: np.ndarray, roller: np.ndarray, guide: np.ndarray, axis: np.ndarray) -> float:
-    """How far along its axis a guide has to be drawn from where it is, to be clear of the cam and the roller."""
+    """Distance along its axis by which a guide is moved in the picture to clear the cam and the roller."""
     radius = float(np.hypot(*path.T).max())
     return max(0.0, ROOM * radius - float((guide - roller) @ axis))
 
 
 def _lengthened(path: np.ndarray, axis: np.ndarray) -> np.ndarray:
-    """What has to be added to a follower's path along its axis, (2,), so that a cam of some size fits under it."""
+    """Displacement (2,) along its axis of a follower's path, so that a cam of reasonable size fits under it."""
     along = path @ axis
     least = BASE * float(np.ptp(along))
     nearest = float(np.hypot(*path.T).min())

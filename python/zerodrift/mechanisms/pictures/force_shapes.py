@@ -39,7 +39,7 @@ def forces(posed: Posed) -> Iterator[Shape]:
 
 
 def _to_outside(place: np.ndarray, point: Point, posed: Posed) -> Iterator[Shape]:
-    """What leads from the outline of a body to a place of it that is further out."""
+    """Line from the outline of a body to a point of it farther out."""
     places = [posed.pose[point.body.name].point(each) for each in posed.parts.outline.get(point.body.name, [])]
     if not places:
         return
@@ -94,7 +94,7 @@ def _sign(law: Law) -> float:
 
 
 def walls(posed: Posed, held: list[Point]) -> Iterator[Shape]:
-    """Where springs, dampers and cylinders are fixed to the ground, and bodies that are welded to it."""
+    """Marks on the ground where springs, dampers, cylinders and welded bodies are fixed."""
     parts = posed.parts
     for element in parts.drawing.of((Spring, MadeForce, Actuator, Bushing, Joint)):
         if isinstance(element, Joint) and (not holds_angle(element.row) or is_hinge(element.row) or element.axis is not None):

@@ -15,15 +15,15 @@ LEVEL = 1e-12       # a direction that rises by less is level
 
 
 class Parts:
-    """What does not depend on the pose.
+    """Quantities that do not depend on the pose.
 
     Attributes
     ----------
     outline : dict of str to list of ndarray (2,)
-        By body, the places that its outline holds, in its frame: where it is held, its named points, and its mass centre where
-        there is nothing else, or one place that says nothing of how it hangs.
+        Points of each body's outline in its frame: joints, named points, and the mass centre where there is nothing else, or
+        only one point that does not show its angle.
     free : list of Point
-        Named points that nothing holds.
+        Named points that belong to no joint or force element.
     """
 
     def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
@@ -66,7 +66,7 @@ class Posed:
             self.pose[body.name] = Pose(np.array([x, y]) - turned(angle, com), angle)
 
     def at(self, point: Point) -> np.ndarray:
-        """Where a point is, (2,)."""
+        """Position of a point, (2,)."""
         return self.pose[point.body.name].point(point.local_with(self.parts.numbers))
 
     def direction(self, body: Body, local: np.ndarray) -> np.ndarray:
@@ -74,7 +74,7 @@ class Posed:
         return self.pose[body.name].direction(local)
 
     def contact(self, joint: Joint) -> np.ndarray:
-        """Where what rolls touches its line, (2,)."""
+        """Contact point of a wheel with its line, (2,)."""
         down = np.array([joint.axis[1], -joint.axis[0]])
         return self.at(joint.second) + joint.length_with(self.parts.numbers) * self.direction(joint.bodies[0], down)
 
@@ -83,7 +83,7 @@ class Posed:
         return self.direction(joint.bodies[1], np.array([1.0, 0.0]))
 
     def displacement(self, joint: Joint) -> float:
-        """How far a joint's second point is along its axis from its first."""
+        """Displacement of a joint's second point from its first along the axis."""
         return float((self.at(joint.second) - self.at(joint.first)) @ self.direction(joint.bodies[0], joint.axis))
 
     def track(self, joint: Joint, ranges: dict[str, tuple[float, float]]) -> np.ndarray:

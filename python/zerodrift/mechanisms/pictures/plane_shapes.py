@@ -1,6 +1,6 @@
-"""What there is to draw of a mechanism in its poses, in m: shapes that `zerodrift.plot` has glyphs for.
+"""Shapes of a planar mechanism in its poses, in m, for the glyphs of `zerodrift.plot`.
 
-How a joint or a force element looks follows from its row in the core's table: from the gauges that it holds or acts along.
+Joints and force elements are drawn by their entry in the core's table: by the marker quantities that they constrain or act along.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Ranges = dict[str, tuple[float, float]]
 
 
 class Sketch:
-    """What is drawn of a mechanism, whatever its pose."""
+    """Shapes of a mechanism: the parts that do not depend on the pose."""
 
     def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
         self.parts = Parts(drawing, numbers)
@@ -37,7 +37,7 @@ class Sketch:
         self.held = _held_by_ground(self.parts)
 
     def ranges(self, moments: Iterable[Posed]) -> Ranges:
-        """How far each slider and each wheel gets in all moments, from where its joint is on its first body."""
+        """Range of each slider and each wheel over all moments, from the position of its joint on the first body."""
         found: Ranges = {}
         for posed in moments:
             for joint in self.guided:
@@ -133,22 +133,22 @@ def _held_by_ground(parts: Parts) -> list[Point]:
 
 
 def gauges(joint: Joint) -> set[str]:
-    """What the rows of a joint hold."""
+    """Kinds of marker quantities that the joint constrains."""
     return {row.gauge for row in joint.row.rows}
 
 
 def slides(joint: Joint) -> bool:
-    """Whether a joint guides a point along a line of its first body."""
+    """True if the joint guides a point along a line of its first body."""
     return "across" in gauges(joint) and joint.axis is not None and not joint.row.at_contact
 
 
 def has_groove(joint: Joint) -> bool:
-    """Whether that line is a groove of a body that moves, in which the point may turn."""
+    """True if that line is a groove in a moving body, in which the point may turn."""
     return not holds_angle(joint.row) and not isinstance(joint.bodies[0], Ground)
 
 
 def is_pinned(joint: Joint) -> bool:
-    """Whether a joint holds a point about which the second body turns."""
+    """True if the joint holds a point about which the second body turns."""
     return bool(gauges(joint) & {"x", "y", "across"}) and not holds_angle(joint.row) and not joint.row.at_contact
 
 

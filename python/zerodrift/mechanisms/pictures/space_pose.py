@@ -22,7 +22,7 @@ class SpacePosed:
             self._at[body.name] = pose[:3], rotation_of(pose[3:])
 
     def at(self, point: Point) -> np.ndarray:
-        """Where a point is, (3,)."""
+        """Position of a point, (3,)."""
         centre, R = self._at[point.body.name]
         return centre + R @ np.asarray(self._inertias.local(point, self._numbers))
 
@@ -31,7 +31,7 @@ class SpacePosed:
         return self._at[body.name][1] @ np.asarray(self._inertias.direction(body, local))
 
     def contact(self, joint: SpaceRolling) -> np.ndarray:
-        """Where what rolls touches its plane, (3,): the point of its ellipsoid that is farthest against the normal."""
+        """Contact point of a rolling body with its plane, (3,): the point of its ellipsoid farthest along the reversed normal."""
         normal = self.direction(joint.bodies[0], joint.frames[0][0])
         axes = np.array([self.direction(joint.bodies[1], row) for row in joint.frames[1]])
         scaled = axes * np.array(joint.semiaxes_with(self._numbers))[:, None]

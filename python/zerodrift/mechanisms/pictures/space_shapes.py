@@ -1,7 +1,7 @@
-"""What there is to draw of a mechanism in space in its poses, in m: shapes that `zerodrift.plot.space_picture` draws.
+"""Shapes of a mechanism in space in its poses, in m, for `zerodrift.plot.space_picture`.
 
-A body is a bar between the two places at which it is held, a plate between three or more in a plane, a star of bars between
-others, and a disc or a box of its own inertia where it is held at less than two; what rolls is a disc or an ellipsoid.
+A body is a bar between two joints, a plate between three or more in a plane, otherwise a star of bars; with fewer than two
+joints it is a disc or a box of its inertia. A rolling body is a disc or an ellipsoid.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ ALONG = ("prismatic", "cylindrical", "screw", "slot")       # joints that are dr
 
 
 class SpaceSketch:
-    """What is drawn of a mechanism in space, whatever its pose; places are from mass centres, in principal axes."""
+    """Shapes of a mechanism in space that do not depend on the pose. Points are relative to mass centres, in principal axes."""
 
     def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
         self.drawing, self.numbers, self.inertias = drawing, numbers, SpaceInertias(drawing, numbers)
@@ -154,7 +154,7 @@ class SpaceSketch:
 
 
 def _is_axial(own: float, one: float, other: float) -> bool:
-    """Whether a moment is the largest, and the two others are alike, as of a wheel."""
+    """True if a moment is the largest and the two others are equal, as of a wheel."""
     return abs(one - other) <= ALIKE * own and own > (1 + ALIKE) * one
 
 

@@ -1,4 +1,4 @@
-"""What a mechanism knows of errors that the core tells in numbers: which bodies, joints and motors are meant, and what helps."""
+"""Causes of errors that the core reports with numbers: the bodies, joints and motors concerned, and remedies."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MOST_ROWS = 300     # whose singular values take a moment
 
 
 def at_start(error: str, start: Starting, constraints: Sequence[Variable]) -> str | None:
-    """Of an error at the start: bodies without mass, or rows that are singular as drawn."""
+    """Advice on an error at the start: bodies without mass, or constraints that are singular as drawn."""
     drawing = start.drawing
     if "mass matrix" in error:
         return _of_mass(drawing, start.numbers)
@@ -38,7 +38,7 @@ def at_start(error: str, start: Starting, constraints: Sequence[Variable]) -> st
 
 
 def _why(start: Starting) -> str:
-    """What is drawn so that the pose is singular: a cross in the plane of its shafts, or likely links in line."""
+    """Cause of a singular drawn pose: a cross in the plane of its shafts, otherwise probably links in line."""
     tables, assembly, p = start.closed(0.0)
     flat = space_advice.flat_crosses(tables, assembly.core, p) if isinstance(tables, SpaceTables) else []
     return f"as {' and '.join(flat)}" if flat else "as links in line are"

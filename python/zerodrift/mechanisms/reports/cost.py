@@ -1,24 +1,24 @@
-"""What a step costs in joint and in absolute coordinates: `Mechanism.system` takes the cheaper by this count.
+"""Computing cost of a step in joint and in absolute coordinates, by which `Mechanism.system` chooses them.
 
-An operation is a multiplication, with its addition, in the factors of a dense matrix; what else a step does is counted in as
-many of them as take its time. A step is a corrected one of "rk4" in "schur". What is counted follows from what a run will do:
+The unit is one multiplication, with its addition, in the factorization of a dense matrix; all other work is expressed in it. The
+step is a corrected one of "rk4" in "schur". These quantities are counted, as a run will compute them:
 
-    joint       dense factors and solves, of n velocities and m rows that close loops; the bodies, those whose terms are not known
-                from sines and cosines alone once more; the sum of their depths in the tree, and that of the depths of both bodies
-                of each row that closes a loop, as these are passed inward joint by joint; the rows; the efforts
-    absolute    the multiplications in C M^-1 C^T, in its factors and in a solve, counted by the core in the order in which a run
-                eliminates, those in blocks that have a kernel of their size apart; the rows, at one rate where the system's own
-                products serve and at another where C is stored; the efforts. Rows cost more where bodies contribute unequally to
-                them, as solutions are compared then, and where there are so few that bifurcations are looked for, the more so the
-                smaller the least pivot is. Where it vanishes, rows follow from others, and all of it takes some times as long.
+    joint       dense factors and solves for n velocities and m constraints that close loops; the bodies, once more those whose
+                terms need more than sines and cosines; the sum of the bodies' depths in the tree; the sum, over constraints that
+                close loops, of the depths of both bodies, as forces pass inward joint by joint; the constraints; the forces
+    absolute    multiplications in C M^-1 C^T, in its factors and in a solve, counted by the core in the elimination order of the
+                run, separately for blocks that have a kernel of their size; the constraints, at one rate with the system's own
+                products and at another where C is stored; the forces. Constraints cost more where bodies contribute unequally to
+                them, as solutions are then compared, and where few constraints are checked for bifurcations, the more so the
+                smaller the smallest pivot is. Where it vanishes, constraints are redundant, and all is several times slower.
 
-Whether it does, and whether bodies contribute alike, is seen in the pose as drawn. Weights are fitted to measured times by
-tests/bench/bench_coordinates.py, in the plane and in space by themselves.
+Redundancy and unequal contributions are evaluated in the drawn pose. The weights are fitted to measured times by
+tests/bench/bench_coordinates.py, separately in the plane and in space.
 
-What costs less is taken, but for loops in space that are closed by a joint of one freedom or none: as loops are cut where there
-are most freedoms, all their joints are such, and with fewer than seven of them they move only because rows follow from others.
-Where such a loop lies flat its rank falls: joint coordinates have stopped there with runs that absolute ones went through,
-Bennett's linkage among them, so absolute ones are taken up to some times the cost.
+The cheaper coordinates are chosen, with one exception: loops in space closed by a joint of at most one degree of freedom. As a
+loop is cut at its joint of most degrees of freedom, all its joints are such, and with fewer than seven of them it moves only
+because constraints are redundant. Where such a loop lies flat its rank drops: runs in joint coordinates have stopped there that
+absolute ones completed, Bennett's linkage among them. So absolute coordinates are chosen there up to a multiple of the cost.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class Cost(NamedTuple):
 
     @property
     def ratio(self) -> float:
-        """How many times as much joint coordinates cost."""
+        """Cost in joint coordinates over that in absolute ones."""
         return self.joint / self.absolute
 
     @property
@@ -74,7 +74,7 @@ class Cost(NamedTuple):
 
 
 def cost(tables: Tables, exact: bool = False) -> Cost:
-    """Of a mechanism whose tables have a tree; `exact`: absolute ones are counted, too, where joint ones cost less anyhow."""
+    """Cost of a mechanism whose tables have a tree; `exact` counts absolute coordinates even if joint ones are cheaper."""
     dimension = tables.drawing.dimension
     joint, least = float(np.dot(JOINT[dimension], parts_of_joint(tables))), ABSOLUTE[dimension][0]
     if not _has_mass(tables):
@@ -87,14 +87,14 @@ def cost(tables: Tables, exact: bool = False) -> Cost:
 
 
 def _allowed(tables: Tables) -> float:
-    """How many times the cost of joint coordinates absolute ones may have."""
+    """Largest ratio of costs, absolute to joint, at which absolute coordinates are chosen."""
     if max(tables.carrier) < 0:
         return ALIKE
     return 1.0 if tables.drawing.dimension == 2 else PASSES_FLAT_POSES if _has_stiff_loops(tables) else CLEARLY
 
 
 def _has_stiff_loops(tables: Tables) -> bool:
-    """Whether a loop has joints of one freedom or none alone."""
+    """True if a loop consists of joints of at most one degree of freedom."""
     return any(rows >= 5 for rows, _ in _loops(tables))
 
 
@@ -127,14 +127,14 @@ def parts_of_joint(tables: Tables) -> tuple[float, ...]:
 
 
 def _is_hinged(tables: Tables) -> bool:
-    """Whether all bodies of a plane hang on hinges or are fixed to others."""
+    """True if every body of a planar mechanism has a hinge or weld as its inboard joint."""
     if tables.drawing.dimension == 3 or len(tables.parts) > MOST_HINGED:
         return False
     return all(carrier >= 0 and tables.joints[carrier].row.carrier in ("turns", "fixed") for carrier in tables.carrier)
 
 
 def _loops(tables: Tables) -> list[tuple[int, tuple[int, int]]]:
-    """Of each joint that closes a loop its rows, how many they are, and its bodies."""
+    """Number of constraints and the two bodies of each joint that closes a loop."""
     carriers = {joint for joint in tables.carrier if joint >= 0}
     return [(len(joint.row.rows), ends)
             for i, (joint, ends) in enumerate(zip(tables.joints, _ends(tables), strict=True)) if i not in carriers]
@@ -146,7 +146,7 @@ def _ends(tables: Tables) -> list[tuple[int, int]]:
 
 
 def _depths(tables: Tables) -> list[int]:
-    """How many bodies there are from each down to the ground or a free root, itself included; of the ground none."""
+    """Depth of each body in the tree: bodies on the path to the ground or a free root, itself included; 0 for the ground."""
     ends, depth = _ends(tables), [0] + [-1] * len(tables.parts)
     for body in range(1, len(depth)):
         way = []
@@ -160,7 +160,7 @@ def _depths(tables: Tables) -> list[int]:
 
 
 def _has_mass(tables: Tables) -> bool:
-    """Whether every body has, which absolute coordinates need."""
+    """True if every body has mass, as absolute coordinates require."""
     return all(tables.inertias.is_massive(body) for body in tables.parts)
 
 
@@ -170,7 +170,7 @@ def seconds(operations: float) -> float:
 
 
 def of_a_step(found: Cost) -> str:
-    """What a step in joint coordinates costs, where absolute ones cost much less; else nothing."""
+    """Sentence on the cost of a step, where absolute coordinates are much cheaper; otherwise ""."""
     if found.ratio < DEARER:
         return ""
     return f"a step takes about {in_words(seconds(found.joint))}, {found.ratio:.3g} times as long as in absolute coordinates"

@@ -1,4 +1,4 @@
-"""Counting: velocities, rows and their rank; which rows follow from others, and which reactions that leaves undetermined."""
+"""Degrees of freedom: velocities, constraints and their rank; redundant constraints and undetermined reactions."""
 
 from __future__ import annotations
 
@@ -21,28 +21,27 @@ from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import constraint_names
 from .drawing_changes import differences
 
-DEPENDENT = 1e-9        # of a row's own size: what is left of a row that follows from others
+DEPENDENT = 1e-9        # of a constraint's own size: residual norm of a redundant one
 
 
 class Count(NamedTuple):
-    """The rows of absolute coordinates at the assembled start.
+    """Constraints of absolute coordinates at the assembled start.
 
     Attributes
     ----------
     velocities, rows, rank : int
-        How many there are, and how many rows are independent.
+        Numbers of velocities, constraints and independent constraints.
     redundant : tuple of str
-        Rows that follow from others, here and in a pose nearby.
+        Names of constraints that are redundant at the start and in a nearby pose.
     undetermined : tuple of str
-        Rows whose reactions are not determined because of that.
+        Names of constraints whose reactions are undetermined by this redundancy.
     singular : tuple of str
-        Rows that follow from others in this pose alone.
+        Names of constraints that are redundant at the start alone.
     is_of_many : bool
-        Whether there are so many rows that the core has decided which follow from others, and that it was not looked for which
-        reactions are not determined.
+        True for so many constraints that the core has found the redundant ones and undetermined reactions are not sought.
     notes : tuple of str
-        Lines on the pose: joints that are drawn open, bodies that start elsewhere than drawn, universal joints
-        at a right angle, what makes it singular, and what helps then.
+        Sentences on the pose: joints that are drawn open, bodies that start elsewhere than drawn, universal joints
+        at a right angle, the cause of a singularity, and a remedy.
     """
 
     velocities: int
@@ -85,19 +84,19 @@ def count(drawing: Drawing) -> Count:
 
 
 def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, singular: tuple[str, ...]) -> tuple[str, ...]:
-    """What is to be said of the pose; a singular one is told first."""
+    """Sentences on the pose; one on a singular pose comes first."""
     in_space = isinstance(tables, SpaceTables)
     notes = [*differences(tables, assembly, p), *(space_advice.at_right_angles(tables, assembly.core, p) if in_space else ())]
     if singular:
         why = space_advice.flat_crosses(tables, assembly.core, p) if in_space else []
         told = f", as {' and '.join(why)}" if why else ""
-        return (f"a singular pose: {', '.join(singular)} follows from others as drawn, and not nearby{told}; {start.way_out()}",
-                *notes)
+        named = f"{', '.join(singular)} {'is' if len(singular) == 1 else 'are'} redundant"
+        return f"a singular pose: {named} as drawn, and not nearby{told}; {start.way_out()}", *notes
     return tuple(notes)
 
 
 def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:
-    """By the core's decision, at a cost that follows the bodies; a pose that is singular is its error."""
+    """Count by the core, at a cost proportional to the bodies; a singular pose raises the core's error."""
     core = assembly.core
     named = _Named(constraint_names(tables, core))
     core.name_rows(named)
@@ -110,13 +109,13 @@ def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:
 
 @dataclass(frozen=True)
 class _Named:
-    """Whoever has the names of rows for the core's errors."""
+    """Names of constraints, for the core's errors."""
 
     constraints: tuple[Variable, ...]
 
 
 def _driven(drawing: Drawing, assembly: Assembly) -> set[int]:
-    """The rows of drives."""
+    """Indices of the constraints of drives."""
     motors = {motor.name for motor in drawing.of((Motor, Actuator))}
     return {i for i, (row, name) in enumerate(zip(assembly.core.rows, assembly.rows, strict=True))
             if row.owner == "relation" and name in motors}

@@ -1,4 +1,4 @@
-"""What `print(mechanism)` says."""
+"""Text of `print(mechanism)`."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def headline(drawing: Drawing) -> str:
 
 
 def report(drawing: Drawing) -> str:
-    """What there is, what is free, what follows from what, what is driven, and which coordinates a simulation takes."""
+    """Elements, degrees of freedom, redundant constraints, drives, and the coordinates that a simulation uses."""
     if not drawing.parts():
         return f"{headline(drawing)}\n nothing moves yet"
     try:
@@ -39,7 +39,7 @@ def report(drawing: Drawing) -> str:
         return f"{headline(drawing)}\n it cannot start: {error}"
     lines = [headline(drawing), f" {_freedom(drawing, counted)}; {_rows(counted)}"]
     if counted.is_of_many and counted.redundant:
-        lines.append(" which reactions that leaves undetermined was not looked for among so many rows")
+        lines.append(" undetermined reactions are not listed for so many constraints")
     if counted.undetermined:
         lines.append(f" reactions not determined: {', '.join(counted.undetermined)}")
     lines += [f" {note}" for note in counted.notes]
@@ -58,16 +58,17 @@ def _freedom(drawing: Drawing, counted: Count) -> str:
     core = tables.core()
     carriers = {joint for joint in tables.carrier if joint >= 0}
     cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in carriers and not joint.is_of_one_body]
-    closing = f", {_several(core.m, 'row')}" + (f" closing {_several(len(cuts), 'loop')} at {_listed(cuts)}" if cuts else "")
-    return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); joint coordinates {core.nv}{closing}; "
-            f"absolute {counted.velocities}, {_several(counted.rows, 'row')}")
+    loops = f" closing {_several(len(cuts), 'loop')} at {_listed(cuts)}" if cuts else ""
+    return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); "
+            f"joint coordinates {core.nv}, {_several(core.m, 'constraint')}{loops}; "
+            f"absolute {counted.velocities}, {_several(counted.rows, 'constraint')}")
 
 
 def _rows(counted: Count) -> str:
     if not counted.redundant:
-        return "no redundant rows"
-    follow = "follows" if len(counted.redundant) == 1 else "follow"
-    return f"{len(counted.redundant)} of {_several(counted.rows, 'row')} {follow} from others: {_listed(counted.redundant)}"
+        return "no redundant constraints"
+    are = "is" if len(counted.redundant) == 1 else "are"
+    return f"{len(counted.redundant)} of {_several(counted.rows, 'constraint')} {are} redundant: {_listed(counted.redundant)}"
 
 
 def _listed(names: Sequence[str]) -> str:
