@@ -14,16 +14,23 @@
 #include "../linalg/norms.h"
 #include "differences.h"
 
-enum { MAX_ITERATIONS = 20 };
+enum {
+    MAX_ITERATIONS = 20,
+    STALLS = 3,             /* successive iterations: by then every entry that can converge has done so */
+};
 static const double SLOW = 0.01;                /* contraction of the residual above which the matrix is computed anew */
 static const double ROUNDING = 4 * 0x1p-52;     /* residual relative to its terms below which the step is solved */
 static const double NEARLY = 1e-12;             /* residual relative to its terms: a smaller one that no longer shrinks is rounding error */
+static const double NEVER = 1e-9;               /* residual relative to the largest terms: a larger one is not taken for rounding error */
+static const double MOST_ROUNDING = 16;         /* ratio to the change by a disturbance of the last bit: a larger residual is not rounding error */
+static const double LEAST_TERMS = 0x1p-12;      /* of the largest terms: smaller terms may themselves be the rounding error of others */
 static const double STALLED = 0.5;              /* contraction of the residual above which the iteration has stalled */
 
 typedef struct trapezoidal {
     int size;
     double *y0, *f0;    /* (size,) */
     double *y1, *f1;    /* (size,) */
+    double *disturbed;  /* (size,): y1 with other last bits */
     double *g;          /* (size,): residual, then Newton's step */
     zd_differences differences;
     double *J;          /* (size, size): I - h/2 df/dy in the units of the differences, factored */
@@ -33,6 +40,7 @@ typedef struct trapezoidal {
     const zd_rate *rate;    /* current step, also the next three */
     double t1, h;
     double defect, before;  /* residual relative to its terms, now and in the previous iteration */
+    int stalls;             /* number of successive iterations that have stalled */
 } trapezoidal;
 
 static int suits(const zd_system *system)
@@ -51,6 +59,7 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .f0 = zd_take_doubles(arena, n),
         .y1 = zd_take_doubles(arena, n),
         .f1 = zd_take_doubles(arena, n),
+        .disturbed = zd_take_doubles(arena, n),
         .g = zd_take_doubles(arena, n),
         .differences = zd_differences_take(arena, size),
         .J = zd_take_doubles(arena, n * n),
@@ -76,10 +85,47 @@ static int factor_matrix(trapezoidal *self)
     return self->factored ? ZD_DONE : ZD_NO_STEP;
 }
 
+/* Residual of an entry, relative to its terms; infinite where it is not a number. */
+static double share_of_terms(double g, double terms)
+{
+    return isnan(g) ? INFINITY : g != 0 && terms > 0 ? fabs(g) / terms : 0;
+}
+
+/* y1 with its last bits changed, up and down by turns */
+static void disturb(const trapezoidal *self, double by, double *y)
+{
+    for (int i = 0; i < self->size; i++) y[i] = self->y1[i] * (1 + (i % 2 ? by : -by));
+}
+
+/* Largest entry of the residual, relative to its terms or to the least that counts as terms. */
+static double measure_stalled(const trapezoidal *self, const double *g, double scale)
+{
+    double largest = 0;
+    for (int i = 0; i < self->size; i++)
+        largest = fmax(largest, share_of_terms(g[i], fmax(self->differences.scale[i], LEAST_TERMS * scale)));
+    return largest;
+}
+
+/* Sets *is_rounding where the residual is the rounding error of the rates, which grows with stiffness: then a y1 with other last bits changes
+ * the residual by about its own size. */
+static int test_for_rounding(trapezoidal *self, double largest, double scale, int *is_rounding)
+{
+    const double defect = measure_stalled(self, self->g, scale);
+    *is_rounding = self->defect < NEARLY || (self->stalls >= STALLS && defect < NEARLY);
+    if (*is_rounding || !(largest < NEVER * scale)) return ZD_DONE;
+    double *disturbed = self->disturbed, *change = self->differences.varied;
+    disturb(self, 0x1p-52, disturbed);
+    int status = self->rate->evaluate(self->rate->context, self->t1, disturbed, change);
+    if (status) return status;
+    for (int i = 0; i < self->size; i++) change[i] = 0.5 * self->h * (change[i] - self->f1[i]);
+    *is_rounding = defect <= MOST_ROUNDING * measure_stalled(self, change, scale);
+    return ZD_DONE;
+}
+
 static int residual(void *context, double *size)
 {
     trapezoidal *self = context;
-    int status = rate_at_end(self, self->f1);
+    int is_rounding = 0, status = rate_at_end(self, self->f1);
     if (status) return status;
     double largest = 0, scale = 0, from_nothing = 0, *seen = self->differences.scale;
     self->defect = 0;
@@ -87,9 +133,8 @@ static int residual(void *context, double *size)
         double mean = 0.5 * self->h * (self->f0[i] + self->f1[i]);
         double g = self->g[i] = self->y1[i] - self->y0[i] - mean;
         seen[i] = fmax(seen[i], fabs(self->y0[i]) + fabs(mean));
-        if (g != 0 && seen[i] > 0) self->defect = fmax(self->defect, fabs(g) / seen[i]);
-        else from_nothing = fmax(from_nothing, fabs(g));
-        if (isnan(g)) self->defect = INFINITY;
+        self->defect = fmax(self->defect, share_of_terms(g, seen[i]));
+        if (!(seen[i] > 0)) from_nothing = fmax(from_nothing, fabs(g));
         largest = fmax(largest, fabs(g));
         scale = fmax(scale, seen[i]);
     }
@@ -97,9 +142,11 @@ static int residual(void *context, double *size)
     if (from_nothing > 0) self->defect = fmax(self->defect, from_nothing / scale);
     /* f may be a difference of larger terms, whose rounding error then remains. Where f and y almost vanish, the residual is measured
      * by the largest entry. */
-    int stalled = self->defect > STALLED * self->before && self->defect < INFINITY;
-    *size = !stalled ? self->defect : self->defect < NEARLY ? 0 : largest / scale;
-    return ZD_DONE;
+    const int stalled = self->defect > STALLED * self->before && self->defect < INFINITY;
+    self->stalls = stalled ? self->stalls + 1 : 0;
+    if (stalled) status = test_for_rounding(self, largest, scale, &is_rounding);
+    *size = !stalled ? self->defect : is_rounding ? 0 : largest / scale;
+    return status;
 }
 
 static int improve(void *context)
@@ -124,6 +171,7 @@ static int solve_step(trapezoidal *self, zd_statistics *statistics)
     int iterations;
     double left;
     self->before = INFINITY;
+    self->stalls = 0;
     int status = zd_newton_solve(&newton, self, &iterations, &left);
     statistics->implicit_iterations += iterations;
     return status;
