@@ -25,7 +25,8 @@ def test_stiff_forces_in_absolute_coordinates(sleeve, equations, duration_of_ste
     """Entries of the state that are the rounding error of others had no digit that an iteration could find."""
     at_end = []
     for coordinates in ("joint", "absolute"):
-        sol = zd.simulate(sleeve.system(coordinates), DURATION, step=duration_of_step, integrator="trapezoidal", formulation=equations)
+        system = sleeve.system(coordinates)
+        sol = zd.simulate(system, DURATION, step=duration_of_step, integrator="trapezoidal", formulation=equations)
         at_end.append(np.array([sol["hinge.angle"][-1], sol["rail.displacement"][-1]]))
     # both are trapezoidal rules, in other variables: they differ by their errors, of order two; measured at most 2e-3 at 4 ms
     assert at_end[0] == pytest.approx(at_end[1], abs=5e-3 * (duration_of_step / 4e-3) ** 2 + 1e-9)
