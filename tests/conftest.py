@@ -2,7 +2,7 @@
 system and an integrator once for each pair that the core accepts.
 
 With all three, or with more axes by ``@pytest.mark.pairs(name=values, ...)``, they run for cases in which each pair of values of
-two axes occurs, not for the whole product.
+two axes occurs. They run for the whole product with ZERODRIFT_PRODUCTS=1 in the environment.
 """
 
 import atexit
@@ -17,7 +17,7 @@ import pytest
 import zerodrift as zd
 from caching import cache_folder, compiler  # noqa: F401  (fixtures)
 from core_objects import core_objects  # noqa: F401  (a fixture)
-from covering import covering
+from covering import covering, product
 from native_systems import PENDULUM, compile_library
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
@@ -78,7 +78,8 @@ def pytest_generate_tests(metafunc):
         axes |= {name: values if isinstance(values, dict) else {str(value): value for value in values}
                  for name, values in mark.kwargs.items()}
     if axes:
-        cases = covering({name: tuple(values) for name, values in axes.items()}, is_accepted)
+        choose = product if os.environ.get("ZERODRIFT_PRODUCTS") else covering
+        cases = choose({name: tuple(values) for name, values in axes.items()}, is_accepted)
         metafunc.parametrize(tuple(axes), [[axes[name][key] for name, key in case.items()] for case in cases],
                              ids=["-".join(case.values()) for case in cases])
 

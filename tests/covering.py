@@ -3,13 +3,19 @@
 import itertools
 
 
-def covering(axes, allowed=lambda **case: True):
-    """Cases, as dictionaries, in which all pairs of values occur that occur in allowed cases of the product of `axes`.
+def product(axes, allowed=lambda **case: True):
+    """All allowed cases, as dictionaries; `axes` has the values of each axis by its name."""
+    cases = (dict(zip(axes, values, strict=True)) for values in itertools.product(*axes.values()))
+    return [case for case in cases if allowed(**case)]
 
-    `axes` has the values of each axis by its name; a single axis has all its values. Each case is the one with the most pairs
-    that are still missing, the first in the order of the product if there are several: the choice is the same in every process.
+
+def covering(axes, allowed=lambda **case: True):
+    """Cases of the product in which all pairs of values occur that occur in any of it; a single axis has all its values.
+
+    Each is the case with the most pairs that are still missing, the first in the order of the product if there are several: the
+    choice is the same in every process.
     """
-    cases = [case for values in itertools.product(*axes.values()) if allowed(**(case := dict(zip(axes, values, strict=True))))]
+    cases = product(axes, allowed)
     pairs = [frozenset(itertools.combinations(case.items(), min(2, len(axes)))) for case in cases]
     missing, chosen = set().union(*pairs), []
     while missing:

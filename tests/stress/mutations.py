@@ -1,0 +1,118 @@
+"""Mutations of the core: does the suite, which runs pairs instead of products of independent axes, notice each of them?
+
+    python tests/stress/mutations.py FOLDER [COUNT]     writes tests/bench/results/mutations.csv; CC="ccache gcc" makes it shorter
+
+Operators of random lines of csrc are changed one at a time (SEED) in a copy of the sources in FOLDER, which is built and tested
+until the first failure, the rooms of the changed file first. A mutation that survives is tested with the whole products
+(ZERODRIFT_PRODUCTS=1). The script exits with the number of mutations that only the products notice. Mutations that nothing
+notices are listed, but not counted: many of them change nothing that can be observed, such as the order of equal candidates.
+"""
+
+import csv
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+RESULTS = ROOT / "tests" / "bench" / "results" / "mutations.csv"
+SEED, COUNT = 2002, 20
+TIMEOUT = 1800      # s: a mutation may make a loop endless, which is noticed
+KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", ".pytest_cache", ".hypothesis", ".venv")
+OPERATORS = {" + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ",
+             " == ": " != ", " != ": " == ", " && ": " || ", " || ": " && ", " += ": " -= ", " -= ": " += ", "0.5": "0.25",
+             " ? 1 : 0": " ? 0 : 1", "return 0;": "return 1;", "fabs(": "(", "fmax(": "fmin(", "fmin(": "fmax("}
+PATTERN = re.compile("|".join(map(re.escape, sorted(OPERATORS, key=len, reverse=True))))
+NO_CODE = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"|^[ \t]*#[^\n]*(?:\\\n[^\n]*)*', re.DOTALL | re.MULTILINE)
+# Tests whose products are thinned: those with marked axes, and those with all three tables.
+THINNED = re.compile(r"mark\.pairs|def test_\w+\((?=[^)]*\bsystem\b)(?=[^)]*\bformulation\b)(?=[^)]*\bintegrator\b)")
+HEADER = ("place", "line", "change", "noticed with pairs by", "noticed with products by")
+# Notebooks, documentation, sources and peers are about other things; test_core.py compiles the core again.
+LEFT_OUT = ("test_notebooks.py", "test_documentation.py", "test_vocabulary.py", "test_structure.py", "test_structure_of_core.py",
+            "test_peers.py", "test_site.py", "test_core.py")
+
+
+def sites():
+    """All places where an operator of the core can be changed: (file, position, operator)."""
+    for path in sorted((ROOT / "csrc").rglob("*.c")):
+        if path.parent == ROOT / "csrc" / "systems" / "direct":     # generated: a test compares their text
+            continue
+        code = NO_CODE.sub(lambda match: re.sub(r"[^\n]", "\0", match[0]), path.read_text(encoding="utf-8"))
+        for match in PATTERN.finditer(code):
+            yield path.relative_to(ROOT), match.start(), match[0]
+
+
+def mutate(folder, file, position, operator):
+    """Change an operator in the copy; return a description of the change."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    (folder / file).write_text(text[:position] + OPERATORS[operator] + text[position + len(operator):], encoding="utf-8")
+    line = text.count("\n", 0, position)
+    change = f"{operator.strip()} -> {OPERATORS[operator].strip()}"
+    return f"{file.as_posix()}:{line + 1}", text.splitlines()[line].strip(), change
+
+
+def build(folder):
+    """Build the core of the copy; True if it compiles."""
+    return subprocess.run([sys.executable, "setup.py", "-q", "build_ext", "--inplace"], cwd=folder, capture_output=True,
+                          check=False).returncode == 0
+
+
+def groups_of_tests(file):
+    """The test files that are likely to notice a change of this file, and all others."""
+    room = file.parts[1]
+    first = {"tests/test_registry.py", f"tests/{room}", *(f"tests/{name}" for name in
+             ("corrections", "formulations", "integrators", "motion", "constraints", "safeguards", "runs/test_runs.py"))}
+    paths = [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if path.name not in LEFT_OUT]
+    files = [path.relative_to(ROOT).as_posix() for path in paths]
+    near = [path for path in files if any(path.startswith(name) for name in first)]
+    return [sorted(near, key=lambda path: not path.startswith(f"tests/{room}")), [path for path in files if path not in near]]
+
+
+def noticed_by(folder, files, **environment):
+    """The first test that fails; "" if all pass."""
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "-n0", "-p", "no:cacheprovider", "--no-header", *files]
+    try:
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT,
+                              env=os.environ | {"PYTHONPATH": str(folder / "python")} | environment)
+    except subprocess.TimeoutExpired:
+        return f"no end within {TIMEOUT} s"
+    if done.returncode == 0:
+        return ""
+    found = re.search(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.MULTILINE)
+    return found[1] if found else f"exit status {done.returncode}"
+
+
+def tested(folder, file):
+    """The test that notices the change with pairs, or else with the products."""
+    for files in groups_of_tests(file):
+        if test := noticed_by(folder, files):
+            return test, ""
+    with_pairs = [path for files in groups_of_tests(file) for path in files if THINNED.search((ROOT / path).read_text())]
+    return "", noticed_by(folder, with_pairs, ZERODRIFT_PRODUCTS="1")
+
+
+def main(folder, count):
+    """Draw, test, list."""
+    if not folder.exists():
+        shutil.copytree(ROOT, folder, ignore=KEPT)
+    drawn = sorted(sites())
+    random.Random(SEED).shuffle(drawn)
+    rows = []
+    for file, position, operator in drawn:
+        if sum(bool(row[3] or row[4]) for row in rows) == count:
+            break
+        where, line, change = mutate(folder, file, position, operator)
+        if build(folder):
+            rows.append((where, line, change, *tested(folder, file)))
+            print(*rows[-1], sep=" | ", flush=True)
+            with RESULTS.open("w", newline="", encoding="utf-8") as out:
+                csv.writer(out).writerows([HEADER, *rows])
+        shutil.copy(ROOT / file, folder / file)
+    return sum(bool(row[4]) for row in rows)
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1]).resolve(), int(sys.argv[2]) if len(sys.argv) > 2 else COUNT))
