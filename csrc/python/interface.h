@@ -7,8 +7,8 @@
 
 #include <stddef.h>
 
-#include "../mechanisms/varied.h"
-#include "../space_tree/tree.h"
+#include "../mechanisms/plane/varied.h"
+#include "../mechanisms/space_tree/tree.h"
 #include "../zerodrift.h"
 
 #define ZD_WRITTEN_IN_PYTHON static

@@ -19,7 +19,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", "*.so", ".pytest_cache", ".hypothesis", ".venv")
-REGISTRY, INTERFACE, JOINTS = "csrc/registry.c", "csrc/include/zerodrift/system.h", "csrc/joints/table.c"
+PLANE = "csrc/mechanisms/plane/joints"
+REGISTRY, INTERFACE, JOINTS = "csrc/registry.c", "csrc/include/zerodrift/system.h", f"{PLANE}/table.c"
 
 INTEGRATOR = r"""
 /* Explicit Runge-Kutta methods with two stages, of which the second is a part theta of the step away. */
@@ -292,7 +293,7 @@ PARALLEL = r"""
 /* The second body keeps its angle from the first, and its point moves freely: one row. */
 #include "joint.h"
 
-const zd_joint_kind zd_parallel = {
+const zd_plane_joint_kind zd_parallel = {
     .card = {"parallel", "Keeps the angle between two bodies, and lets them move apart.", "(3), (5)", 0, 0, 0},
     .rows = 1,
     .row = {{.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},
@@ -303,7 +304,7 @@ OFFSET_SLIDER = r"""
 /* A slider whose axis runs beside the first body's point, at a distance that is given. */
 #include "joint.h"
 
-const zd_joint_kind zd_offset_slider = {
+const zd_plane_joint_kind zd_offset_slider = {
     .card = {"offset_slider", "Slides a body along an axis that runs beside a point of the other.", "(3), (5)", 0, 0, 0},
     .rows = 2,
     .row = {{.gauge = ZD_GAUGE_ACROSS, .zero = ZD_ZERO_LENGTH}, {.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},
@@ -316,7 +317,7 @@ SOFT_GUIDE = r"""
 /* A point is pulled back to a line of the first body, and moves along it freely. */
 #include "joint.h"
 
-const zd_element_kind zd_soft_guide = {
+const zd_plane_element_kind zd_soft_guide = {
     .card = {"soft_guide", "Spring with a damper across a line of the first body.", "(2), (28)", 0, 0, 0},
     .gauges = 1,
     .gauge = {ZD_GAUGE_ACROSS}, .zero = {ZD_ZERO_ACROSS},
@@ -407,15 +408,15 @@ ADDED = {
                                     r"\1 X(zd_relaxation)"),
     "a system": ("csrc/systems/spherical_pendulum.c", SYSTEM, REGISTRY, r"(X\(zd_driven_four_bar\))",
                  r"\1 X(zd_spherical_pendulum)"),
-    "a joint": ("csrc/joints/parallel.c", PARALLEL, JOINTS, r"(X\(zd_knife_edge_joint\))", r"\1 X(zd_parallel)"),
-    "a joint that takes something": ("csrc/joints/offset_slider.c", OFFSET_SLIDER, JOINTS, r"(X\(zd_parallel\))",
+    "a joint": (f"{PLANE}/parallel.c", PARALLEL, JOINTS, r"(X\(zd_plane_knife_edge\))", r"\1 X(zd_parallel)"),
+    "a joint that takes something": (f"{PLANE}/offset_slider.c", OFFSET_SLIDER, JOINTS, r"(X\(zd_parallel\))",
                                      r"\1 X(zd_offset_slider)"),
-    "an element": ("csrc/joints/soft_guide.c", SOFT_GUIDE, JOINTS, r"(X\(zd_torque\))", r"\1 X(zd_soft_guide)"),
+    "an element": (f"{PLANE}/soft_guide.c", SOFT_GUIDE, JOINTS, r"(X\(zd_plane_torque\))", r"\1 X(zd_soft_guide)"),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }
 NAMES = "ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide"
 WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_rows.py", "tests/point/test_terms.py",
-         "tests/test_structure_of_core.py", "tests/joints", "tests/mechanisms/test_joint_verbs.py",
+         "tests/test_structure_of_core.py", "tests/mechanisms/plane/joints", "tests/mechanisms/test_joint_verbs.py",
          "tests/mechanisms/test_force_verbs.py", "tests/mechanisms/test_files.py", "tests/mechanisms/test_compiled.py"]
 
 

@@ -36,7 +36,7 @@ class JointRow(NamedTuple):
 
 
 class JointKind(NamedTuple):
-    """A kind of joint; see `zd_joint_kind`. `carrier` None: it cannot be in the tree."""
+    """A kind of joint; see `zd_plane_joint_kind`. `carrier` None: it cannot be in the tree."""
 
     number: int
     card: Card
@@ -63,7 +63,7 @@ class ElementKind(NamedTuple):
 
 
 class Body(NamedTuple):
-    """A row of `zd_body`; bodies have the numbers from 1 on, 0 is the ground."""
+    """A row of `zd_plane_body`; bodies have the numbers from 1 on, 0 is the ground."""
 
     mass: float
     inertia: float = 0.0
@@ -72,7 +72,7 @@ class Body(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """A row of `zd_joint`. Points are in the axes of their body and from its mass centre; `axis` in the first body's axes."""
+    """A `zd_plane_joint`. Points are in the axes of their body and from its mass centre; `axis` in the first body's axes."""
 
     kind: int                   # JointKind.number
     first: int
@@ -87,7 +87,7 @@ class Joint(NamedTuple):
 
 
 class Gauge(NamedTuple):
-    """A row of `zd_gauge`; `kind` is a key of GAUGES."""
+    """A row of `zd_plane_gauge`; `kind` is a key of GAUGES."""
 
     kind: str
     first: int
@@ -118,7 +118,7 @@ class Coordinate(NamedTuple):
 
 
 def _joint_kind(number: int) -> JointKind:
-    c = lib.zd_joint_kind_of(number)
+    c = lib.zd_plane_joint_kind_of(number)
     names = {value: name for name, value in GAUGES.items()}
     rows = tuple(JointRow(names[row.gauge], ZEROS[row.zero], bool(row.rolls), bool(row.nonholonomic))
                  for row in (c.row[i] for i in range(c.rows)))
@@ -129,7 +129,7 @@ def _joint_kind(number: int) -> JointKind:
 
 
 def _element_kind(number: int) -> ElementKind:
-    c = lib.zd_element_kind_of(number)
+    c = lib.zd_plane_element_kind_of(number)
     names = {value: name for name, value in GAUGES.items()}
     gauges = tuple((names[c.gauge[i]], ZEROS[c.zero[i]]) for i in range(c.gauges))
     return ElementKind(number, card_of(c.card), gauges, bool(c.is_spring), text(c.effort) if c.effort else None, c.sign)
@@ -137,12 +137,12 @@ def _element_kind(number: int) -> ElementKind:
 
 def joint_kinds() -> dict[str, JointKind]:
     """The core's table of joints by name."""
-    return {kind.card.name: kind for kind in map(_joint_kind, range(lib.zd_joint_kinds()))}
+    return {kind.card.name: kind for kind in map(_joint_kind, range(lib.zd_plane_joint_kinds()))}
 
 
 def element_kinds() -> dict[str, ElementKind]:
     """The core's table of force elements by name."""
-    return {kind.card.name: kind for kind in map(_element_kind, range(lib.zd_element_kinds()))}
+    return {kind.card.name: kind for kind in map(_element_kind, range(lib.zd_plane_element_kinds()))}
 
 
 class MechanismCore(CoreSystem):
@@ -172,18 +172,18 @@ class MechanismCore(CoreSystem):
         self._owner: LawOwner | None = None
         self._numbers, self._has_written_terms = ffi.NULL, False
         self._mechanism, self._words = _create(tables, law is not None, laws_know_time)
-        super().__init__(lib.zd_mechanism_system(self._mechanism), (self._mechanism,))
+        super().__init__(lib.zd_plane_system(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
 
     @functools.cached_property
     def rows(self) -> tuple[Row, ...]:
         """Origin of each constraint, holonomic ones first."""
-        return rows_of(lib.zd_mechanism_rows(self._mechanism), self.m)
+        return rows_of(lib.zd_plane_rows(self._mechanism), self.m)
 
     @functools.cached_property
     def coordinates(self) -> tuple[Coordinate, ...]:
         """Meaning of each entry of p."""
-        coordinates = lib.zd_mechanism_coordinates(self._mechanism)
+        coordinates = lib.zd_plane_coordinates(self._mechanism)
         return tuple(Coordinate(coordinates[i].body, COORDINATES[coordinates[i].kind]) for i in range(self.nq))
 
     @property
@@ -218,12 +218,12 @@ class MechanismCore(CoreSystem):
 
     def components(self, p: np.ndarray, v: np.ndarray, which: Sequence[tuple[int, int]]) -> Components:
         """Components of measures, in absolute coordinates: see `Components`."""
-        return components(lib.zd_mechanism_components, self._mechanism, self, 3, p, v, which)
+        return components(lib.zd_plane_components, self._mechanism, self, 3, p, v, which)
 
     def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> MechanismCore:
         mine = copy.copy(self)
-        data = ffi.new("char[]", lib.zd_mechanism_data_size())
-        lib.zd_mechanism_with(self._mechanism, handle, compiled[0], numbers, data)
+        data = ffi.new("char[]", lib.zd_plane_data_size())
+        lib.zd_plane_with(self._mechanism, handle, compiled[0], numbers, data)
         mine.c = ffi.new("zd_system *", self.c[0])
         mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
         return mine
@@ -235,9 +235,9 @@ class MechanismCore(CoreSystem):
 
     def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
         """Poses (bodies, 3) of the mass centres, x, y, angle, and their rates where v is given; without the ground."""
-        scratch, shape = np.zeros(max(1, lib.zd_mechanism_system(self._mechanism).scratch)), (len(self.tables.bodies), 3)
+        scratch, shape = np.zeros(max(1, lib.zd_plane_system(self._mechanism).scratch)), (len(self.tables.bodies), 3)
         poses, rates = np.zeros(shape), None if v is None else np.zeros(shape)
-        lib.zd_mechanism_poses(self._mechanism, doubles(p, self.nq), given(v, self.nv), given(poses, poses.size),
+        lib.zd_plane_poses(self._mechanism, doubles(p, self.nq), given(v, self.nv), given(poses, poses.size),
                                given(rates, poses.size), doubles(scratch, scratch.size, writable=True))
         return poses, rates
 
@@ -245,7 +245,7 @@ class MechanismCore(CoreSystem):
         """(p, v) of such poses and rates; what joints of the tree forbid is not looked at."""
         size = 3 * len(self.tables.bodies)
         p, v = np.zeros(self.nq), np.zeros(self.nv)
-        lib.zd_mechanism_state(self._mechanism, doubles(poses, size), given(rates, size), doubles(p, p.size, writable=True),
+        lib.zd_plane_state(self._mechanism, doubles(poses, size), given(rates, size), doubles(p, p.size, writable=True),
                                doubles(v, v.size, writable=True))
         return p, v
 
@@ -253,18 +253,18 @@ class MechanismCore(CoreSystem):
 def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, Any]:
     """The core's mechanism, and words that have to live as long."""
     written, words = written_tables(tables, has_laws, laws_know_time)
-    c = ffi.new("zd_tables *", written)
+    c = ffi.new("zd_plane_tables *", written)
     message = ffi.new("char[]", MESSAGE_SIZE)
-    mechanism = lib.zd_mechanism_create(c, message, MESSAGE_SIZE)
+    mechanism = lib.zd_plane_create(c, message, MESSAGE_SIZE)
     if not mechanism:
         raise ValueError(text(message))
-    return ffi.gc(mechanism, lib.zd_mechanism_free), words
+    return ffi.gc(mechanism, lib.zd_plane_free), words
 
 
 def written_tables(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
-    """Fields of a `zd_tables`, and the words that must live as long as the objects made from it."""
-    bodies, joints = ffi.new("zd_body[]", list(tables.bodies)), ffi.new("zd_joint[]", list(tables.joints))
-    gauges = ffi.new("zd_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
+    """Fields of a `zd_plane_tables`, and the words that must live as long as the objects made from it."""
+    bodies, joints = ffi.new("zd_plane_body[]", list(tables.bodies)), ffi.new("zd_plane_joint[]", list(tables.joints))
+    gauges = ffi.new("zd_plane_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
     elements, words = written_elements(tables, has_laws, laws_know_time)
     return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
             "body": bodies, "joint": joints, "gauge": gauges, "elements": elements}, words

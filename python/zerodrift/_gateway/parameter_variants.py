@@ -75,7 +75,7 @@ class Varied:
         return doubles(array, array.size)
 
     def _tables(self, tables: Tables, count: int) -> dict[str, Any]:
-        """Fields of a `zd_tables`: the entries of all mechanisms, one after the other."""
+        """Fields of a `zd_plane_tables`: the entries of all mechanisms, one after the other."""
         written, words = written_tables(_first(tables), False, False)
         self._kept((written, words))
         changes = {"body": _fields(tables.bodies), "joint": _fields(tables.joints), "gauge": _fields(tables.gauges),

@@ -19,7 +19,7 @@ EFFORT_KINDS = {value: name for name, value in EFFORTS.items()}
 
 
 class Link(NamedTuple):
-    """A `zd_link`: how a body hangs on the one further in. `hang` is FREE, FREE_POINT, TURNING, SLIDING, FIXED or PINNED."""
+    """A `zd_plane_link`: connection of a body to its parent. `hang` is FREE, FREE_POINT, TURNING, SLIDING, FIXED or PINNED."""
 
     hang: int
     inner: int
@@ -36,7 +36,7 @@ class Link(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """A `zd_plan`; bodies have the tree's numbers, the first link is that of body 1, and all gauges are used."""
+    """A `zd_plane_plan`; bodies have the tree's numbers, the first link is that of body 1, and all gauges are used."""
 
     links: tuple[Link, ...]
     gauges: tuple[Gauge, ...]
@@ -47,7 +47,7 @@ class Plan(NamedTuple):
 
 def plan_of(core: MechanismCore) -> Plan:
     """The plan of a mechanism."""
-    c = lib.zd_mechanism_plan(core._mechanism)
+    c = lib.zd_plane_planned(core._mechanism)
     links = tuple(_link(c.link[i]) for i in range(1, len(core.tables.bodies) + 1))
     used: dict[int, int] = {}       # by their numbers in the core's table, as measures have gauges of their own there
     rows, efforts = rows_of_plan(c, core.m, used), efforts_of(c, len(core.tables.efforts), used)

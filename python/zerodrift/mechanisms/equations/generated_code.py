@@ -35,7 +35,7 @@ from ...symbolics.graph.plain_functions import Plain
 from . import nodes, space_nodes
 from .function_calls import Laws
 
-DATA = "*(const double *const *)data"       # the doubles that functions are handed: csrc/mechanisms/mechanism.h
+DATA = "*(const double *const *)data"       # the doubles that functions are handed: csrc/mechanisms/plane/tables.h
 MOST_VELOCITIES = 400   # of six a body, each takes more than ten operations: see closed_form_writer.MOST_OPERATIONS
 OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in lanes it is these alone that stand in groups
 

@@ -1,9 +1,0 @@
-/* Torque on the second body, with its opposite on the first. */
-#include "joint.h"
-
-const zd_element_kind zd_torque = {
-    .card = {.name = "torque", .summary = "Torque on a body, and against another.", .equations = "(2), (28)"},
-    .gauges = 1,
-    .gauge = {ZD_GAUGE_ANGLE}, .zero = {ZD_ZERO_NONE},
-    .effort = "torque", .sign = 1,
-};

@@ -1,0 +1,10 @@
+/* Whether tables of a mechanism contradict themselves. */
+#ifndef ZD_PLANE_CHECK_H
+#define ZD_PLANE_CHECK_H
+
+#include "tables.h"
+
+/* Returns whether they are right; if not, says where in `message`. */
+int zd_plane_tables_are_right(const zd_plane_tables *tables, char *message, int message_size);
+
+#endif

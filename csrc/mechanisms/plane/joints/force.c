@@ -1,0 +1,14 @@
+/* Force at a point of the second body along an axis of the first, on which nothing acts: the ground,
+ * or the body whose frame it turns with. */
+#include "joint.h"
+
+const zd_plane_element_kind zd_plane_force = {
+    .card = {
+        .name = "force",
+        .summary = "Force at a point along a direction that stays fixed, or turns with a body.",
+        .equations = "(2), (28)",
+    },
+    .gauges = 1,
+    .gauge = {ZD_GAUGE_GLIDE}, .zero = {ZD_ZERO_NONE},
+    .effort = "force", .sign = 1,
+};

@@ -1,0 +1,9 @@
+/* Torque on the second body, with its opposite on the first. */
+#include "joint.h"
+
+const zd_plane_element_kind zd_plane_torque = {
+    .card = {.name = "torque", .summary = "Torque on a body, and against another.", .equations = "(2), (28)"},
+    .gauges = 1,
+    .gauge = {ZD_GAUGE_ANGLE}, .zero = {ZD_ZERO_NONE},
+    .effort = "torque", .sign = 1,
+};

@@ -1,0 +1,12 @@
+/* What goes through joints. */
+#ifndef ZD_PLANE_REACTIONS_H
+#define ZD_PLANE_REACTIONS_H
+
+#include "plan.h"
+
+/* What the first body of a joint does to the second: a force at the joint's point of the second body, with the torque about it, from a
+ * frame that is placed and moving. With the joint's drives and damping. Returns ZD_DONE or ZD_CALLBACK. */
+int zd_plane_joint_reaction(const zd_plane *self, const zd_plane_frame *frame, int joint, double t, const double *vdot, const double *lambda,
+                      zd_plane_wrench *reaction);
+
+#endif

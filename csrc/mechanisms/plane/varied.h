@@ -1,0 +1,30 @@
+/* Mechanisms that differ in their numbers, and where each of them starts.
+ *
+ * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
+ */
+#ifndef ZD_PLANE_VARIED_H
+#define ZD_PLANE_VARIED_H
+
+#include "tables.h"
+
+/* Tables of the first of so many mechanisms; entries of each that are bodies, joints, gauges, terms, relations and efforts follow those of
+ * the one before. There are no laws. */
+typedef struct zd_varied {
+    zd_plane_tables moving;           /* in the coordinates that it moves in, with all of its measures */
+    zd_plane_tables drawn;            /* in absolute coordinates, with the measures that the start holds */
+    const double *gravity;      /* (runs, 2) */
+    const double *poses;        /* (runs, bodies, 3): of mass centres, as drawn; NULL: starts are known, */
+    const double *length;       /* (runs,) m: how large each is */
+    int targets;
+    const zd_target *target;
+    int drives;                 /* relations of constant speed, whose constants are 0 in the tables: the start says what they are */
+    const int *drive;
+} zd_varied;
+
+/* As zd_family asks for it, where `of` is such. */
+const zd_system *zd_varied_make(const void *of, int64_t run, double *p, double *v, void **made);
+void zd_varied_free(void *made);
+/* Where a drive of constant speed begins, of what was made: its number among the drives. */
+double zd_varied_place(const void *of, const void *made, int drive);
+
+#endif

@@ -1,9 +1,0 @@
-/* Products with C of mechanisms whose rows are all of pins: C is not stored for them. */
-#ifndef ZD_MECHANISM_PRODUCTS_H
-#define ZD_MECHANISM_PRODUCTS_H
-
-#include "plan.h"
-
-extern const zd_operations zd_mechanism_products;
-
-#endif

@@ -1,0 +1,12 @@
+/* Forces along gauges: springs, dampers, drives by effort, forces and torques. */
+#ifndef ZD_SPACE_EFFORTS_H
+#define ZD_SPACE_EFFORTS_H
+
+#include "plan.h"
+
+/* frame->wrench <- all that acts on the bodies but for constraints. Returns ZD_DONE or ZD_CALLBACK. */
+int zd_space_efforts_apply(const zd_space *self, const zd_space_frame *frame, double t);
+int zd_space_power(const zd_space *self, const zd_space_frame *frame, double t, double *power);     /* of (28) */
+double zd_space_potential(const zd_space *self, const zd_space_frame *frame);
+
+#endif

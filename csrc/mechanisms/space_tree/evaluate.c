@@ -1,0 +1,47 @@
+/* The equations of motion (1), (2), (3), (5), (6) in joint coordinates: rows are those of joints outside the tree, and relations. */
+#include "evaluate.h"
+
+#include <string.h>
+
+#include "../space/efforts.h"
+#include "../space/rows.h"
+#include "inertia.h"
+#include "inward.h"
+#include "motion.h"
+#include "unwrapped_angles.h"
+
+enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
+
+/* Whether what is wanted depends on how bodies move. */
+static int is_moving(const zd_space *self, int want)
+{
+    return want & (ZD_BIAS | ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->elements.has_velocity_forces) || (want & ROWS && self->elements.law);
+}
+
+static int write_force(const zd_space *self, const zd_space_frame *frame, double t, double *f)
+{
+    const int status = zd_space_efforts_apply(self, frame, t);
+    zd_space_tree_gather(self, frame, f);
+    return status;
+}
+
+int zd_space_tree_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
+{
+    const zd_space *self = data;
+    const zd_space_tree *tree = zd_space_tree_of(self);
+    const zd_space_frame frame = zd_space_frame_of(self, out->scratch);
+    if (want & ZD_MOVED) zd_space_frame_place(self, &frame, p);
+    if (is_moving(self, want)) zd_space_tree_move(self, &frame, v);
+    if (want & ZD_A) {
+        memset(out->A, 0, (size_t)(tree->nq * tree->nv) * sizeof *out->A);
+        zd_space_tree_write_A(tree, p, out->A);
+        zd_space_tree_write_rates(self, &frame, out->A);
+    }
+    if (want & ZD_M) zd_space_tree_mass(self, &frame, out->M);
+    if (want & ZD_BIAS) zd_space_tree_bias(self, &frame, out->d);
+    if (want & ZD_POTENTIAL) *out->V = zd_space_potential(self, &frame);
+    if ((want & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
+    if ((want & ZD_POWER) && zd_space_power(self, &frame, t, out->power)) return ZD_CALLBACK;
+    if (want & ZD_C) memset(out->C, 0, (size_t)(self->elements.m * tree->nv) * sizeof *out->C);
+    return want & ROWS ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
+}

@@ -1,0 +1,70 @@
+/* A wrench on a body does to each velocity its product with the column, which is the twist of that body by this velocity; then it goes on
+ * to the body that this one hangs on. */
+#include "inward.h"
+
+#include <string.h>
+
+static double work(zd_space_wrench what, const zd_space_twist *by)
+{
+    return zd_inner3(what.force, by->speed) + zd_inner3(what.torque, by->spin);
+}
+
+zd_space_wrench zd_space_tree_pass(const zd_space_link *link, const zd_space_pose *pose, int body, zd_space_wrench what)
+{
+    const zd_vector3 arm = zd_minus3(pose[body].at, pose[link->inner].at), moment = zd_cross3(arm, what.force);
+    return (zd_space_wrench){what.force, link->turns ? zd_plus3(what.torque, moment) : moment};
+}
+
+/* A body with a wrench on it, on the way inward. */
+typedef struct carried {
+    int body;
+    zd_space_wrench what;
+    int start, is_whole;    /* whether no particle on the way has kept a torque back */
+} carried;
+
+static void step_inward(const zd_space_tree *tree, const zd_space_frame *frame, double scale, carried *on, double *row)
+{
+    const zd_space_twist *column = zd_space_tree_frame_of(tree, frame).column;
+    const zd_space_link *link = tree->link + on->body;
+    for (int k = link->v; k < link->v + link->nv; k++) row[k] += scale * work(on->what, column + k);
+    on->is_whole &= link->turns || on->body == on->start;
+    on->what = zd_space_tree_pass(link, frame->pose, on->body, on->what);
+    on->body = link->inner;
+}
+
+void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const zd_space_gauge *gauge, double scale, const zd_space_reading *reading,
+                  double *row)
+{
+    const zd_space_tree *tree = zd_space_tree_of(space);
+    const int is_mutual = zd_space_gauge_is_mutual(gauge);
+    const int first = is_mutual ? gauge->first : 0;
+    carried one = {first, reading->first, first, 1}, other = {gauge->second, reading->second, gauge->second, 1};
+    while (one.body != other.body) step_inward(tree, frame, scale, tree->link[one.body].depth > tree->link[other.body].depth ? &one : &other, row);
+    if (one.is_whole && other.is_whole) return;
+    zd_space_add_wrench(&one.what, 1, other.what);
+    while (one.body) step_inward(tree, frame, scale, &one, row);
+}
+
+void zd_space_tree_gather(const zd_space *space, const zd_space_frame *frame, double *to)
+{
+    const zd_space_tree *tree = zd_space_tree_of(space);
+    const zd_space_twist *column = zd_space_tree_frame_of(tree, frame).column;
+    memset(to, 0, (size_t)tree->nv * sizeof *to);
+    for (int i = tree->bodies - 1; i >= 0; i--) {
+        const int body = tree->order[i];
+        const zd_space_link *link = tree->link + body;
+        for (int k = link->v; k < link->v + link->nv; k++) to[k] = work(frame->wrench[body], column + k);
+        zd_space_add_wrench(frame->wrench + link->inner, 1, zd_space_tree_pass(link, frame->pose, body, frame->wrench[body]));
+    }
+}
+
+void zd_space_tree_transmit(const zd_space *space, const zd_space_frame *frame)
+{
+    const zd_space_tree *tree = zd_space_tree_of(space);
+    for (int i = tree->bodies - 1; i >= 0; i--) {
+        const int body = tree->order[i];
+        const zd_space_link *link = tree->link + body;
+        if (link->is_free) continue;
+        zd_space_add_wrench(frame->wrench + link->inner, 1, zd_space_tree_pass(link, frame->pose, body, frame->wrench[body]));
+    }
+}

@@ -1,0 +1,7 @@
+/* Magnitudes of the gradients of constraints before cancellation, in joint coordinates of space: see zd_system. */
+#ifndef ZD_SPACE_TREE_MAGNITUDES_H
+#define ZD_SPACE_TREE_MAGNITUDES_H
+
+int zd_space_tree_magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
+
+#endif

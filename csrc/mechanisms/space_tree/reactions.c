@@ -1,0 +1,69 @@
+/* What goes through a joint of the tree is what the bodies further out need for their accelerations beyond what else acts on them. */
+#include "reactions.h"
+
+#include "../common/laws.h"
+#include "../space/efforts.h"
+#include "../space/gauge.h"
+#include "inertia.h"
+#include "inward.h"
+#include "motion.h"
+
+/* frame->wrench += what a row does to bodies, `scale` times */
+static void add_row(const zd_space *space, const zd_space_frame *frame, const zd_relation *row, const double *factors, double scale)
+{
+    for (int i = 0; i < row->terms; i++) {
+        const zd_space_gauge *gauge = space->gauge + space->elements.term[row->first + i].gauge;
+        const zd_space_reading reading = zd_space_gauge_read(gauge, frame->pose);
+        zd_space_add_wrench(frame->wrench + gauge->first, scale * factors[i], reading.first);
+        zd_space_add_wrench(frame->wrench + gauge->second, scale * factors[i], reading.second);
+    }
+}
+
+/* frame->wrench <- what each body needs beyond what acts on it, but for joints of the tree. */
+static int write_needs(const zd_space *space, const zd_space_frame *frame, double t, const double *vdot, const double *lambda)
+{
+    const zd_readings readings = zd_space_frame_readings(space, frame);
+    if (zd_space_efforts_apply(space, frame, t)) return ZD_CALLBACK;
+    for (int i = 0; i < space->elements.m; i++) {
+        zd_combined all;
+        if (zd_combine(&space->elements, &readings, space->elements.row + i, t, &all)) return ZD_CALLBACK;
+        add_row(space, frame, space->elements.row + i, all.factors, -lambda[i]);
+    }
+    zd_space_tree_accelerate(space, frame, vdot);
+    const zd_space_twist *change = zd_space_tree_frame_of(zd_space_tree_of(space), frame).change;
+    for (int body = 1; body <= space->bodies; body++) {
+        zd_space_wrench need = zd_space_tree_need(space->body + body, frame->pose + body, frame->twist + body, change + body);
+        zd_space_add_wrench(&need, -1, frame->wrench[body]);
+        frame->wrench[body] = need;
+    }
+    return ZD_DONE;
+}
+
+static zd_vector3 across(zd_vector3 a, zd_vector3 e) { return zd_minus3(a, zd_times3(zd_inner3(a, e), e)); }
+
+/* Along its own freedoms a joint does nothing; what is left there is rounding. */
+static zd_space_wrench without_freedoms(const zd_space_link *link, const zd_space_twist *column, zd_space_wrench through)
+{
+    for (const zd_space_link_freedom *freedom = link->freedom; freedom < link->freedom + link->freedoms; freedom++) {
+        const zd_space_twist *own = column + freedom->v;
+        if (freedom->kind == ZD_SPACE_SLIDES) through.force = across(through.force, own->speed);
+        if (freedom->kind == ZD_SPACE_TURNS) through.torque = across(through.torque, own->spin);
+        if (freedom->kind == ZD_SPACE_SWINGS) through.torque = (zd_vector3){0, 0, 0};
+    }
+    if (!link->turns) through.torque = (zd_vector3){0, 0, 0};
+    return through;
+}
+
+int zd_space_tree_reaction(const zd_space *space, const zd_space_frame *frame, int joint, zd_vector3 point, double t, const double *vdot,
+                      const double *lambda, zd_space_wrench *reaction)
+{
+    const zd_space_tree *tree = zd_space_tree_of(space);
+    const int carried = space->planned[joint].carried;
+    if (write_needs(space, frame, t, vdot, lambda)) return ZD_CALLBACK;
+    zd_space_tree_transmit(space, frame);
+    zd_space_wrench through = frame->wrench[carried];
+    through.torque = zd_plus3(through.torque, zd_cross3(zd_minus3(frame->pose[carried].at, point), through.force));
+    zd_space_add_wrench(reaction, space->planned[joint].sign,
+                   without_freedoms(tree->link + carried, zd_space_tree_frame_of(tree, frame).column, through));
+    return ZD_DONE;
+}

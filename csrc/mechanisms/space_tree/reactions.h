@@ -1,0 +1,11 @@
+/* What goes through joints of the tree. */
+#ifndef ZD_SPACE_TREE_REACTIONS_H
+#define ZD_SPACE_TREE_REACTIONS_H
+
+#include "links.h"
+
+/* See zd_carrying. */
+int zd_space_tree_reaction(const zd_space *space, const zd_space_frame *frame, int joint, zd_vector3 point, double t, const double *vdot,
+                      const double *lambda, zd_space_wrench *reaction);
+
+#endif

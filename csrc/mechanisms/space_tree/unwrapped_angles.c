@@ -1,0 +1,35 @@
+/* As in ../space/unwrapped_angles.c: rates are those of the joint's axis, and the angle is that of both attitudes, with as many turns as are nearest. */
+#include "unwrapped_angles.h"
+
+#include "../space/gauge.h"
+#include "inward.h"
+#include "motion.h"
+
+/* Whether the k-th angle is of a joint that carries nothing, so that it follows. */
+static int follows(const zd_space *space, int k) { return !space->planned[space->unwrapped.joint[k]].carried; }
+
+void zd_space_tree_write_rates(const zd_space *space, const zd_space_frame *frame, double *A)
+{
+    for (int k = 0; k < space->unwrapped.count; k++) {
+        const zd_space_gauge *angle = space->unwrapped.angle + k;
+        if (!follows(space, k)) continue;
+        const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->unwrapped.axis[k]);
+        const zd_space_reading rate = {.first = {.torque = zd_times3(-1, axis)}, .second = {.torque = axis}};
+        zd_space_tree_act(space, frame, angle, 1, &rate, A + space->unwrapped.place[k] * zd_space_tree_of(space)->nv);
+    }
+}
+
+void zd_space_tree_follow(const void *data, double *p)
+{
+    const zd_space *space = data;
+    const zd_space_tree *tree = zd_space_tree_of(space);
+    for (int k = 0; k < space->unwrapped.count; k++) {
+        const zd_space_gauge *angle = space->unwrapped.angle + k;
+        if (!follows(space, k)) continue;
+        const zd_rotation first = zd_space_tree_attitude(tree, angle->first, p), second = zd_space_tree_attitude(tree, angle->second, p);
+        const zd_vector3 b = zd_rotated3(&second, zd_vector3_of(angle->b));
+        const double x = zd_inner3(zd_rotated3(&first, zd_vector3_of(angle->a)), b), y = zd_inner3(zd_rotated3(&first, zd_vector3_of(angle->o)), b);
+        double *at = p + space->unwrapped.place[k];
+        *at = zd_with_turns(atan2(y, x), *at);
+    }
+}
