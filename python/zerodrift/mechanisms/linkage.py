@@ -1,4 +1,4 @@
-"""`linkage`: a mechanism from points, the links between them and their lengths, as designers note it."""
+"""`linkage`: a mechanism from points, links and lengths."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ GROUND = "ground"
 def linkage(points: Mapping[str, Any], links: Mapping[str, Any], *, lengths: Mapping[Any, float] | None = None,
             mass: float | Mapping[str, float] = 1.0, scale: float = 1.0, gravity: Any = None,
             name: str = "linkage") -> Mechanism:
-    """A mechanism of links and hinges, closed from a sketch.
+    """Mechanism of links and hinges, assembled from a sketch.
 
     Parameters
     ----------
@@ -101,10 +101,10 @@ def linkage(points: Mapping[str, Any], links: Mapping[str, Any], *, lengths: Map
 
 
 def _make(m: Mechanism, link: str, shape: Shape, drawn: Mapping[str, np.ndarray], mass: float) -> dict[str, Point]:
-    """Adds a link to the mechanism; its points by name."""
+    """Add a link to the mechanism; returns its points by name."""
     names = list(shape.places)
     if link == GROUND:
-        is_moved = any(pair <= set(names) for pair in shape.lengths)       # else to the last bit where it is drawn
+        is_moved = any(pair <= set(names) for pair in shape.lengths)       # otherwise exactly at its drawn position
         return {name: m.ground.point(at=shape.pose.point(place) if is_moved else drawn[name])
                 for name, place in shape.places.items()}
     if len(names) == 2:
@@ -117,7 +117,7 @@ def _make(m: Mechanism, link: str, shape: Shape, drawn: Mapping[str, np.ndarray]
 
 
 def _join(m: Mechanism, name: str, sides: Mapping[str, Point]) -> None:
-    """Joins the links that meet at a point to the first of them."""
+    """Join the links that meet at a point to the first of them."""
     (_, first), *others = sides.items()
     if len(others) == 1:
         m.revolute(name, first, others[0][1])
@@ -140,7 +140,7 @@ def _read_points(points: Any, scale: float) -> dict[str, np.ndarray]:
 
 
 def _read_links(links: Any, points: Mapping[str, Any]) -> dict[str, tuple[str, ...]]:
-    """The points of each link, the ground's first."""
+    """Points of each link, the ground's first."""
     _check.instance("links", links, Mapping, "a dict of points by link")
     if GROUND not in links:
         raise ValueError(f"links must have {GROUND!r}, the points that do not move; there are {', '.join(map(repr, links))}")
@@ -170,7 +170,7 @@ def _names(argument: str, given: Any, points: Mapping[str, Any]) -> tuple[str, .
 
 
 def _read_lengths(lengths: Any, links: Mapping[str, tuple[str, ...]], scale: float) -> dict[frozenset[str], float]:
-    """Lengths in m by the two points that they are between."""
+    """Lengths in m by pairs of points."""
     _check.instance("lengths", {} if lengths is None else lengths, Mapping, "a dict of lengths by pairs of points")
     read: dict[frozenset[str], float] = {}
     for given, length in (lengths or {}).items():
@@ -182,7 +182,7 @@ def _read_lengths(lengths: Any, links: Mapping[str, tuple[str, ...]], scale: flo
 
 
 def _pair(given: Any, links: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
-    """The two points of a link that a length is between."""
+    """Pair of points of a length."""
     points = dict.fromkeys(name for names in links.values() for name in names)
     if given in links and not set(given) <= set(points):
         raise ValueError(f"lengths are between two points, and {given!r} is a link: it has {', '.join(links[given])}")
@@ -195,7 +195,7 @@ def _pair(given: Any, links: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
 
 
 def _read_masses(mass: Any, links: Mapping[str, Any]) -> dict[str, float]:
-    """The mass of each link; the ground has none."""
+    """Mass of each link; the ground has none."""
     if not isinstance(mass, Mapping):
         mass = _check.number("mass", mass, least=0)
         return {link: 0.0 if link == GROUND else mass for link in links}

@@ -44,7 +44,7 @@ MANY = 32       # joint coordinates: their cost is reported only from this numbe
 
 
 class MechanismSystem(BaseSystem):
-    """The equations of a mechanism as it was when this was made; `Mechanism.system` makes it.
+    """Equations of a mechanism at the time of its creation; `Mechanism.system` makes it.
 
     It does not change any more, can be pickled unless a callable cannot, and knows all names of the mechanism.
 
@@ -76,7 +76,7 @@ class MechanismSystem(BaseSystem):
             self._tables.laws.check_written()
             self._written       # noqa: B018 - generates the code now
 
-    # What follows is made when it is first asked for: for a hundred bodies it takes longer than all else.
+    # These are computed at first use: for a hundred bodies they take longer than everything else.
 
     @functools.cached_property
     def parameters(self) -> dict[str, float]:
@@ -108,7 +108,7 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def _started_tables(self) -> Tables:
-        """The tables with the places that drives of constant speed start from."""
+        """Tables with the initial positions of drives of constant speed."""
         if not self._start.has_speeds:
             return self._tables
         return tables_of(self._drawing, self._numbers, in_tree=self.layout == "joint", starts=self._start.drives)
@@ -121,7 +121,7 @@ class MechanismSystem(BaseSystem):
     def _core(self) -> MechanismCore:
         return self._written.core if self._is_written_out else self._interpreted
 
-    # ---- written out ----
+    # ---- generated code ----
 
     def _in_other_coordinates(self) -> MechanismSystem | None:
         other = MechanismSystem(self._drawing, "absolute" if self.layout == "joint" else "joint", self._changed)
@@ -144,8 +144,8 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def _direct(self) -> tuple[str, DirectFunctions]:
-        """The direct functions, and the name of the code that they go with; their orders are for the numbers of the system
-        that this one was made from by changing numbers.
+        """Closed-form functions and the name of their code; elimination orders are those of the system that this one was made
+        from by changing numbers.
         """
         if self._given_direct is not None and self._given_direct[0] == self._written.key:
             return self._given_direct
@@ -158,7 +158,7 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def _cores_with_direct(self) -> dict[tuple[str, bool], MechanismCore]:
-        """By vector unit, and whether they embed."""
+        """Core systems by vector unit, and by whether they embed."""
         return {}
 
     def _direct_core(self, vector: str = "baseline", embeds: bool = False) -> MechanismCore:
@@ -186,21 +186,21 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def v0(self) -> np.ndarray:
-        """The velocities there."""
+        """Initial velocities of `simulate`, at t = 0."""
         return self.start_at(0.0)[1]
 
     @functools.lru_cache(maxsize=4)     # noqa: B019 - the cache lives as long as the system
     def start_at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
-        """The assembled start (p, v) at a time: what is held, drives, and the rest as near to the drawing as can be."""
+        """Assembled start (p, v) at a time: held values and drives are satisfied, all else is nearest to the drawing."""
         p, v = self._core.state(*self._start.at(t))
         if self._drawing.is_balanced:
-            from ..analysis.equilibrium import balanced  # slow to import, and seldom needed
+            from ..analysis.equilibrium import balanced  # slow to import and rarely needed
 
             p, v = balanced(self, t, p, v)
         return _check.frozen(p), _check.frozen(v)
 
     def _assembled(self, held: Any, wish: Any, nudge: float, t: float) -> tuple[np.ndarray, np.ndarray]:
-        """The state at a time that holds and wishes more than the mechanism's own start does."""
+        """State at a time with held and wished values in addition to the mechanism's own start."""
         drawing = self._drawing
         more, wished = (targets(given, what, drawing.dimension) for given, what in ((held, "held"), (wish, "wish")))
         drawing = drawing._replace(held=drawing.held | more, wished=drawing.wished | wished)
@@ -226,7 +226,7 @@ class MechanismSystem(BaseSystem):
             if each.ndim != 1 or name not in own:
                 return None
             wrong |= [not _is_right(name, value) for value in each.tolist()]
-        right = {name: np.where(wrong, own[name], each) for name, each in parameters.items()}       # wrong runs are not built
+        right = {name: np.where(wrong, own[name], each) for name, each in parameters.items()}       # invalid ones are not built
         family = varied(self._drawing, self._changed, right, self.layout, self._measuring, wrong=wrong,
                         starts_are_known=starts_are_known)
         if family is None:
@@ -250,7 +250,7 @@ class MechanismSystem(BaseSystem):
         return MechanismSystem, (self._drawing, self.layout, self._changed, self._is_written_out, direct)
 
     def _described(self) -> dict[str, Any]:
-        """As of any system; and the mechanism itself, or why it cannot be saved."""
+        """As of any system, with the mechanism or the reason why it cannot be saved."""
         try:
             more = {"mechanism": described(self._drawing), "layout": self.layout, "changed": self._changed}
         except ValueError as error:
@@ -272,7 +272,7 @@ class MechanismSystem(BaseSystem):
         return cost.of_a_run(self._cost, steps) if self._cost else None
 
     def points(self, p: Any) -> np.ndarray | None:
-        """The drawing at p: points (n, dimension) in m, joined by lines where not NaN."""
+        """Outline at p: points (n, dimension) in m, joined by lines where not NaN."""
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
         return (space_outline if self._drawing.dimension == 3 else outline)(self._drawing, self._numbers, poses)
 
@@ -284,7 +284,7 @@ class MechanismSystem(BaseSystem):
         return sketches(self._drawing, self._numbers, moments, others)
 
     def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
-        """As of any system; of bodies in space their orientation, too, as matrices, quaternions and angles."""
+        """As of any system; also orientations of bodies in space, as matrices, quaternions and angles."""
         found = orientation(self._watching, getattr(name, "name", name), solution) if self._drawing.dimension == 3 else None
         return super()._measured(name, solution) if found is None else found
 
@@ -310,7 +310,7 @@ class MechanismSystem(BaseSystem):
         return advice.at_start(str(error), self._start, self.constraints)
 
     def _why_locked(self) -> str | None:
-        """Which axes are askew; None where drives move what the joints leave no freedom without them."""
+        """Sentence on skew axes; None if drives move what joints alone would lock."""
         if not isinstance(self._tables, SpaceTables) or is_driven(self._drawing):
             return None
         return space_advice.locked(self._tables, self.name)
@@ -325,7 +325,7 @@ class MechanismSystem(BaseSystem):
 
 
 def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Variable]]:
-    """Coordinates and velocities: the names of what they measure."""
+    """Names and units of coordinates and velocities."""
     found = []
     for coordinate in core.coordinates:
         body = tables.parts[coordinate.body - 1]
@@ -352,7 +352,7 @@ RULES = {"mass": 0, "inertia": 0, "stiffness": 0, "damping": 0, "torsion": 0, "t
 
 
 def _checked(path: str, value: Any) -> float:
-    """A new value for a number, as its verb would have checked it."""
+    """New value of a parameter, with the checks of the method that adds its element."""
     name = f"parameter {path!r}"
     quantity = path.split(".")[1] if "." in path else ""
     if quantity in RULES:

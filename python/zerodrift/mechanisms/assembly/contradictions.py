@@ -1,4 +1,4 @@
-"""Velocities that cannot be met together, in words."""
+"""Errors on velocities that contradict each other."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import InconsistentStart
 
-MOST_TOLD = 8           # names in a sentence
+MOST_TOLD = 8           # largest number of names in a sentence
 ANGLES = "angle", "angle1", "angle2"
 
 
@@ -34,7 +34,7 @@ def contradiction(left: np.ndarray, size: np.ndarray, names: Sequence[str], rows
 
 
 def unit_of(name: str) -> str:
-    """The unit of a held measure; none of drives and couplings, which are named without a quantity, and of cosines."""
+    """Unit of a held measure; "" for drives and couplings, whose names have no quantity, and for cosines."""
     quantity = name.split(".")[1:]
     if not quantity or quantity[-1].endswith("]"):
         return ""
@@ -42,6 +42,6 @@ def unit_of(name: str) -> str:
 
 
 def _told(names: Sequence[str], between: str) -> str:
-    """Names, not all of many."""
+    """List of names, shortened after the first few."""
     others = [f"{len(names) - MOST_TOLD} others"] if len(names) > MOST_TOLD else []
     return between.join([*map(repr, names[:MOST_TOLD]), *others])

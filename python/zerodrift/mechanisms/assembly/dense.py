@@ -18,14 +18,14 @@ from .contradictions import contradiction, unit_of
 from .least_squares import least_along, nullspace, shortest, units
 from .sparse_constraints import Target
 
-CLOSED = 1e-12          # of a row in units of its size: what counts as closed
-SMALLEST = 1e-3         # of the largest row, and of the length: what counts as the size of a smaller row
-ATTEMPTS = 200          # damped steps from a sketch
-NEARER = 50             # steps towards the drawing
-TRACKED = 0.1           # how far a target moves at once, in rad or parts of the mechanism's length
-LONGEST = 0.4           # how far a step moves any coordinate at most, in the same units
-NUDGE = 1e-3            # how far a pose is moved to see what is singular in it alone
-LEAST_MASS = 1e-6       # of the largest, in the metric: what has no mass has so much
+CLOSED = 1e-12          # of a constraint, relative to its size: largest residual of a closed joint
+SMALLEST = 1e-3         # of the largest constraint, and of the length: lower bound of a constraint's size
+ATTEMPTS = 200          # damped steps from a sketch, at most
+NEARER = 50             # steps towards the drawing, at most
+TRACKED = 0.1           # step of a target, at most, in rad or parts of the mechanism's length
+LONGEST = 0.4           # step of any coordinate, at most, in the same units
+NUDGE = 1e-3            # step from a singular pose to nearby ones, in the same units
+LEAST_MASS = 1e-6       # of the largest mass, in the metric: mass of massless directions
 MET = 1e-9              # of the largest prescribed or computed velocity: tolerance of prescribed velocities
 
 
@@ -58,9 +58,9 @@ class Assembly:
         self._weigh()
 
     def _weigh(self) -> None:
-        """The square root of the mass metric in scaled coordinates; what has no mass gets a millionth of the largest."""
+        """Set the square root of the mass metric in scaled coordinates; massless directions get `LEAST_MASS` of the largest."""
         M = self.core.evaluate_stored(self.t, self.core.origin, np.zeros(self.core.nv))["M"]
-        mass = (np.diag(M) if self.core.packing is None else M) * self.scale**2     # of free bodies the diagonal is stored
+        mass = (np.diag(M) if self.core.packing is None else M) * self.scale**2     # a diagonal if all bodies are free
         largest = mass.max(initial=0.0) or 1.0
         self.weight = np.sqrt(np.maximum(mass, LEAST_MASS * largest))
 
@@ -69,18 +69,18 @@ class Assembly:
         return self.core.moved(p, step * self.scale)
 
     def _apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """The step in scaled coordinates that leads to p from other positions."""
+        """Step in scaled coordinates from `other` to p."""
         return self.core.apart(p, other) / self.scale
 
     def _evaluate(self, p: np.ndarray) -> dict[str, np.ndarray]:
-        """All terms at rest, where there are rows."""
+        """All terms at rest, if there are constraints."""
         return self.core.evaluate(self.t, p, np.zeros(self.core.nv))
 
     # ---- positions ----
 
     def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
                   staying: Sequence[Target] = ()) -> np.ndarray:
-        """The nearest positions in which all rows and held targets are met, and wished ones as nearly as possible.
+        """Nearest positions that satisfy all constraints and held targets, and approach wished ones as nearly as possible.
 
         Coordinates that stay are as in the drawing with its joints closed, whatever the values of these targets.
         """
@@ -93,7 +93,7 @@ class Assembly:
 
     def _met(self, drawn: np.ndarray, held: Sequence[Target],
              staying: Sequence[Target]) -> tuple[np.ndarray, list[Target]]:
-        """Positions in which rows and held targets are met: the joints are closed, then the rest is led to where it shall be."""
+        """Positions that satisfy constraints and held targets: joints are closed first, then drives and targets approached."""
         closed = self._close(drawn)
         as_drawn = self._newton(closed, self._drawing) if staying else None
         if as_drawn is not None:
@@ -105,14 +105,14 @@ class Assembly:
         return self._nearest(drawn, self._track(closed, held), lambda p: self._residual(p, held)), []
 
     def _as_they_are(self, p: np.ndarray, staying: Sequence[Target]) -> list[Target]:
-        """The targets with the values that they have."""
+        """The targets with their values at p."""
         values = [self.core.measure_at(each.measure, self.t, p, np.zeros(self.core.nv))["value"] for each in staying]
         return [each._replace(value=float(value[each.component])) for each, value in zip(staying, values, strict=True)]
 
     def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         """True if all constraints and all held targets are satisfied."""
         if not held and self._rows_are_met(p):
-            return True     # whatever the sizes of the rows, for which their matrix would have to be made
+            return True     # for any sizes of the constraints, whose computation needs the Jacobian
         residual, _ = self._residual(p, held)
         return bool(np.abs(residual).max(initial=0.0) <= CLOSED)
 
@@ -123,11 +123,11 @@ class Assembly:
         return bool(np.abs(Phi).max(initial=0.0) <= CLOSED * SMALLEST * self.length)
 
     def led_to(self, p: np.ndarray, held: Sequence[Target] = (), staying: Sequence[Target] = ()) -> np.ndarray:
-        """From closed positions, as at another time, to those to which drives lead, and what is held."""
+        """Positions that satisfy drives and held targets, from closed ones, such as those of another time."""
         return self._track(p, [*held, *self._as_they_are(p, staying)])
 
     def _residual(self, p: np.ndarray, targets: Sequence[Target]) -> tuple[np.ndarray, Any]:
-        """Residuals of all rows and targets in units of their size, and their Jacobian in scaled coordinates."""
+        """Residuals of all constraints and targets, divided by their sizes, and the Jacobian in scaled coordinates."""
         terms = self._evaluate(p)
         values = terms["Phi"][self.kept] if self.core.mh else np.zeros(0)
         rows = terms["C"][self.kept] if self.core.mh else np.zeros((0, self.core.nv))
@@ -140,37 +140,37 @@ class Assembly:
         return values / size, rows / size[:, None]
 
     def _sizes(self, lengths: np.ndarray, targets: Sequence[Target]) -> np.ndarray:
-        """The size of each row, as it was where it was first met: units must not change while squares are made least."""
+        """Sizes of the constraints, fixed at their first evaluation: units must not change during a minimization."""
         known = self._size.get(len(targets))
         if known is None:
             known = self._size[len(targets)] = np.maximum(lengths, SMALLEST * lengths.max(initial=self.length))
         return known
 
     def _close(self, p: np.ndarray) -> np.ndarray:
-        """Closes the joints alone, by damped least squares from wherever the sketch has them."""
+        """Positions with closed joints, by damped least squares from the sketch."""
         p, residual = self._least_squares(p, self._joints)
         if np.abs(residual).max(initial=0.0) > 1e3 * CLOSED:
             raise CorrectionFailed("joints")
         return p
 
     def _joints(self, p: np.ndarray) -> tuple[np.ndarray, Any]:
-        """The residual of the joints alone, and their rows."""
+        """Residuals of the joints alone, and their Jacobian."""
         residual, rows = self._residual(p, ())
         return residual[self.is_joint], rows[self.is_joint]
 
     def _drawing(self, p: np.ndarray) -> tuple[np.ndarray, Any]:
-        """The residual of joints and of couplings without a law, and their rows."""
+        """Residuals of joints and of couplings without user functions, and their Jacobian."""
         residual, rows = self._residual(p, ())
         return residual[self.of_drawing], rows[self.of_drawing]
 
     def scaled_rows(self, p: np.ndarray) -> np.ndarray:
-        """All rows of C in scaled coordinates, each of length one."""
+        """Rows of C in scaled coordinates, each of length one."""
         rows = self._evaluate(p)["C"] * self.scale if self.core.m else np.zeros((0, self.core.nv))
         size = np.linalg.norm(rows, axis=1, keepdims=True)
         return rows / np.where(size > 1e-9 * self.length, size, self.length)
 
     def nearby(self, p: np.ndarray, left_out: Collection[int] = ()) -> np.ndarray:
-        """The positions nearest to these in which all rows are met but those left out; these, where there are none."""
+        """Positions nearest to p that satisfy all constraints except those left out; p, if there are none."""
         kept = [i for i, row in enumerate(self.kept) if row not in left_out]
 
         def system(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -181,17 +181,17 @@ class Assembly:
         return p if found is None else found
 
     def least_open(self, p: np.ndarray) -> np.ndarray:
-        """Positions in which the joints are as nearly closed as can be."""
+        """Positions with the smallest gaps in the joints."""
         return self._least_squares(p, lambda p: self._residual(p, ()))[0]
 
     def free_motions(self, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The mass matrix (nv, nv), and a basis (nv, k) of the velocities that all rows leave free, in scaled coordinates."""
+        """Mass matrix (nv, nv) and a basis (nv, k) of the velocities that satisfy all constraints, in scaled coordinates."""
         terms = self._evaluate(p)
         rows = terms["C"] * self.scale if self.core.m else np.zeros((0, self.core.nv))
         return terms["M"] * np.outer(self.scale, self.scale), nullspace(rows)
 
     def _track(self, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
-        """Leads drives, couplings and held targets from where they are to where they shall be, in small steps on one branch."""
+        """Positions after drives, couplings and held targets have moved to their values in small steps on one branch."""
         start = self._residual(p, held)[0]
         start[: len(self.kept)][self.is_joint] = 0.0
         way = self._way(p, held)
@@ -211,7 +211,7 @@ class Assembly:
         raise self._unmet(self._left_over(p, held, residual), held)
 
     def _aside(self, p: np.ndarray) -> np.ndarray:
-        """Positions a little aside: at a dead centre, or in a straight chain, no step leads away from it."""
+        """Positions perturbed slightly: at a dead centre, or in a straight chain, no step leads away from it."""
         step = NUDGE * np.random.default_rng(0).standard_normal(self.core.nv)
         closed = self._newton(self._moved(p, step), self._joints)
         return p if closed is None else closed
@@ -223,7 +223,7 @@ class Assembly:
         return self._residual(self._approach(self._aside(p), (), held), held)[0]
 
     def _nearest(self, drawn: np.ndarray, p: np.ndarray, system: Callable) -> np.ndarray:
-        """From closed positions to those nearest to the drawing on the same branch, by the method of Gauss and Newton."""
+        """Positions nearest to the drawing on the branch of the closed positions p, by the Gauss-Newton method."""
         distance = np.linalg.norm(self._apart(p, drawn) * self.weight)
         for _ in range(NEARER):
             residual, rows = system(p)
@@ -250,7 +250,7 @@ class Assembly:
         return float(np.abs(residual).max(initial=0.0))
 
     def _newton(self, p: np.ndarray, system: Callable) -> np.ndarray | None:
-        """Least steps in the mass metric until nothing gets better; None where that is not near enough."""
+        """Minimum-norm Newton steps in the mass metric until the residual stops decreasing; None if it stays too large."""
         residual, rows = system(p)
         best = np.abs(residual).max(initial=0.0)
         for _ in range(40):
@@ -268,11 +268,11 @@ class Assembly:
         return p if best <= CLOSED else None
 
     def _least_step(self, rows: Any, right: np.ndarray) -> np.ndarray:
-        """The least solution of rows @ step = right in the mass metric, in scaled coordinates."""
+        """Solution of rows @ step = right of minimum norm in the mass metric, in scaled coordinates."""
         return shortest(rows, self.weight, right)
 
     def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
-        """Levenberg's and Marquardt's method, then Newton's: positions, and the residual that remains."""
+        """Positions and remaining residual of a Levenberg-Marquardt minimization, completed by Newton steps."""
         residual, rows = system(p)
         damping, size = 1e-2, float(residual @ residual)
         for _ in range(ATTEMPTS):
@@ -299,7 +299,7 @@ class Assembly:
         return p, system(p)[0]
 
     def _approach(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray:
-        """Comes as near to the wishes as what is held allows."""
+        """Positions that approach the wishes as nearly as the held targets allow."""
         count = len(self.kept) + len(held)
         for _ in range(ATTEMPTS):
             residual, rows = self._residual(p, [*held, *wished])
@@ -313,7 +313,7 @@ class Assembly:
         return p
 
     def _nearer(self, p: np.ndarray, step: np.ndarray, held: Sequence[Target], wished: Sequence[Target]) -> np.ndarray | None:
-        """Positions after the longest of ever shorter steps that come nearer to the wishes; None where none does."""
+        """Positions after the longest step, among successive halves, that reduces the wishes' residual; None if none does."""
         def error(p: np.ndarray) -> float:
             return float(np.linalg.norm(self._residual(p, wished)[0][len(self.kept):]))
 
@@ -326,7 +326,7 @@ class Assembly:
         return None
 
     def _unmet(self, residual: np.ndarray, held: Sequence[Target]) -> Exception:
-        """The error that names what is not met: what is held, and drives and couplings, with what remains of each."""
+        """Error that names the unsatisfied held values, drives and couplings, with their residuals."""
         names = [*(self.rows[row] for row in self.kept), *(target.name for target in held)]
         movable = np.append(~self.is_joint, np.ones(len(held), dtype=bool))
         size = np.where(movable, np.abs(residual), 0.0)
@@ -344,7 +344,7 @@ class Assembly:
 
     def velocities(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
                    staying: Sequence[Target] = ()) -> np.ndarray:
-        """The least velocities with which all rows and held targets are met, and wished ones as nearly as possible.
+        """Minimum-norm velocities that satisfy all constraints and held targets and approach wished ones as nearly as possible.
 
         Coordinates that stay are at rest.
         """
@@ -376,7 +376,7 @@ class Assembly:
         return Phi_t is None or not Phi_t.any()
 
     def _rates(self, p: np.ndarray, held: Sequence[Target], *, only: bool = False) -> tuple[np.ndarray, np.ndarray, list[str]]:
-        """Rows (k, nv) in scaled coordinates, right sides and names of all that velocities have to meet."""
+        """Rows (k, nv) in scaled coordinates, right sides and names of all conditions on the velocities."""
         zero, terms = np.zeros(self.core.nv), self._evaluate(p)
         m = 0 if only else self.core.m
         rows = [terms["C"] * self.scale] if m else []

@@ -25,7 +25,7 @@ from .joint_paths import Reach
 
 
 class Coordinate(NamedTuple):
-    """A joint coordinate, or several of one body: the body that it moves, and the measures of its positions and rates.
+    """Joint coordinate, or several of one body: the body that it moves, and the measures of its positions and rates.
 
     `axis` is "x", "y" or "z" of a place, of which each is a coordinate; None: all components are meant. `joint` is that of a
     spherical joint, whose rotation is measured by cosines between the axes of its bodies.
@@ -39,7 +39,7 @@ class Coordinate(NamedTuple):
 
 
 class Forced(NamedTuple):
-    """The values that force coordinates: names of measures, and elements whose way is forced as a whole."""
+    """Values that determine coordinates: names of measures, and elements whose whole path is determined."""
 
     measures: Sequence[str]
     elements: Sequence[Any]
@@ -57,7 +57,7 @@ def is_forced(drawing: Drawing) -> bool:
 
 
 def unforced(drawing: Drawing, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
-    """The coordinates whose positions, and those whose rates, held and wished values, drives and constraints do not reach."""
+    """Coordinates whose positions, and whose rates, held and wished values, drives and constraints do not determine."""
     if not is_forced(drawing):
         return [], []
     coordinates = _Coordinates(drawing, tables)
@@ -65,7 +65,7 @@ def unforced(drawing: Drawing, tables: Tables) -> tuple[list[Coordinate], list[C
 
 
 def names_of(coordinates: Iterable[Coordinate]) -> list[str]:
-    """The measures of their positions and rates."""
+    """Names of the measures of positions and rates."""
     return [name for each in coordinates for name in (each.position, each.rate)]
 
 
@@ -79,7 +79,7 @@ def _forced(drawing: Drawing, *, rates: bool) -> Forced:
 
 
 class _Coordinates:
-    """The joint coordinates of a mechanism, and which of them move with which."""
+    """Joint coordinates of a mechanism, and the groups that move together."""
 
     def __init__(self, drawing: Drawing, tables: Tables) -> None:
         self.drawing, self.tables, self.carrier = drawing, tables, tables.tree(with_cut=True)
@@ -88,7 +88,7 @@ class _Coordinates:
 
     def unforced(self, forced: Forced) -> list[Coordinate]:
         ways: set[int] = set()
-        alone: set[int] = set()             # coordinates that are held or driven, by their numbers
+        alone: set[int] = set()             # numbers of held or driven coordinates
         for name in forced.measures:
             own = [i for i, each in enumerate(self.coordinates) if _is_of(name, each)]
             alone |= set(own)
@@ -138,7 +138,7 @@ def _of_joint(number: int, body: Body, joint: Joint) -> Iterator[Coordinate]:
 
 
 def bodies_of(element: Any) -> tuple[Body, ...]:
-    """The bodies that an element is, or belongs to, or joins."""
+    """Bodies that an element is, belongs to, or joins."""
     if isinstance(element, Body):
         return (element,)
     if isinstance(element, Point):

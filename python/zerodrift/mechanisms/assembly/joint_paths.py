@@ -1,4 +1,4 @@
-"""Ways between bodies along the joints of a mechanism, and what moves with what.
+"""Paths between bodies along the joints of a mechanism, and the coordinates that move together.
 
 Edges are the joints of a spanning forest, by the body that a joint of the tree carries, or by -1 - joint where the tree has it
 not; a body that the tree leaves free has an edge to the ground by its own number, too. Edges that one closed loop contains move
@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 
 class Reach:
-    """The ways between bodies.
+    """Paths between bodies.
 
     Parameters
     ----------
@@ -25,12 +25,12 @@ class Reach:
     def __init__(self, carrier: Sequence[int], ends: Sequence[tuple[int, int]]) -> None:
         self.carrier, self.ends = carrier, ends
         self.free = {body for body, joint in enumerate(carrier, 1) if joint < 0}
-        self._parent: dict[int, tuple[int, int]] = {}       # of a body: the next one towards the root of its forest, and the edge
+        self._parent: dict[int, tuple[int, int]] = {}       # by body: the next one towards the root, and the edge
         self._connecting: list[int] = []
         self._grow()
 
     def _grow(self) -> None:
-        """The forest: joints of the tree, and of the others those that connect what it does not."""
+        """Build the forest: joints of the tree, and other joints that connect bodies which the tree does not connect."""
         root = [0, *range(1, len(self.carrier) + 1)]
 
         def found(body: int) -> int:
@@ -55,7 +55,7 @@ class Reach:
         self._direct(neighbours)
 
     def _direct(self, neighbours: dict[int, list[tuple[int, int]]]) -> None:
-        """Points each body towards the root of its forest: the ground, if it is connected with that."""
+        """Point each body towards the root of its forest: the ground, if it is connected with it."""
         seen: set[int] = set()
         for start in range(len(self.carrier) + 1):
             left = [] if start in seen else [start]
@@ -69,14 +69,14 @@ class Reach:
                         left.append(other)
 
     def between(self, first: int, second: int) -> set[int]:
-        """The edges on the way between two bodies; where no joints connect them, by way of the free bodies of the tree."""
+        """Edges on the path between two bodies; without connecting joints, through the free bodies of the tree."""
         one, other = self._inward(first), self._inward(second)
         if one[0] == other[0]:
             return one[1] ^ other[1]
         return self._in_tree(first) ^ self._in_tree(second)
 
     def _inward(self, body: int) -> tuple[int, set[int]]:
-        """The root of a body's forest, and the edges on the way to it."""
+        """Root of a body's forest, and the edges on the path to it."""
         way = set()
         while body in self._parent:
             body, edge = self._parent[body]
@@ -84,7 +84,7 @@ class Reach:
         return body, way
 
     def _in_tree(self, body: int) -> set[int]:
-        """The edges on the way to the ground, along the tree."""
+        """Edges on the path to the ground, along the tree."""
         way = set()
         while body:
             way.add(body)
@@ -93,7 +93,7 @@ class Reach:
         return way
 
     def moving_with(self, forced: Collection[int], touched: Iterable[int], couplings: Iterable[set[int]]) -> set[int]:
-        """All edges that move where these do; of those touched the others of their loops and couplings."""
+        """Edges that move with the `forced` ones; for `touched` ones the others of their loops and couplings."""
         rows = [(row, row) for row in (*(self.between(*self.ends[joint]) | {-1 - joint} for joint in self.closing), *couplings)]
         rows += [(row, row & self.free) for row in self._led()]
         of_edge: dict[int, list[int]] = defaultdict(list)

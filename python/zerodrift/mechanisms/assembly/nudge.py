@@ -16,7 +16,7 @@ OTHERWISE = "start a little aside, or drive another joint"
 
 
 def nudged(assembly: Assembly, p: np.ndarray, left_out: Collection[int] = (), far: float = NUDGE) -> np.ndarray:
-    """Positions that are moved a little along a random free direction, without the rows left out, and assembled."""
+    """Positions moved a little along a random free direction, ignoring the constraints left out, and assembled."""
     free = nullspace(np.delete(assembly.scaled_rows(p), sorted(left_out), axis=0))
     if not free.shape[1]:
         return p
@@ -51,13 +51,13 @@ def _along(assembly: Assembly, p: np.ndarray, far: float, held: Sequence[Target]
 
 
 def _moved(assembly: Assembly, p: np.ndarray, step: np.ndarray) -> np.ndarray:
-    """Positions after a step in rad and parts of the length."""
+    """Positions after a step, given in rad and parts of the length."""
     return assembly.core.moved(p, step * assembly.scale)
 
 
 def way_out(assembly: Assembly, p: np.ndarray, held: Sequence[Target]) -> str:
     """Advice for a singular pose: a nudge, if that leads to a regular pose whose velocities can be satisfied."""
-    if is_of_many(assembly.core):       # of which no dense matrices are made to see it
+    if is_of_many(assembly.core):       # without dense matrices, the nudge is not tried out
         return NUDGED
     try:
         found = aside(assembly, p, NUDGE, held)

@@ -1,7 +1,4 @@
-"""Causes of failures of mechanisms in space: discs that lie flat, shafts at right angles, joints that leave no motion.
-
-It is about discs that lie flat, shafts at right angles, and joints that leave no motion.
-"""
+"""Causes of failures of mechanisms in space: discs that lie flat, shafts at right angles, joints that leave no motion."""
 
 from __future__ import annotations
 
@@ -16,13 +13,13 @@ from ..elements.joints import Joint
 from ..elements.space_joints import SpaceJoint, SpaceRolling
 from ..equations.space_tables import SpaceTables
 
-FLAT = 15.0             # degrees between the axle of a disc and the normal: how near to lying flat a run may have failed by that
-RIGHT_ANGLE = 10.0      # degrees that shafts are off one
-PARALLEL = 1e-4         # degrees
-MEETS = 1e-6            # of the distance: how far off an axis still passes through a point
+FLAT = 15.0             # degrees between the axle of a disc and the normal: below it, a failure is attributed to a flat disc
+RIGHT_ANGLE = 10.0      # degrees from a right angle between shafts, at most
+PARALLEL = 1e-4         # degrees, at most, between parallel axes
+MEETS = 1e-6            # of the distance: deviation of an axis from a point that it passes through, at most
 RANK = 1e-9             # of the largest singular value
 LOCKED = "leave no body any motion, and yet rows follow from others"
-MOST_ROWS = 300         # whose singular values take a moment
+MOST_ROWS = 300         # constraints, at most, for a singular value decomposition
 SHAFTS = "revolute", "cylindrical"
 
 
@@ -58,7 +55,7 @@ def _of_shafts(tables: SpaceTables, joint: SpaceJoint, R: Sequence[np.ndarray], 
 
 
 def _shafts(tables: SpaceTables, joint: SpaceJoint, R: Sequence[np.ndarray]) -> tuple[list[np.ndarray], list[str]]:
-    """The axes about which the bodies of a universal joint turn, and the joints that have them, as far as there are any."""
+    """Axes of the bearings in which the two bodies of a universal joint turn, and these bearings, as far as there are any."""
     axes, names = [], []
     for body in joint.bodies:
         shaft = _shaft(tables, body)
@@ -77,7 +74,7 @@ def at_right_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list
 
 
 def flat_crosses(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[str]:
-    """Each universal joint whose cross lies in the plane of both shafts, where turning either leaves its arms perpendicular."""
+    """Sentence on each universal joint whose cross lies in the plane of both shafts, where its arms stay perpendicular."""
     R, told = _rotations(core, p), []
     for joint in _with_shafts(tables):
         axes, names = _shafts(tables, joint, R)
@@ -101,7 +98,7 @@ def of_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray, names: Sequen
 
 
 def _with_shafts(tables: SpaceTables) -> list[SpaceJoint]:
-    """The universal joints between two shafts that meet in their centres, and turn in one and the same body."""
+    """Universal joints between two shafts whose axes meet at its centre and whose bearings belong to the same body."""
     found = []
     for joint in tables.joints:
         shafts = [_shaft(tables, body) for body in joint.bodies] if joint.kind == "universal" else [None]
@@ -113,7 +110,7 @@ def _with_shafts(tables: SpaceTables) -> list[SpaceJoint]:
 
 
 def _shaft(tables: SpaceTables, body: Body) -> SpaceJoint | None:
-    """The bearing in which a body turns about an axis, if it has one."""
+    """Bearing in which a body turns about an axis, or None."""
     return next((joint for joint in tables.joints if joint.kind in SHAFTS and body in joint.bodies), None)
 
 
@@ -141,7 +138,7 @@ def at_start(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray, name
 
 
 def locked(tables: SpaceTables, name: str) -> str | None:
-    """Which axes may be why nothing moves; None: those of all hinges are parallel."""
+    """Sentence on axes that may prevent any motion; None if the axes of all hinges are parallel."""
     hinges = [joint for joint in tables.joints if joint.kind == "revolute"]
     off = _off_most(hinges) if hinges else []
     skew = ", ".join(f"{hinge.name!r} {angle:.3g} degrees off"
@@ -161,5 +158,5 @@ def _off_most(hinges: Sequence[Joint]) -> list[float]:
 
 
 def _between(a: np.ndarray, b: np.ndarray) -> float:
-    """Degrees between two lines, from 0 to 90."""
+    """Angle between two lines in degrees, from 0 to 90."""
     return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), abs(a @ b))))

@@ -1,8 +1,8 @@
-"""Assembly of many bodies at a cost in proportion to them: no dense matrix is made.
+"""Assembly of many bodies at a cost proportional to their number, without dense matrices.
 
-Steps onto the rows are least in rad and parts of the mechanism's length, not in the mass metric. In that, a long chain would bend
-in few links, since whatever is beyond these has to be moved, and bends strongly, where Newton's method gains little by a step.
-Only the way to the drawing is measured by mass.
+Steps onto the constraints have minimum norm in rad and parts of the mechanism's length. In the mass metric a long chain would
+bend strongly in few links, since all bodies beyond these must move, and Newton's method would converge slowly.
+Only the distance to the drawing is measured in the mass metric.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from .contradictions import contradiction
 from .dense import ATTEMPTS, CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly
 from .sparse_constraints import SparseRows, Target, are_met, read_targets, sparse_rows
 
-MOST_DENSE = 1000       # rows or velocities: dense matrices of more are not made where all bodies are free and have mass
-HALVINGS = 6            # of a step of Newton's method that gains nothing
-SMALLEST_PART = 1e-3    # of the way that drives and targets go: where shorter ones are not met, none are
-MOST_TIMES = 20.0       # a step towards the drawing is lengthened or shortened so many times at most
-LEAST_GAIN = 1e-6       # of the squares that are left: damped steps end where they gain less
-WISHED = 1e-6           # a wish weighs as much as steps that are so many times smaller
+MOST_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
+HALVINGS = 6            # of a Newton step that does not reduce the residual, at most
+SMALLEST_PART = 1e-3    # of the way of drives and targets: smallest step of the continuation
+MOST_TIMES = 20.0       # factor by which a step towards the drawing is lengthened or shortened, at most
+LEAST_GAIN = 1e-6       # of the squared residuals: damped steps end below this gain
+WISHED = 1e-6           # weight of a wish relative to the norm of a step
 
 
 def assembly_of(core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float, t: float,
                 couplings: Collection[int] = ()) -> Assembly:
-    """The assembly of a mechanism, as many bodies as it has."""
+    """Assembly object for a mechanism, dense or sparse by the number of bodies."""
     return (AssemblyOfMany if is_of_many(core) else Assembly)(core, rows, left_out, length, t, couplings)
 
 
@@ -40,7 +40,7 @@ def is_of_many(core: MechanismCore) -> bool:
 
 
 class AssemblyOfMany(Assembly):
-    """The assembly of a mechanism of many bodies, all of which are free and have mass; see `Assembly`."""
+    """Assembly of a mechanism of many bodies, all of them free and with mass; see `Assembly`."""
 
     # ---- positions ----
 
@@ -63,7 +63,7 @@ class AssemblyOfMany(Assembly):
         return (rows * (1 / self.weight)).least(right) / self.weight
 
     def _newton(self, p: np.ndarray, system: Callable) -> np.ndarray | None:
-        """Least steps in rad and parts of the length, halved where they gain nothing; None where that is not near enough."""
+        """Minimum-norm Newton steps in rad and parts of the length, halved until they reduce the residual; None on failure."""
         residual, rows = system(p)
         best = np.abs(residual).max(initial=0.0)
         for _ in range(40):
@@ -77,14 +77,14 @@ class AssemblyOfMany(Assembly):
 
     def _gaining(self, p: np.ndarray, step: np.ndarray, system: Callable,
                  best: float) -> tuple[np.ndarray, np.ndarray, SparseRows, float] | None:
-        """Positions with their residual after a step, or the longest of its halves, that gains; None where none does."""
+        """Positions and residual after a step, or after its longest half that reduces the residual; None if none does."""
         for _ in range(1 + HALVINGS):
             tried = self._moved(p, step)
             residual, rows = system(tried)
             error = np.abs(residual).max(initial=0.0)
             if error < best:
                 return tried, residual, rows, error
-            if best <= CLOSED:      # what is left is rounding
+            if best <= CLOSED:      # the residual is rounding
                 return None
             step = step / 2
         return None
@@ -92,7 +92,7 @@ class AssemblyOfMany(Assembly):
     def _track(self, p: np.ndarray, held: Sequence[Target]) -> np.ndarray:
         """Leads drives, couplings and held targets from where they are to where they shall be, in parts as long as can be.
 
-        Where they do not get there, what is left is made least.
+        On failure, the residuals are minimized.
         """
         start = self._residual(p, held)[0]
         start[: len(self.kept)][self.is_joint] = 0.0
@@ -122,7 +122,7 @@ class AssemblyOfMany(Assembly):
         return self._nearest_to_soft(p, lambda p: self._residual(p, [*held, *wished]), is_wish)
 
     def _nearest(self, drawn: np.ndarray, p: np.ndarray, system: Callable) -> np.ndarray:
-        """As of few bodies, but with steps of Barzilai and Borwein's lengths: each is but little less than the one before."""
+        """As with few bodies, but with Barzilai-Borwein step lengths: each step is only slightly shorter than the one before."""
         distance, last, times = self._distance(p, drawn), None, 1.0
         for _ in range(NEARER):
             residual, rows = system(p)
@@ -174,7 +174,7 @@ class AssemblyOfMany(Assembly):
         return p
 
     def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
-        """Newton's method; where it does not get there, damped steps that leave all rows open as little as can be."""
+        """Newton's method; on failure, damped steps that minimize the residuals of all rows."""
         found = self._newton(p, system)
         if found is None:
             p = self._nearest_to_soft(p, system, np.ones(len(system(p)[0]), dtype=bool))
@@ -210,9 +210,9 @@ class AssemblyOfMany(Assembly):
 
 
 def _towards(rows: SparseRows, right: np.ndarray, is_wish: np.ndarray) -> np.ndarray:
-    """The least change that leaves all other rows as they are and takes wishes as near to their right sides as that allows.
+    """Smallest change that leaves all other rows unchanged and brings wishes as near to their right sides as that allows.
 
-    Twice, as what damping leaves of the first is its share of a wish.
+    It is computed twice, as damping leaves a share of each wish after the first.
     """
     x = np.zeros(sum(rows.sizes))
     size = np.abs(right[is_wish]).max(initial=0.0)
@@ -227,5 +227,5 @@ def _towards(rows: SparseRows, right: np.ndarray, is_wish: np.ndarray) -> np.nda
 
 
 def _at_most(longest: float, step: np.ndarray) -> np.ndarray:
-    """A step, shortened where it moves a coordinate further."""
+    """Step, shortened so that no coordinate moves farther than `longest`."""
     return step * min(1.0, longest / max(np.abs(step).max(initial=0.0), 1e-300))

@@ -1,4 +1,4 @@
-"""The start of mechanisms of many bodies: what is held, without dense matrices and at a cost in proportion to bodies."""
+"""Sparse constraints and targets of mechanisms of many bodies, at a cost proportional to the bodies."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .sparse_least_squares import Rows, least_solution
 
 
 class Target(NamedTuple):
-    """A component of a measure, and the value it shall have."""
+    """Component of a measure, and its prescribed value."""
 
     name: str
     measure: int
@@ -28,7 +28,7 @@ def are_met(core: MechanismCore, p: np.ndarray, held: Sequence[Target], allowed:
 
 
 class SparseRows:
-    """Rows of C and of targets, without their zeros: groups of them, with the blocks of velocities that each touches."""
+    """Nonzero blocks of the rows of C and of targets: groups of rows, with the blocks of velocities that each touches."""
 
     def __init__(self, sizes: Sequence[int], groups: Sequence[Rows]) -> None:
         self.sizes, self.groups = sizes, groups
@@ -41,26 +41,26 @@ class SparseRows:
         return np.concatenate([np.zeros(0), *(matrix @ x[at] for (_, matrix), at in zip(self.groups, self._at, strict=True))])
 
     def __getitem__(self, kept: np.ndarray) -> SparseRows:
-        """The rows of a mask (k,)."""
+        """Rows selected by a mask (k,)."""
         return SparseRows(self.sizes, [Rows(blocks, matrix[kept[begin:end]])
                                        for (blocks, matrix), (begin, end) in self._parted()])
 
     def __mul__(self, columns: np.ndarray) -> SparseRows:
-        """With each column multiplied by a number."""
+        """Rows with each column multiplied by a number."""
         return SparseRows(self.sizes, [Rows(blocks, matrix * columns[at])
                                        for (blocks, matrix), at in zip(self.groups, self._at, strict=True)])
 
     def __truediv__(self, rows: np.ndarray) -> SparseRows:
-        """With each row divided by a number."""
+        """Rows, each divided by a number."""
         return SparseRows(self.sizes, [Rows(blocks, matrix / rows[begin:end, None])
                                        for (blocks, matrix), (begin, end) in self._parted()])
 
     def lengths(self) -> np.ndarray:
-        """The length of each row."""
+        """Norm of each row."""
         return np.concatenate([np.zeros(0), *(np.linalg.norm(matrix, axis=1) for _, matrix in self.groups)])
 
     def least(self, right: np.ndarray) -> np.ndarray:
-        """The least x with self @ x = right, or with the least squares of what is left of rows of length one."""
+        """Minimum-norm x with self @ x = right, or with least squared residuals of rows scaled to length one."""
         size = self.lengths()
         size[size == 0.0] = 1.0
         right = right / size
@@ -68,7 +68,7 @@ class SparseRows:
                                            for (blocks, matrix), (begin, end) in (self / size)._parted()])
 
     def damped(self, right: np.ndarray, is_soft: np.ndarray, damping: float) -> np.ndarray:
-        """The x with the least x . x + (what is left of the soft rows)^2 / damping with which all other rows are met."""
+        """Minimizer of x . x + (residuals of the soft rows)^2 / damping under all other rows."""
         size = np.where(is_soft, np.sqrt(damping), self.lengths())
         size[size == 0.0] = 1.0
         right, parts = right / size, ([], [])
@@ -84,7 +84,7 @@ class SparseRows:
 
 def sparse_rows(core: MechanismCore, stored: Mapping[str, np.ndarray], p: np.ndarray,
                 held: Sequence[Target]) -> tuple[SparseRows, np.ndarray]:
-    """All rows of C and those of targets at rest, and by how much each target is off."""
+    """Rows of C and of targets at rest, and the deviation of each target."""
     sizes = [block[1] for block in core.packing.blocks]
     starts, ends = np.cumsum([0, *sizes]), core.packing.offsets["C"]
     groups = [Rows(blocks, stored["C"][begin:end].reshape(count, -1))

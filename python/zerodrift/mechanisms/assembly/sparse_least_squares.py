@@ -18,18 +18,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-RANK = 1e-9     # of rows of length one: what counts as dependent
+RANK = 1e-9     # of rows of length one: bound for redundant ones
 
 
 class Rows(NamedTuple):
-    """Rows (k, columns of these blocks one after the other, and one more with the right sides)."""
+    """Rows (k, columns of these blocks in turn, and one more for the right sides)."""
 
     blocks: tuple[int, ...]
     matrix: np.ndarray
 
 
 class Eliminated(NamedTuple):
-    """A block as a function of its neighbours: the last column of `of`, less the others times the neighbours."""
+    """Eliminated block as a function of its neighbours: the last column of `of`, minus the others times the neighbours."""
 
     block: int
     neighbours: tuple[int, ...]
@@ -52,8 +52,8 @@ class _Elimination:
     def __init__(self, sizes: Sequence[int], rows: Sequence[Rows], squares: Sequence[Rows]) -> None:
         self.sizes = sizes
         self.neighbours: list[set[int]] = [set() for _ in sizes]
-        self.conditions: list[dict[int, Rows]] = [{} for _ in sizes]    # by block, those that touch it
-        self.squares: list[dict[int, Rows]] = [{} for _ in sizes]       # the same of rows whose squares are to be least
+        self.conditions: list[dict[int, Rows]] = [{} for _ in sizes]    # by block: rows that touch it
+        self.squares: list[dict[int, Rows]] = [{} for _ in sizes]       # the same for rows whose squares are minimized
         for given, of in ((rows, self.conditions), (squares, self.squares)):
             for each in given:
                 _hand_on(of, each)
@@ -63,7 +63,7 @@ class _Elimination:
             others.discard(block)
 
     def run(self) -> list[Eliminated]:
-        """All blocks, as they are eliminated."""
+        """All blocks in the order of their elimination."""
         waiting = [(len(others), block, block) for block, others in enumerate(self.neighbours)]
         heapq.heapify(waiting)
         done: list[Eliminated] = []
@@ -71,7 +71,7 @@ class _Elimination:
         while waiting:
             fewest, _, block = heapq.heappop(waiting)
             if was_done[block] or fewest != len(self.neighbours[block]):
-                continue        # it is in the heap with another number of neighbours, too
+                continue        # an outdated entry of the heap, with another number of neighbours
             was_done[block] = True
             done.append(self._eliminate(block))
             for other in done[-1].neighbours:
@@ -81,7 +81,7 @@ class _Elimination:
         return done
 
     def _join(self, other: int, block: int, neighbours: Sequence[int]) -> None:
-        """Makes a neighbour of an eliminated block one of the others."""
+        """Make a neighbour of an eliminated block a neighbour of the others."""
         self.neighbours[other].update(neighbours)
         self.neighbours[other] -= {other, block}
 
@@ -105,7 +105,7 @@ class _Elimination:
         return Eliminated(block, others, vt.T @ np.vstack([given, least]))
 
     def _gathered(self, of: list[dict[int, Rows]], block: int, others: Sequence[int]) -> np.ndarray:
-        """All rows that touch a block, its columns first, as few as say the same; they are taken away from where they were."""
+        """All rows that touch a block, its columns first, reduced to a triangle; they are removed from their lists."""
         at, end = {}, 0
         for each in (block, *others):
             at[each] = np.arange(end, end + self.sizes[each])
@@ -128,5 +128,5 @@ def _hand_on(of: list[dict[int, Rows]], rows: Rows) -> None:
 
 
 def _triangle(matrix: np.ndarray) -> np.ndarray:
-    """As few rows as have the same products of columns."""
+    """Triangular matrix with the same products of columns."""
     return np.linalg.qr(matrix, mode="r")

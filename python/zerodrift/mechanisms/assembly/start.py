@@ -27,11 +27,11 @@ from .nudge import aside, way_out
 from .space_advice import of_angles
 from .sparse import assembly_of, is_of_many
 
-MASSLESS = 1e-13        # of the largest: how little a motion may weigh
+MASSLESS = 1e-13        # of the largest mass: bound below which a motion has none
 
 
 class Starting:
-    """The start of a mechanism, in poses of mass centres; `tables` are those of the drawing, where they are known already."""
+    """Start of a mechanism, in poses of mass centres; `tables` are those of the drawing, if they exist already."""
 
     def __init__(self, drawing: Drawing, numbers: Numbers, tables: Tables | None = None) -> None:
         self.drawing, self.numbers, self._known = drawing, numbers, tables
@@ -46,7 +46,7 @@ class Starting:
 
     @property
     def drives_by_name(self) -> list[str]:
-        """The coordinates that drives of constant speed prescribe."""
+        """Coordinates driven at constant speed."""
         return [f"{motor.joint.name}.{motor.coordinate}" for motor in drives_of(self.drawing)]
 
     @functools.cached_property
@@ -72,7 +72,7 @@ class Starting:
         return True
 
     def assembled(self, t: float) -> tuple[Assembly, np.ndarray]:
-        """The assembly at a time, and the positions that it found.
+        """Assembly at a time, and the positions that it found.
 
         Drives of constant speed count from t = 0, and so does then what is held: from there they lead to their places at t.
         """
@@ -81,7 +81,7 @@ class Starting:
         return assembly, p
 
     def closed(self, t: float) -> tuple[Tables, Assembly, np.ndarray]:
-        """The same with its tables, and whatever moves without mass."""
+        """Tables, assembly and positions at a time, also if something moves without mass."""
         tables = self._tables(self.drives)
         assembly = self._assembly(tables, t)
         if t and self.has_speeds:
@@ -112,7 +112,7 @@ class Starting:
         return self._known.absolute()
 
     def _assembly(self, tables: Tables, t: float, *, speeds: Sequence[str] = ()) -> Assembly:
-        """The assembly at a time; without the drives of the coordinates that `speeds` names, which it measures, too."""
+        """Assembly at a time, without the drives of the coordinates in `speeds`, which it measures instead."""
         staying = [each for rates in (False, True) for each in self._unforced(tables)[rates]]
         measured = [*self.drawing.held, *self.drawing.wished, *speeds, *names_of(staying)]
         gauges, observed = read(tables, measured)
@@ -136,7 +136,7 @@ class Starting:
             raise InconsistentStart(f"{error}{self._loop_in_words(tables, assembly, p)}") from None
 
     def _unforced(self, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
-        """The coordinates whose positions, and those whose rates, neither held values nor drives reach."""
+        """Coordinates whose positions, and whose rates, neither held values nor drives determine."""
         if self._stays is None:
             self._stays = unforced(self.drawing, tables)
         return self._stays
@@ -152,7 +152,7 @@ class Starting:
         return targets
 
     def _drawn(self, tables: Tables) -> np.ndarray:
-        """Poses of mass centres as drawn; of bodies whose rotation is held, with that: no small steps lead half a turn away."""
+        """Poses of mass centres as drawn, with held rotations applied, as small steps cannot turn a body by half a turn."""
         poses = tables.drawn()
         for name, value in self.drawing.held.items():
             body, _, quantity = name.partition(".")
@@ -161,7 +161,7 @@ class Starting:
         return poses
 
     def targets(self, given: Mapping[str, Any], core: MechanismCore, *, rates: bool = False) -> list[Target]:
-        """The components of what is held or wished, of positions or of velocities."""
+        """Components of the held or wished positions or velocities."""
         if not given:
             return []
         index = {row.name: i for i, row in enumerate(core.measures)}
@@ -178,10 +178,10 @@ class Starting:
                 targets.append(Target(name, index[base], "xyz".index(axis), float(value)))
         return targets
 
-    # ---- what is wrong ----
+    # ---- diagnosis ----
 
     def _not_closed(self, assembly: Assembly, p: np.ndarray) -> str:
-        """Which loop does not close, and by how much: in joint coordinates only the joints that close loops are open."""
+        """Names of the loops that do not close, and their gaps: in joint coordinates only joints that close loops are open."""
         if self.drawing.dimension == 3 or is_of_many(assembly.core):
             return self._left_open(assembly, p)
         tables = Tables(self.drawing, self.numbers, in_tree=True)
@@ -201,7 +201,7 @@ class Starting:
                 f"{open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw it nearer")
 
     def _left_open(self, assembly: Assembly, p: np.ndarray) -> str:
-        """Which joints stay open where all of them are as nearly closed as can be."""
+        """Names of the joints that stay open with all gaps as small as possible."""
         p = assembly.least_open(p)
         Phi = assembly.core.evaluate(assembly.t, p, np.zeros(assembly.core.nv))["Phi"]
         open_by: dict[str, float] = {}
@@ -214,7 +214,7 @@ class Starting:
                 "nearer")
 
     def _loop_in_words(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> str:
-        """Which loop something held or driven is in; in space, which shafts keep the angles of a universal joint."""
+        """Loop of something held or driven; in space, shafts that keep the angles of a universal joint."""
         if isinstance(tables, SpaceTables):
             return of_angles(tables, assembly.core, p, [*self.drawing.held])
         tables = Tables(self.drawing, self.numbers, in_tree=True)
@@ -230,7 +230,7 @@ class Starting:
         return ""
 
     def _check_mass(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> None:
-        """Refuses a motion that nothing with mass takes part in: what is massless has to be held."""
+        """Check that every motion has inertia, or is held."""
         if all(tables.inertias.is_massive(body) for body in tables.parts):
             return
         M, free = assembly.free_motions(p)
@@ -246,7 +246,7 @@ class Starting:
 
 
 def _around(tables: Tables, bodies: Sequence[int], joints: Sequence[int]) -> tuple[str, set[str]]:
-    """A loop in words, and the names of its bodies."""
+    """Name of a loop, and the names of its bodies."""
     parts = ["ground", *(body.name for body in tables.parts)]
     around, through = [parts[body] for body in bodies], [tables.joints[i].name for i in sorted(joints)]
     return f"the loop of {', '.join(around)}, through {', '.join(through)}", set(around)

@@ -1,4 +1,4 @@
-"""Mechanisms that differ in their numbers, from one drawing: their tables, in columns, and where they start."""
+"""Mechanisms that differ from one drawing in their numbers: tables in columns, and starts."""
 
 from __future__ import annotations
 

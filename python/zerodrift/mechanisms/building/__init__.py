@@ -1,1 +1,1 @@
-"""Verbs of `Mechanism`: each checks its arguments and adds an element."""
+"""Methods of `Mechanism` that check their arguments and add an element."""

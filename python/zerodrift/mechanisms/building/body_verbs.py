@@ -1,4 +1,4 @@
-"""The verbs of a mechanism that make bodies."""
+"""Methods of `Mechanism` that add bodies."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..elements.frames import Pose, Pose3, given_rotation, perpendicular
 from ..elements.space_bodies import SpaceBody, SpaceLink, SpaceParticle, tensor
 from .registry import Elements
 
-PARALLEL = 1e-6     # of the sine: what counts as parallel
+PARALLEL = 1e-6     # sine of the angle below which directions are parallel
 
 
 class BodyVerbs(Elements):

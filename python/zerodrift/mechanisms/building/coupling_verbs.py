@@ -1,4 +1,4 @@
-"""The verbs of a mechanism that couple measures: gears, cams, and constraints of the user's own."""
+"""Methods of `Mechanism` that couple measures: gears, cams, and the user's own constraints."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .registry import Elements
 
 
 class CouplingVerbs(Elements):
-    """Couplings of measures, one row each."""
+    """Couplings of measures, one constraint each."""
 
     def gear(self, name: str, first: Joint | str, second: Joint | str, *, ratio: float) -> Coupling:
         """Couple two hinges by gears: ``second.angle = ratio * first.angle``, as their joints measure them.
@@ -173,7 +173,7 @@ class CouplingVerbs(Elements):
         """
         name = self._new_name(name, "cam")
         cam = self._joint(f"cam of {name!r}", cam, ("angle",))
-        if isinstance(follower, str) and "." not in follower:       # with a dot it is the name of a measure
+        if isinstance(follower, str) and "." not in follower:       # a name with a dot is that of a measure
             follower = self._named(f"follower of {name!r}", follower)
         if isinstance(follower, Joint):
             follower = self._joint(f"follower of {name!r}", follower, ("angle", "displacement"))
@@ -250,7 +250,7 @@ class CouplingVerbs(Elements):
 
 
 class _Sum:
-    """A sum of measures, which it is handed as x0, x1, ..."""
+    """Sum of measures, as a callable of x0, x1, ..."""
 
     def __init__(self, coefficients: tuple[float, ...]) -> None:
         self.coefficients = coefficients
@@ -263,7 +263,7 @@ class _Sum:
         return sum(coefficient * x[f"x{i}"] for i, coefficient in enumerate(self.coefficients))
 
     def written(self, equations: Any, **x: Any) -> Any:
-        """As a node, of nodes."""
+        """Node of the result, from nodes of the measures."""
         return equations.graph.sum((x[f"x{i}"], coefficient) for i, coefficient in enumerate(self.coefficients))
 
 
@@ -279,7 +279,7 @@ class _Follows:
 
     @property
     def written(self) -> Any:
-        """The same as a node, of nodes; no attribute where the profile is a callable of the user's."""
+        """The same as a node of nodes; the attribute is missing if the profile is a user's callable."""
         profile = self.profile.written
         return lambda equations, angle, follower: equations.difference(follower, profile(equations, angle))
 
@@ -295,14 +295,14 @@ class _Expression:
 
     @property
     def expression(self) -> Any:
-        """In t as its symbol."""
+        """SymPy expression in its symbol t."""
         return self._law.expression
 
     def __call__(self, angle: Any) -> Any:
         return self._law.value(angle, (), {})
 
     def written(self, equations: Any, angle: Any) -> Any:
-        """As a node, of a node."""
+        """Node of the result, from the node of the angle."""
         return equations.read(self._law.what, self.expression, dict.fromkeys(self.expression.free_symbols, angle))
 
 

@@ -1,4 +1,4 @@
-"""The verbs of a mechanism that drive, push and damp."""
+"""Methods of `Mechanism` that add drives, springs, dampers and loads."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from ..elements.table_forces import FORCES_BY_ROW
 from .registry import Elements
 from .table_force_verbs import force_verb
 
-FLAT = 1e-6             # of the sine: what counts as parallel
+FLAT = 1e-6             # sine of the angle below which directions are parallel
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
           "force": ("displacement",)}
 
 
 class ForceVerbs(Elements):
-    """Drives, springs, forces. Callables name what they want: ``t``, parameters, and what ``of=`` binds to measures."""
+    """Drives, springs, forces. Callables name their arguments: ``t``, parameters, and names that ``of=`` binds to measures."""
 
     def motor(self, name: str, joint: Joint | str, *, angle: Any = None, displacement: Any = None, speed: Any = None,
               torque: Any = None, force: Any = None, of: Mapping[str, Any] | None = None) -> Motor:
@@ -248,7 +248,7 @@ class ForceVerbs(Elements):
         return self._add(Bushing(name, first, second, values))
 
     def _space_frames(self, name: str, first: Point, second: Point, axis: Any, normal: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Three directions in the frames of both bodies; left out, those of the first body."""
+        """Three directions in the frames of both bodies; by default the axes of the first body."""
         if axis is None and normal is not None:
             raise TypeError(f"normal of {name!r} goes with axis=, to which it is made perpendicular")
         frame = first.body.pose.rotation.T
@@ -372,7 +372,7 @@ def _least(quantity: str, name: str, value: Any) -> float:
 
 
 def _of_axes(name: str, given: dict[str, Any], dimension: int) -> dict[str, float]:
-    """The numbers of quantities along or about each axis, by their paths."""
+    """Parameters of each axis, translational or rotational, by their paths."""
     found = {}
     for quantity, value in given.items():
         each = np.broadcast_to(value, dimension) if np.ndim(value) == 0 else value

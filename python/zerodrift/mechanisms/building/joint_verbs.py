@@ -1,4 +1,4 @@
-"""The verbs of a mechanism that make joints."""
+"""Methods of `Mechanism` that add joints."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The shape of a link of several points from a sketch and lengths, and its mass where it lies on its sides."""
+"""Shape of a link with several points from a sketch and lengths, and its mass distributed along its sides."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Shape:
         self.places = {name: found[name] for name in names}
 
     def _known(self, name: str, found: Mapping[str, np.ndarray]) -> list[str]:
-        """The points with a place to which a point has a length."""
+        """Points with known positions to which a length is given."""
         return [other for other in found if frozenset((name, other)) in self.lengths]
 
     def _placed(self, name: str, found: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -112,7 +112,7 @@ class Shape:
 
 
 def on_sides(places: Sequence[np.ndarray], mass: float) -> MassProperties:
-    """A mass in slender rods along the sides of a polygon, by their length."""
+    """Mass properties of slender rods along the sides of a polygon, with the mass distributed by length."""
     corners = np.asarray(places)
     sides = np.roll(corners, -1, axis=0) - corners
     lengths = np.hypot(*sides.T)

@@ -1,4 +1,4 @@
-"""A mechanism of the plane in space: the same bodies, joints, drives and forces, and what keeps them in their plane."""
+"""A planar mechanism in space: the same bodies, joints, drives and forces, and joints that keep it in its plane."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from .coupling_verbs import _Expression, _Follows, _Sum
 from .periodic_spline import PeriodicSpline
 
 NORMAL = (0.0, 0.0, 1.0)
-HINGED = ("revolute", "prismatic", "weld")      # what keeps two bodies in one plane
+HINGED = ("revolute", "prismatic", "weld")      # kinds of joints that keep two bodies in one plane
 
 
 def lift(drawing: Drawing, m: Any) -> None:
-    """Adds to a mechanism in space, which is empty, all that a drawing of the plane has."""
+    """Add all elements of a planar drawing to an empty mechanism in space."""
     for element in drawing.elements.values():
         if element is not drawing.ground:
             kind = _kind(element)
@@ -39,7 +39,7 @@ def _kind(element: Any) -> str:
 
 
 def _free(drawing: Drawing) -> list[str]:
-    """The bodies that no joint keeps in the plane: of those which keep each other there, one."""
+    """Bodies that no joint keeps in the plane: one of each group that keep each other there."""
     kept, free = {"ground"}, []
     joints = drawing.of(Joint)
     for body in sorted(drawing.parts(), key=lambda body: not body.turns):      # particles last, as bodies may hold them
@@ -51,7 +51,7 @@ def _free(drawing: Drawing) -> list[str]:
 
 
 def _spread(joints: list[Joint], kept: set[str]) -> None:
-    """Adds what joints keep in the plane."""
+    """Add the bodies that joints connect to those kept in the plane."""
     size = 0
     while size < len(kept):
         size = len(kept)
@@ -62,7 +62,7 @@ def _spread(joints: list[Joint], kept: set[str]) -> None:
 
 
 def _keep(m: Any, body: Body) -> None:
-    """Keeps a body in the plane."""
+    """Add a joint that keeps a body in the plane."""
     if body.turns:
         m.planar(f"{body.name} in its plane", m.ground, body, normal=NORMAL)
     else:
@@ -77,7 +77,7 @@ def _raised(vector: Any) -> tuple[float, float, float]:
 
 
 def _point(m: Any, point: Point) -> Any:
-    """The same point in space; a particle is one itself."""
+    """The same point in space; a particle is a point itself."""
     body = m[point.body.name]
     if isinstance(body, Particle):
         return body
@@ -134,7 +134,7 @@ def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _plate(inertia: float) -> tuple[float, float, float]:
-    """A tensor with this moment about z, that of a thin round plate; the others do not count."""
+    """Tensor of a thin round plate with this moment about z; the other moments have no effect in the plane."""
     return inertia / 2, inertia / 2, inertia
 
 
@@ -162,7 +162,7 @@ def _revolute(m: Any, joint: Any) -> None:
     if all(body.turns for body in joint.bodies):
         m.revolute(joint.name, *sides, axis=NORMAL, damping=joint.damping)
     else:
-        m.spherical(joint.name, *sides)     # a particle does not turn
+        m.spherical(joint.name, *sides)     # a particle has no orientation
 
 
 def _prismatic(m: Any, joint: Any) -> None:

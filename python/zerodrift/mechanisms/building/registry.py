@@ -1,4 +1,4 @@
-"""The elements of a mechanism by name, and how arguments are read that mean bodies, points and joints among them."""
+"""Elements of a mechanism by name, and checks of arguments that are bodies, points or joints."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class Elements:
         return point
 
     def _in_the_plane(self, what: str) -> None:
-        """Refuses what there is in the plane alone."""
+        """Check that the mechanism is planar, for elements that exist in the plane only."""
         if self.dimension == 3:
             raise ValueError(f"{what} is there for mechanisms in the plane, not yet in space")
 
@@ -68,7 +68,7 @@ class Elements:
         raise ValueError(f"{argument} names {value!r}, which is not an element of {self.name!r}; {_check.closest(value, known)}")
 
     def _body(self, argument: str, value: Any) -> Body:
-        """A body of this mechanism."""
+        """Body of this mechanism, checked."""
         value = self._named(argument, value)
         _check.instance(argument, value, Body, f"a body of {self.name!r}")
         if self._elements.get(value.name) is not value:
@@ -76,7 +76,7 @@ class Elements:
         return value
 
     def _point(self, argument: str, value: Any, *, center: bool = False) -> Point:
-        """A point of this mechanism; of a particle, its place, and of a body its centre of mass, where that is meant."""
+        """Point of this mechanism, checked; a particle is its own point, and with `center` a body means its centre of mass."""
         value = self._named(argument, value)
         if isinstance(value, Particle):
             return self._particle_point(argument, value)
@@ -93,7 +93,7 @@ class Elements:
         return Point(particle, np.zeros(self.dimension)) if particle.carrier is None else particle.carrier
 
     def _joint(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> Joint:
-        """A joint of this mechanism that has one of these coordinates, "angle" or "displacement"."""
+        """Joint of this mechanism, checked to have one of these coordinates, "angle" or "displacement"."""
         value = self._named(argument, value)
         _check.instance(argument, value, Joint, "a joint")
         if self._elements.get(value.name) is not value:
@@ -106,7 +106,7 @@ class Elements:
         return value
 
     def _sides(self, name: str, first: Any, second: Any, at: Any) -> tuple[Point, Point]:
-        """The points that a joint joins, each in the frame of its body, (first, second)."""
+        """Points of the first and the second body that a joint connects, in the frames of their bodies."""
         first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
         is_body = [isinstance(side, Body) and side.turns for side in (first, second)]
         if at is not None and not all(is_body):
@@ -129,7 +129,7 @@ class Elements:
         return first, self._body("second", second).point(at=first.drawn) if is_body[1] else self._point("second", second)
 
     def _drawn(self, argument: str, value: Any) -> np.ndarray:
-        """A place in the drawing, (dimension,): coordinates, or where a point is drawn."""
+        """Position in the drawing, (dimension,): coordinates, or the drawn position of a point."""
         return place(argument, self._named(argument, value), self.dimension)
 
     def _different(self, name: str, first: Point, second: Point) -> tuple[Point, Point]:
@@ -138,13 +138,13 @@ class Elements:
         return first, second
 
     def _turning(self, name: str, what: str, *bodies: Body) -> None:
-        """Refuses particles, which have no orientation."""
+        """Check that bodies are not particles, which have no orientation."""
         for body in bodies:
             if not body.turns:
                 raise ValueError(f"{what} {name!r} needs an orientation, and {body.name!r} is a particle, which has none")
 
     def _direction(self, argument: str, value: Any) -> np.ndarray:
-        """A direction in the drawing, (dimension,) of length one."""
+        """Direction in the drawing, (dimension,), of length one."""
         vector = _check.vector(argument, value, self.dimension)
         length = np.hypot(*vector) if self.dimension == 2 else np.linalg.norm(vector)
         if not length > 0:
@@ -152,7 +152,7 @@ class Elements:
         return vector / length
 
     def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False) -> Law:
-        """A law whose measures there are."""
+        """User function whose measures exist."""
         law = Law(what, given, of=of, parameters=self.parameters)
         for measure in law.measures:
             self._check_measured(what, measure)
@@ -164,13 +164,13 @@ class Elements:
         return law
 
     def _check_measured(self, what: str, measure: str) -> None:
-        """Refuses measures of what is not there."""
+        """Check that the element of a measure exists."""
         owner = measure.partition(".")[0]
         if owner not in self._elements:
             raise ValueError(f"{what} names {measure!r}, and there is no {owner!r} in {self.name!r}; "
                              f"{_check.closest(owner, self._elements)}")
 
-    # ---- looking ----
+    # ---- access ----
 
     def __getitem__(self, name: str) -> Any:
         """The element of that name."""
@@ -183,7 +183,7 @@ class Elements:
 
     @property
     def bodies(self) -> tuple[Body, ...]:
-        """Bodies, links and particles, in the order in which they were added; the ground is none of them."""
+        """Bodies, links and particles, in the order in which they were added, without the ground."""
         return tuple(body for body in self._of(Body) if body is not self.ground)
 
     @property
@@ -207,7 +207,7 @@ ALLOWED = re.compile(r"[A-Za-z0-9_\-]([A-Za-z0-9_\- ]*[A-Za-z0-9_\-])?")
 
 
 def checked_name(name: Any, what: str, taken: Iterable[str]) -> str:
-    """A name for a new element, if it is one and nothing else has it."""
+    """Name for a new element, checked: valid and unused."""
     if not isinstance(name, str):
         raise TypeError(f"name of a {what} must be a string, not {_check.shown(name)}")
     if not ALLOWED.fullmatch(name):

@@ -1,4 +1,4 @@
-"""The verbs of a mechanism that make joints of space, and what its other verbs share with them there."""
+"""Methods of `Mechanism` that add joints in space, and what its other methods share with them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from ..elements.space_joints import BY_KIND, SpaceJoint, has_torque
 from .registry import Elements
 
 Side = Body | Point | str
-RIGHT_ANGLE = 1e-9      # of the cosine
-FLAT = 1e-6             # of the sine: what counts as parallel
-TOUCHING = 0.01         # of the height of the centre: a drawing that is less off is a rough one, and is assembled
+RIGHT_ANGLE = 1e-9      # of the cosine: deviation from a right angle, at most
+FLAT = 1e-6             # sine of the angle below which directions are parallel
+TOUCHING = 0.01         # of the height of the centre: gap of a rough drawing that assembly closes
 
 
 class SpaceJointVerbs(Elements):
-    """Joints that there are in space alone. Their axes are directions in the drawing."""
+    """Joints that exist in space only. Their axes are directions in the drawing."""
 
     def spherical(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> SpaceJoint:
         """Join two bodies by a ball.
@@ -222,12 +222,12 @@ class SpaceJointVerbs(Elements):
     gravity: np.ndarray
 
     def _upwards(self) -> np.ndarray:
-        """Against gravity; where there is none, z."""
+        """Direction against gravity; z without gravity."""
         return -self.gravity if self.gravity.any() else np.array([0.0, 0.0, 1.0])
 
     def _space_rolling(self, name: str, first: Any, second: Any, radius: Any, at: Any, normal: Any, axle: Any,
                        semiaxes: Any) -> SpaceJoint:
-        """An ellipsoid on a plane: its shape along the rows of a frame of the second body's."""
+        """Ellipsoid on a plane: its shape along the rows of a frame of the second body."""
         name = self._new_name(name, "joint")
         if (radius is None) == (semiaxes is None):
             raise TypeError(f"{name!r} needs radius=, of a sphere or with axle= of a disc, or else semiaxes=, of an ellipsoid")
@@ -251,7 +251,7 @@ class SpaceJointVerbs(Elements):
 
     def _shape(self, name: str, body: Body, normal: np.ndarray, radius: Any, axle: Any,
                semiaxes: Any) -> tuple[np.ndarray, tuple[float, float, float]]:
-        """The rows of a frame (3, 3) in the body's, and the semiaxes along them."""
+        """Rows (3, 3) of a frame in the body's, and the semiaxes along them."""
         if semiaxes is not None:
             if axle is not None:
                 raise TypeError(f"{name!r} has semiaxes, of an ellipsoid, and no axle")
@@ -267,7 +267,7 @@ class SpaceJointVerbs(Elements):
         return np.stack([body.pose.local_direction(row) for row in _frame(axle, None)]), (0.0, radius, radius)
 
     def _space_knife_edge(self, name: str, point: Any, along: Any, normal: Any) -> SpaceJoint:
-        """A blade: the axis of its frame is along it, and the normal of that frame across."""
+        """Blade: the axis of its frame points along it, the normal of the frame across."""
         name = self._new_name(name, "joint")
         along = self._direction(f"along of {name!r}", along)
         up = self._direction(f"normal of {name!r}", self._upwards() if normal is None else normal)
@@ -280,14 +280,14 @@ class SpaceJointVerbs(Elements):
         frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, point))
         return self._add(BY_KIND["knife_edge"](name, first, point, frames=frames))
 
-    # ---- what all share ----
+    # ---- shared ----
 
     def _in_space(self, verb: str, instead: str) -> None:
         if self.dimension == 2:
             raise ValueError(f"{verb} is a joint of space, Mechanism(..., dimension=3): in the plane {instead} is meant")
 
     def _one_axis(self, name: str, axis: Any) -> Any:
-        """The axis of a joint of which the plane's has none."""
+        """Axis of a joint that has none in the plane."""
         if self.dimension == 2 and axis is not None:
             raise ValueError(f"axis of {name!r} is for mechanisms in space: in the plane bodies turn about its normal")
         if self.dimension == 3 and axis is None:
@@ -303,7 +303,7 @@ class SpaceJointVerbs(Elements):
 
     def _join(self, kind: str, name: str, first: Side, second: Side, at: Any, axis: Any = None, normal: Any = None, *,
               length: float | None = None, damping: Any = 0.0, cut: Any = False) -> SpaceJoint:
-        """A joint of space between two sides, with the frame that its axis and normal in the drawing make."""
+        """Joint in space between two sides, with the frame of its axis and normal in the drawing."""
         name = self._new_name(name, "joint")
         return self._fasten(kind, name, *self._sides(name, first, second, at), axis, normal, length=length, damping=damping,
                             cut=cut)
@@ -326,7 +326,7 @@ class SpaceJointVerbs(Elements):
 
 
 def _frame(axis: np.ndarray, normal: np.ndarray | None) -> np.ndarray:
-    """The rows axis, normal and third direction (3, 3), right-handed."""
+    """Axis, normal and third direction as rows (3, 3), right-handed."""
     normal = perpendicular(axis, normal)
     return np.stack([axis, normal, np.cross(axis, normal)])
 

@@ -16,7 +16,7 @@ from .registry import Elements
 
 
 class StartVerbs(Elements):
-    """The verb that says where a mechanism starts."""
+    """Method of `Mechanism` for initial values."""
 
     def __init__(self, parameters: Any) -> None:
         super().__init__(parameters)
@@ -69,7 +69,7 @@ class StartVerbs(Elements):
                 kept.pop(name, None) if value is None else kept.update({name: value})
 
     def _check_start(self, what: str, name: str, value: Any) -> None:
-        """Refuses what is not there, and what a motor prescribes."""
+        """Check that a measure exists and that no drive prescribes it."""
         self._check_measured(what, name)
         checked_reading(what, name, value, self._elements)
         for motor in self.motors:

@@ -25,7 +25,7 @@ NEEDED = inspect.Parameter.empty
 
 
 def force_verb(force: type[MadeForce]) -> Callable[..., MadeForce]:
-    """The verb of `Mechanism` that makes such elements."""
+    """Method of `Mechanism` for one kind of force element."""
     signature = inspect.Signature(
         [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD) for name in ("self", "name", "first", "second")]
         + [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial)
@@ -75,7 +75,7 @@ def _add(m: Elements, force: type[MadeForce], name: Any, *, first: Any, second: 
 
 
 def _each(quantity: str, name: str, force: type[MadeForce], given: Any) -> dict[str, float]:
-    """A quantity of all gauges by its paths: one number for all of them, or one for each."""
+    """Values of a quantity for all marker quantities, by path, from one number for all of them or one for each."""
     paths = force.paths(quantity)
     given = np.broadcast_to(given, len(paths)) if np.ndim(given) == 0 else given
     each = zip(paths, _check.vector(f"{quantity} of {name!r}", given, len(paths)), strict=True)
@@ -83,7 +83,7 @@ def _each(quantity: str, name: str, force: type[MadeForce], given: Any) -> dict[
 
 
 def _documentation(force: type[MadeForce]) -> str:
-    """A docstring in the style of those that are written by hand."""
+    """Docstring in the style of the handwritten ones."""
     card, several = force.row.card, len(force.row.gauges) > 1
     words = {"size": f" or array_like ({len(force.row.gauges)},)" if several else "",
              "each": f"; for each of {', '.join(gauge for gauge, _ in force.row.gauges)}" if several else ""}

@@ -24,7 +24,7 @@ TAKEN = {
 
 
 def verb(joint: type[Joint]) -> Callable[..., Joint]:
-    """The verb of `Mechanism` that makes such joints."""
+    """Method of `Mechanism` for one kind of joint."""
     signature = _signature(joint)
 
     def make(m: Elements, *given: Any, **named: Any) -> Joint:
@@ -87,7 +87,7 @@ def needs_angles(joint: type[Joint]) -> bool:
 
 
 def _documentation(joint: type[Joint]) -> str:
-    """A docstring in the style of those that are written by hand."""
+    """Docstring in the style of the handwritten ones."""
     words = {"carrier": "body" if joint.is_of_one_body else "first body", "coordinate": joint.coordinate,
              "unit": "N m s" if joint.coordinate == "angle" else "N s/m",
              "left_out": "; left out: as drawn" if _draws_length(joint) else ""}
@@ -104,7 +104,7 @@ def _documentation(joint: type[Joint]) -> str:
 
 
 def wrapped(text: str, indent: str = "") -> list[str]:
-    """A paragraph as lines, with an empty one after it; none of an empty text."""
+    """Lines of a paragraph and an empty one; [] for an empty text."""
     return [*textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent), ""] if text else []
 
 

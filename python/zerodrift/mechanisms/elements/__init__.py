@@ -1,1 +1,1 @@
-"""Elements as they were given: bodies, joints, forces, user functions, and the drawing that holds them."""
+"""Elements of a mechanism, as defined: bodies, joints, forces, user functions, and the drawing that holds them."""

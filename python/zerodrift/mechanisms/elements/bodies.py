@@ -1,4 +1,4 @@
-"""Bodies, links, particles and the points on them, as they were given; `Numbers` says what has been changed since."""
+"""Bodies, links, particles and their points, as defined; `Numbers` holds the values that were changed since."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class Point(Fixed):
     Attributes
     ----------
     body : Body
-        What it moves with.
+        The body that it belongs to.
     name : str or None
-        By which its measures are called; None: they have no name.
+        First part of the names of its measures; a point without a name has none.
     """
 
     def __init__(self, body: Body, local: np.ndarray, name: str | None = None) -> None:
@@ -64,7 +64,7 @@ class Point(Fixed):
         return self.drawn_with(AS_GIVEN)
 
     def local_with(self, numbers: Numbers) -> np.ndarray:
-        """Its coordinates in the body's frame, (2,) in m, with numbers that may have been changed."""
+        """Coordinates in the body's frame, (2,) in m, with parameters that may have been changed."""
         return numbers.vector(self.name, "local", self._local)
 
     def drawn_with(self, numbers: Numbers) -> np.ndarray:
@@ -92,11 +92,11 @@ class Body(Fixed):
     """
 
     what = "body"
-    turns = True        # whether it has an orientation: a particle has none
+    turns = True        # False for a particle, which has no orientation
 
     def __init__(self, name: str, pose: Pose, mass: float, inertia: float, com: np.ndarray) -> None:
         self.name, self.pose, self.mass, self.inertia, self._com = name, pose, mass, inertia, com
-        self._register: Callable[[Point], Point] = _as_it_is       # the mechanism puts its own in place
+        self._register: Callable[[Point], Point] = _as_it_is       # replaced by the mechanism's own
 
     position = vector("position", "Where the origin of its frame is, in the drawing's axes, in m.")
     velocity = vector("velocity", "The velocity of that origin, in the drawing's axes, in m/s.")
@@ -117,7 +117,7 @@ class Body(Fixed):
 
     @property
     def center(self) -> Point:
-        """The centre of mass as a point, measured as ``body.center.position``; particles put on the body do not move it."""
+        """Centre of mass as a point, measured as ``body.center.position``; particles attached to the body do not move it."""
         return _Center(self, self._com, f"{self.name}.center")
 
     def point(self, local: Any = None, *, at: Any = None, name: str | None = None) -> Point:
@@ -148,7 +148,7 @@ class Body(Fixed):
         return self._register(Point(self, local, name))
 
     def properties(self, numbers: Numbers) -> MassProperties:
-        """Its mass, inertia and centre of mass, with numbers that may have been changed."""
+        """Mass, inertia and centre of mass, with parameters that may have been changed."""
         return MassProperties(numbers(self, "mass", self.mass), numbers(self, "inertia", self.inertia),
                               numbers.vector(self.name, "com", self._com))
 
@@ -161,7 +161,7 @@ class Body(Fixed):
         return f"<{self.what} {self.name}>"
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**vars(self), "_register": _as_it_is}     # a snapshot does not take its mechanism along
+        return {**vars(self), "_register": _as_it_is}     # a copy for a system leaves the mechanism behind
 
 
 class Ground(Body):
@@ -173,7 +173,7 @@ class Ground(Body):
         super().__init__("ground", Pose(np.zeros(2), 0.0), 0.0, 0.0, np.zeros(2))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Nothing: it has no mass."""
+        """No parameters: the ground has no mass."""
         return {}
 
 
@@ -205,7 +205,7 @@ class Link(Body):
         self.start, self.end = Point(self, np.zeros(2), f"{name}.start"), _End(self, np.zeros(2), f"{name}.end")
 
     def length_with(self, numbers: Numbers) -> float:
-        """Its length, with numbers that may have been changed."""
+        """Length in m, with parameters that may have been changed."""
         return numbers(self, "length", self.length)
 
     def properties(self, numbers: Numbers) -> MassProperties:
@@ -221,7 +221,7 @@ class Link(Body):
 
 
 class _End(Point):
-    """The end of a link, which follows its length. The drawing has it where it was written, as long as the length stays."""
+    """End of a link, at the link's length from its start; with the given length its drawn position is exact."""
 
     def local_with(self, numbers: Numbers) -> np.ndarray:
         return np.array([self.body.length_with(numbers), 0.0])
@@ -232,7 +232,7 @@ class _End(Point):
 
 
 class _Center(Point):
-    """A centre of mass, which follows what it depends on."""
+    """Centre of mass, which depends on mass distribution and length."""
 
     def local_with(self, numbers: Numbers) -> np.ndarray:
         return self.body.properties(numbers).com
@@ -244,7 +244,7 @@ class Particle(Body):
     Attributes
     ----------
     carrier : Point or None
-        The point of a body to which its mass belongs; None: it is a part of its own.
+        The point of a body to which it is attached; None for a particle with its own coordinates.
     """
 
     what = "particle"
@@ -260,19 +260,19 @@ class Particle(Body):
 
     @property
     def angle(self) -> Any:
-        """A particle has none."""
+        """Not defined: a particle has no orientation."""
         raise AttributeError(f"particle {self.name!r} has no orientation: no angle, no angular velocity")
 
     angular_velocity = angular_acceleration = angle
 
     @property
     def center(self) -> Point:
-        """Itself as a point."""
+        """The particle as a point."""
         return Point(self, np.zeros(2), self.name)
 
 
 def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
-    """A place in the drawing, (dimension,): coordinates, or where a point is drawn."""
+    """Position in the drawing, (dimension,): coordinates, or the drawn position of a point."""
     return value.drawn if isinstance(value, Point) else _check.vector(argument, value, dimension)
 
 

@@ -1,6 +1,6 @@
-"""A number of each of many mechanisms, in the place of one: what is computed from it is such a column again.
+"""Columns: one number of each of many mechanisms, used as if it were a single number; results are columns again.
 
-Whoever asks whether it is this or that gets an answer where that is the same for all of them, else `Varies` is raised.
+The truth of a comparison is defined if it is the same for all mechanisms; otherwise `Varies` is raised.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ import numpy as np
 
 
 class Varies(Exception):
-    """Something is to be decided that is not the same for all."""
+    """A decision depends on a number that differs between the mechanisms."""
 
 
 class Column:
-    """The values (k,) of one number; arithmetic has the bits of plain numbers."""
+    """Values (k,) of one number; arithmetic is bitwise that of plain numbers."""
 
     __slots__ = ("values",)
 
@@ -69,29 +69,29 @@ def _of(function: Callable[..., Any], *given: Any) -> Any:
 
 
 def hypot(x: Any, y: Any) -> Any:
-    """The length of a vector."""
+    """Length of a vector."""
     return _of(np.hypot, x, y)
 
 
 def arctan2(y: Any, x: Any) -> Any:
-    """The direction of a vector, in rad."""
+    """Direction of a vector, in rad."""
     return _of(np.arctan2, y, x)
 
 
 def plain(number: Any) -> Any:
-    """A number as a float."""
+    """Number as a float; columns are returned unchanged."""
     return number if isinstance(number, Column) else float(number)
 
 
 def chosen(condition: Any, one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """One vector where a condition holds, else the other."""
+    """First vector where a condition holds, otherwise the second."""
     if not isinstance(condition, Column):
         return one if condition else other
     return np.array([_of(np.where, condition, a, b) for a, b in zip(one, other, strict=True)])
 
 
 def spread(number: Any, count: int) -> np.ndarray:
-    """The values (count,) of a number."""
+    """Values (count,) of a number."""
     return np.broadcast_to(number.values if isinstance(number, Column) else float(number), count)
 
 

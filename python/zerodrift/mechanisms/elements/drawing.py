@@ -1,4 +1,4 @@
-"""A mechanism as it is at one moment: what systems are made from, and what does not change when it is added to."""
+"""Snapshot of a mechanism, from which systems are made; later additions to the mechanism do not change it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .numbers import Numbers
 
 
 class Drawing(NamedTuple):
-    """All that a mechanism consists of, and where it shall start."""
+    """All elements of a mechanism, its gravity and parameters, and its start."""
 
     name: str
     gravity: np.ndarray
@@ -20,7 +20,7 @@ class Drawing(NamedTuple):
     elements: dict[str, Any]
     held: dict[str, Any]
     wished: dict[str, Any]
-    is_balanced: bool = False       # the start is the equilibrium near that position
+    is_balanced: bool = False       # the start is an equilibrium near the held positions
 
     @property
     def dimension(self) -> int:
@@ -28,7 +28,7 @@ class Drawing(NamedTuple):
         return len(self.gravity)
 
     def of(self, kind: type | tuple[type, ...]) -> list[Any]:
-        """The elements of a kind, in the order in which they were added."""
+        """Elements of a kind, in the order in which they were added."""
         return [element for element in self.elements.values() if isinstance(element, kind)]
 
     @property
@@ -37,16 +37,16 @@ class Drawing(NamedTuple):
         return self.elements["ground"]
 
     def joined_points(self) -> list[Point]:
-        """The points at which joints, springs and bushings hold bodies."""
+        """Points at which joints, springs and bushings connect bodies."""
         sides = (getattr(element, side, None) for element in self.elements.values() for side in ("first", "second"))
         return [point for point in sides if isinstance(point, Point)]
 
     def parts(self) -> list[Body]:
-        """The bodies that move by themselves: all but the ground, and particles that belong to others."""
+        """Bodies with their own coordinates: without the ground and particles that are attached to others."""
         return [body for body in self.of(Body) if body is not self.ground and not (isinstance(body, Particle) and body.carrier)]
 
     def numbers(self, now: Numbers) -> dict[str, float]:
-        """Every number that has a path, and the user's own parameters."""
+        """Values of all parameters by path, and of the user's own."""
         gravity = {f"gravity.{axis}": float(value) for axis, value in zip("xyz", self.gravity, strict=False)}
         listed = {**gravity, **self.parameters}
         for element in self.elements.values():
@@ -56,7 +56,7 @@ class Drawing(NamedTuple):
 
 
 class Inertias:
-    """The mass of each part with the particles that belong to it, and where its centre is in its frame."""
+    """Mass, inertia and centre of mass of each body together with the particles attached to it."""
 
     def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
         self.of: dict[str, tuple[float, float, np.ndarray]] = {}
@@ -74,10 +74,10 @@ class Inertias:
         return mass > 0 and (inertia > 0 or not body.turns)
 
     def local(self, point: Point, numbers: Numbers) -> tuple[float, float]:
-        """A point from its body's mass centre, in the body's axes; on the ground from its origin."""
+        """Point relative to its body's mass centre, in the body's axes; on the ground relative to the origin."""
         place = point.local_with(numbers)
         known = self.of.get(point.body.name)
-        x, y = place.tolist()       # of plain numbers, as arrays of two cost ten times as much
+        x, y = place.tolist()       # plain numbers, as arrays of two cost ten times as much
         if known is None:
             return x, y
         com_x, com_y = known[2].tolist()

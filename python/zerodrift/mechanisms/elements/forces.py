@@ -1,4 +1,4 @@
-"""Drives and forces, as they were given."""
+"""Drives and forces, as defined."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Motor(Fixed):
 
     @property
     def coordinate(self) -> str:
-        """Which coordinate of the joint it drives, "angle" or "displacement"."""
+        """Coordinate of the joint that it drives, "angle" or "displacement"."""
         return self.joint.coordinate or {"torque": "angle", "force": "displacement"}.get(self.drives, self.drives)
 
     @property
@@ -123,7 +123,7 @@ class Spring(Fixed):
         return self.name
 
     def free_length_with(self, numbers: Numbers) -> float:
-        """The length at which it is slack; where none was given, the distance in the drawing."""
+        """Unstressed length; if not given, the distance in the drawing."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         drawn = columns.hypot(*apart) if len(apart) == 2 else float(np.linalg.norm(apart))
         return numbers(self, "length", drawn if self.free_length is None else self.free_length)

@@ -1,4 +1,4 @@
-"""Vectors and frames in the plane."""
+"""Vectors, poses and rotations in the plane and in space."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from ..._rotations import quaternion_of, rotation_of, turn
 
 
 def turned(angle: float, vector: np.ndarray) -> np.ndarray:
-    """A vector (2,), turned counter-clockwise."""
+    """Vector (2,), rotated counter-clockwise by an angle in rad."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]])
 
 
 def turned_back(angle: float, vector: np.ndarray) -> np.ndarray:
-    """A vector (2,), turned clockwise."""
+    """Vector (2,), rotated clockwise by an angle in rad."""
     return turned(-angle, vector)
 
 
@@ -32,19 +32,19 @@ class Pose(NamedTuple):
         return self.origin + turned(self.angle, local)
 
     def local(self, drawn: np.ndarray) -> np.ndarray:
-        """The coordinates in the frame of a place in the drawing, (2,)."""
+        """Coordinates (2,) in the frame of a point of the drawing."""
         return turned_back(self.angle, drawn - self.origin)
 
     def direction(self, local: np.ndarray) -> np.ndarray:
-        """A direction of the frame in the drawing, (2,)."""
+        """Direction (2,) in the drawing, from one in the frame."""
         return turned(self.angle, local)
 
     def local_direction(self, drawn: np.ndarray) -> np.ndarray:
-        """A direction of the drawing in the frame, (2,)."""
+        """Direction (2,) in the frame, from one in the drawing."""
         return turned_back(self.angle, drawn)
 
 
-ROTATION = 1e-6         # how nearly a matrix that is given has to be a rotation, and a quaternion of length one
+ROTATION = 1e-6         # deviation of a given matrix from a rotation, and of a quaternion's length from 1, at most
 
 
 class Pose3(NamedTuple):
@@ -58,20 +58,20 @@ class Pose3(NamedTuple):
         return self.origin + self.rotation @ local
 
     def local(self, drawn: np.ndarray) -> np.ndarray:
-        """The coordinates in the frame of a place in the drawing, (3,)."""
+        """Coordinates (3,) in the frame of a point of the drawing."""
         return self.rotation.T @ (drawn - self.origin)
 
     def direction(self, local: np.ndarray) -> np.ndarray:
-        """A direction of the frame in the drawing, (3,)."""
+        """Direction (3,) in the drawing, from one in the frame."""
         return self.rotation @ local
 
     def local_direction(self, drawn: np.ndarray) -> np.ndarray:
-        """A direction of the drawing in the frame, (3,)."""
+        """Direction (3,) in the frame, from one in the drawing."""
         return self.rotation.T @ drawn
 
 
 def given_rotation(argument: str, value: Any) -> np.ndarray:
-    """A rotation (3, 3) from a matrix whose columns are the axes in the drawing, or from a unit quaternion (w, x, y, z)."""
+    """Rotation (3, 3) from a matrix whose columns are the axes in the drawing, or from a unit quaternion (w, x, y, z)."""
     if value is None:
         return np.eye(3)
     if np.shape(value) == (4,):
@@ -85,17 +85,17 @@ def given_rotation(argument: str, value: Any) -> np.ndarray:
     R = _check.vector(argument, np.ravel(value), 9).reshape(3, 3)
     if np.abs(R.T @ R - np.eye(3)).max() > ROTATION or np.linalg.det(R) < 0:
         raise ValueError(f"{argument} must be a rotation, its columns right-handed, perpendicular and of length 1")
-    return rotation_of(quaternion_of(R))        # as near to one as doubles are
+    return rotation_of(quaternion_of(R))        # orthogonal to rounding
 
 
 def about(axis: Any, angle: float) -> np.ndarray:
-    """The rotation (3, 3) about an axis (3,) by an angle in rad, right-handed."""
+    """Rotation (3, 3) about an axis (3,) by an angle in rad, right-handed."""
     axis = np.asarray(axis, dtype=float)
     return rotation_of(turn(axis / np.linalg.norm(axis) * angle))
 
 
 def perpendicular(axis: np.ndarray, wished: np.ndarray | None = None) -> np.ndarray:
-    """A direction (3,) perpendicular to an axis: the wished one made so, or the drawing's axis that is farthest from it."""
+    """Unit vector (3,) perpendicular to an axis, from the wished one or from the drawing's axis farthest from it."""
     if wished is None:
         wished = np.eye(3)[int(np.argmin(np.abs(axis)))]
     left = wished - (wished @ axis) * axis
@@ -104,6 +104,6 @@ def perpendicular(axis: np.ndarray, wished: np.ndarray | None = None) -> np.ndar
 
 
 def triple(vector: Any) -> tuple[float, float, float]:
-    """A vector as the core's tables take it."""
+    """Vector as three floats, for the core's tables."""
     x, y, z = vector
     return float(x), float(y), float(z)

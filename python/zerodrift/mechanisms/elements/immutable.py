@@ -30,7 +30,7 @@ class Fixed:
 
 
 def amend(element: Fixed, **values: Any) -> None:
-    """Sets attributes of an element that is not part of a system yet, as when it is read from a file."""
+    """Set attributes of an element that does not belong to a system yet, for example while reading a file."""
     for name, value in values.items():
         element.__dict__.pop(name, None)
         setattr(element, name, value)

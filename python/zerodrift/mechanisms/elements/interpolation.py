@@ -1,4 +1,4 @@
-"""Laws from measured data: a cubic spline with two continuous derivatives."""
+"""User functions from measured data: a cubic spline with two continuous derivatives."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from ... import _check
 from ...systems import autodiff
 
-BEYOND = 1e-9       # of the table's length: how far rounding may lead beyond its ends
+BEYOND = 1e-9       # of the table's length: rounding beyond its ends that is accepted
 
 
 def table(x: Any, y: Any, *, argument: str = "t") -> Table:
@@ -60,7 +60,7 @@ def table(x: Any, y: Any, *, argument: str = "t") -> Table:
 
 
 class Table:
-    """A piecewise cubic; `coefficients` (4, n - 1) of powers 3, 2, 1, 0 of the distance from the point before."""
+    """Piecewise cubic; `coefficients` (4, n - 1) of powers 3, 2, 1, 0 of the distance from the previous point."""
 
     def __init__(self, x: np.ndarray, coefficients: np.ndarray, argument: str) -> None:
         self.x, self.coefficients, self.argument = x, coefficients, _check.instance("argument", argument, str, "a name")
@@ -87,7 +87,7 @@ class Table:
 
 
 def recognised(given: Any) -> Any:
-    """A spline of SciPy as a table of the time; anything else as it is."""
+    """Table of t from a spline of SciPy; anything else unchanged."""
     if type(given).__module__.startswith("scipy.interpolate") and hasattr(given, "c") and hasattr(given, "x"):
         x, c = np.asarray(given.x, dtype=float), np.asarray(given.c, dtype=float)
         if c.ndim == 2 and c.shape[1] == x.size - 1:
@@ -104,7 +104,7 @@ def _coefficients(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 def _slopes(h: np.ndarray, steps: np.ndarray) -> np.ndarray:
-    """Slopes (n,) with which second derivatives are continuous: a tridiagonal system, by elimination."""
+    """Slopes (n,) that make second derivatives continuous, by elimination of a tridiagonal system."""
     n = h.size + 1
     if n == 2:
         return np.array([steps[0], steps[0]])
@@ -127,6 +127,6 @@ def _slopes(h: np.ndarray, steps: np.ndarray) -> np.ndarray:
 
 
 def _end(h: float, next_h: float, step: float, next_step: float) -> tuple[float, float, float]:
-    """The row of an end, of its own slope and the next: the third derivative does not jump at the next point."""
+    """Equation at an end in its own slope and the next: the third derivative is continuous at the next point."""
     both = h + next_h
     return next_h, both, ((h + 2 * both) * next_h * step + h**2 * next_step) / both

@@ -1,7 +1,7 @@
-"""Joints, as they were given: which points of which bodies they join, and along which axis of the first.
+"""Joints in the plane, as defined: the points of two bodies that they join, and an axis of the first body.
 
-What a kind of joint is stands in the core's table: its coordinate, what it takes, what can be measured of it. A kind that has no
-class here gets one from its row.
+The core's table defines each kind of joint: coordinate, arguments, measures. A kind without a class of its own gets one from its
+entry in the table.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ class Joint(Fixed):
         True if the joint must close a loop, so that no joint coordinate belongs to it.
     """
 
-    kind = ""                           # as the core's table calls it
-    row: ClassVar[JointKind]            # its row there
-    coordinate: str | None = None       # what motors and dampers act along: "angle" or "displacement"
-    is_of_one_body = False              # whether all of its rows are about the second body, whose axis it has
-    takes: tuple[str, ...] = ()         # what its verb takes besides the sides
+    kind = ""                           # name in the core's table
+    row: ClassVar[JointKind]            # entry in the core's table
+    coordinate: str | None = None       # coordinate of motors and dampers: "angle" or "displacement"
+    is_of_one_body = False              # True if all constraints concern the second body, whose frame has the axis
+    takes: tuple[str, ...] = ()         # arguments of its method besides the sides
 
     def __init_subclass__(cls) -> None:
         """Sets class attributes from the entry of the core's table, except those that the class defines."""
-        if not cls.kind:        # those in space have a table of their own
+        if not cls.kind:        # joints in space have a table of their own
             return
         cls.row = JOINTS[cls.kind]
         cls.coordinate = cls.row.coordinate
@@ -57,10 +57,10 @@ class Joint(Fixed):
 
     def __init__(self, name: str, first: Point, second: Point, *, axis: np.ndarray | None = None, length: float | None = None,
                  damping: float = 0.0, cut: bool = False) -> None:
-        self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first's frame
+        self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first body's frame
         self.length, self.damping, self.cut = length, damping, cut
 
-    if TYPE_CHECKING:       # the measures that the row has
+    if TYPE_CHECKING:       # the measures that the entry defines
         def __getattr__(self, name: str) -> Any: ...
 
     force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N: what holds "
@@ -88,7 +88,7 @@ class Joint(Fixed):
         return () if self.coordinate is None else (self.coordinate,)
 
     def length_with(self, numbers: Numbers) -> float:
-        """Its length; where none was given, the distance in the drawing; 0 where the kind has none."""
+        """Length in m; if not given, the distance in the drawing; 0 for kinds without a length."""
         if not self.row.takes_length:
             return 0.0
         drawn = columns.hypot(*(self.second.drawn_with(numbers) - self.first.drawn_with(numbers)))
@@ -100,7 +100,7 @@ class Joint(Fixed):
         return length if self.coordinate is None else {**length, "damping": self.damping}
 
     def angle_as_drawn(self) -> float:
-        """The second body's angle less the first's in the drawing, where the joint's angle is zero."""
+        """Relative angle of the bodies in the drawing, where the joint's angle is zero."""
         return self.second.body.pose.angle - self.first.body.pose.angle
 
     def offset_as_drawn(self, numbers: Numbers) -> float:
@@ -110,7 +110,7 @@ class Joint(Fixed):
         return columns.plain(apart[0] * axis[0] + apart[1] * axis[1])
 
     def axis_as_drawn(self) -> np.ndarray:
-        """The axis (2,) in the drawing, of length one."""
+        """Axis (2,) in the drawing, of length one."""
         return self.bodies[1 if self.is_of_one_body else 0].pose.direction(self.axis)
 
     def __repr__(self) -> str:
@@ -125,7 +125,7 @@ def _taken(row: JointKind) -> tuple[str, ...]:
 
 
 def _measures(row: JointKind) -> dict[str, str]:
-    """The scalars that can be measured of a joint, and what they are."""
+    """Scalar measures of a joint, and their documentation."""
     found, unit = {}, "rad" if row.coordinate == "angle" else "m"
     if row.coordinate == "angle":
         found["angle"] = "How far the second body has turned against the first since the drawing, in rad; it counts turns."
@@ -170,7 +170,7 @@ class Prismatic(Joint):
 
 
 class Weld(Joint):
-    """Two bodies that are one, `Mechanism.weld`."""
+    """Rigid connection of two bodies, `Mechanism.weld`."""
 
     kind = "weld"
 
@@ -182,7 +182,7 @@ class Rod(Joint):
 
 
 class Slot(Joint):
-    """A point on a line of a body, `Mechanism.slot`."""
+    """Point guided on a line of a body, `Mechanism.slot`."""
 
     kind, takes = "slot", ("axis",)
 
@@ -208,7 +208,7 @@ class Rolling(Joint):
         return np.array([-self.axis[1], self.axis[0]])
 
     def length_with(self, numbers: Numbers) -> float:
-        """Its radius."""
+        """Radius in m."""
         return numbers(self, "radius", self.radius)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
@@ -217,19 +217,19 @@ class Rolling(Joint):
 
 
 def made(kind: str) -> type[Joint]:
-    """The class of a kind of joint, from its row."""
+    """Class of a kind of joint, from its entry in the core's table."""
     name = "".join(word.capitalize() for word in kind.split("_"))
     doc = f"{JOINTS[kind].card.summary} `Mechanism.{kind}`."
     return type(name, (Joint,), {"kind": kind, "__doc__": doc, "__module__": __name__})
 
 
-# The kinds that have no class above, by name. Each is in this module, where a pickle or a copy looks for it.
+# Kinds without a class above, by name. They are attributes of this module for pickle and copy.
 BY_ROW = {kind: made(kind) for kind in sorted(JOINTS.keys() - {written.kind for written in Joint.__subclasses__()})}
 globals().update({joint.__name__: joint for joint in BY_ROW.values()})
 
 
 class Coupling(Fixed):
-    """One row between measures: gears, a rack and its pinion, couplers, cams and users' own constraints.
+    """One constraint between measures: gears, a rack and its pinion, couplers, cams and users' own constraints.
 
     Attributes
     ----------

@@ -8,7 +8,7 @@ from ... import _check
 
 
 class Measure:
-    """A quantity of a motion, such as ``crank.angle``; its name stands for it wherever measures are taken.
+    """Quantity of a motion, such as ``crank.angle``; its name may be used instead of it.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Measure:
 
 
 class VectorMeasure(Measure):
-    """A measure with components, which are measures, too: `x`, `y`."""
+    """Vector measure, with components that are measures, too: `x`, `y`."""
 
     __slots__ = ()
 
@@ -49,7 +49,7 @@ class VectorMeasure(Measure):
 
 
 class VectorMeasure3(VectorMeasure):
-    """A measure with components in space: `x`, `y`, `z`."""
+    """Vector measure in space, with components `x`, `y`, `z`."""
 
     __slots__ = ()
 
@@ -57,7 +57,7 @@ class VectorMeasure3(VectorMeasure):
 
 
 def name_of(measure: Any, argument: str) -> str:
-    """The name of a measure that is given as such or by name."""
+    """Name of a measure that is given as an object or by name."""
     if isinstance(measure, Measure):
         return measure.name
     if isinstance(measure, str):
@@ -66,12 +66,12 @@ def name_of(measure: Any, argument: str) -> str:
 
 
 def scalar(quantity: str, doc: str) -> property:
-    """An attribute that is the scalar measure of that name of its element."""
+    """Property of an element for its scalar measure of that name."""
     return property(lambda self: Measure(f"{self.measured_name}.{quantity}"), doc=doc)
 
 
 def vector(quantity: str, doc: str) -> property:
-    """An attribute that is the vector measure of that name of its element."""
+    """Property of an element for its vector measure of that name."""
     def measure(self: Any) -> VectorMeasure:
         return (VectorMeasure3 if getattr(self, "dimension", 2) == 3 else VectorMeasure)(f"{self.measured_name}.{quantity}")
 

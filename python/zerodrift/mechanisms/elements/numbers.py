@@ -1,4 +1,4 @@
-"""The numbers of a mechanism by path, ``"crank.mass"``: as they were given, or as `with_parameters` changed them."""
+"""Parameters of a mechanism by path, ``"crank.mass"``: as given, or as changed by `with_parameters`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Numbers:
-    """Looks a number up by its path, and falls back on what was given."""
+    """Values of parameters: the changed one at a path, otherwise the given one."""
 
     def __init__(self, changed: Mapping[str, Any] | None = None) -> None:
         self.changed = dict(changed or {})
@@ -18,7 +18,7 @@ class Numbers:
         return self.changed.get(f"{element.name}.{quantity}", given)
 
     def vector(self, name: str | None, quantity: str, given: np.ndarray) -> np.ndarray:
-        """A vector (2,) or (3,), whose components have paths of their own, ``"gas.along.x"``."""
+        """Vector (2,) or (3,), whose components have paths of their own, ``"gas.along.x"``."""
         if not self.changed:
             return given
         return np.array([self.changed.get(f"{name}.{quantity}.{axis}", value) for axis, value in zip("xyz", given, strict=False)])

@@ -1,4 +1,4 @@
-"""Bodies of mechanisms in space, as they were given."""
+"""Bodies of mechanisms in space, as defined."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from .frames import Pose3
 from .measures import Measure, vector
 from .numbers import AS_GIVEN, Numbers
 
-SLENDER = 1 / 20        # of its length: the diameter of a link, if it is not given
-TRIANGLE = 1e-9         # of the largest moment: by how much it may exceed the sum of the two others
-SYMMETRIC = 1e-9        # of the largest entry
+SLENDER = 1 / 20        # of its length: default diameter of a link
+TRIANGLE = 1e-9         # of the largest moment: its excess over the sum of the two others, at most
+SYMMETRIC = 1e-9        # of the largest entry: asymmetry, at most
 PATHS = tuple(f"{AXES[i]}{AXES[j]}" for i in range(3) for j in range(i, 3))
 
 
 def tensor(argument: str, value: Any) -> np.ndarray:
-    """An inertia tensor (3, 3) from a tensor or its diagonal, entries as in the matrix; one that a body can have."""
+    """Inertia tensor (3, 3) from a tensor or its diagonal, checked; off-diagonal entries are minus the products of inertia."""
     shape = np.shape(value)
     if shape == () and _check.number(argument, value) == 0:
         return np.zeros((3, 3))
@@ -34,7 +34,7 @@ def tensor(argument: str, value: Any) -> np.ndarray:
 
 
 def check_tensor(argument: str, J: np.ndarray) -> None:
-    """Refuses what is the inertia of no body."""
+    """Check that a tensor is the inertia of a body."""
     apart = np.abs(J - J.T)
     if apart.max() > SYMMETRIC * np.abs(J).max():
         i, j = np.unravel_index(int(np.argmax(apart)), (3, 3))
@@ -48,12 +48,12 @@ def check_tensor(argument: str, J: np.ndarray) -> None:
 
 
 class RotationMeasure(Measure):
-    """The orientation of a body: (k, 3, 3), the columns are its axes in the drawing."""
+    """Orientation of a body: (k, 3, 3), the columns are its axes in the drawing."""
 
     __slots__ = ()
 
     def euler(self, order: str) -> Measure:
-        """The same as angles (k, 3) in rad, by turns about the body's own axes in this order, such as "zyx" or "zxz"."""
+        """Orientation as angles (k, 3) in rad, by rotations about the body's own axes in this order, such as "zyx" or "zxz"."""
         if len(order) != 3 or set(order) - set(AXES) or order[0] == order[1] or order[1] == order[2]:
             raise ValueError(f"order must name three axes, such as 'zyx' or 'zxz', no two neighbours alike, not {order!r}")
         return Measure(f"{self.name.removesuffix('.rotation')}.euler.{order}")
@@ -89,16 +89,16 @@ class SpaceBody(Body):
 
     @property
     def angle(self) -> Any:
-        """A body in space has none."""
+        """Not defined: a body in space has a rotation."""
         raise AttributeError(f"{self.name!r} is a body in space, which has a rotation and no angle")
 
     def properties(self, numbers: Numbers) -> MassProperties:
-        """Its mass, inertia tensor and centre of mass, with numbers that may have been changed."""
+        """Mass, inertia tensor and centre of mass, with parameters that may have been changed."""
         return MassProperties(numbers(self, "mass", self.mass), self.tensor_with(numbers, self.inertia),
                               numbers.vector(self.name, "com", self._com))
 
     def tensor_with(self, numbers: Numbers, given: np.ndarray) -> np.ndarray:
-        """The tensor (3, 3), each of whose entries has a path, ``"body.inertia.xx"``."""
+        """Tensor (3, 3), each of whose entries has a path, ``"body.inertia.xx"``."""
         if not numbers.changed:
             return given
         changed = given.copy()
@@ -148,7 +148,7 @@ class SpaceLink(SpaceBody, Link):
         self.start, self.end = Point(self, np.zeros(3), f"{name}.start"), _SpaceEnd(self, np.zeros(3), f"{name}.end")
 
     def thickness_with(self, numbers: Numbers) -> float:
-        """Its diameter, with numbers that may have been changed; left out, it follows the length."""
+        """Diameter, with parameters that may have been changed; by default proportional to the length."""
         given = self.thickness if self._is_given_thickness else self.length_with(numbers) * SLENDER
         return numbers(self, "thickness", given)
 
@@ -166,7 +166,7 @@ class SpaceLink(SpaceBody, Link):
 
 
 def _bar(mass: float, length: float, thickness: float) -> np.ndarray:
-    """The inertia of a uniform round bar along x."""
+    """Inertia of a uniform round bar along x."""
     about, across = mass * thickness**2 / 8, mass * (length**2 / 12 + thickness**2 / 16)
     return np.diag([about, across, across])
 
@@ -185,12 +185,12 @@ class SpaceParticle(Particle):
 
     @property
     def center(self) -> Point:
-        """Itself as a point."""
+        """The particle as a point."""
         return Point(self, np.zeros(3), self.name)
 
 
 class SpaceMass(NamedTuple):
-    """Mass, principal moments (3,), the centre of mass (3,) in the frame, and the principal axes there, columns of (3, 3)."""
+    """Mass, principal moments (3,), centre of mass (3,) in the frame, and principal axes there, columns of (3, 3)."""
 
     mass: float
     moments: np.ndarray
@@ -199,7 +199,7 @@ class SpaceMass(NamedTuple):
 
 
 class SpaceInertias:
-    """The mass of each part with the particles that belong to it."""
+    """Mass and principal moments of each body together with the particles attached to it."""
 
     def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
         self.of: dict[str, SpaceMass] = {}
@@ -212,12 +212,12 @@ class SpaceInertias:
             self.of[body.name] = _principal(*body.properties(numbers), carried.get(body.name, []))
 
     def local(self, point: Point, numbers: Numbers) -> np.ndarray:
-        """A point from its body's mass centre, in the body's principal axes; on the ground from its origin."""
+        """Point relative to its body's mass centre, in the body's principal axes; on the ground relative to the origin."""
         place, known = point.local_with(numbers), self.of.get(point.body.name)
         return place if known is None else known.axes.T @ (place - known.com)
 
     def direction(self, body: Body, local: np.ndarray) -> np.ndarray:
-        """A direction of a body's frame in its principal axes."""
+        """Direction in a body's principal axes, from one in its frame."""
         known = self.of.get(body.name)
         return local if known is None else known.axes.T @ local
 

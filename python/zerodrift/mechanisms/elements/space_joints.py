@@ -1,4 +1,4 @@
-"""Joints of mechanisms in space, as they were given: what each is stands in the core's table of joints in space."""
+"""Joints of mechanisms in space, as defined by the core's table of joints in space."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class SpaceJoint(Joint):
 
     row: ClassVar[JointKind]    # type: ignore[assignment]
     coordinates: tuple[str, ...] = ()
-    angles: tuple[str, ...] = ()    # those of its coordinates that count turns
+    angles: tuple[str, ...] = ()    # coordinates that are angles and count turns
 
     def __init_subclass__(cls) -> None:
         """Sets class attributes from the entry of the core's table."""
@@ -59,7 +59,7 @@ class SpaceJoint(Joint):
         self.frames = frames
 
     def length_with(self, numbers: Numbers) -> float:
-        """Its length; where none was given, the distance in the drawing; 0 where the kind has none."""
+        """Length in m; if not given, the distance in the drawing; 0 for kinds without a length."""
         if not self.row.takes_length:
             return 0.0
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
@@ -84,23 +84,23 @@ class SpaceJoint(Joint):
         return Variable(f"{self.name}.{gauge}" if gauge in AXES else f"{self.name}.along {DIRECTIONS[first]}", "m")
 
     def axis_as_drawn(self) -> np.ndarray:
-        """The axis (3,) in the drawing, of length one."""
+        """Axis (3,) in the drawing, of length one."""
         return self.bodies[0].pose.direction(self.frames[0][0])
 
 
 def speeds(row: JointKind) -> dict[str, str]:
-    """The names of the rates of a joint's coordinates, with the coordinates."""
+    """Names of the rates of a joint's coordinates, with the coordinates."""
     names = [name for name, _ in row.coordinates]
     return {"speed": names[0]} if len(names) == 1 else {f"{name}_speed": name for name in names}
 
 
 def acceleration_of(speed: str) -> str:
-    """The name of the rate of a speed."""
+    """Name of the rate of a speed."""
     return f"{speed.removesuffix('speed')}acceleration"
 
 
 def _measures(row: JointKind) -> dict[str, str]:
-    """The scalars that can be measured of a joint, and what they are."""
+    """Scalar measures of a joint, and their documentation."""
     found = {}
     for name, gauge in row.coordinates:
         found[name] = ("How far the second's point has moved along the axis since the drawing, in m." if gauge == "along" else
@@ -125,13 +125,13 @@ def is_at_point(row: JointKind) -> bool:
 
 
 def _made(kind: str) -> type[SpaceJoint]:
-    """The class of a kind of joint, from its row."""
+    """Class of a kind of joint, from its entry in the core's table."""
     name = "Space" + "".join(word.capitalize() for word in kind.split("_"))
     doc = f"{JOINTS[kind].card.summary} `Mechanism.{kind}`."
     return type(name, (SpaceJoint,), {"kind": kind, "__doc__": doc, "__module__": __name__})
 
 
-# By name. Each is in this module, where a pickle or a copy looks for it.
+# Kinds by name. They are attributes of this module for pickle and copy.
 BY_KIND = {kind: _made(kind) for kind in sorted(JOINTS)}
 globals().update({joint.__name__: joint for joint in BY_KIND.values()})
 
@@ -167,7 +167,7 @@ class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
         self.semiaxes = semiaxes
 
     def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
-        """In m, along the rows of the second body's frame."""
+        """Semiaxes in m, along the rows of the second body's frame."""
         if len({*self.semiaxes} - {0.0}) == 1:
             radius = numbers(self, "radius", max(self.semiaxes))
             return tuple(radius if each else 0.0 for each in self.semiaxes)

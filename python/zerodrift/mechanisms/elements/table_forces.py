@@ -15,7 +15,7 @@ from .numbers import AS_GIVEN, Numbers
 from .user_functions import Law
 
 ELEMENTS = element_kinds()
-WRITTEN = "spring", "torsion_spring", "bushing", "force", "torque"      # by hand, in `forces.py`
+WRITTEN = "spring", "torsion_spring", "bushing", "force", "torque"      # kinds with a class in `forces.py`
 EFFORTS = {"force": "The force along its gauge, in N", "torque": "The moment along its gauge, in N m"}
 
 
@@ -32,8 +32,8 @@ class MadeForce(Fixed):
         The value of others.
     """
 
-    kind = ""                           # as the core's table calls it
-    row: ClassVar[ElementKind]          # its row there
+    kind = ""                           # name in the core's table
+    row: ClassVar[ElementKind]          # entry in the core's table
 
     def __init_subclass__(cls) -> None:
         cls.row = ELEMENTS[cls.kind]
@@ -43,7 +43,7 @@ class MadeForce(Fixed):
 
     def __init__(self, name: str, first: Point, second: Point, axis: np.ndarray | None, values: dict[str, float],
                  law: Law | None) -> None:
-        self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first's frame
+        self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first body's frame
         self.values, self.law = values, law
 
     @property
@@ -58,7 +58,7 @@ class MadeForce(Fixed):
 
     @classmethod
     def paths(cls, quantity: str) -> tuple[str, ...]:
-        """The path of a quantity for each gauge: named after it where there are several."""
+        """Path of a quantity for each marker quantity, with its name if there are several."""
         several = len(cls.row.gauges) > 1
         return tuple(f"{quantity}.{gauge}" if several else quantity for gauge, _ in cls.row.gauges)
 
@@ -83,17 +83,17 @@ class MadeForce(Fixed):
 
 
 def _turned(axis: np.ndarray) -> np.ndarray:
-    """By a quarter turn, counter-clockwise."""
+    """Vector, rotated counter-clockwise by a right angle."""
     return np.array([-axis[1], axis[0]])
 
 
 def made_force(kind: str) -> type[MadeForce]:
-    """The class of a kind of force element, from its row."""
+    """Class of a kind of force element, from its entry in the core's table."""
     name = "".join(word.capitalize() for word in kind.split("_"))
     doc = f"{ELEMENTS[kind].card.summary} `Mechanism.{kind}`."
     return type(name, (MadeForce,), {"kind": kind, "__doc__": doc, "__module__": __name__})
 
 
-# The kinds that have no class in `forces.py`, by name. Each is in this module, where a pickle or a copy looks for it.
+# Kinds without a class in `forces.py`, by name. They are attributes of this module for pickle and copy.
 FORCES_BY_ROW = {kind: made_force(kind) for kind in ELEMENTS if kind not in WRITTEN}
 globals().update({force.__name__: force for force in FORCES_BY_ROW.values()})

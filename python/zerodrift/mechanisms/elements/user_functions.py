@@ -1,4 +1,4 @@
-"""Laws: what a drive prescribes, what a force is, and what a user's constraint says; numbers, callables or SymPy expressions."""
+"""User functions: prescribed motions, forces and constraints as numbers, callables or SymPy expressions."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .measures import name_of
 
 
 class Law:
-    """A number that may depend on t, on measures and on the mechanism's own parameters.
+    """User function: a number that may depend on t, on measures and on the mechanism's own parameters.
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class Law:
         self.depends_on_time = "t" in self._names
 
     def _read_expression(self, expression: Any, bound: dict[str, str], parameters: list[str]) -> None:
-        """A SymPy expression of t, parameters, and measures: by what `of` calls them, or themselves."""
+        """Read an expression of t, parameters and measures; names in `of` stand for their measures."""
         self.expression = expression
         self._names, self._bound = [], {}
         for symbol in sorted(expression.free_symbols, key=str):
@@ -63,14 +63,14 @@ class Law:
 
     @functools.cached_property
     def _call(self) -> Callable[..., Any]:
-        """The function of its names, in their order."""
+        """Function of `names`, in their order."""
         if self.expression is None:
             return lambda *values: self._function(**dict(zip(self._names, values, strict=True)))
         by_name = {str(symbol): symbol for symbol in self.expression.free_symbols}
         return function_of([by_name[name] for name in self._names], self.expression)
 
     def value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> Any:
-        """Its value at a time and values of its measures; where these are jets, a jet."""
+        """Value at a time and values of its measures; a jet if these are jets."""
         if self.constant is not None:
             return self.constant
         known = {**parameters, "t": t, **dict(zip(self._bound, x, strict=True))}
@@ -81,14 +81,14 @@ class Law:
             raise
 
     def number(self, t: float, x: Iterable[float], parameters: Mapping[str, Any]) -> float:
-        """Its value, checked to be a finite number."""
+        """Value, checked to be a finite number."""
         value = self.value(t, x, parameters)
         if type(value) is float and -np.inf < value < np.inf:
             return value
         return _check.number(f"what {self.what} returns at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
 
     def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> autodiff.Jet:
-        """Value with derivatives; zero derivatives of a law that is constant along them."""
+        """Value with derivatives, which are zero where the function is constant."""
         x = tuple(x)
         try:
             value = self.value(t, x, parameters)
@@ -102,7 +102,7 @@ class Law:
         return value if isinstance(value, autodiff.Jet) else autodiff.Jet(_check.number(f"what {self.what} returns", value))
 
     def _has_value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> bool:
-        """Success of an evaluation with floats instead of jets."""
+        """True if an evaluation with floats instead of jets succeeds."""
         try:
             self.value(autodiff.value(t), [autodiff.value(each) for each in x], parameters)
         except Exception:
@@ -111,7 +111,7 @@ class Law:
 
     @property
     def inner_expression(self) -> Any:
-        """The one SymPy expression that it is, or is made with; None: there is none."""
+        """The SymPy expression that it is, or that it contains; None if there is none."""
         return getattr(self._function, "inner_expression", None) if self.expression is None else self.expression
 
     @property
@@ -128,7 +128,7 @@ class Law:
 
     @property
     def kind(self) -> tuple[Any, ...]:
-        """All that its node depends on but that expression and its measures: what it calls, and its names."""
+        """Everything that its node depends on except that expression and its measures."""
         return type(self._function), self.names, tuple(self._bound)
 
     @property
@@ -143,7 +143,7 @@ class Law:
                              "place, or take compiled=False")
 
     def written(self, equations: Any, x: Iterable[Any]) -> Any:
-        """Its node, where those of its measures are x."""
+        """Node of its value, from the nodes x of its measures."""
         known = {**equations.parameters, "t": equations.t, **dict(zip(self._bound, x, strict=True))}
         if self.constant is not None:
             return equations.graph.number(self.constant)
@@ -164,7 +164,7 @@ def _of(what: str, of: Any) -> Mapping[str, Any]:
 
 
 def _wanted(what: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
-    """The names of the arguments that a callable wants. A function that NumPy wrote itself, such as np.sin, is one of t."""
+    """Names of the arguments of a callable; a NumPy function, such as np.sin, is one of t."""
     return ["t"] if isinstance(given, np.ufunc) else arguments(what, given, allowed)
 
 
@@ -184,7 +184,7 @@ def _sign(x: Any) -> float:
     return float(np.sign(autodiff.value(x)))
 
 
-# By SymPy's names, as its printer of plain Python code writes them.
+# by SymPy's names, as its printer of Python code writes them
 FUNCTIONS: dict[str, Any] = {
     "sin": np.sin, "cos": np.cos, "tan": np.tan, "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2,
     "sinh": np.sinh, "cosh": np.cosh, "tanh": np.tanh, "asinh": np.arcsinh, "acosh": np.arccosh, "atanh": np.arctanh,
@@ -194,7 +194,7 @@ FUNCTIONS: dict[str, Any] = {
 
 @functools.cache
 def _printer() -> Any:
-    """SymPy's printer of plain Python code, with functions of ours for what Python has differently."""
+    """SymPy's printer of Python code, with own functions where Python's differ."""
     from sympy.printing.lambdarepr import LambdaPrinter
 
     class Printer(LambdaPrinter):
@@ -208,7 +208,7 @@ def _printer() -> Any:
 
 
 def function_of(names: Sequence[Any], expression: Any) -> Callable[..., Any]:
-    """The expression as a function of these symbols, in their order."""
+    """Function of these symbols, in their order, from an expression."""
     import sympy as sp
 
     return sp.lambdify(names, expression, [FUNCTIONS, "numpy"], printer=_printer())

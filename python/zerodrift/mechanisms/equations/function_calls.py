@@ -13,7 +13,7 @@ from . import function_code
 
 
 class Call:
-    """A law with where its measures are: `picks` has, for each, the number of its gauge and whether its rate is meant."""
+    """User function with its arguments: `picks` has, for each measure, its marker quantity and whether the rate is meant."""
 
     def __init__(self, law: Law, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
@@ -23,7 +23,7 @@ class Call:
         return self.law.number(t, values, self.parameters)
 
     def written(self, equations: Any, values: Sequence[Any], rates: Sequence[Any]) -> Any:
-        """The node of the row, or of the effort; `values` and `rates` are those of its gauges."""
+        """Node of the residual or force; `values` and `rates` are those of its marker quantities."""
         return self.law.written(equations, [(rates if is_rate else values)[place] for place, is_rate in self.picks])
 
     def said(self, leaves: Any, node: Any) -> Sequence[Any]:
@@ -32,7 +32,7 @@ class Call:
 
 
 class Effort(Call):
-    """A force or torque."""
+    """Generalized force: a force or torque."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         return (self._numbers(t, x, xdot),)
@@ -42,7 +42,7 @@ class Effort(Call):
 
 
 class Motion(Call):
-    """The row x = f(t) of a drive."""
+    """Driving constraint x = f(t)."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         f = self.law.jet(Jet(t, 0.0, 1.0, 0.0), (), self.parameters)
@@ -53,7 +53,7 @@ class Motion(Call):
 
 
 class Speed(Call):
-    """The nonholonomic row xdot = f(t, x) of a drive."""
+    """Nonholonomic driving constraint xdot = f(t, x)."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         at = [Jet(float(x[place]), 0.0, float(xdot[place]), 0.0) for place, _ in self.picks]
@@ -68,7 +68,7 @@ class Speed(Call):
 
 
 class Holonomic(Call):
-    """A row g(t, x) = 0."""
+    """Holonomic constraint g(t, x) = 0."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         axes = np.eye(len(x) + 1)
@@ -78,7 +78,7 @@ class Holonomic(Call):
 
 
 class Nonholonomic(Call):
-    """A row h(t, x, xdot) = 0 that is linear in xdot."""
+    """Nonholonomic constraint h(t, x, xdot) = 0, linear in xdot."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         h = self.at(t, x, xdot)
@@ -89,7 +89,7 @@ class Nonholonomic(Call):
         return leaves.nonholonomic(node)
 
     def at(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Jet:
-        """The value of h, its gradient in the rates, and its derivative along the motion while the rates stay."""
+        """Value of h, its gradient in the rates, and its derivative along the motion at constant rates."""
         axes = np.eye(len(x))
         still = 0.0 * axes[0]
         at = [Jet(float(xdot[place]), axes[place], 0.0, 0.0) if is_rate else Jet(float(x[place]), still, float(xdot[place]), 0.0)
@@ -97,7 +97,7 @@ class Nonholonomic(Call):
         return self.law.jet(Jet(t, still, 1.0, 0.0), at, self.parameters)
 
     def check_linear(self, size: int) -> None:
-        """Refuses what is not linear in velocities, as far as two of them tell."""
+        """Check that h is linear in velocities, at two of them."""
         x, one, other = (np.cos(np.arange(1.0, size + 1.0) + shift) for shift in (0.0, 0.5, 1.5))
         slopes = [np.broadcast_to(self.at(0.3, x, rate).gradient, size) for rate in (one, other)]
         if np.isfinite(slopes).all() and not np.allclose(*slopes, rtol=1e-9, atol=1e-12):
@@ -105,14 +105,14 @@ class Nonholonomic(Call):
 
 
 class Laws:
-    """All laws of a mechanism, as the core calls them."""
+    """All user functions of a mechanism, as the core calls them."""
 
     def __init__(self) -> None:
         self.rows: list[Call] = []
         self._compiled: list[Any] = []
 
     def add(self, row: Call) -> int:
-        """The number under which the core calls it."""
+        """Index under which the core calls it."""
         self.rows.append(row)
         return len(self.rows) - 1
 
@@ -126,7 +126,7 @@ class Laws:
         return self._compiled
 
     def check_written(self) -> None:
-        """Refuses callables, which cannot be written out."""
+        """Check that code can be generated for all of them: they must not be callables."""
         for row in self.rows:
             row.law.check_written()
 

@@ -1,6 +1,6 @@
-"""Laws that are SymPy expressions as compiled functions, which the core calls without Python.
+"""User functions that are SymPy expressions, compiled, so that the core calls them without Python.
 
-Parameters and the decimal numbers in an expression are handed to its function: laws that differ in these alone are compiled once.
+Parameters and the decimal numbers of an expression are arguments: functions that differ in these alone are compiled once.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ import numpy as np
 
 from ...errors import CompilationFailed
 
-Compiled = tuple[int, np.ndarray, Any]      # the address of a function, its numbers, and the library that it lives in
+Compiled = tuple[int, np.ndarray, Any]      # address of a function, its numbers, and the library that contains it
 
-_functions: dict[Any, tuple[int, Any] | None] = {}      # by what they are written from; None: C has no counterpart
+_functions: dict[Any, tuple[int, Any] | None] = {}      # by template and names; None if C has no counterpart
 
 
 def compiled(row: Any, k: int) -> Compiled | None:
@@ -29,12 +29,12 @@ def compiled(row: Any, k: int) -> Compiled | None:
     if key not in _functions:
         try:
             found = _Equations(template, names, len(numbers), k).function_of(row)
-        except CompilationFailed:       # Python says the same, if slowly
+        except CompilationFailed:       # the function is called in Python instead, which is slower
             return None
         except (TypeError, ValueError):
             found = None
         else:
-            if found is None:       # there is no compiler, which may change
+            if found is None:       # not stored, as a compiler may be installed later
                 return None
         _functions[key] = found
     function = _functions[key]
@@ -46,7 +46,7 @@ class _Equations:
 
     def __init__(self, template: Any, names: Sequence[str], numbers: int, k: int) -> None:
         from ...symbolics.compile.law_terms import Leaves
-        from ...symbolics.graph.from_sympy import Reader  # slow to import, as SymPy is
+        from ...symbolics.graph.from_sympy import Reader  # slow to import, as it imports SymPy
 
         self._reader, self._template = Reader(), template
         self.graph = self._reader.graph
@@ -57,15 +57,15 @@ class _Equations:
         self.t = self.leaves.t
 
     def read(self, what: str, expression: Any, known: Mapping[Any, Any]) -> Any:
-        """The node of the expression."""
+        """Node of an expression."""
         return self._reader.read(what, self._template, {**known, **self._numbers})
 
     def difference(self, a: Any, b: Any) -> Any:
-        """The first without the second."""
+        """Node of a - b."""
         return self.graph.plus(a, self.graph.minus(b))
 
     def function_of(self, row: Any) -> tuple[int, Any] | None:
-        """The function of a law; None: there is no compiler."""
+        """Compiled function, or None without a compiler."""
         from ...symbolics.compile import law_terms
 
         node = row.written(self, self.leaves.x, self.leaves.xdot)
@@ -77,7 +77,7 @@ def _without_numbers(expression: Any) -> tuple[Any, list[float]]:
     import sympy
 
     exponents = {power.exp for power in expression.atoms(sympy.Pow)}
-    parts = dict.fromkeys(sympy.preorder_traversal(expression))     # in an order that hardly depends on what the numbers are
+    parts = dict.fromkeys(sympy.preorder_traversal(expression))     # this order hardly depends on the numbers
     numbers = [each for each in parts if each.is_Float and each not in exponents]
     return expression.xreplace({each: _number(i) for i, each in enumerate(numbers)}), [float(each) for each in numbers]
 

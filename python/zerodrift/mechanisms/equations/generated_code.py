@@ -1,10 +1,10 @@
-"""A mechanism written out: its equations as compiled code instead of tables that are interpreted.
+"""Equations of a mechanism as compiled code, instead of tables that the core interprets.
 
-The numbers of the core's plan stay numbers, which the compiled functions are handed, all but zeros and ones. Whatever else the
-equations depend on is in the plan with nodes in place of its numbers: where that is the same, so is the code.
+The numbers of the core's plan, except zeros and ones, are arguments of the compiled functions. Everything else that the equations
+depend on is in the plan with nodes for numbers: equal plans share their code.
 
-In space, absolute coordinates keep the terms of the tables, whose products know more of joints than entries of C say; and what
-is written out are direct functions alone.
+In space, absolute coordinates keep the terms of the tables, whose products use more structure of joints than the entries of C
+have; only closed-form functions are generated.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ from ...symbolics.graph.plain_functions import Plain
 from . import nodes, space_nodes
 from .function_calls import Laws
 
-DATA = "*(const double *const *)data"       # the doubles that functions are handed: csrc/mechanisms/plane/tables.h
-MOST_VELOCITIES = 400   # of six a body, each takes more than ten operations: see closed_form_writer.MOST_OPERATIONS
-OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in lanes it is these alone that stand in groups
+DATA = "*(const double *const *)data"       # the doubles that functions receive: csrc/mechanisms/plane/tables.h
+MOST_VELOCITIES = 400   # with six a body, each of which takes more than ten operations: see closed_form_writer.MOST_OPERATIONS
+OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in SIMD lanes these alone differ between groups
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Code:
 
 
 class Written:
-    """The compiled functions of a mechanism, and the numbers that they are handed.
+    """Compiled functions of a mechanism, and their numbers.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ class Written:
         self.core = self._compiled(None) if self.is_compiled else core
 
     def _derive(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
-        """The code of the equations, which is kept."""
+        """Code of the equations; it is stored for equal plans."""
         code = self._code_of(written()) if self._has_terms else self._direct_alone(written)
         kept.write(self.key, asdict(code))
         _codes[self.key] = code
@@ -133,7 +133,7 @@ class Written:
 
     def _compiled(self, direct: DirectFunctions | None, vector: str = "baseline",
                   jacobian: Any = None) -> MechanismCore | SpaceCore:
-        """The system with compiled functions."""
+        """System with compiled functions."""
         code = self._code
         numbers = np.concatenate([self._values, np.zeros(code.constants + (direct.constants if direct else 0) + 1)])
         libraries, address, terms = [self._library], None, None
@@ -150,17 +150,17 @@ class Written:
         return with_functions(self._interpreted, numbers, [*libraries, jacobian], terms=terms, direct=address, jacobian=rates)
 
     def with_jacobian(self, vector: str) -> MechanismCore | SpaceCore:
-        """The same with the derivatives of its rates for a vector unit, where there are any."""
+        """The same with derivatives of its rates for a vector unit, if it has them."""
         library = self._jacobian.library(vector) if self.is_compiled else None
         return self._compiled(None, vector, library) if library else self.core
 
     def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> DirectFunctions:
-        """The direct functions; their orders of elimination are those for these numbers and the start p0."""
+        """Closed-form functions, with elimination orders for these numbers and the start p0."""
         return DirectFunctions(self._code.program, self._sizes, self._values, p0, is_length,
                                len(self._values) + self._code.constants, OF_DIRECT)
 
     def with_direct(self, direct: DirectFunctions, vector: str) -> MechanismCore | SpaceCore:
-        """The same with direct functions for a vector unit, where there are any."""
+        """The same with closed-form functions for a vector unit, if it has them."""
         return self._compiled(direct, vector) if self.is_compiled and direct.library(vector) else self.core
 
 
@@ -187,7 +187,7 @@ def _kept_code(key: str) -> Code | None:
 
 @cache
 def _writing_code(reader: type) -> str:
-    """The fingerprint of the code that writes: of SymPy's version, too, where it is taken."""
+    """Fingerprint of the generating code, including SymPy's version if it is used."""
     version = "" if reader is Plain else metadata.version("sympy")
     package = Path(__file__).parents[2]
     files = [file for room in ("symbolics", "mechanisms") for file in sorted((package / room).rglob("*.py"))]
@@ -195,7 +195,7 @@ def _writing_code(reader: type) -> str:
 
 
 def _described(what: Any) -> Any:
-    """Laws as JSON: all that their nodes depend on."""
+    """User functions as JSON: all that their nodes depend on."""
     if hasattr(what, "free_symbols"):
         from sympy import srepr
 

@@ -14,11 +14,11 @@ from ..elements.joints import Joint, is_hinge
 from ..elements.space_joints import SpaceJoint, is_at_point, speeds
 from . import transmission
 
-RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed", of a joint's coordinate
+RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed" of a joint's coordinate
 
 
 class Reading(NamedTuple):
-    """A reading of a position, or its rate: `gauges` are the names of those that it reads, one for each component."""
+    """Measure of positions, or its rate: `gauges` are the names of its marker quantities, one for each component."""
 
     gauges: tuple[str, ...]
     is_rate: bool
@@ -48,7 +48,7 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
 
 
 def _in_space(owner: str, element: Any, quantity: str, component: list[str]) -> Reading | None:
-    """The same of an element in space, whose angular velocity is the rate of no position."""
+    """The same for an element in space, whose angular velocity is not the rate of a position."""
     rates = rates_of(element)
     if quantity in quantities(element) and quantity != "position":
         return None if component else Reading((f"{owner}.{quantity}",), False)
@@ -62,7 +62,7 @@ def _in_space(owner: str, element: Any, quantity: str, component: list[str]) -> 
 
 
 def rates_of(element: Any) -> dict[str, str]:
-    """The rates that can be read of an element in space, with what each is the rate of."""
+    """Measurable rates of an element in space, with the quantity that each is the rate of."""
     if isinstance(element, SpaceJoint):
         return {**speeds(element.row), **({"velocity": "position"} if is_at_point(element.row) else {})}
     if isinstance(element, Body | Point):
@@ -72,14 +72,14 @@ def rates_of(element: Any) -> dict[str, str]:
 
 
 def _points(element: Any) -> tuple[str, ...]:
-    """The points of an element that have measures without having been given a name."""
+    """Points of an element whose measures exist without a given name."""
     if not isinstance(element, Body) or not element.turns:
         return ()
     return ("start", "end", "center") if isinstance(element, Link) else ("center",)
 
 
 def reading_of_start(name: str, elements: Mapping[str, Any]) -> Reading | None:
-    """The same of what a start may give: the rotation of a body in space, too, by its nine cosines."""
+    """The same for values of a start, which include the rotation of a body in space, by its nine cosines."""
     owner, _, quantity = name.partition(".")
     body = elements.get(owner)
     if quantity == "rotation" and isinstance(body, Body) and body.turns and body.dimension == 3:
@@ -106,7 +106,7 @@ def _closest_first(name: str, known: Sequence[str]) -> str:
 
 
 def readable(element: Any) -> list[str]:
-    """The measures of positions and velocities of an element by name, each once and vectors whole."""
+    """Names of measures of positions and velocities of an element, vectors as a whole."""
     named = getattr(element, "measured_name", element.name)
     if getattr(element, "dimension", 2) == 3:
         own = [f"{named}.{each}" for each in (*quantities(element), *rates_of(element))]
@@ -122,7 +122,7 @@ def readable(element: Any) -> list[str]:
 
 
 def quantities(element: Any) -> tuple[str, ...]:
-    """The positions that can be read of an element; all but lengths of springs have rates, too."""
+    """Measurable positions of an element; all except lengths of springs have rates, too."""
     if isinstance(element, SpaceJoint):
         return (*element.coordinates, *(("position",) if is_at_point(element.row) else ()))
     if isinstance(element, Body):

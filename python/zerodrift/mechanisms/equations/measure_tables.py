@@ -26,9 +26,9 @@ from .tables import Tables
 
 
 class Position(NamedTuple):
-    """A measure of positions, its first and second rate where these are measures, too, and what makes the gauges it reads."""
+    """Measure of positions, its first and second rate if these are measures, and a function that makes its marker quantities."""
 
-    name: str | None        # None: what has a rate, and no value, as an angular velocity in space
+    name: str | None        # None if only the rate exists, as for an angular velocity in space
     unit: str
     rate: str | None
     second_rate: str | None
@@ -36,12 +36,12 @@ class Position(NamedTuple):
 
 
 def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismCore:
-    """The core's system with all measures; or with those of positions and velocities that `only` names, or components of."""
+    """Core system with all measures, or with those of positions and velocities in `only` and their components."""
     return tables.core(*read(tables, only))
 
 
 def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Gauge], list[Observed]]:
-    """The gauges of the tables and those that such measures read, and these measures."""
+    """Marker quantities of the tables and of these measures, and the measures."""
     gauges, observed = list(tables.gauges), []
     wanted = None if only is None else {*only, *(name.rpartition(".")[0] for name in only)}
     for position in _positions(tables, wanted):
@@ -89,7 +89,7 @@ def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Posit
         if (wanted is None or between in wanted) and transmission.has_one(joint, tables.joints_by_body):
             yield Position(between, "rad", None, None,
                            lambda joint=joint: (tables.transmission_gauge(joint),))
-        if is_hinge(joint.row):     # without a second rate: that name is the acceleration of its angle
+        if is_hinge(joint.row):     # without a second rate: its name is that of the angle's acceleration
             yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
     yield from _lengths(tables)
 
@@ -131,7 +131,7 @@ def _place(tables: Tables, name: str, of: Body | Point) -> Position:
 
 
 def _of_joints(tables: Tables) -> Iterator[Observed]:
-    """The reactions of joints."""
+    """Reactions of joints."""
     for i, joint in enumerate(tables.joints):
         yield Observed(f"{joint.name}.force", "N", "joint force", i, joint.dimension)
         if isinstance(joint, SpaceJoint):

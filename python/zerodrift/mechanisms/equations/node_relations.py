@@ -10,13 +10,13 @@ from .function_calls import Laws
 
 
 class Relations:
-    """Rows and laws over what gauges read.
+    """Constraints and forces as functions of marker quantities.
 
     Attributes
     ----------
     graph : Graph
     readings : sequence
-        Of each gauge its value and its rate.
+        Value and rate of each marker quantity.
     laws : Laws
     t : Node
         Time.
@@ -28,7 +28,7 @@ class Relations:
     t: Node
 
     def _of(self, gauges: Iterable[int]) -> tuple[list[Node], list[Node]]:
-        """Values and rates."""
+        """Values and rates of marker quantities."""
         readings = [self.readings[gauge] for gauge in gauges]
         return [reading.value for reading in readings], [reading.rate for reading in readings]
 

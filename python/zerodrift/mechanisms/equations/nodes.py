@@ -1,7 +1,7 @@
-"""The equations of a mechanism as nodes of a graph, from the plan that the core has made of its tables.
+"""Equations of a planar mechanism as nodes of a graph, from the plan that the core has made of its tables.
 
-What is known here is how bodies hang on each other and what gauges read, as in `csrc/mechanisms`: a joint that is made of these
-is written out without being known. Terms follow from kinetic and potential energy, forces and rows by `Derivation`.
+They are built from the tree of bodies and from marker quantities, as in `csrc/mechanisms`, without reference to kinds of joints.
+`Derivation` derives all terms from kinetic and potential energy, forces and constraints.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ Vector = tuple[Node, Node]
 
 
 class Numbering:
-    """Numbers as leaves of a graph, all but zero and one.
+    """Numbers as leaves of a graph, except zero and one.
 
-    Numbers of one `place` that are equal or opposite are one leaf: a point of a body is the same wherever it is named, and what
-    cancels then does so before the equations are written.
+    Numbers of one `place` that are equal or opposite share a leaf: a point of a body is the same in all elements, and terms
+    cancel before code is generated.
     """
 
     def __init__(self, graph: Graph) -> None:
@@ -48,7 +48,7 @@ class Numbering:
         return leaf
 
     def new(self, value: float) -> Node:
-        """A leaf of its own, whatever the number is."""
+        """New leaf, whatever the number is."""
         self.values.append(value)
         return self.graph.leaf("parameter", len(self.values) - 1)
 
@@ -57,7 +57,7 @@ class Numbering:
 
 
 def with_nodes(plan: Plan, number: Numbering) -> Plan:
-    """The plan with nodes in place of its numbers."""
+    """Plan whose numbers are nodes."""
     links = tuple(link._replace(
         near=number.pair(link.near, link.inner), far=number.pair(link.far, i), axis=number.pair(link.axis, "axis", link.inner),
         along=number(link.along), angle=number(link.angle), cosine=number(link.cosine), sine=number(link.sine),
@@ -96,7 +96,7 @@ class Reading(NamedTuple):
 
 
 class Equations(Relations):
-    """Energies, forces and rows of a plan whose numbers are nodes.
+    """Energies, forces and constraints of a plan whose numbers are nodes.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class Equations(Relations):
     def __init__(self, plan: Plan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
-        self.functions = reader     # its sin, cos and floor
+        self.functions = reader     # sin, cos and floor
         self.values: dict[Node, Node] = {}
         self.nq, _, self.mh, _ = sizes
         graph = self.graph
@@ -154,7 +154,7 @@ class Equations(Relations):
                 self.graph.plus(times(sine, a[0]), times(cosine, a[1])))
 
     def _turned(self, frame: Frame, a: Vector) -> Vector:
-        """A vector of a body's axes in those of the drawing."""
+        """Vector in the drawing's axes, from one in a body's axes."""
         return self._rotated(frame.cosine, frame.sine, a)
 
     def _rates(self, a: Vector) -> Vector:
@@ -202,7 +202,7 @@ class Equations(Relations):
         value = self.difference(value, zero)
         return Reading(value, self.rate_of(value))
 
-    # ---- energies, forces, rows ----
+    # ---- energies, forces, constraints ----
 
     def _kinetic(self) -> Node:
         graph, terms = self.graph, []
@@ -220,7 +220,7 @@ class Equations(Relations):
         return graph.sum([*weights, *springs])
 
     def _force(self) -> list[Node]:
-        """The generalized forces that the potential does not describe."""
+        """Generalized forces without a potential."""
         graph, efforts = self.graph, []
         for effort in self.plan.efforts:
             rate = self.readings[effort.gauge].rate

@@ -85,13 +85,13 @@ class Frames:
         return tuple(map(self.rate_of, a))
 
     def point(self, body: int, local: Vector) -> Vector:
-        """A point of a body, from the drawing's origin."""
+        """Position of a body's point, from the drawing's origin."""
         return self.of.plus(self.bodies[body].at, self.turned(body, local))
 
-    # ---- parts: leaves that stand for nodes ----
+    # ---- leaves that stand for nodes ----
 
     def _part(self, value: Node) -> Node:
-        """A leaf in the place of a node; what is one, or a number that stays, is that."""
+        """Leaf that stands for a node; leaves and numbers are returned unchanged."""
         if value.kind in ("leaf", "number"):
             return value
         leaf = self.graph.leaf("part", len(self.values))
@@ -99,14 +99,14 @@ class Frames:
         return leaf
 
     def _turn(self, parts: Vector, spin: Vector) -> None:
-        """Says the rates of a vector of a length that stays: spin x itself. Of leaves that were there before they are known."""
+        """Set the rates of a vector of constant length, spin x itself; those of older leaves are known."""
         for leaf, rate in zip(parts, self.of.cross(spin, parts), strict=True):
             if leaf in self.values and leaf not in self._with_rates:
                 self._with_rates.add(leaf)
                 self.rate_of.know(leaf, rate)
 
     def turned(self, body: int, local: Vector) -> Vector:
-        """A vector of a body's axes in those of the drawing."""
+        """Vector in the drawing's axes, from one in a body's axes."""
         of = self.bodies[body]
         if of.axes is None:
             return local
@@ -125,7 +125,7 @@ class Frames:
         return vector
 
     def _combined(self, found: Iterable[tuple[Vector, Node]]) -> Vector:
-        """The sum of vectors, each with its factor."""
+        """Linear combination of vectors."""
         return self.of.plus(*(self.of.scaled(factor, vector) for vector, factor in found))
 
     # ---- bodies ----
@@ -152,12 +152,12 @@ class Frames:
         return Body(at, axes, spin, own)
 
     def _moves(self, p: int, v: int) -> None:
-        """A coordinate whose rate is a velocity."""
+        """Add a coordinate whose rate is a velocity."""
         self.rate_of.know(self.p[p], self.v[v])
         self.A[p][v] = self.graph.one
 
     def _attitude(self, p: int, v: int) -> tuple[Vector, Vector, Vector]:
-        """The axes that a quaternion turns to, and its rows of A: half of it times its angular velocity."""
+        """Axes rotated by a quaternion, and its rows of A: half of the product with its angular velocity."""
         graph, (w, x, y, z) = self.graph, self.p[p:p + 4]
         for i, row in enumerate(((x, y, z), (w, z, y), (z, w, x), (y, x, w))):
             signs = ((-1, -1, -1), (1, -1, 1), (1, 1, -1), (-1, 1, 1))[i]
@@ -172,7 +172,7 @@ class Frames:
                 (entry((x, z, 2), (w, y, 2)), entry((y, z, 2), (w, x, -2)), entry((w, w, 1), (x, x, -1), (y, y, -1), (z, z, 1))))
 
     def _hanging(self, i: int, link: Link) -> Body:
-        """The joint's frame goes along its freedoms, from its point on the inner body to that on the outer one."""
+        """Body beyond a joint: a frame moves along the joint's degrees of freedom, from the inner body's point to the outer's."""
         inner = self.bodies[link.inner]
         frame = [self.turned(link.inner, axis) for axis in link.near_axes]
         at, spin = self.of.plus(inner.at, self.turned(link.inner, link.near)), inner.spin
@@ -186,7 +186,7 @@ class Frames:
         return body._replace(at=self.of.minus(at, self.turned(i, link.far)))
 
     def _go(self, way: Way, frame: list[Vector], at: Vector, spin: Vector) -> tuple[Vector, Vector]:
-        """Moves the frame by one freedom; returns its origin and its angular velocity."""
+        """Move the frame along one degree of freedom; returns its origin and its angular velocity."""
         graph, of, e = self.graph, self.of, self.of.scaled(self.graph.number(way.sign), frame[way.direction])
         if way.kind == "swings":
             return at, self._swing(way, frame, spin)
@@ -200,7 +200,7 @@ class Frames:
         return at, spin
 
     def _swing(self, way: Way, frame: list[Vector], spin: Vector) -> Vector:
-        """Turns the frame by a quaternion; returns its angular velocity, which is said in the axes that it then has."""
+        """Rotate the frame by a quaternion; returns its angular velocity in the rotated axes."""
         turned = [tuple(map(self._part, axis)) for axis in self._attitude(way.p, way.v)]
         frame[:] = [tuple(map(self._part, self._combined(zip(frame, axis, strict=True)))) for axis in turned]
         spin = self.of.plus(spin, self._combined(zip(frame, self.v[way.v:way.v + 3], strict=True)))
@@ -209,7 +209,7 @@ class Frames:
         return spin
 
     def _turn_frame(self, way: Way, frame: list[Vector], spin: Vector) -> None:
-        """About one of its directions, which stays."""
+        """Rotate the frame about one of its directions."""
         graph, of, i, k = self.graph, self.of, (way.direction + 1) % 3, (way.direction + 2) % 3
         c, s = (graph.call(function, self.p[way.p]) for function in (self._functions.cos, self._functions.sin))
         s, a, b = graph.sum([(s, way.sign)]), frame[i], frame[k]

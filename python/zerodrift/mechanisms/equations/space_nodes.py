@@ -1,14 +1,14 @@
-"""The equations of a mechanism in space as nodes of a graph, from the plan that the core has made of its tables.
+"""Equations of a mechanism in space as nodes of a graph, from the plan that the core has made of its tables.
 
-A point or a direction of a body is a sum of the body's axes, which turn: of such a sum only its rate is ever needed, omega times
-it. So each is a leaf of the graph, of which is known what it is and what its rate is; and places, gauges and rows are sums and
-products of these. All else follows from them and from the places of mass centres: their rates, C as the derivatives of these
-by v, and xi by a second derivative along the motion (1) at constant v.
+A point or a direction of a body is a linear combination of the body's rotating axes, of which only the rate is needed, omega x
+the vector. So each is a leaf of the graph with a known expression and rate; positions, marker quantities and constraints are sums
+and products of leaves. All else follows from these and the positions of mass centres: rates, C as derivatives of rates with
+respect to v, and xi by a second derivative along the motion (1) at constant v.
 
     M = sum of m J^T J + W^T I W        d = sum of m J^T a + W^T (I alpha + omega x I omega)        f = sum of m J^T g + efforts
 
-with J and W what mass centres and angular velocities, in the axes of their body, have of v, and a and alpha their rates where no
-velocity changes.
+with J and W the Jacobians with respect to v of mass centres' velocities and of angular velocities in body axes, and a and alpha
+their accelerations at constant v.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ HALF = nodes.HALF
 
 
 def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan:
-    """The plan with nodes in place of its numbers."""
+    """Plan whose numbers are nodes."""
     def point(vector: Sequence[float], body: int) -> Vector:
         return tuple(number(each, "point", body, axis) for each, axis in zip(vector, XYZ, strict=True))
 
@@ -73,7 +73,7 @@ class Equations(Relations):
     def __init__(self, plan: SpacePlan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
-        self.functions = reader     # its sin, cos, floor and atan2
+        self.functions = reader     # sin, cos, floor and atan2
         self.nq, self.nv, self.mh, _ = sizes
         self.t = self.graph.leaf("t", 0)
         self.frames = frames = Frames(plan.links, self.graph, reader, self.nq, self.nv)
@@ -89,7 +89,7 @@ class Equations(Relations):
     # ---- gauges ----
 
     def _follow(self) -> None:
-        """The rows of A of angles that follow."""
+        """Set the rows of A of dependent angles."""
         for angle in self.plan.angles:
             if angle.place < self.nq - self.plan.followers:
                 continue
@@ -129,7 +129,7 @@ class Equations(Relations):
         return nodes.Reading(self.difference(value, zero), self.rate_of(value))
 
     def _angle(self, gauge: Gauge, a: Vector) -> nodes.Reading:
-        """With as many turns as bring it nearest to the coordinate that counts them, which of a joint of the tree it is."""
+        """Angle of a joint, with the number of turns that brings it nearest to the coordinate that counts them."""
         graph = self.graph
         counter = self.plan.angles[gauge.counted - 1].place if gauge.counted else None
         if counter is not None and counter < self.nq - self.plan.followers:
@@ -144,7 +144,7 @@ class Equations(Relations):
         return reading._replace(value=graph.sum([(reading.value, 1), (turns, 2 * pi)]))
 
     def _contact(self, gauge: Gauge, a: Vector, apart: Vector) -> nodes.Reading:
-        """C is against o from Q by S o over the root of o . S o, with S the shape in the second body's axes."""
+        """Contact point: opposite to o from Q by S o over the root of o . S o, with S the shape in the second body's axes."""
         graph, of, first, second = self.graph, self.of, self.bodies[gauge.first], self.bodies[gauge.second]
         o = self.frames.turned(gauge.first, gauge.o)
         own = o if second.axes is None else tuple(graph.dot(axis, o) for axis in second.axes)
@@ -171,7 +171,7 @@ class Equations(Relations):
                 if entries and (name in always or any(node is not self.graph.zero for node in entries))}
 
     def _inertia(self) -> tuple[list[Node], list[Node]]:
-        """M and d, of which bodies each have what they move."""
+        """M and d, as sums over the velocities of the bodies."""
         graph, n = self.graph, self.nv
         mass: dict[tuple[int, int], list[Node]] = {}
         bias: list[list[Node]] = [[] for _ in range(n)]
@@ -203,7 +203,7 @@ class Equations(Relations):
                 yield link.inertia[k], Moving(body.own_spin[k], graph.plus(graph.times(link.inertia[k], change), gyroscopic[k]))
 
     def _efforts(self) -> dict[str, list[Node]]:
-        """f, V and the power of what V does not describe."""
+        """f, V and the power of forces without a potential."""
         graph, f = self.graph, [[] for _ in self.v]
         V, power = [], []
         for i, link in enumerate(self.plan.links, 1):
@@ -230,7 +230,7 @@ class Equations(Relations):
                 f[v.content[1]].append(self.graph.times(effort, slope))
 
     def _constraints(self) -> dict[str, list[Node]]:
-        """(3), (5) and (6)."""
+        """Phi, C, Phi_t and xi of (3), (5) and (6)."""
         graph, rows = self.graph, [self._row(row) for row in self.plan.rows]
         Psi = [*map(self.rate_of, rows[:self.mh]), *rows[self.mh:]]
         at_rest = graph.substitution(dict.fromkeys(self.v, graph.zero))
@@ -239,7 +239,7 @@ class Equations(Relations):
 
 
 class Moving(NamedTuple):
-    """A velocity, and the force that it takes where no velocity of the mechanism changes."""
+    """Velocity, and the force that it requires at constant velocities of the mechanism."""
 
     rate: Node
     force: Node

@@ -1,4 +1,4 @@
-"""From a drawing in space to the tables of numbers that the core makes a system from."""
+"""Tables of numbers from which the core makes a system in space."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .tree import carriers
 
 
 class SpaceTables(Tables):
-    """The tables of a mechanism in space: those of the plane, with gauges, joints and bodies of space."""
+    """Tables of a mechanism in space: those of the plane, with marker quantities, joints and bodies of space."""
 
     joints: list[SpaceJoint]    # type: ignore[assignment]
     inertias: SpaceInertias     # type: ignore[assignment]
@@ -39,7 +39,7 @@ class SpaceTables(Tables):
         return SpaceInertias(self.drawing, self.numbers)
 
     def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[rows.Observed] = ()) -> SpaceCore:     # type: ignore[override]
-        """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
+        """Core system, without measures, or with these; their marker quantities follow those of the tables."""
         bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, carrier)
                   for body, carrier in zip(self.parts, self.carrier, strict=True) for mass in [self.inertias.of[body.name]]]
         tables = space.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations,
@@ -56,7 +56,7 @@ class SpaceTables(Tables):
         return carriers(len(self.parts), space_tree.edges(self.joints, self.number, with_cut=with_cut), weights)
 
     def _carried(self) -> Iterator[tuple[Body, SpaceJoint | None]]:
-        """The bodies, each with the joint that carries it."""
+        """Bodies, each with its inboard joint."""
         for body, carrier in zip(self.parts, self.carrier, strict=True):
             yield body, self.joints[carrier] if carrier >= 0 else None
 
@@ -78,7 +78,7 @@ class SpaceTables(Tables):
         return (*bodies, *(Variable(f"{joint.name}.{angle}", "rad") for joint in others for angle in joint.angles))
 
     def velocities(self) -> tuple[Variable, ...]:
-        """The entries of v: of free bodies velocities of mass centres, and angular velocities about their own principal axes."""
+        """Entries of v: of free bodies velocities of mass centres, and angular velocities about their own principal axes."""
         return tuple(each for body, carrier in self._carried() for each in space_tree.rates(body, carrier))
 
     # ---- joints ----
@@ -90,7 +90,7 @@ class SpaceTables(Tables):
         return triple(self.inertias.direction(body, local))
 
     def _joint(self, joint: SpaceJoint) -> space.Joint:     # type: ignore[override]
-        """A row of the table of joints."""
+        """Entry of the table of joints."""
         (first, point1), (second, point2) = self._place(joint.first), self._place(joint.second)
         frames = (tuple(self._direction(body, row) for row in frame)
                   for body, frame in zip(joint.bodies, joint.frames, strict=True))
@@ -148,7 +148,7 @@ class SpaceTables(Tables):
         self._elastic(spring, self._gauge(spring.name, gauge._replace(zero=self.numbers(spring, "angle", spring.angle))))
 
     def _bushing(self, bushing: SpaceBushing) -> None:     # type: ignore[override]
-        """Along each direction how far it is off, and about it how far the next one has turned, as seen along it."""
+        """Force along each direction by the displacement, and moment about it by the rotation of the next direction."""
         (first, point1), (second, point2) = self._place(bushing.first), self._place(bushing.second)
         near, far = ([self._direction(side.body, row) for row in frame]
                      for side, frame in zip((bushing.first, bushing.second), bushing.frames, strict=True))
@@ -172,7 +172,7 @@ class SpaceTables(Tables):
         self._observe_effort(force)
 
     def _torque(self, torque: Torque) -> None:
-        """About an axis that turns with a frame on which nothing acts, or with the body on which the opposite acts."""
+        """Moment about an axis that turns with a frame without reaction, or with the body that gets the opposite moment."""
         turns_with = torque.frame if torque.against is self.drawing.ground else torque.against
         kind = "spin" if torque.against is self.drawing.ground else "turn"
         axis = self._direction(turns_with, torque.axis)
@@ -182,5 +182,5 @@ class SpaceTables(Tables):
 
 
 def tables_of(drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> Tables:
-    """The tables."""
+    """Tables of a drawing in the plane or in space."""
     return (SpaceTables if drawing.dimension == 3 else Tables)(drawing, numbers, in_tree=in_tree, starts=starts)

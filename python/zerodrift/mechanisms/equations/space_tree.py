@@ -1,4 +1,4 @@
-"""Joint coordinates in space: which joints can carry which body, and what coordinates that gives."""
+"""Joint coordinates in space: possible inboard joints of bodies, and their coordinates."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from ..elements.space_joints import SpaceJoint, speeds
 from .tree import Edge
 
 QUATERNION = ("e0", "e1", "e2", "e3")
-SIZES = {"slides": 1, "turns": 1, "advances": 1, "swings": 3}      # velocities
+SIZES = {"slides": 1, "turns": 1, "advances": 1, "swings": 3}      # numbers of velocities
 
 
 def edges(joints: Sequence[SpaceJoint], number: dict[str, int], *, with_cut: bool = False) -> list[Edge]:
-    """The joints that may be in the tree; with those that the user has cut, too, or without."""
+    """Joints that may be in the tree, optionally with those that the user has cut."""
     return [Edge(i, *(number[body.name] for body in joint.bodies), freedoms(joint)) for i, joint in enumerate(joints)
             if joint.row.freedoms is not None and (with_cut or not joint.cut)]
 
@@ -27,7 +27,7 @@ def freedoms(joint: SpaceJoint) -> tuple[int, int]:
 
 
 def positions(body: Body, carrier: SpaceJoint | None) -> Iterator[Variable]:
-    """The entries of p that are a body's own: of a free one its place and its quaternion, of the others those of its joint."""
+    """Entries of p of a body: position and quaternion if it is free, otherwise the coordinates of its inboard joint."""
     if carrier is None:
         yield from (Variable(f"{body.name}.{axis}", "m") for axis in AXES)
         yield from (Variable(f"{body.name}.{each}", "") for each in (QUATERNION if body.turns else ()))
@@ -40,7 +40,7 @@ def positions(body: Body, carrier: SpaceJoint | None) -> Iterator[Variable]:
 
 
 def rates(body: Body, carrier: SpaceJoint | None) -> Iterator[Variable]:
-    """The entries of v that are a body's own; of a quaternion the angular velocity about the body's own axes."""
+    """Entries of v of a body; with a quaternion the angular velocity about the body's own axes."""
     if carrier is None:
         yield from (Variable(f"{body.name}.{axis}_dot", "m/s") for axis in AXES)
         yield from (Variable(f"{body.name}.{axis}_spin", "rad/s") for axis in (AXES if body.turns else ()))

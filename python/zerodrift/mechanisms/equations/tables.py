@@ -1,4 +1,4 @@
-"""From a drawing to the tables of numbers that the core makes a system from."""
+"""Tables of numbers from which the core makes a system."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ ORIGIN = np.zeros(2)
 
 
 class Tables:
-    """The tables of a mechanism, built up element by element.
+    """Tables of a mechanism, built element by element.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class Tables:
         return Inertias(self.drawing, self.numbers)
 
     def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[Observed] = ()) -> MechanismCore:
-        """The core's system, without measures; or with these, which read gauges of theirs behind those of the tables."""
+        """Core system, without measures, or with these; their marker quantities follow those of the tables."""
         laws = self.laws if self.laws.rows else None
         return MechanismCore(self.written(gauges, observed), laws, laws_know_time=self.laws.know_time)
 
@@ -87,7 +87,7 @@ class Tables:
         return np.array(poses, dtype=float).reshape(-1, 3)
 
     def absolute(self) -> Tables:
-        """The same tables, of which nothing but the bodies differs: all of them are free."""
+        """The same tables with all bodies free."""
         other = copy.copy(self)
         other.carrier = [-1] * len(self.parts)
         return other
@@ -105,7 +105,7 @@ class Tables:
     # ---- bodies and joints ----
 
     def tree(self, *, with_cut: bool = False) -> list[int]:
-        """The joint that carries each part; with joints that the user has cut, too, or without."""
+        """Inboard joint of each body, optionally counting joints that the user has cut."""
         edges = [Edge(i, *(self.number[body.name] for body in joint.bodies), _freedoms(joint))
                  for i, joint in enumerate(self.joints) if joint.row.carrier and (with_cut or not joint.cut)]
         weights = [(float(body.turns), self.inertias.of[body.name][0]) for body in self.parts]
@@ -115,7 +115,7 @@ class Tables:
         return self.number[point.body.name], self.inertias.local(point, self.numbers)
 
     def _joint(self, joint: Joint) -> rows.Joint:
-        """A row of the table of joints."""
+        """Entry of the table of joints."""
         (first, point1), (second, point2) = self._place(joint.first), self._place(joint.second)
         axis = (1.0, 0.0) if joint.axis is None else _pair(joint.axis)
         if joint.is_of_one_body:
@@ -124,7 +124,7 @@ class Tables:
         return rows.Joint(joint.row.number, first, second, point1, point2, axis, along, 0.0, joint.angle_as_drawn(),
                           joint.length_with(self.numbers))
 
-    # ---- gauges ----
+    # ---- marker quantities ----
 
     def _gauge(self, name: str, gauge: Gauge) -> int:
         self.gauge_number[name] = len(self.gauges)
@@ -132,9 +132,7 @@ class Tables:
         return self.gauge_number[name]
 
     def _gauge_of(self, name: str) -> int:
-        """The number of the gauge that reads one component of a position, such as "crank.end.position.x": there is one where
-        something depends on it.
-        """
+        """Index of the marker quantity of a component of a position, such as "crank.end.position.x", added at first use."""
         known = self.gauge_number.get(name)
         return self._gauge(name, self._reading_of(name)) if known is None else known
 
@@ -176,7 +174,7 @@ class Tables:
 
     @cached_property
     def joints_by_body(self) -> dict[str, list[Joint]]:
-        """The joints of each body, by its name."""
+        """Joints of each body, by its name."""
         return transmission.joints_by_body(self.drawing.elements)
 
     def length_gauge(self, spring: Spring | Actuator) -> Gauge:
@@ -185,7 +183,7 @@ class Tables:
         return Gauge("distance", first, second, point1, point2)
 
     def _damp(self) -> None:
-        """The damping of joints."""
+        """Add the damping of joints."""
         for i, joint in enumerate(self.joints):
             damping = self.numbers(joint, "damping", joint.damping) if has_coordinate(joint) else 0.0
             if damping:
@@ -195,7 +193,7 @@ class Tables:
     # ---- drives and couplings ----
 
     def _inputs(self, names: Sequence[str], first: Sequence[int] = ()) -> tuple[list[int], list[tuple[int, bool]]]:
-        """The gauges that a law is handed, and which of them, or of their rates, each of its measures is."""
+        """Marker quantities of a user function; for each of its measures the index among them and whether the rate is meant."""
         gauges, picks = list(first), []
         for name in names:
             read = reading(name, self.drawing.elements)
@@ -223,7 +221,7 @@ class Tables:
         self.observed.append(Observed(f"{motor.name}.power", "W", words[1], index))
 
     def _drive(self, motor: Motor, coordinate: str, gauge: int, joint: int) -> rows.Relation:
-        """The row of a drive that prescribes a motion."""
+        """Driving constraint of a prescribed motion."""
         law = motor.law
         if law.constant is not None:
             value = self.numbers(motor, motor.drives, law.constant)
@@ -265,7 +263,7 @@ class Tables:
         self._observe_coupling(coupling, [gauge for gauge, _ in picks])
 
     def _observe_coupling(self, coupling: Coupling, terms: Sequence[int]) -> None:
-        """Adds the efforts of the relation added last: `terms` are those of the measures that the coupling is of."""
+        """Add the forces of the last relation as measures: `terms` are the indices of the coupled measures."""
         for effort, of in coupling.efforts.items():
             unit = "N m" if effort.endswith("torque") else "N"
             self.observed.append(Observed(f"{coupling.name}.{effort}", unit, "drive", len(self.relations) - 1, term=terms[of]))
@@ -273,7 +271,7 @@ class Tables:
     # ---- forces ----
 
     def _effort(self, name: str, quantity: str, gauge: int, element: Any, joint: int = -1) -> None:
-        """An effort by a number or a law."""
+        """Add a generalized force by a number or a user function."""
         self.effort_of[name] = len(self.efforts)
         if element.law.constant is not None:
             value = self.numbers(element, quantity, element.law.constant)
@@ -284,7 +282,7 @@ class Tables:
         self.efforts.append(rows.Effort("law", gauge, law=row, inputs=gauges, joint=joint))
 
     def _observe_effort(self, element: Any) -> None:
-        """Adds the scalar measure that the core's table gives an element."""
+        """Add the scalar measure that the core's table defines for an element."""
         kind = ELEMENTS[element.kind]
         if kind.effort:
             unit = "N m" if kind.effort == "torque" else "N"
@@ -335,7 +333,7 @@ class Tables:
 
 
     def _made_force(self, made: MadeForce) -> None:
-        """An effort along each of its gauges; its measure is the first one's."""
+        """Add the force along each marker quantity; the measure is that of the first."""
         (first, point1), (second, point2) = self._place(made.first), self._place(made.second)
         axis, index = (1.0, 0.0) if made.axis is None else _pair(made.axis), len(self.efforts)
         for i, (kind, zero) in enumerate(made.row.gauges):
@@ -363,7 +361,7 @@ def _pair(vector: np.ndarray) -> tuple[float, float]:
 
 
 def constraint_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
-    """Names and units of the rows of C: the joint and which of its gauges, or the drive or coupling."""
+    """Names and units of the constraints: the joint and its marker quantity, or the drive or coupling."""
     named = []
     for row in core.rows:
         if row.owner == "relation":

@@ -1,4 +1,4 @@
-"""The transmission angle at a hinge: between the lines along which its two links push and are pushed.
+"""Transmission angle at a hinge: between the lines along which its two links transmit forces.
 
 The line of a link goes from the hinge to the other joint of that link; where that joint is a slider, it is the normal of the
 slide, which the push should not follow. In a four-bar, at the hinge of coupler and rocker, that is the angle of textbooks, and in
@@ -24,18 +24,18 @@ SAME = 1e-9             # m or rad: largest distance of joints that coincide
 
 
 class Line(NamedTuple):
-    """A line that turns with a body: its angle in the body's frame, in rad."""
+    """Line that turns with a body: its angle in the body's frame, in rad."""
 
     body: Body
     angle: float
 
 
 class NoTransmissionAngle(ValueError):
-    """There is no transmission angle: the sentence says why."""
+    """The transmission angle is undefined, for the reason in the message."""
 
 
 def joints_by_body(elements: Mapping[str, Any]) -> dict[str, list[Joint]]:
-    """The joints of each body, by its name."""
+    """Joints of each body, by its name."""
     found: dict[str, list[Joint]] = {}
     for joint in elements.values():
         if isinstance(joint, Joint):
@@ -45,7 +45,7 @@ def joints_by_body(elements: Mapping[str, Any]) -> dict[str, list[Joint]]:
 
 
 def lines(joint: Joint, joints: Mapping[str, list[Joint]], numbers: Numbers = AS_GIVEN) -> tuple[Line, Line]:
-    """The lines of a hinge's two links, ordered so that the angle from the first to the second is positive as drawn."""
+    """Lines of a hinge's two links, ordered so that the angle from the first to the second is positive as drawn."""
     if not is_hinge(joint.row):
         raise NoTransmissionAngle(f"{joint.name!r} is no hinge, and a transmission angle is that at a hinge of two links")
     if any(body.name == "ground" for body in joint.bodies):
@@ -74,13 +74,13 @@ def gauge(joint: Joint, joints: Mapping[str, list[Joint]], numbers: Numbers, num
 
 
 def _turned(first: Line, second: Line) -> float:
-    """From the first line to the second as drawn, in (-pi, pi]."""
+    """Angle from the first line to the second as drawn, in (-pi, pi]."""
     angle = second.body.pose.angle + second.angle - first.body.pose.angle - first.angle
     return columns.plain(np.pi - (np.pi - angle) % (2 * np.pi))
 
 
 def _line(joint: Joint, point: Point, others: Iterable[Joint], numbers: Numbers) -> Line:
-    """The line of one link, from a hinge at that point of it."""
+    """Line of one link, from a hinge at that point of it."""
     here, found = point.local_with(numbers), []
     for other in others:
         if other is joint:
@@ -106,7 +106,7 @@ def _is_same(first: Line, second: Line) -> bool:
 
 
 def _only(joint: Joint, body: Body, found: list[tuple[Joint, Body, Line]]) -> Line:
-    """The line to the one other joint; of several, to the one on the ground."""
+    """Line to the only other joint, or among several to the one on the ground."""
     grounded = [each for each in found if each[1].name == "ground"]
     for chosen in (found, grounded):
         if chosen and all(_is_same(line, chosen[0][2]) for _, _, line in chosen):

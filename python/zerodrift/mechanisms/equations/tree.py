@@ -1,4 +1,4 @@
-"""The tree that carries the bodies of a mechanism in joint coordinates; the joints that are not in it close loops."""
+"""Tree of inboard joints of a mechanism in joint coordinates; joints outside the tree close loops."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 
 class Edge(NamedTuple):
-    """A joint that can carry one of its bodies: `freedoms` are the coordinates it needs for the first, and for the second."""
+    """Joint that can be an inboard joint: `freedoms` are its numbers of coordinates for the first body and for the second."""
 
     joint: int
     first: int
@@ -17,11 +17,11 @@ class Edge(NamedTuple):
 
 
 def carriers(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, ...]]) -> list[int]:
-    """For each body, numbered from 1 on, the joint that carries it; -1: none, it is free.
+    """Inboard joint of each body, numbered from 1; -1 for a free body.
 
-    From the ground, which is 0, the tree grows by the joint of fewest freedoms, and among these by the one that is nearest to the
-    ground: so loops are cut where there is most freedom, and branches are short. What the ground is not joined to gets a free
-    root of its own, the heaviest body, as `weights` says.
+    The tree grows from the ground, body 0, by the joint of fewest degrees of freedom, and among these by the one nearest to the
+    ground: so loops are cut at joints of most degrees of freedom, and branches are short. Bodies without a connection to the
+    ground get a free root, the heaviest body by `weights`.
     """
     around: list[list[Edge]] = [[] for _ in range(bodies + 1)]
     for edge in edges:
@@ -38,7 +38,7 @@ def carriers(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, 
 
 
 def _grow(frontier: list, around: list[list[Edge]], carrier: list[int], reached: list[bool]) -> None:
-    """Takes all that can be reached from the frontier."""
+    """Extend the tree by all that can be reached from the frontier."""
     while frontier:
         _, depth, joint, outer = heapq.heappop(frontier)
         if not reached[outer]:
@@ -47,14 +47,14 @@ def _grow(frontier: list, around: list[list[Edge]], carrier: list[int], reached:
 
 
 def _offer(frontier: list, edges: list[Edge], inner: int, depth: int) -> None:
-    """Adds a body's joints to the frontier."""
+    """Add a body's joints to the frontier."""
     for edge in edges:
         side = 1 if edge.first == inner else 0
         heapq.heappush(frontier, (edge.freedoms[side], depth + 1, edge.joint, edge.second if side else edge.first))
 
 
 def loop(carrier: Sequence[int], ends: Sequence[tuple[int, int]], joint: int) -> tuple[list[int], list[int]]:
-    """The bodies and the joints of the loop that a joint closes: `ends` has the two bodies of every joint."""
+    """Bodies and joints of the loop that a joint closes: `ends` has the two bodies of every joint."""
     first, second = (_way_down(carrier, ends, body) for body in ends[joint])
     shared = {body for body, _ in first} & {body for body, _ in second}
     bodies, joints = [], [joint]
@@ -67,7 +67,7 @@ def loop(carrier: Sequence[int], ends: Sequence[tuple[int, int]], joint: int) ->
 
 
 def _way_down(carrier: Sequence[int], ends: Sequence[tuple[int, int]], body: int) -> list[tuple[int, int]]:
-    """The bodies from one down to its root, or to the ground behind it, each with the joint that carries it."""
+    """Bodies from one down to its root, or to the ground beyond it, each with its inboard joint."""
     way = []
     while body:
         joint = carrier[body - 1]

@@ -14,15 +14,15 @@ SIGNS = {"+": "Add", "*": "Mul", "^": "Pow", "<": "StrictLessThan", "<=": "LessT
          ">=": "GreaterThan", "=": "Equality", "!=": "Unequality", "and": "And", "or": "Or", "not": "Not", "cases": "Piecewise"}
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
              "log", "Abs", "sign", "Min", "Max", "floor", "ceiling", "Mod", "Heaviside")
-DEEPEST = 100       # operations within operations: deeper ones would be beyond Python's stack
-LARGEST = 10**309       # of whole numbers: doubles end there
-MOST_BITS = 3000        # of powers of numbers, which SymPy computes with all their digits as it reads them
+DEEPEST = 100       # nested operations, at most, for Python's stack
+LARGEST = 10**309       # largest whole number, near the largest double
+MOST_BITS = 3000        # bits, at most, of powers of numbers, which SymPy evaluates exactly while reading
 CONSTANTS = {"pi": "pi", "e": "Exp1", "true": "true", "false": "false"}
 
 
 @functools.cache
 def _operations() -> dict[str, Callable[..., Any]]:
-    """SymPy's classes by the words that stand for them."""
+    """Classes of SymPy by their names in files."""
     import sympy as sp
 
     return {sign: getattr(sp, name) for sign, name in SIGNS.items()} | {name: getattr(sp, name) for name in FUNCTIONS}
@@ -36,7 +36,7 @@ def _constants() -> dict[str, Any]:
 
 
 def to_json(expression: Any, what: str) -> Any:
-    """The expression as lists of words and numbers; `what` it belongs to is named where that cannot be."""
+    """Expression as lists of words and numbers; errors name its owner `what`."""
     written = _written(expression, what)
     if _in_order(_written(from_json(written, what), what)) != _in_order(written):
         raise ValueError(f"{what} is an expression that would be simplified where it is read, {expression}: it cannot be saved")
@@ -44,7 +44,7 @@ def to_json(expression: Any, what: str) -> Any:
 
 
 def _in_order(written: Any) -> Any:
-    """With terms and factors in one order, whatever is assumed of symbols."""
+    """Expression with terms and factors in one order, whatever is assumed of symbols."""
     if not isinstance(written, list):
         return written
     word, *parts = [_in_order(part) for part in written]
@@ -74,7 +74,7 @@ def _written(expression: Any, what: str) -> Any:
 
 
 def from_json(written: Any, what: str, depth: int = 0) -> Any:
-    """The expression; an error names `what` it belongs to and the part that is none."""
+    """Expression from lists of words and numbers; errors name its owner `what` and the wrong part."""
     import sympy as sp
 
     if depth > DEEPEST:
@@ -101,7 +101,7 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
         _check_power(*read, what)
     try:
         return _operations()[word](*read)
-    except Exception as error:      # each of SymPy's classes has its own
+    except Exception as error:      # classes of SymPy raise different errors
         raise ValueError(f"{what} has the operation {word!r} of {', '.join(map(str, read))}, which cannot be: {error}") from None
 
 
@@ -114,7 +114,7 @@ def _integer(written: int, what: str) -> Any:
 
 
 def _check_power(base: Any, exponent: Any, what: str) -> None:
-    """Refuses powers of numbers that would fill the memory."""
+    """Check that a power of numbers does not fill the memory."""
     if not (base.is_Rational and exponent.is_Rational):
         return
     bits = max(int(base.p).bit_length(), int(base.q).bit_length())

@@ -1,4 +1,4 @@
-"""A mechanism from its JSON: by the same verbs, so that they check it, and with the numbers that were saved."""
+"""Mechanism from JSON, by the methods of `Mechanism`, which check it, with the stored numbers."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ from .space_from_json import IN_SPACE, keep_rotations
 from .to_json import VERSION, WHAT
 from .values_from_json import law_and_of, point_of_body, told_direction, told_place
 
-MOST_DIGITS = 400       # of a whole number in a file: doubles have at most 309
+MOST_DIGITS = 400       # digits of a whole number in a file, at most: doubles have up to 309
 
 
 def parsed(text: str, where: str) -> dict[str, Any] | None:
-    """The JSON of a mechanism; None where the text is something else."""
+    """JSON of a mechanism, or None if the text is something else."""
     try:
         found = json.loads(text, object_pairs_hook=lambda pairs: _once(pairs, where), parse_constant=_refused(where),
                            parse_int=lambda digits: _whole(digits, where))
@@ -58,7 +58,7 @@ def _refused(where: str) -> Callable[[str], Any]:
 
 def mechanism(make: Callable[..., Any], description: Any, where: str) -> Any:
     """Mechanism, of the class `make`, from a description by `to_json.described`; errors name `where` and the place in it."""
-    version = description.get("version", VERSION)       # first, as a later version may have other keys
+    version = description.get("version", VERSION)       # first, as other versions may have other keys
     if type(version) is not int or version != VERSION:
         raise ValueError(f"{where} is a mechanism of version {version!r}, and version {VERSION} is known here")
     return _parts(make, where, **_fields(_parts, description, where, skip=("zerodrift", "version")))
@@ -165,7 +165,7 @@ def _knife_edge(m: Any, name: str, *, first: Any, second: Any, axis: Any) -> Non
 
 
 def _by_row(joint: type[Joint]) -> Callable[..., None]:
-    """As those above, for a kind of joint whose verb is made from its row."""
+    """Reader of a kind of joint whose method is made from the core's table."""
     sides = ("second",) if joint.is_of_one_body else ("first", "second")
 
     def make(m: Any, name: str, **given: Any) -> None:
@@ -255,7 +255,7 @@ def _torque(m: Any, name: str, *, body: Any, against: Any, value: Any) -> None:
 
 
 def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
-    """As those above, for a kind of element whose verb is made from its row."""
+    """Reader of a kind of force element whose method is made from the core's table."""
     def make(m: Any, name: str, **given: Any) -> None:
         sides = given.pop("first"), given.pop("second")
         if axis := given.get("axis"):

@@ -1,4 +1,4 @@
-"""The elements of a mechanism in space from their JSON, where it is another than in the plane."""
+"""Elements of a mechanism in space from JSON, where it differs from the plane's."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from ..elements.immutable import amend
 from ..elements.space_joints import BY_KIND, SpaceJoint
 from .values_from_json import law_and_of, point_of_body, told_direction, told_place
 
-SAME = 1e-9         # how nearly both frames of a joint are one in the drawing
+SAME = 1e-9         # difference of a joint's two frames in the drawing, at most
 
 
 def keep_rotations(m: Any, start: Any, wish: Any) -> None:
-    """Lets a start hold the rotations that were saved, to the last bit."""
+    """Set the rotations of a start to the stored ones, bit by bit."""
     for kept, told in ((m._held, start), (m._wished, wish)):
         kept.update({name: np.array(value) for name, value in told.items() if name.endswith(".rotation")})
 
@@ -28,7 +28,7 @@ def _matrix(what: str, given: Any) -> np.ndarray:
 
 
 def _rotation(what: str, given: Any) -> np.ndarray:
-    """A rotation, which is kept as it is."""
+    """Rotation as stored, checked."""
     given_rotation(what, given)
     return np.array(given, dtype=float)
 
@@ -49,7 +49,7 @@ def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, 
 
 
 def _frames(m: Any, first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
-    """The frames (3, 3) of a joint, one in the drawing."""
+    """Frames (3, 3) of a joint in both bodies, checked to be equal in the drawing."""
     if not isinstance(given, list) or len(given) != 2:
         raise ValueError(f"frames must be two matrices, not {_check.shown(given)}")
     frames = _rotation("frames[0]", given[0]), _rotation("frames[1]", given[1])

@@ -1,4 +1,4 @@
-"""A mechanism as JSON: what it was given, in the frames in which it keeps it, so that no number changes on the way."""
+"""Mechanism as JSON: its numbers in the frames in which they are stored, so that none is rounded."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from .expressions_json import to_json
 from .space_to_json import IN_SPACE
 from .values_to_json import not_saved, numbers, place, sides, told_law
 
-WHAT = "mechanism"      # how a file is recognised: its first key says it
-VERSION = 1             # of the format
+WHAT = "mechanism"      # first key of a file, by which it is recognized
+VERSION = 1             # version of the format
 
 
 def described(drawing: Drawing) -> dict[str, Any]:
-    """Everything of a mechanism; ValueError where a callable is in it, which it names."""
+    """Description of a mechanism as dicts and lists; ValueError names a callable, which cannot be saved."""
     written = WRITTEN | IN_SPACE if drawing.dimension == 3 else WRITTEN
     elements = [{"kind": _kind(element), "name": element.name, **written[_kind(element)](element, drawing)}
                 for element in drawing.elements.values() if element is not drawing.ground]
@@ -35,7 +35,7 @@ def described(drawing: Drawing) -> dict[str, Any]:
 
 
 def text(description: dict[str, Any]) -> str:
-    """JSON with each element in a line of its own."""
+    """JSON with one element per line."""
     lines = []
     for key, value in description.items():
         if key == "elements" and value:

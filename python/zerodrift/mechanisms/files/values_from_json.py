@@ -11,11 +11,11 @@ from ... import _check
 from ..elements.bodies import Point
 from .expressions_json import from_json
 
-UNIT = 1e-9         # how near the length of a direction is to one
+UNIT = 1e-9         # deviation of a direction's length from one, at most
 
 
 def told_place(m: Any, given: Any) -> Any:
-    """A point by its name, or by its body and where it is in that body's frame."""
+    """Point from its name, or from its body and its coordinates in the body's frame."""
     if isinstance(given, str):
         return m._named("a point", given)
     if not isinstance(given, Mapping) or set(given) != {"body", "local"}:
@@ -24,7 +24,7 @@ def told_place(m: Any, given: Any) -> Any:
 
 
 def told_direction(what: str, given: Any, dimension: int = 2) -> np.ndarray:
-    """A direction (dimension,), which is kept as it is where its length is one."""
+    """Direction (dimension,) of length one, as stored."""
     direction = _check.vector(what, given, dimension)
     if abs(np.linalg.norm(direction) - 1) > UNIT:
         raise ValueError(f"{what} must have length 1, not {_check.shown(given)}")
@@ -41,5 +41,5 @@ def law_and_of(given: Any, what: str) -> tuple[Any, Any]:
 
 
 def point_of_body(m: Any, given: Any) -> Point:
-    """A point, of which the body is wanted, too."""
+    """Point of a description whose body is needed."""
     return _check.instance("a point", told_place(m, given), Point, "a point of a body")

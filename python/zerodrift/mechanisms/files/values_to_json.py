@@ -13,7 +13,7 @@ from .expressions_json import to_json
 
 
 def numbers(array: Any) -> Any:
-    """A vector, or a matrix row by row, in plain floats."""
+    """Vector, or matrix row by row, as floats."""
     return np.asarray(array, dtype=float).tolist()
 
 
@@ -33,12 +33,12 @@ def place(point: Point, drawing: Drawing) -> Any:
 
 
 def sides(element: Any, drawing: Drawing) -> dict[str, Any]:
-    """The two points of an element."""
+    """JSON of an element's two points."""
     return {"first": place(element.first, drawing), "second": place(element.second, drawing)}
 
 
 def told_law(law: Law) -> Any:
-    """A number, or an expression and what its names are bound to."""
+    """JSON of a user function: a number, or an expression and the measures of its names."""
     if law.constant is not None:
         return law.constant
     if law.expression is None:
@@ -48,5 +48,5 @@ def told_law(law: Law) -> Any:
 
 
 def not_saved(what: str) -> ValueError:
-    """The error for what is a callable."""
+    """Error for a callable."""
     return ValueError(f"{what} is a callable, which cannot be saved: a SymPy expression in its place can")

@@ -1,4 +1,4 @@
-"""Forces of a mechanism in a solution, with where they act: what pictures show as arrows."""
+"""Forces of a mechanism in a solution and their points of application, drawn as arrows."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..elements.table_forces import MadeForce
 from .plane_pose import Posed
 from .space_pose import SpacePosed
 
-SHOWN = Joint, Bushing, Force       # where nothing is chosen
+SHOWN = Joint, Bushing, Force       # shown by default
 HAVE_FORCES = (*SHOWN, Spring, Actuator, MadeForce)
 
 
@@ -40,7 +40,7 @@ def acting(element: Any, moments: Sequence[Posed] | Sequence[SpacePosed], values
 
 
 def _direction(element: Any, posed: Posed | SpacePosed) -> np.ndarray:
-    """The direction (2,) or (3,) of a force on its second point whose measure is 1."""
+    """Unit vector (2,) or (3,) of a force on its second point whose measure is positive."""
     if isinstance(element, Force):
         return posed.direction(element.frame, element.along)
     if isinstance(element, MadeForce) and element.axis is not None:

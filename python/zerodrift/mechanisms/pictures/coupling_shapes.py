@@ -1,4 +1,4 @@
-"""The shapes of gears, racks and cams, whose sizes follow from what they couple."""
+"""Shapes of gears, racks and cams, with sizes computed from the coupling."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from ..elements.joints import Coupling, Joint
 from .plane_outline import APART
 from .plane_pose import Parts, Posed
 
-ANGLES = 180        # of a cam's profile
-ROOM = 0.7          # of a cam's radius: the least distance of its roller from where the guide is drawn
-BASE = 1.2          # of the lift: the least radius of a cam that is drawn
+ANGLES = 180        # points of a cam's profile
+ROOM = 0.7          # of a cam's radius: smallest distance in the picture between roller and guide
+BASE = 1.2          # of the lift: smallest radius of a drawn cam
 
 
 class Wheel(NamedTuple):
-    """A body that turns about a hinge as a gear; `sense` is -1 where the hinge measures the other body's turning."""
+    """Body that turns about a hinge as a gear; `sense` is -1 if the hinge measures the other body's rotation."""
 
     joint: Joint
     body: Body
@@ -43,7 +43,7 @@ class Couplings:
             self._lengthen(cam)
 
     def _lengthen(self, cam: Cam) -> None:
-        """The outline of a follower goes from its roller to its guide."""
+        """Extend the outline of a follower from its roller to its guide."""
         if isinstance(cam.follower, Particle):
             return
         places = self.parts.outline[cam.follower.name]
@@ -57,12 +57,12 @@ class Couplings:
         return self.parts.drawing.elements[coupling.of[which].rpartition(".")[0]]
 
     def shapes(self, posed: Posed) -> Iterator[Shape]:
-        """All of them."""
+        """All shapes of couplings."""
         drawn: set[tuple[str, int]] = set()
         for gear in self.of["gear"]:
             for body, shape in self._gear(gear, posed):
                 key = body.name, round(shape.number / APART)
-                if key not in drawn:        # a wheel that meshes with several is one wheel
+                if key not in drawn:        # a wheel that meshes with several others is drawn once
                     drawn.add(key)
                     yield shape
         for rack in self.of["rack_pinion"]:
@@ -76,7 +76,7 @@ class Couplings:
                 yield Shape("coupled", np.array(places), coupler.name)
 
     def _gear(self, gear: Coupling, posed: Posed) -> Iterator[tuple[Body, Shape]]:
-        """Pitch circles, whose sizes follow from the ratio and the distance of the centres."""
+        """Pitch circles, with sizes from the ratio and the distance of the centres."""
         wheels = _wheels(self.parts, gear)
         centres = [posed.at(wheel.joint.second) for wheel in wheels]
         apart = float(np.hypot(*(centres[1] - centres[0])))
@@ -90,7 +90,7 @@ class Couplings:
             yield wheel.body, Shape("ring" if is_ring else "gear", np.array([centre, spoke]), gear.name, radius)
 
     def _rack(self, rack: Coupling, posed: Posed) -> Iterator[Shape]:
-        """The pitch circle, and the rack that touches it where both move with the same velocity."""
+        """Pitch circle, and the rack that touches it where both have the same velocity."""
         pinion, slider = self._joint(rack, 0), self._joint(rack, 1)
         ratio = self.parts.numbers(rack, "ratio", rack.ratio)
         centre, axis = posed.at(pinion.second), posed.direction(slider.bodies[0], slider.axis)
@@ -102,7 +102,7 @@ class Couplings:
 
 
 def _wheels(parts: Parts, gear: Coupling) -> list[Wheel]:
-    """The two that mesh, as the body sees them that carries both of their axles."""
+    """The two meshing gears, relative to the body of both axles."""
     joints = [parts.drawing.elements[of.rpartition(".")[0]] for of in gear.of]
     carriers = [body for body in joints[0].bodies if any(body is other for other in joints[1].bodies)]
     if not carriers:
@@ -112,7 +112,7 @@ def _wheels(parts: Parts, gear: Coupling) -> list[Wheel]:
 
 
 class Cam(NamedTuple):
-    """The path of a follower's roller around a cam: `path` (n, 2) in the frame of the cam's body, with its centre as origin."""
+    """Path of a follower's roller around a cam: `path` (n, 2) in the frame of the cam's body, with the cam's centre as origin."""
 
     name: str
     joint: Joint
@@ -120,17 +120,17 @@ class Cam(NamedTuple):
     guide: Joint
     follower: Body
     roller: np.ndarray      # (2,) in the follower's frame
-    lifted: float           # how far along its axis the guide is drawn from where it is, so that it does not hide the roller
+    lifted: float           # shift of the drawn guide along its axis, which uncovers the roller
 
     def shapes(self, posed: Posed) -> Iterator[Shape]:
-        """The cam and the roller."""
+        """Shapes of the cam and the roller."""
         centre, angle = posed.at(self.joint.second), posed.pose[self.joint.bodies[1].name].angle
         yield Shape("cam", np.array([centre + turned(angle, place) for place in self.path]), self.name)
         yield Shape("roller", posed.pose[self.follower.name].point(self.roller)[None], self.name)
 
 
 def profile(parts: Parts, coupling: Coupling) -> Cam | None:
-    """The cam of a coupling to a joint of the body that carries the cam; None where what follows is something else."""
+    """Cam of a coupling whose follower is a joint of the body that supports the cam; None for other followers."""
     elements, numbers = parts.drawing.elements, parts.numbers
     joint, follower = (elements.get(measure.rpartition(".")[0]) for measure in coupling.of)
     if not isinstance(follower, Joint) or joint.bodies[0] is not follower.bodies[0]:
@@ -172,7 +172,7 @@ def _lengthened(path: np.ndarray, axis: np.ndarray) -> np.ndarray:
 
 
 def _roller(parts: Parts, follower: Joint, centre: np.ndarray) -> Point | None:
-    """The point of a follower that is nearest to its cam."""
+    """Point of a follower that is nearest to its cam."""
     body = follower.bodies[1]
     if isinstance(body, Particle):
         return follower.second

@@ -1,4 +1,4 @@
-"""The shapes of springs, dampers, drives and loads."""
+"""Shapes of springs, dampers, drives and loads."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .plane_pose import Parts, Posed
 
 
 def forces(posed: Posed) -> Iterator[Shape]:
-    """All of a mechanism."""
+    """All shapes of forces of a mechanism."""
     drawing = posed.parts.drawing
     for element in drawing.of((Spring, MadeForce, Actuator, Bushing)):
         yield from _between(element, posed)
@@ -49,7 +49,7 @@ def _to_outside(place: np.ndarray, point: Point, posed: Posed) -> Iterator[Shape
 
 
 def _between(element: Any, posed: Posed) -> Iterator[Shape]:
-    """An element between two points."""
+    """Shapes of an element between two points."""
     first, second = posed.at(element.first), posed.at(element.second)
     ends = np.array([first, second])
     if isinstance(element, Actuator):
@@ -70,14 +70,14 @@ def _between(element: Any, posed: Posed) -> Iterator[Shape]:
 
 
 def _spring(ends: np.ndarray, name: str, stiffness: float, damping: float) -> list[Shape]:
-    """A spring, a damper, or both beside each other."""
+    """Shapes of a spring, a damper, or both side by side."""
     beside = float(stiffness > 0 and damping > 0)
     found = [Shape("damper", ends, name, -beside)] if damping > 0 else []
     return [Shape("spring", ends, name, beside), *found] if stiffness > 0 or not damping > 0 else found
 
 
 def _motor(motor: Motor, posed: Posed) -> Shape:
-    """A drive about a hinge, or along an axis."""
+    """Shape of a drive about a hinge, or along an axis."""
     joint, sign = motor.joint, _sign(motor.law)
     place = posed.at(joint.second)
     if joint.coordinate == "angle":
@@ -107,7 +107,7 @@ def walls(posed: Posed, held: list[Point]) -> Iterator[Shape]:
 
 
 def _inward(parts: Parts, side: Point, other: Point) -> np.ndarray:
-    """The direction (2,) from a place on the ground to what is held there, as drawn."""
+    """Direction (2,) from a fixed point towards the element that is attached there, as drawn."""
     away = other.drawn_with(parts.numbers) - side.drawn_with(parts.numbers)
     if np.hypot(*away) <= APART and other.body.name in parts.outline:
         places = [other.body.pose.point(place) for place in parts.outline[other.body.name]]

@@ -1,4 +1,4 @@
-"""The plain drawing of a mechanism: lines between the points of each body."""
+"""Outline of a mechanism: lines between the points of each body."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..elements.drawing import Drawing, Inertias
 from ..elements.frames import turned
 from ..elements.numbers import Numbers
 
-APART = 1e-9        # of the drawing: points that are nearer are one
+APART = 1e-9        # of the drawing's size: smaller distances count as zero
 
 
 def outline(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> np.ndarray:
@@ -23,7 +23,7 @@ def outline(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> np.ndarray
 
 
 def attached(drawing: Drawing, numbers: Numbers) -> dict[str, list[Point]]:
-    """By body, the points at which joints and springs hold it, and those that have names, each place once."""
+    """Points of each body at joints, springs and bushings, and its named points, each position once."""
     found: dict[str, list[Point]] = {body.name: [] for body in drawing.of(Body)}
     for link in drawing.of(Link):
         found[link.name] += [link.start, link.end]
@@ -33,7 +33,7 @@ def attached(drawing: Drawing, numbers: Numbers) -> dict[str, list[Point]]:
 
 
 def _different(points: list[Point], numbers: Numbers) -> list[Point]:
-    """Each place once."""
+    """Points at different positions."""
     different: list[Point] = []
     places: list[np.ndarray] = []
     for point in points:
@@ -45,7 +45,7 @@ def _different(points: list[Point], numbers: Numbers) -> list[Point]:
 
 
 def around(points: list[Point], numbers: Numbers) -> list[Point]:
-    """Points in the order in which they stand around their middle where there are more than two."""
+    """Points sorted by angle around their centroid, if there are more than two."""
     if len(points) < 3:
         return points
     middle = np.mean([point.local_with(numbers) for point in points], axis=0)
@@ -53,14 +53,14 @@ def around(points: list[Point], numbers: Numbers) -> list[Point]:
 
 
 def _line(body: Body, pose: np.ndarray, points: list[Point], numbers: Numbers, inertias: Inertias) -> list[np.ndarray]:
-    """The points of one body, around it where there are more than two."""
+    """Points of one body, sorted around it if there are more than two."""
     if isinstance(body, Particle):
         return [pose[:2]]
     places = [np.array(inertias.local(point, numbers)) for point in points]
     if not places:
         places = [np.zeros(2)]
     if len(places) == 1 and np.hypot(*places[0]) > APART:
-        places.append(np.zeros(2))      # the mass centre shows which way it hangs
+        places.append(np.zeros(2))      # the mass centre shows the body's angle
     if len(places) > 2:
         places.append(places[0])
     return [pose[:2] + turned(pose[2], place) for place in places]

@@ -1,4 +1,4 @@
-"""A mechanism in a pose: where its points are. `sketch` asks for them."""
+"""Planar mechanism in a pose: positions of its points, for `plane_shapes`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..elements.joints import Joint
 from ..elements.numbers import Numbers
 from .plane_outline import APART, around, attached
 
-LEVEL = 1e-12       # a direction that rises by less is level
+LEVEL = 1e-12       # slope below which a direction counts as level
 
 
 class Parts:
@@ -30,7 +30,7 @@ class Parts:
         self.drawing, self.numbers, self.inertias = drawing, numbers, Inertias(drawing, numbers)
         self.attached = attached(drawing, numbers)
         self.outline = {body.name: self._outline(body) for body in drawing.parts()}
-        held = {id(point) for point in drawing.joined_points()}     # each place once, and those that are held come first
+        held = {id(point) for point in drawing.joined_points()}     # each position once, joints first
         self.free = [point for body in drawing.parts() for point in self.attached[body.name]
                      if point.name in drawing.elements and id(point) not in held]
 
@@ -42,7 +42,7 @@ class Parts:
         return places
 
     def side(self, joint: Joint) -> np.ndarray:
-        """The side (2,) of a joint's axis on which its second body is in the drawing, or above, or to the left."""
+        """Side (2,) of a joint's axis on which its second body is in the drawing; by default above or to the left."""
         axis, place = joint.axis_as_drawn(), joint.second.drawn_with(self.numbers)
         normal = np.array([-axis[1], axis[0]])
         body = joint.bodies[1]
@@ -56,7 +56,7 @@ class Parts:
 
 
 class Posed:
-    """A mechanism whose mass centres are at poses (bodies, 3)."""
+    """Mechanism with its mass centres at poses (bodies, 3)."""
 
     def __init__(self, parts: Parts, poses: np.ndarray) -> None:
         self.parts = parts
@@ -70,7 +70,7 @@ class Posed:
         return self.pose[point.body.name].point(point.local_with(self.parts.numbers))
 
     def direction(self, body: Body, local: np.ndarray) -> np.ndarray:
-        """A direction of a body, (2,)."""
+        """Direction (2,) in the drawing, from one in a body's frame."""
         return self.pose[body.name].direction(local)
 
     def contact(self, joint: Joint) -> np.ndarray:
@@ -87,7 +87,7 @@ class Posed:
         return float((self.at(joint.second) - self.at(joint.first)) @ self.direction(joint.bodies[0], joint.axis))
 
     def track(self, joint: Joint, ranges: dict[str, tuple[float, float]]) -> np.ndarray:
-        """The two ends (2, 2) of the way of a joint's second point along its axis; the line goes through that point."""
+        """Ends (2, 2) of the range of a joint's second point along its axis; the line passes through that point."""
         axis, now, place = self.direction(joint.bodies[0], joint.axis), self.displacement(joint), self.at(joint.second)
         low, high = ranges[joint.name]
         return np.array([place + (low - now) * axis, place + (high - now) * axis])

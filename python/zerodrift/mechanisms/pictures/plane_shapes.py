@@ -19,7 +19,7 @@ from .force_shapes import forces, walls
 from .plane_outline import APART
 from .plane_pose import Parts, Posed
 
-ASSUMED = 0.35      # of the way to the end of its body: the length of a groove of which no motion is known
+ASSUMED = 0.35      # of the distance to the end of its body: length of a groove without a known motion
 
 Ranges = dict[str, tuple[float, float]]
 
@@ -50,13 +50,13 @@ class Sketch:
         return found
 
     def _assumed(self, joint: Joint, s: float) -> tuple[float, float]:
-        """The ends of a groove of which no motion is known: towards the ends of its body."""
+        """Ends of a groove without a known motion: towards the ends of its body."""
         start = joint.first.local_with(self.parts.numbers)
         ends = [float((place - start) @ joint.axis) for place in self.parts.outline[joint.bodies[0].name]]
         return s + ASSUMED * min(0.0, min(ends) - s), s + ASSUMED * max(0.0, max(ends) - s)
 
     def shapes(self, posed: Posed, ranges: Ranges) -> list[Shape]:
-        """Everything."""
+        """All shapes."""
         found = [*self._bodies(posed, ranges), *self._joints(posed, ranges), *forces(posed), *self.couplings.shapes(posed)]
         return [*found, *(Shape("ground", posed.at(point)[None]) for point in self.held), *walls(posed, self.held)]
 
@@ -105,9 +105,7 @@ class Sketch:
 
 
 def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterator[Shape]:
-    """A block on the ground, in a groove of a body where it turns, and around a rod of the body where it does not; further
-    along its axis where it would be in the way.
-    """
+    """Block on the ground, in a groove of a body if it may turn, otherwise around a rod; shifted if it would cover others."""
     axis = posed.direction(joint.bodies[0], joint.axis)
     second, track = posed.at(joint.second) + lifted * axis, posed.track(joint, ranges) + lifted * axis
     if joint.bodies[0] is posed.parts.drawing.ground:
@@ -122,7 +120,7 @@ def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterat
 
 
 def _held_by_ground(parts: Parts) -> list[Point]:
-    """The points of the ground about which a body or a rod turns, each place once."""
+    """Points of the ground about which a body or a rod turns, each position once."""
     ground, held = parts.drawing.ground, {}
     for joint in parts.drawing.of(Joint):
         if "distance" in gauges(joint) or (is_pinned(joint) and joint.axis is None):
@@ -154,8 +152,9 @@ def is_pinned(joint: Joint) -> bool:
 
 def sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray],
              motion: Iterable[np.ndarray] = ()) -> list[list[Shape]]:
-    """The shapes of a mechanism in each moment, whose mass centres are at poses (bodies, 3). Rails and grooves are as long as
-    these moments and those of a motion need.
+    """Shapes of a mechanism at each moment, whose mass centres are at poses (bodies, 3).
+
+    Rails and grooves are as long as these moments and those of a motion need.
     """
     sketch = Sketch(drawing, numbers)
     posed = [Posed(sketch.parts, poses) for poses in moments]

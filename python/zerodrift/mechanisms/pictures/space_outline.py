@@ -1,4 +1,4 @@
-"""The plain drawing of a mechanism in space: lines between the points of each body."""
+"""Outline of a mechanism in space: lines between the points of each body."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..elements.drawing import Drawing
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 
-APART = 1e-9        # m: points that are nearer are one
+APART = 1e-9        # m: smaller distances count as zero
 
 
 def space_outline(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> np.ndarray:
@@ -24,7 +24,7 @@ def space_outline(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> np.n
     for body, pose in zip(drawing.parts(), poses, strict=True):
         places = _different([inertias.local(point, numbers) for point in held[body.name]])
         if isinstance(body, Particle) or not places or (len(places) == 1 and np.linalg.norm(places[0]) > APART):
-            places.append(np.zeros(3))      # the mass centre shows which way it hangs
+            places.append(np.zeros(3))      # the mass centre shows the body's orientation
         if len(places) > 2:
             places.append(places[0])
         lines += [pose[:3] + np.array(places) @ rotation_of(pose[3:]).T, gap]

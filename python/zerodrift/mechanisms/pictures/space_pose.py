@@ -1,4 +1,4 @@
-"""A mechanism in space in a pose: where its points are. `arrows` asks for them."""
+"""Mechanism in space in a pose: positions of its points, for `arrows`."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..elements.space_joints import SpaceRolling
 
 
 class SpacePosed:
-    """A mechanism whose mass centres are at poses (bodies, 7), with principal axes."""
+    """Mechanism with its mass centres at poses (bodies, 7), with principal axes."""
 
     def __init__(self, drawing: Drawing, numbers: Numbers, inertias: SpaceInertias, poses: np.ndarray) -> None:
         self._numbers, self._inertias = numbers, inertias
@@ -27,7 +27,7 @@ class SpacePosed:
         return centre + R @ np.asarray(self._inertias.local(point, self._numbers))
 
     def direction(self, body: Body, local: np.ndarray) -> np.ndarray:
-        """A direction of a body, (3,)."""
+        """Direction (3,) in the drawing, from one in a body's axes."""
         return self._at[body.name][1] @ np.asarray(self._inertias.direction(body, local))
 
     def contact(self, joint: SpaceRolling) -> np.ndarray:

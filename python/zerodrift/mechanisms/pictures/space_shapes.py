@@ -19,9 +19,9 @@ from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..elements.space_joints import SpaceJoint, SpaceRolling
 
-APART = 1e-9        # m: places that are nearer are one
-FLAT = 1e-6         # of the extent of places: what lies in a plane
-ALIKE = 1e-6        # of the largest moment: by how much two differ that are one
+APART = 1e-9        # m: smaller distances count as zero
+FLAT = 1e-6         # of the extent of points: deviation from a plane, at most
+ALIKE = 1e-6        # of the largest moment: difference of equal moments, at most
 ROUND = np.linspace(0, 2 * np.pi, 49)
 CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 ALONG = ("prismatic", "cylindrical", "screw", "slot")       # joints that are drawn as sleeves
@@ -36,7 +36,7 @@ class SpaceSketch:
         self.held = self._held()
 
     def _held(self) -> dict[str, np.ndarray]:
-        """By body, the places (n, 3) that its shape holds."""
+        """Points (n, 3) of each body that its shape connects."""
         points: dict[str, list[Point]] = {body.name: [] for body in self.drawing.of(Body)}
         for link in self.drawing.of(Link):
             points[link.name] += [link.start, link.end]
@@ -48,11 +48,11 @@ class SpaceSketch:
         return {name: _different([self.local(point) for point in those]) for name, those in points.items()}
 
     def local(self, point: Point) -> np.ndarray:
-        """A point from its body's mass centre."""
+        """Point relative to its body's mass centre."""
         return np.asarray(self.inertias.local(point, self.numbers))
 
     def shapes(self, poses: np.ndarray) -> list[Shape]:
-        """Everything, with the mass centres at poses (bodies, 7)."""
+        """All shapes, with the mass centres at poses (bodies, 7)."""
         at = {body.name: (pose[:3], rotation_of(pose[3:])) for body, pose in zip(self.drawing.parts(), poses, strict=True)}
         at["ground"] = np.zeros(3), np.eye(3)
         bodies = [shape for body in self.drawing.parts() for shape in self._body(body, *at[body.name])]
@@ -70,7 +70,7 @@ class SpaceSketch:
         if body.name in self.rolling and len(places) < 2:
             return
         if len(places) == 1 and np.linalg.norm(places[0]) > APART:
-            places = np.vstack([places, np.zeros(3)])       # the mass centre shows which way it hangs
+            places = np.vstack([places, np.zeros(3)])       # the mass centre shows the body's orientation
         if any(np.linalg.norm(place) < APART for place in places) and len(places) > 1 and not isinstance(body, Link):
             yield Shape("dot", centre[None], body.name)
         if len(places) < 2:
@@ -85,7 +85,7 @@ class SpaceSketch:
                 yield Shape("bar", centre + np.array([middle, place]) @ R.T, body.name)
 
     def _by_inertia(self, body: Body, centre: np.ndarray, R: np.ndarray) -> Iterator[Shape]:
-        """The disc that has its mass and its largest moment, where the two others are alike; else the uniform box."""
+        """Disc with the body's mass and largest moment, if the two others are equal; otherwise the uniform box."""
         known = self.inertias.of[body.name]
         a, b, c = known.moments
         axis = next((i for i in range(3) if _is_axial(*np.roll(known.moments, -i))), None)
@@ -122,7 +122,7 @@ class SpaceSketch:
                 yield Shape("ground", place[None], joint.name)
 
     def _rolled(self, joint: SpaceRolling, centre: np.ndarray, axes: np.ndarray) -> Iterator[Shape]:
-        """The rim of a disc with a spoke, or the three sections of an ellipsoid; rows of axes are the shape's in the drawing."""
+        """Rim of a disc with a spoke, or three sections of an ellipsoid; rows of `axes` are the shape's axes in the drawing."""
         semiaxes = np.array(joint.semiaxes_with(self.numbers))
         flat = [i for i in range(3) if semiaxes[i] == 0]
         for i in flat or range(3):
@@ -147,7 +147,7 @@ class SpaceSketch:
         return centre + R @ self.local(point)
 
     def _turned(self, joint: SpaceJoint, side: int, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
-        """The rows of a joint's frame on one of its bodies, in the drawing."""
+        """Rows of a joint's frame on one of its bodies, in the drawing."""
         body = joint.bodies[side]
         own = np.array([self.inertias.direction(body, row) for row in joint.frames[side]])
         return own @ at[body.name][1].T
@@ -159,7 +159,7 @@ def _is_axial(own: float, one: float, other: float) -> bool:
 
 
 def _different(places: list[np.ndarray]) -> np.ndarray:
-    """Each place once, (n, 3)."""
+    """Different positions, (n, 3)."""
     found: list[np.ndarray] = []
     for place in places:
         if all(np.linalg.norm(place - other) > APART for other in found):
@@ -168,7 +168,7 @@ def _different(places: list[np.ndarray]) -> np.ndarray:
 
 
 def _around(places: np.ndarray) -> np.ndarray | None:
-    """Places of a plane in the order in which they stand around their middle; None: of no plane, or on a line."""
+    """Points of a plane sorted around their centroid; None if they are not in a plane, or on a line."""
     arms = places - places.mean(axis=0)
     _, sizes, rows = np.linalg.svd(arms)
     if sizes[1] < FLAT * sizes[0] or (len(places) > 3 and sizes[2] > FLAT * sizes[0]):
@@ -177,6 +177,6 @@ def _around(places: np.ndarray) -> np.ndarray | None:
 
 
 def space_sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray]) -> list[list[Shape]]:
-    """The shapes of a mechanism in each moment, whose mass centres are at poses (bodies, 7)."""
+    """Shapes of a mechanism at each moment, whose mass centres are at poses (bodies, 7)."""
     sketch = SpaceSketch(drawing, numbers)
     return [sketch.shapes(poses) for poses in moments]

@@ -18,9 +18,9 @@ from ..elements.numbers import Numbers
 from ..equations.space_tables import SpaceTables
 from ..equations.tables import Tables
 
-NEAR = 0.2          # of the largest singular value of rows of length one: how nearly they depend on each other near a dead centre
-TAKES_PART = 0.2    # of a row in what depends
-MOST_ROWS = 300     # whose singular values take a moment
+NEAR = 0.2          # of the largest singular value of unit rows: smallest singular value near a dead centre
+TAKES_PART = 0.2    # of the largest share: constraints with smaller shares in the dependency do not matter
+MOST_ROWS = 300     # constraints, at most, for a singular value decomposition
 
 
 def at_start(error: str, start: Starting, constraints: Sequence[Variable]) -> str | None:
@@ -28,7 +28,7 @@ def at_start(error: str, start: Starting, constraints: Sequence[Variable]) -> st
     drawing = start.drawing
     if "mass matrix" in error:
         return _of_mass(drawing, start.numbers)
-    said = r"(?:\brows? |, | and )(\d+)\b" if "a bifurcation:" in error else r"\brow (\d+)"     # one row, or several
+    said = r"(?:\brows? |, | and )(\d+)\b" if "a bifurcation:" in error else r"\brow (\d+)"     # one constraint, or several
     rows = sorted(set(map(int, re.findall(said, error))))
     if not rows or "follow" not in error:
         return None
@@ -45,7 +45,7 @@ def _why(start: Starting) -> str:
 
 
 def _of_mass(drawing: Drawing, numbers: Numbers) -> str | None:
-    """Which bodies are without mass or inertia, and what helps."""
+    """Names of the bodies without mass or inertia, and a remedy."""
     inertias = Inertias(drawing, numbers).of
     without = [body.name for body in drawing.parts()
                for mass, inertia, _ in [inertias[body.name]] if not (mass > 0 and (inertia > 0 or not body.turns))]
@@ -56,7 +56,7 @@ def _of_mass(drawing: Drawing, numbers: Numbers) -> str | None:
 
 
 def dead_centre(tables: Tables, core: MechanismCore, t: float, p: np.ndarray) -> str | None:
-    """Which motor has driven the mechanism to a dead centre, where it cannot move on; None: none has."""
+    """Sentence on the motor that has driven the mechanism to a dead centre, where it cannot move on, or None."""
     motors: Mapping[str, Motor] = {motor.name: motor for motor in tables.drawing.of(Motor) if motor.prescribes}
     if not motors or core.m > MOST_ROWS:
         return None

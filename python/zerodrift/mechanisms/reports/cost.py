@@ -30,33 +30,33 @@ import numpy as np
 
 from ..equations.tables import Tables
 
-# Of parts_of_joint() and parts_of_absolute(), in the plane and in space
+# Weights of parts_of_joint() and parts_of_absolute(), in the plane and in space
 JOINT = {2: (710.0, 5.0, 3.7, 360.0, 240.0, 44.0, 400.0, 0.0, 960.0),
          3: (2400.0, 2.4, 62.0, 1200.0, 0.0, 215.0, 330.0, 1900.0, 2500.0)}
 ABSOLUTE = {2: (3300.0, 4.7, 29.0, 180.0, 460.0, 250.0, 67.0, 120.0, 840.0),
             3: (3500.0, 4.9, 10.8, 270.0, 730.0, 560.0, 340.0, 55.0, 2150.0)}
-NANOSECONDS = 0.39      # of an operation, there
-MOST_HINGED = 200       # bodies whose terms the core knows from sines and cosines alone, where all of them turn
-GOOD, MOST_LOST = 2.0**-3, 20.0     # a least pivot that costs nothing; of a smaller one so many digits count, in base two
-REDUNDANT = 1e-12       # one that vanishes; and how many times as long it takes then, few rows and many
+NANOSECONDS = 0.39      # duration of an operation in that measurement
+MOST_HINGED = 200       # bodies, at most, for which the core has terms from sines and cosines alone, if all have hinges
+GOOD, MOST_LOST = 2.0**-3, 20.0     # smallest pivot without extra cost; lost binary digits counted below it
+REDUNDANT = 1e-12       # smallest pivot of redundant constraints, and their factor of the cost, for few and for many constraints
 TIMES_OF_FEW, TIMES_OF_MANY = 4.0, 15.0
-PASSES_FLAT_POSES = 8.0 # absolute coordinates may cost so many times as much where flat poses have stopped joint ones
-CLEARLY = 0.85          # and in space must cost less than so many times elsewhere: less certain is the count there
-ALIKE = 0.33            # the same where all bodies are free, and coordinates alike in both: dense matrices serve a few of them
-DEARER = 3.0            # so many times the operations are worth a sentence, and
-WORTH_A_WARNING = 10.0, 10.0, 0.01      # a warning, if it is so many times, and so many seconds of a run, or of a step
+PASSES_FLAT_POSES = 8.0 # ratio of costs up to which absolute coordinates are chosen where flat poses may stop joint ones
+CLEARLY = 0.85          # the same elsewhere in space, where the count is less certain
+ALIKE = 0.33            # the same if all bodies are free, so that both have the same coordinates
+DEARER = 3.0            # ratio of operations from which a report mentions them, and
+WORTH_A_WARNING = 10.0, 10.0, 0.01      # from which a warning is given; seconds of a run or of a step for it
 
 
 class Cost(NamedTuple):
-    """Operations of a step in both coordinates."""
+    """Operations of a step in joint and in absolute coordinates."""
 
     joint: float
-    absolute: float         # infinite where they cannot be taken: a body has no mass, or a row touches none
-    allowed: float = 1.0    # how many times the cost of joint coordinates absolute ones may have and still be taken
+    absolute: float         # infinite if they cannot be used: a body has no mass, or a constraint has no body
+    allowed: float = 1.0    # ratio of costs up to which absolute coordinates are chosen
 
     @property
     def taken(self) -> str:
-        """The layout to take: absolute coordinates where they cost less than `allowed` times as much as joint ones."""
+        """Cheaper layout: absolute coordinates if they cost less than `allowed` times as much as joint ones."""
         return "absolute" if self.absolute < self.allowed * self.joint else "joint"
 
     @property
@@ -66,7 +66,7 @@ class Cost(NamedTuple):
 
     @property
     def in_words(self) -> str:
-        """Both, those that are taken first."""
+        """Costs in words, those of the chosen coordinates first."""
         counts = {"joint": self.joint, "absolute": self.absolute}
         other = "joint" if self.taken == "absolute" else "absolute"
         more = "" if counts[other] == np.inf else f", in {other} ones {counts[other]:.3g}"
@@ -99,9 +99,11 @@ def _has_stiff_loops(tables: Tables) -> bool:
 
 
 def parts_of_absolute(tables: Tables) -> tuple[tuple[float, ...], float]:
-    """One; multiplications in blocks with a kernel, and in others; rows by the system's products, by a stored C, of unequal
-    bodies, where they are few, and these by the digits that their least pivot loses; efforts. And how many times all of them
-    count.
+    """Counts for absolute coordinates, in the order of `ABSOLUTE`, and the factor by which redundancy multiplies their cost.
+
+    The counts are: 1; multiplications in blocks with a kernel, and in other blocks; constraints by the system's products, by a
+    stored C, those of unequal bodies, those of few constraints, and these times the digits that their smallest pivot loses;
+    forces.
     """
     free = tables.absolute()
     core = free.core()
@@ -117,7 +119,7 @@ def parts_of_absolute(tables: Tables) -> tuple[tuple[float, ...], float]:
 
 
 def parts_of_joint(tables: Tables) -> tuple[float, ...]:
-    """One; factors, and solves; bodies, again unless all turn by hinges, and depths; depths of rows; rows; efforts."""
+    """Counts for joint coordinates, in the order of `JOINT`."""
     depth, loops, bodies = _depths(tables), _loops(tables), len(tables.parts)
     n, m = tables.joint_coordinates(), sum(rows for rows, _ in loops) + len(tables.relations)
     passed = sum(rows * (depth[first] + depth[second]) for rows, (first, second) in loops)
@@ -141,7 +143,7 @@ def _loops(tables: Tables) -> list[tuple[int, tuple[int, int]]]:
 
 
 def _ends(tables: Tables) -> list[tuple[int, int]]:
-    """The bodies of each joint, by number."""
+    """Bodies of each joint, by number."""
     return [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
 
 
@@ -165,7 +167,7 @@ def _has_mass(tables: Tables) -> bool:
 
 
 def seconds(operations: float) -> float:
-    """About how long they take."""
+    """Approximate duration of a number of operations, in s."""
     return 1e-9 * NANOSECONDS * operations
 
 
@@ -177,7 +179,7 @@ def of_a_step(found: Cost) -> str:
 
 
 def of_a_run(found: Cost, steps: int | None) -> str | None:
-    """A warning of what so many steps in joint coordinates cost; None: it is not worth one. Steps may be unknown."""
+    """Warning on the cost of a run in joint coordinates, or None if absolute ones gain little; `steps` may be unknown."""
     times, run, step = WORTH_A_WARNING
     each = seconds(found.joint)
     if found.ratio < times or (each < step if steps is None else steps * each < run):
@@ -187,7 +189,7 @@ def of_a_run(found: Cost, steps: int | None) -> str | None:
 
 
 def in_words(time: float) -> str:
-    """Seconds, as people read them."""
+    """Duration with a unit suited to its size."""
     for unit, size in (("h", 3600.0), ("min", 60.0), ("s", 1.0), ("ms", 1e-3)):
         if time >= size:
             return f"{time / size:.3g} {unit}"

@@ -55,17 +55,17 @@ class Count(NamedTuple):
 
     @property
     def freedom(self) -> int:
-        """Velocities that the rows leave free, drives included."""
+        """Degrees of freedom: velocities minus independent constraints; drives count as constraints."""
         return self.velocities - self.rank
 
     @property
     def gruebler(self) -> int:
-        """The same by the number of rows."""
+        """Degrees of freedom by Gruebler's formula: velocities minus constraints."""
         return self.velocities - self.rows
 
 
 def count(drawing: Drawing) -> Count:
-    """The count of a mechanism at its assembled start."""
+    """Count for a mechanism at its assembled start."""
     start = Starting(drawing, AS_GIVEN)
     tables = tables_of(drawing, AS_GIVEN, in_tree=False, starts=start.drives)
     assembly, p = start.assembled(0.0)
@@ -122,7 +122,7 @@ def _driven(drawing: Drawing, assembly: Assembly) -> set[int]:
 
 
 def dependent(rows: np.ndarray) -> set[int]:
-    """Rows that follow from those before them: what is left of each when their part is taken out twice is only rounding."""
+    """Rows that depend on those before them: their residual norms, after two orthogonalizations, are rounding."""
     basis, found = np.zeros((0, rows.shape[1])), set()
     for i, row in enumerate(rows):
         left = row - basis.T @ (basis @ row)
@@ -136,7 +136,7 @@ def dependent(rows: np.ndarray) -> set[int]:
 
 
 def _left_null(rows: np.ndarray) -> np.ndarray:
-    """A basis (k, n) of the combinations of rows that are zero."""
+    """Basis (k, n) of the left null space of the rows."""
     u, s, _ = np.linalg.svd(rows)
     return u[:, int((s > 1e-9 * s.max(initial=0.0)).sum()):]
 

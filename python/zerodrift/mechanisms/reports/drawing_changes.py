@@ -8,12 +8,12 @@ import numpy as np
 
 from ..assembly.dense import Assembly
 
-NAMED = 1e-3            # of the mechanism's length, or rad: smaller differences are those of rounded numbers
-MOST_NAMED = 8          # bodies or joints in a line
+NAMED = 1e-3            # of the mechanism's length, or rad: smaller differences come from rounded numbers
+MOST_NAMED = 8          # bodies or joints in a line, at most
 
 
 def differences(tables: Any, assembly: Assembly, p: np.ndarray) -> list[str]:
-    """Lines that name the joints that are drawn open, and the bodies that start elsewhere, by more than a thousandth."""
+    """Sentences on joints that are drawn open and bodies that start elsewhere than drawn, by more than a thousandth."""
     drawn, _ = assembly.core.state(tables.drawn())
     lines = (("drawn open, and closed at the start (m, or rad)", _open_joints(assembly, drawn)),
              ("moved from the drawing", _moved(tables, assembly, p, drawn)))
@@ -44,7 +44,7 @@ def _moved(tables: Any, assembly: Assembly, p: np.ndarray, drawn: np.ndarray) ->
 
 
 def _by_body(tables: Any, assembly: Assembly, apart: np.ndarray, is_angle: bool) -> dict[str, float]:
-    """The length of the difference of each body, of its angles or of its place."""
+    """Norm of the difference of each body's angle or position."""
     found: dict[str, float] = {}
     for each, value in zip(assembly.core.motions, apart, strict=True):
         if (each.kind == "angle") == is_angle:

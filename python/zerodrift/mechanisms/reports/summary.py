@@ -14,11 +14,11 @@ from ..equations.space_tables import tables_of
 from . import cost
 from .counting import Count, count
 
-MOST_NAMED = 40         # of rows or loops
+MOST_NAMED = 40         # constraints or loops in a list, at most
 
 
 def headline(drawing: Drawing) -> str:
-    """One line: what there is."""
+    """First line: the number of elements of each kind."""
     bodies, joints = len(drawing.parts()), len(drawing.of(Joint))
     forces = [_several(len(drawing.of(kind)), word) for kind, word in (
         (Spring, "spring"), (TorsionSpring, "torsion spring"), (Bushing, "bushing"), (Force, "force"), (Torque, "torque"),
@@ -53,7 +53,7 @@ def report(drawing: Drawing) -> str:
 
 
 def _freedom(drawing: Drawing, counted: Count) -> str:
-    """Freedom and coordinates of both kinds."""
+    """Degrees of freedom, and numbers of coordinates and constraints in both layouts."""
     tables = tables_of(drawing, AS_GIVEN, in_tree=True)
     core = tables.core()
     carriers = {joint for joint in tables.carrier if joint >= 0}
@@ -72,7 +72,7 @@ def _rows(counted: Count) -> str:
 
 
 def _listed(names: Sequence[str]) -> str:
-    """Names, not all of many."""
+    """List of names, shortened after the first few."""
     if len(names) <= MOST_NAMED:
         return ", ".join(names)
     return f"{', '.join(names[:MOST_NAMED])} and {len(names) - MOST_NAMED} others"
