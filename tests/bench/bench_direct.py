@@ -48,7 +48,7 @@ def steps(problems, ours):
     with tempfile.TemporaryDirectory() as folder:
         calls = dict(floors(folder, zd.systems.four_bar()))
         for kind in ours.kinds(chain):
-            for name, settings in [*((unit, {"vector": unit}) for unit in yardsticks), ("general road", {"direct": False})]:
+            for name, settings in [*((unit, {"vector": unit}) for unit in yardsticks), ("matrix path", {"direct": False})]:
                 ours_by[f"{kind}, {name}"] = yardsticks.get(name)
                 calls[f"{kind}, {name}"] = functools.partial(simulated, ours.system_of(chain, kind), settings)
         times = least(30, *(functools.partial(processor_time, call, count)

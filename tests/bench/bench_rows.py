@@ -22,7 +22,7 @@ RTOL, SPAN = 1e-9, 8.0
 FEW, SOME, MANY = 2, 161, 16_001
 ROUNDS = {FEW: 30, SOME: 300, MANY: 30}
 METHODS = ("dop853", "dormand_prince")
-ROADS = {"direct": None, "general": False}
+PATHS = {"closed-form path": None, "matrix path": False}
 
 
 def seconds(system, rows, tolerance=RTOL, **options):
@@ -58,26 +58,26 @@ def processor_seconds(system, tolerance, **options):
 
 def of_events():
     """About a hundred in each run; rows as those of `measured`."""
-    for integrator, tolerance, (road, direct) in itertools.product(METHODS, (1e-6, 1e-9), ROADS.items()):
+    for integrator, tolerance, (path, direct) in itertools.product(METHODS, (1e-6, 1e-9), PATHS.items()):
         for what, (system, events) in WATCHED.items():
             run = functools.partial(processor_seconds, system, tolerance, integrator=integrator, direct=direct)
             without, with_them = least(ROUNDS[FEW], run(), run(events=events))
             found = zd.simulate(system, SPAN, rtol=tolerance, atol=tolerance, integrator=integrator, events=events).t_events
             count = sum(map(len, found))
-            name = f"{integrator}, {tolerance:.0e}, {road} road"
+            name = f"{integrator}, {tolerance:.0e}, {path}"
             yield f"{name}: an event of {count}, {what}", 1e6 * (with_them - without) / count, "us", None
 
 
 def measured():
     """Rows (what, value, unit, limit)."""
     for integrator in METHODS:
-        for road, direct in ROADS.items():
+        for path, direct in PATHS.items():
             run = functools.partial(seconds, BAR, integrator=integrator, direct=direct)
             few, some = least(ROUNDS[SOME], run(FEW), run(SOME))
             fewer, many = least(ROUNDS[MANY], run(SOME), run(MANY))
-            name = f"{integrator}, {road} road"
-            yield f"{name}: what {SOME} rows add to a run", 100 * (some / few - 1), "%", 20
-            yield f"{name}: a row, of {MANY}", 1e6 * (many - fewer) / (MANY - SOME), "us", 0.3
+            name = f"{integrator}, {path}"
+            yield f"{name}: increase of a run's time by {SOME} samples", 100 * (some / few - 1), "%", 20
+            yield f"{name}: a sample, of {MANY}", 1e6 * (many - fewer) / (MANY - SOME), "us", 0.3
 
 
 if __name__ == "__main__":
