@@ -57,8 +57,8 @@ def calls(bar):
     }
 
 
-def chosen_steps(bar, times):
-    """Microseconds of a call with steps that are chosen, beyond what the core took for them."""
+def adaptive_steps(bar, times):
+    """Microseconds of a call with adaptive steps, beyond those of the core."""
     call = functools.partial(zd.simulate, bar, 8.0, rtol=RTOL, atol=RTOL, integrator="dop853", energy=True, t_eval=times)
 
     def beyond():
@@ -85,7 +85,8 @@ def measured():
     for what, call in calls(bar).items():
         yield f"beyond its steps: {what}", beyond_steps(call), "us", 35 if what == "steps of fixed size" else None
     for rows in (2, 161):
-        yield f"beyond its steps: dop853, chosen, {rows} rows by t_eval", chosen_steps(bar, np.linspace(0, 8, rows)), "us", None
+        taken = adaptive_steps(bar, np.linspace(0, 8, rows))
+        yield f"beyond its steps: dop853, adaptive, {rows} rows by t_eval", taken, "us", None
     event, plain = microseconds(lambda: zd.simulate(bar, STEP * FEW, step=STEP, events=lambda t, p, v: 1.0),
                                 lambda: zd.simulate(bar, STEP * FEW, step=STEP))
     yield f"what an event in Python adds to {FEW} steps", event - plain, "us", None

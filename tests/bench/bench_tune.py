@@ -56,7 +56,7 @@ def compared(name):
 def described(row):
     """Method, number of steps and kind of steps, as text."""
     setting = row.setting
-    kind = "fixed" if setting.tolerance is None else "chosen"
+    kind = "fixed" if setting.tolerance is None else "adaptive"
     return f"{setting.formulation} {setting.integrator} {row.steps} {kind}"
 
 

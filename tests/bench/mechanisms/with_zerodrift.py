@@ -47,7 +47,7 @@ def sweeps(drawing):
         label = f"zerodrift, {coordinates}: {formulation}"
         for integrator in ("rk4", "dop853"):
             found[f"{label}, {integrator}, fixed steps"] = [(coordinates, formulation, integrator, k, None) for k in STEPS]
-        found[f"{label}, dop853, chosen steps"] = [(coordinates, formulation, "dop853", None, tol) for tol in TOLERANCES]
+        found[f"{label}, dop853, adaptive steps"] = [(coordinates, formulation, "dop853", None, tol) for tol in TOLERANCES]
     return found
 
 
@@ -55,7 +55,7 @@ def growth_sweeps():
     """Settings for many bodies, in the default layout of coordinates."""
     return {"zerodrift, rk4": [(None, "schur", "rk4", k, None) for k in STEPS],
             "zerodrift, dop853": [(None, "schur", "dop853", k, None) for k in STEPS],
-            "zerodrift, dop853, chosen steps": [(None, "schur", "dop853", None, tol) for tol in TOLERANCES]}
+            "zerodrift, dop853, adaptive steps": [(None, "schur", "dop853", None, tol) for tol in TOLERANCES]}
 
 
 def solve(drawing, setting):

@@ -43,7 +43,7 @@ def sweeps(drawing):
         label = f"zerodrift, {coordinates}: schur"
         for integrator in ("rk4", "dop853"):
             found[f"{label}, {integrator}, fixed steps"] = [(coordinates, integrator, k, None) for k in STEPS]
-        found[f"{label}, dop853, chosen steps"] = [(coordinates, "dop853", None, tol) for tol in TOLERANCES]
+        found[f"{label}, dop853, adaptive steps"] = [(coordinates, "dop853", None, tol) for tol in TOLERANCES]
     return found
 
 

@@ -77,13 +77,13 @@ def sweeps(chain):
             found[f"{label}, {integrator}, fixed steps"] = [(kind, formulation, integrator, k, None, False)
                                                             for k in (STEPS[:10] if few else STEPS)]
         for integrator in ("dop853",) if few else _chosen(system_of(chain, kind), formulation):
-            found[f"{label}, {integrator}, chosen steps"] = [(kind, formulation, integrator, None, tolerance, False)
+            found[f"{label}, {integrator}, adaptive steps"] = [(kind, formulation, integrator, None, tolerance, False)
                                                              for tolerance in (TOLERANCES[::2] if few else TOLERANCES)]
         if not few and formulation == "schur" and chain.name != "Andrews":      # to whose energy a moment adds
             for integrator in ("rk4", "dop853"):
                 found[f"{label}, {integrator}, fixed steps, energy"] = [(kind, formulation, integrator, k, None, True)
                                                                         for k in STEPS]
-            found[f"{label}, dop853, chosen steps, energy"] = [(kind, formulation, "dop853", None, tolerance, True)
+            found[f"{label}, dop853, adaptive steps, energy"] = [(kind, formulation, "dop853", None, tolerance, True)
                                                                for tolerance in TOLERANCES]
     return found
 
