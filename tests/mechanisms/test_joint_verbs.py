@@ -89,15 +89,16 @@ def test_each_refusal_names_what_is_wrong():
     for call, error, text in (
             (lambda: slide(m, "J", first, second), TypeError, r"prismatic\(\): missing a required .*argument: 'axis'"),
             (lambda: slide(m, "J", first, second, axis=(0, 0)), ValueError, "axis of 'J' must be a direction"),
-            (lambda: slide(m, "J", bob, second, axis=(1, 0)), ValueError, "axis of 'J' needs an orientation, and 'bob'"),
+            (lambda: slide(m, "J", bob, second, axis=(1, 0)), ValueError, "prismatic 'J' needs an orientation, and 'bob'"),
             (lambda: weld(m, "J", bob, second), ValueError, "weld 'J' needs an orientation, and 'bob'"),
-            (lambda: hinge(m, "J", bob, second, damping=1.0), ValueError, "revolute 'J' needs an orientation, and 'bob'"),
+            (lambda: hinge(m, "J", bob, second, damping=1.0), ValueError, "damping of 'J' needs an orientation, and 'bob'"),
             (lambda: hinge(m, "J", first, second, damping=-1.0), ValueError, "damping of 'J' must be at least 0"),
             (lambda: hinge(m, "J", first, second, cut=1), TypeError, "cut of 'J' must be True or False"),
             (lambda: hinge(m, "J", first, second, length=1.0), TypeError, r"revolute\(\): got an unexpected keyword"),
             (lambda: rod(m, "J", first, second, length=0.0), ValueError, "length of 'J' must be greater than 0"),
-            (lambda: rod(m, "J", first, first.body, at=(0, 0)), TypeError, "at= of 'J' goes with two bodies"),
-            (lambda: rod(m, "J", second, m.ground), ValueError, "length of 'J', as drawn, must be greater than 0"),
+            (lambda: rod(m, "J", first, second, at=(0, 0)), TypeError, r"rod\(\): got an unexpected keyword"),
+            (lambda: weld(m, "J", first, second.body, at=(0, 0)), TypeError, "at= of 'J' goes with two bodies"),
+            (lambda: rod(m, "J", second, m.ground.point(at=second)), ValueError, "length of 'J', as drawn, must be greater"),
             (lambda: hinge(m, "bob", first, second), ValueError, "'bob'")):
         with pytest.raises(error, match=text):
             call()

@@ -13,9 +13,7 @@ from ..elements.bodies import Body, Particle, Point
 from ..elements.forces import Actuator, Bushing, Force, Motor, SpaceBushing, Spring, Torque, TorsionSpring
 from ..elements.frames import perpendicular
 from ..elements.joints import Joint
-from ..elements.table_forces import FORCES_BY_ROW
 from .registry import Elements
-from .table_force_verbs import force_verb
 
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
@@ -361,10 +359,6 @@ class ForceVerbs(Elements):
         turns_with = frame if against is self.ground else against
         axis = turns_with.pose.local_direction(self._direction(f"axis of {name!r}", axis))
         return self._add(Torque(name, body, against, law, axis=axis, frame=frame))
-
-
-for _kind, _force in FORCES_BY_ROW.items():
-    setattr(ForceVerbs, _kind, force_verb(_force))
 
 
 def _least(quantity: str, name: str, value: Any) -> float:

@@ -6,14 +6,14 @@ from typing import Any
 
 from ... import _check
 from ..elements.bodies import Body, Particle, Point
-from ..elements.joints import BY_ROW, KnifeEdge, Prismatic, Revolute, Rod, Rolling, Slot, Weld
+from ..elements.joints import KnifeEdge, Rolling, Slot
 from .space_joint_verbs import SpaceJointVerbs, checked_cut
-from .table_joint_verbs import verb
+from .table_verbs import TableVerbs
 
 Side = Body | Point | str
 
 
-class JointVerbs(SpaceJointVerbs):
+class JointVerbs(TableVerbs, SpaceJointVerbs):
     """Joints between bodies.
 
     Where a joint is: `first` and `second` are points, which are joined; or a body and a point, and then the body's point that
@@ -22,174 +22,6 @@ class JointVerbs(SpaceJointVerbs):
     """
 
     gravity: Any
-
-    def revolute(self, name: str, first: Side, second: Side, *, axis: Any = None, at: Any = None, damping: float = 0.0,
-                 cut: bool = False) -> Any:
-        """Join two bodies by a hinge.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            Two points; a body and a point; or two bodies, and `at`. In the plane one of them may be a particle.
-        axis : array_like (3,)
-            In space: about which direction of the drawing it turns.
-        at : array_like (2,) or (3,)
-            Where the joint is in the drawing, in m.
-        damping : float
-            In N m s, at least 0.
-        cut : bool
-            True if this joint must close a loop; left out, the joint that closes a loop is chosen.
-
-        Returns
-        -------
-        Revolute, in space SpaceJoint
-
-        Raises
-        ------
-        ValueError, TypeError
-            If the name is taken, a point belongs to no body of this mechanism, or both sides to one.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("pendulum")
-        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
-        >>> m.revolute("A", m.ground, link.start)
-        <revolute A: ground - link>
-        """
-        axis = self._one_axis(name, axis)
-        if axis is not None:
-            return self._join("revolute", name, first, second, at, axis, damping=damping, cut=cut)
-        name = self._new_name(name, "joint")
-        sides = self._sides(name, first, second, at)
-        damping = _check.number(f"damping of {name!r}", damping, least=0)
-        if damping:
-            self._turning(name, "damping of", *(side.body for side in sides))
-        return self._add(Revolute(name, *sides, damping=damping, cut=checked_cut(name, cut)))
-
-    def prismatic(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, damping: float = 0.0,
-                  cut: bool = False) -> Any:
-        """Join two bodies by a slider, which keeps their angle.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            As of `revolute`; two points may lie apart along the axis. Of two bodies without `at`, the second's origin is meant.
-        axis : array_like (2,) or (3,)
-            Its direction in the drawing; it turns with the first body.
-        at : array_like (2,) or (3,)
-            Where the joint is in the drawing, in m.
-        damping : float
-            In N s/m, at least 0.
-        cut : bool
-            As of `revolute`.
-
-        Returns
-        -------
-        Prismatic, in space SpaceJoint
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `revolute`; and for an axis of length zero, or a particle.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("drawer")
-        >>> drawer = m.body("drawer", 2.0)
-        >>> m.prismatic("rail", m.ground, drawer, axis=(1, 0)).displacement
-        Measure('rail.displacement')
-        """
-        if self.dimension == 3:
-            return self._join("prismatic", name, first, second, self._at_origin(at, first, second),
-                              self._direction(f"axis of {name!r}", axis), damping=damping, cut=cut)
-        name = self._new_name(name, "joint")
-        axis = self._direction(f"axis of {name!r}", axis)
-        first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
-        if at is None and isinstance(first, Body) and isinstance(second, Body) and first.turns and second.turns:
-            at = second.pose.origin
-        sides = self._sides(name, first, second, at)
-        self._turning(name, "prismatic", *(side.body for side in sides))
-        return self._add(Prismatic(name, *sides, axis=sides[0].body.pose.local_direction(axis), cut=checked_cut(name, cut),
-                                   damping=_check.number(f"damping of {name!r}", damping, least=0)))
-
-    def weld(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> Any:
-        """Rigid connection of two bodies, in their drawn relative pose.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            As of `revolute`; the reaction is reported at the second's point.
-        at : array_like (2,) or (3,)
-            Where the joint is in the drawing, in m.
-        cut : bool
-            True if this joint must close a loop; left out, the joint that closes a loop is chosen.
-
-        Returns
-        -------
-        Weld, in space SpaceJoint
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `revolute`; and for a particle.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("bracket")
-        >>> arm = m.link("arm", (0, 0), (1, 0), mass=1.0)
-        >>> m.weld("wall", m.ground, arm.start).torque
-        Measure('wall.torque')
-        """
-        if self.dimension == 3:
-            return self._join("weld", name, first, second, at, cut=cut)
-        name = self._new_name(name, "joint")
-        sides = self._sides(name, first, second, at)
-        self._turning(name, "weld", *(side.body for side in sides))
-        return self._add(Weld(name, *sides, cut=checked_cut(name, cut)))
-
-    def rod(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *,
-            length: float | None = None) -> Any:
-        """Keep two points at a distance, as a massless rod with a hinge at each end does.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Point, Particle or name
-        length : float, optional
-            In m; left out: as drawn.
-
-        Returns
-        -------
-        Rod, in space SpaceJoint
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `revolute`; and if two points that lie in one place have no length.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("pendulum")
-        >>> bob = m.particle("bob", 1.0, at=(0.6, -0.8))
-        >>> m.rod("rod", m.ground.point((0, 0)), bob).tension
-        Measure('rod.tension')
-        """
-        name = self._new_name(name, "joint")
-        sides = self._different(name, self._point("first", first), self._point("second", second))
-        if length is not None:
-            length = _check.number(f"length of {name!r}", length, above=0)
-        if self.dimension == 3:
-            return self._fasten("rod", name, *sides, length=length)
-        rod = Rod(name, *sides, length=length)
-        _check.number(f"length of {name!r}, as drawn,", rod.numbers()["length"], above=0)
-        return self._add(rod)
 
     def slot(self, name: str, first: Body | str, second: Point | Particle | str, *, axis: Any, cut: bool = False) -> Any:
         """Keep a point on a line of a body.
@@ -334,8 +166,3 @@ class JointVerbs(SpaceJointVerbs):
         self._turning(name, "knife edge", point.body)
         first, point = self._different(name, self.ground.point(at=point.drawn), point)
         return self._add(KnifeEdge(name, first, point, axis=point.body.pose.local_direction(along)))
-
-
-for _kind, _joint in BY_ROW.items():
-    setattr(JointVerbs, _kind, verb(_joint))
-

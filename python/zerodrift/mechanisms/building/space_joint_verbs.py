@@ -1,4 +1,4 @@
-"""Methods of `Mechanism` that add joints in space, and what its other methods share with them."""
+"""Joints in space: those whose arguments the core's table cannot name, and steps that all methods of joints share."""
 
 from __future__ import annotations
 
@@ -9,213 +9,17 @@ import numpy as np
 from ... import _check
 from ..elements.bodies import Body, Point
 from ..elements.frames import perpendicular
+from ..elements.joints import draws_length
 from ..elements.space_joints import BY_KIND, SpaceJoint, has_torque
 from .registry import Elements
 
 Side = Body | Point | str
-RIGHT_ANGLE = 1e-9      # of the cosine: deviation from a right angle, at most
 FLAT = 1e-6             # sine of the angle below which directions are parallel
 TOUCHING = 0.01         # of the height of the centre: gap of a rough drawing that assembly closes
 
 
 class SpaceJointVerbs(Elements):
-    """Joints that exist in space only. Their axes are directions in the drawing."""
-
-    def spherical(self, name: str, first: Side, second: Side, *, at: Any = None, cut: bool = False) -> SpaceJoint:
-        """Join two bodies by a ball.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            As of `revolute`; one of them may be a particle.
-        at : array_like (3,)
-            Where the joint is in the drawing, in m.
-        cut : bool
-            As of `revolute`.
-
-        Returns
-        -------
-        SpaceJoint
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `revolute`; and in the plane, where `revolute` is meant.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("pendulum", dimension=3, gravity=(0, 0, -9.81))
-        >>> link = m.link("link", (0, 0, 0), (1, 0, 0), mass=1.0)
-        >>> m.spherical("A", m.ground, link.start).force
-        VectorMeasure3('A.force')
-        """
-        self._in_space("spherical", "revolute")
-        return self._join("spherical", name, first, second, at, cut=cut)
-
-    def universal(self, name: str, first: Side, second: Side, *, axes: tuple[Any, Any], at: Any = None,
-                  cut: bool = False) -> SpaceJoint:
-        """Join two bodies by a cross, as Hooke's or Cardan's joint does.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            As of `revolute`.
-        axes : tuple of array_like (3,)
-            The arm of the cross that belongs to the first body, and that which belongs to the second: perpendicular.
-        at : array_like (3,)
-            Where the joint is in the drawing, in m.
-        cut : bool
-            As of `revolute`.
-
-        Returns
-        -------
-        SpaceJoint
-            ``angle1`` is how far the cross has turned about the first arm, ``angle2`` how far the second body has about the
-            other, in rad; they count turns.
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `revolute`; and if the axes are not perpendicular in the drawing, or in the plane.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("shafts", dimension=3)
-        >>> one = m.link("one", (0, 0, 0), (1, 0, 0), mass=1.0)
-        >>> other = m.link("other", (1, 0, 0), (2, 0.5, 0), mass=1.0)
-        >>> m.universal("cross", one.end, other.start, axes=((0, 0, 1), (-0.5, 1, 0))).angle1
-        Measure('cross.angle1')
-        """
-        self._in_space("universal", "revolute")
-        if np.ndim(axes) == 0 or len(axes) != 2:
-            raise ValueError(f"axes of {name!r} must be two directions, one of the first body and one of the second")
-        first_axis, second_axis = (self._direction(f"axes[{i}] of {name!r}", axis) for i, axis in enumerate(axes))
-        cosine = float(first_axis @ second_axis)
-        if abs(cosine) > RIGHT_ANGLE:
-            raise ValueError(f"axes of {name!r} must be perpendicular in the drawing, and are "
-                             f"{np.degrees(np.arccos(cosine)):.6g} degrees apart")
-        return self._join("universal", name, first, second, at, first_axis, second_axis, cut=cut)
-
-    def cylindrical(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, cut: bool = False) -> SpaceJoint:
-        """Join two bodies by an axis about which and along which one moves on the other.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            As of `prismatic`.
-        axis : array_like (3,)
-            Its direction in the drawing.
-        at : array_like (3,)
-            Where the joint is in the drawing, in m.
-        cut : bool
-            As of `revolute`.
-
-        Returns
-        -------
-        SpaceJoint
-            With ``angle``, ``displacement`` and their rates, ``angle_speed`` and ``displacement_speed``.
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `prismatic`; and in the plane.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("bolt", dimension=3)
-        >>> bolt = m.body("bolt", 1.0, (0.1, 0.2, 0.2))
-        >>> m.cylindrical("hole", m.ground, bolt, axis=(1, 0, 0)).displacement
-        Measure('hole.displacement')
-        """
-        self._in_space("cylindrical", "prismatic")
-        return self._join("cylindrical", name, first, second, self._at_origin(at, first, second),
-                          self._direction(f"axis of {name!r}", axis), cut=cut)
-
-    def screw(self, name: str, first: Side, second: Side, *, axis: Any, pitch: float, at: Any = None,
-              cut: bool = False) -> SpaceJoint:
-        """Join two bodies by a screw.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            As of `prismatic`.
-        axis : array_like (3,)
-            Its direction in the drawing.
-        pitch : float
-            How far the second body advances along the axis for each turn about it, in m; positive of a right-handed screw.
-        at : array_like (3,)
-            Where the joint is in the drawing, in m.
-        cut : bool
-            As of `revolute`.
-
-        Returns
-        -------
-        SpaceJoint
-            With ``angle``, ``displacement`` and their rates, ``angle_speed`` and ``displacement_speed``.
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `prismatic`; for a pitch of zero; and in the plane.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("bolt", dimension=3)
-        >>> bolt = m.body("bolt", 1.0, (0.1, 0.2, 0.2))
-        >>> m.screw("thread", m.ground, bolt, axis=(1, 0, 0), pitch=0.002)
-        <screw thread: ground - bolt>
-        """
-        self._in_space("screw", "prismatic")
-        pitch = _check.number(f"pitch of {name!r}", pitch)
-        if not pitch:
-            raise ValueError(f"pitch of {name!r} must not be 0: take revolute")
-        return self._join("screw", name, first, second, self._at_origin(at, first, second),
-                          self._direction(f"axis of {name!r}", axis), length=pitch, cut=cut)
-
-    def planar(self, name: str, first: Side, second: Side, *, normal: Any, at: Any = None, cut: bool = False) -> SpaceJoint:
-        """Let one body slide on a plane of another, and turn about its normal.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            As of `prismatic`.
-        normal : array_like (3,)
-            Of the plane, in the drawing.
-        at : array_like (3,)
-            Where the joint is in the drawing, in m.
-        cut : bool
-            As of `revolute`.
-
-        Returns
-        -------
-        SpaceJoint
-            With ``angle``, that about the normal.
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `prismatic`; and in the plane.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("puck", dimension=3)
-        >>> puck = m.body("puck", 1.0, (0.1, 0.1, 0.2))
-        >>> m.planar("ice", m.ground, puck, normal=(0, 0, 1)).angle
-        Measure('ice.angle')
-        """
-        self._in_space("planar", "a free body")
-        return self._join("planar", name, first, second, self._at_origin(at, first, second),
-                          self._direction(f"normal of {name!r}", normal), cut=cut)
+    """Joints in space, whose axes are directions in the drawing."""
 
     # ---- rolling and gliding ----
 
@@ -282,21 +86,9 @@ class SpaceJointVerbs(Elements):
 
     # ---- shared ----
 
-    def _in_space(self, verb: str, instead: str) -> None:
-        if self.dimension == 2:
-            raise ValueError(f"{verb} is a joint of space, Mechanism(..., dimension=3): in the plane {instead} is meant")
-
-    def _one_axis(self, name: str, axis: Any) -> Any:
-        """Axis of a joint that has none in the plane."""
-        if self.dimension == 2 and axis is not None:
-            raise ValueError(f"axis of {name!r} is for mechanisms in space: in the plane bodies turn about its normal")
-        if self.dimension == 3 and axis is None:
-            raise TypeError(f"{name!r} needs axis=, the direction in the drawing about which it turns")
-        return None if axis is None else self._direction(f"axis of {name!r}", axis)
-
-    def _at_origin(self, at: Any, first: Any, second: Any) -> Any:
+    def _at_origin(self, name: str, at: Any, first: Any, second: Any) -> Any:
         """Position of a joint: of two bodies without `at`, the second's origin."""
-        first, second = self._named("first", first), self._named("second", second)
+        first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
         if at is None and all(isinstance(side, Body) and side.turns for side in (first, second)):
             return second.pose.origin
         return at
@@ -320,7 +112,7 @@ class SpaceJointVerbs(Elements):
         frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
         damping = _check.number(f"damping of {name!r}", damping, least=0)
         made = joint(name, first, second, frames=frames, length=length, damping=damping, cut=checked_cut(name, cut))
-        if kind == "rod":
+        if draws_length(joint.row):
             _check.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)
         return self._add(made)
 

@@ -11,7 +11,7 @@ import numpy as np
 from ... import _check
 from ..elements.table_forces import MadeForce
 from .registry import Elements
-from .table_joint_verbs import SIDES, wrapped
+from .table_joint_documentation import SIDES, wrapped
 
 TAKEN = {
     "axis": ("array_like (2,)", "Its direction in the drawing; it turns with the first body."),
@@ -21,6 +21,7 @@ TAKEN = {
     "value": ("float, callable or SymPy expression",
               "In N, along angles in N m; of t, parameters and measures of positions and velocities."),
     "of": ("dict of str to measure", "Under which names a callable is handed which measures.")}
+AT = "array_like (2,)", "Position of the element in the drawing, in m."
 NEEDED = inspect.Parameter.empty
 
 
@@ -88,7 +89,7 @@ def _documentation(force: type[MadeForce]) -> str:
     words = {"size": f" or array_like ({len(force.row.gauges)},)" if several else "",
              "each": f"; for each of {', '.join(gauge for gauge, _ in force.row.gauges)}" if several else ""}
     lines = [card.summary, "", *wrapped(card.description), "Parameters", "----------"]
-    for name, (kind, text) in {"name": ("str", ""), **SIDES, **{word: TAKEN[word] for word in taken(force)}}.items():
+    for name, (kind, text) in {"name": ("str", ""), **SIDES, "at": AT, **{word: TAKEN[word] for word in taken(force)}}.items():
         lines += [f"{name} : {kind.format(**words)}", *wrapped(text.format(**words), "    ")[:-1]]
     lines += ["", "Returns", "-------", force.__name__, "", "Notes", "-----", *wrapped(f"Source: {card.equations}.")]
     axis = ", axis=(1, 0)" if "axis" in taken(force) else ""

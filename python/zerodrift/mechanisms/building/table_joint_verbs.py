@@ -1,84 +1,157 @@
-"""Methods of `Mechanism` for joints, made from entries of the core's table: arguments, checks and documentation."""
+"""Methods of `Mechanism` for joints, made from entries of the core's tables: arguments, checks and documentation."""
 
 from __future__ import annotations
 
 import inspect
-import textwrap
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from ... import _check
-from ..elements.joints import Joint, holds_angle
+from ..elements.joints import Joint, draws_length, holds_angle, holds_distance, is_slider
+from ..elements.space_joints import SpaceJoint, is_at_point
 from .registry import Elements
+from .space_joint_verbs import checked_cut
+from .table_joint_documentation import documentation
 
-WIDTH = 120     # columns of a docstring
-SIDES = {
-    "first, second": ("Body, Point or name", "Two points; a body and a point; or two bodies, and `at`."),
-    "at": ("array_like (2,)", "Where the joint is in the drawing, in m.")}
-POINT = {"point": ("Point, Body or name", "Of a body without a point, its centre of mass.")}
-TAKEN = {
-    "axis": ("array_like (2,)", "Its direction in the drawing; it turns with the {carrier}."),
-    "length": ("float", "In m, above 0{left_out}."),
-    "damping": ("float", "Of its {coordinate}, in {unit}, at least 0."),
-    "cut": ("bool", "Whether this joint shall close a loop; left out, loops are cut where it is best.")}
+ORDER = ("axis", "axes", "normal", "pitch", "at", "length", "damping", "cut")
+KINDS = {"name": "str", "first": "Side", "second": "Side", "point": "Side", "axes": "tuple[Any, Any]", "pitch": "float",
+         "damping": "float", "cut": "bool"}
+INITIAL = {"at": None, "damping": 0.0, "cut": False}
+RIGHT_ANGLE = 1e-9      # cosine of the angle between two axes, at most
 
 
-def verb(joint: type[Joint]) -> Callable[..., Joint]:
-    """Method of `Mechanism` for one kind of joint."""
-    signature = _signature(joint)
+def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Callable[..., Joint]:
+    """Method of `Mechanism` for a kind of joint, from its classes in the plane and in space; None where it does not exist."""
+    signature = _signature(plane, space)
+    either: Any = plane or space
 
     def make(m: Elements, *given: Any, **named: Any) -> Joint:
         try:
-            taken = signature.bind(m, *given, **named)
+            bound = signature.bind(m, *given, **named)
         except TypeError as error:
-            raise TypeError(f"{joint.kind}(): {error}") from None
-        taken.apply_defaults()
-        values = dict(taken.arguments)
-        return _add(values.pop("self"), joint, values.pop("name"), **values)
+            raise TypeError(f"{either.kind}(): {error}") from None
+        bound.apply_defaults()
+        values = dict(bound.arguments)
+        _check_dimension(m, plane, space)
+        del values["self"]
+        name = values.pop("name")
+        if m.dimension == 2:
+            return _add(m, plane, name, **_taken(m, name, values, plane_words(plane)))
+        return _add_in_space(m, space, name, **_taken(m, name, values, space_words(space)))
 
-    make.__name__, make.__qualname__ = joint.kind, f"Mechanism.{joint.kind}"
-    make.__doc__, make.__signature__ = _documentation(joint), signature      # type: ignore[attr-defined]
+    make.__name__, make.__qualname__ = either.kind, f"Mechanism.{either.kind}"
+    make.__doc__ = documentation(plane, space, list(signature.parameters))
+    make.__signature__ = signature      # type: ignore[attr-defined]
     return make
 
 
-def _draws_length(joint: type[Joint]) -> bool:
-    """True if its length defaults to the drawn distance."""
-    return any(row.gauge == "distance" and row.zero == "length" for row in joint.row.rows)
+# ---- arguments ----
 
 
-def _signature(joint: type[Joint]) -> inspect.Signature:
-    initial = {"at": None, "damping": 0.0, "cut": False, **({"length": None} if _draws_length(joint) else {})}
-    sides = ["point"] if joint.is_of_one_body else ["first", "second"]
-    named = [*([] if joint.is_of_one_body else ["at"]), *joint.takes]
-    given = [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD) for name in ["self", "name", *sides]]
-    given += [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial.get(name, inspect.Parameter.empty))
-              for name in named]
-    return inspect.Signature(given)
+def plane_words(joint: type[Joint]) -> list[str]:
+    """Keyword arguments in the plane."""
+    return [*([] if joint.is_of_one_body or holds_distance(joint.row) else ["at"]), *joint.takes]
+
+
+def space_words(joint: type[SpaceJoint]) -> list[str]:
+    """Keyword arguments in space."""
+    row = joint.row
+    words = [axis_word(joint)] if row.axes else []
+    words += [] if holds_distance(joint.row) else ["at"]
+    words += [length_word(joint)] if row.takes_length else []
+    words += ["damping"] if row.freedoms is not None and len(row.freedoms) == 1 and joint.coordinate else []
+    return words if row.freedoms is None else [*words, "cut"]
+
+
+def axis_word(joint: type[SpaceJoint]) -> str:
+    """Name of the argument for directions: two axes, the normal of a plane that holds the second point, or an axis."""
+    if joint.row.axes == 2:
+        return "axes"
+    return "normal" if joint.row.rows[0][:2] == ("along", 0) else "axis"
+
+
+def length_word(joint: type[SpaceJoint]) -> str:
+    """Name of the argument for the length: a screw's is its pitch."""
+    return "pitch" if any(freedom.kind == "advances" for freedom in joint.row.freedoms or ()) else "length"
+
+
+def _signature(plane: type[Joint] | None, space: type[SpaceJoint] | None) -> inspect.Signature:
+    in_each = [plane_words(plane)] if plane else []
+    in_each += [space_words(space)] if space else []
+    initial = {**INITIAL, **({"length": None} if any(draws_length(each.row) for each in (plane, space) if each) else {})}
+    initial |= {word: None for word in ORDER if word not in initial and not all(word in each for each in in_each)}
+    sides = ["point"] if plane and plane.is_of_one_body else ["first", "second"]
+    given = [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation=KINDS.get(name, inspect.Parameter.empty))
+             for name in ("self", "name", *sides)]
+    words = [word for word in ORDER if any(word in each for each in in_each)]
+    given += [inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, annotation=_annotation(word, initial),
+                                default=initial.get(word, inspect.Parameter.empty)) for word in words]
+    return inspect.Signature(given, return_annotation="Any" if plane else "SpaceJoint")
+
+
+def _annotation(word: str, initial: dict[str, Any]) -> str:
+    if word == "length":
+        return "float | None" if word in initial else "float"
+    return KINDS.get(word, "Any")
+
+
+def _check_dimension(m: Elements, plane: type[Joint] | None, space: type[SpaceJoint] | None) -> None:
+    """Check that the kind exists in the plane, or in space."""
+    if space is None and plane is not None:
+        m._in_the_plane(plane.kind)
+    elif plane is None and space is not None and m.dimension == 2:
+        instead = "revolute" if is_at_point(space.row) else "a free body" if axis_word(space) == "normal" else "prismatic"
+        raise ValueError(f"{space.kind} is a joint of space, Mechanism(..., dimension=3): in the plane {instead} is meant")
+
+
+def _taken(m: Elements, name: Any, values: dict[str, Any], words: list[str]) -> dict[str, Any]:
+    """Arguments without those of the other dimension, which must be left out."""
+    other, taken = "in space" if m.dimension == 2 else "in the plane", {"first", "second", "point", *words}
+    for word in values.keys() - taken:
+        if values[word] is not None and not (word in ("damping", "cut") and values[word] == INITIAL[word]):
+            reason = ": in the plane bodies turn about its normal" if (word, m.dimension) == ("axis", 2) else ""
+            raise ValueError(f"{word} of {name!r} is for mechanisms {other}{reason}")
+    return {word: value for word, value in values.items() if word in taken}
+
+
+# ---- adding ----
 
 
 def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, second: Any = None, point: Any = None, at: Any = None,
          axis: Any = None, length: Any = None, damping: Any = 0.0, cut: Any = False) -> Joint:
-    m._in_the_plane(joint.kind)
     name = m._new_name(name, "joint")
-    if joint.is_of_one_body:
-        point = m._point("point", point, center=True)
-        first, second = m._different(name, m.ground.point(at=point.drawn), point)
-    else:
-        first, second = m._sides(name, first, second, at)
+    if axis is not None:
+        axis = m._direction(f"axis of {name!r}", axis)
+    first, second = _sides(m, joint, name, first, second, point, at)
     if length is not None:
         length = _check.number(f"length of {name!r}", length, above=0)
     damping = _check.number(f"damping of {name!r}", damping, least=0)
-    _check.instance(f"cut of {name!r}", cut, bool, "True or False")
+    if needs_angles(joint):
+        m._turning(name, joint.kind, first.body, second.body)
+    if damping and joint.coordinate == "angle":
+        m._turning(name, "damping of", first.body, second.body)
     if axis is not None:
         carrier = second.body if joint.is_of_one_body else first.body
         m._turning(name, "axis of", carrier)
-        axis = carrier.pose.local_direction(m._direction(f"axis of {name!r}", axis))
-    if needs_angles(joint) or (damping and joint.coordinate == "angle"):
-        m._turning(name, joint.kind, first.body, second.body)
-    made = joint(name, first, second, axis=axis, length=length, damping=damping, cut=cut)
+        axis = carrier.pose.local_direction(axis)
+    made = joint(name, first, second, axis=axis, length=length, damping=damping, cut=checked_cut(name, cut))
     if joint.row.takes_length:
         _check.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)
     return m._add(made)
+
+
+def _sides(m: Elements, joint: type[Joint], name: str, first: Any, second: Any, point: Any, at: Any) -> tuple[Any, Any]:
+    """Points of both bodies."""
+    if joint.is_of_one_body:
+        point = m._point("point", point, center=True)
+        return m._different(name, m.ground.point(at=point.drawn), point)
+    if holds_distance(joint.row):
+        return m._different(name, m._point("first", first), m._point("second", second))
+    if is_slider(joint.row):
+        at = m._at_origin(name, at, first, second)
+    return m._sides(name, first, second, at)
 
 
 def needs_angles(joint: type[Joint]) -> bool:
@@ -86,35 +159,36 @@ def needs_angles(joint: type[Joint]) -> bool:
     return holds_angle(joint.row) or any(row.rolls for row in joint.row.rows)
 
 
-def _documentation(joint: type[Joint]) -> str:
-    """Docstring in the style of the handwritten ones."""
-    words = {"carrier": "body" if joint.is_of_one_body else "first body", "coordinate": joint.coordinate,
-             "unit": "N m s" if joint.coordinate == "angle" else "N s/m",
-             "left_out": "; left out: as drawn" if _draws_length(joint) else ""}
-    sides = POINT if joint.is_of_one_body else SIDES
-    parameters = {"name": ("str", ""), **sides, **{word: TAKEN[word] for word in joint.takes}}
-    lines = [joint.row.card.summary, "", *wrapped(joint.row.card.description), "Parameters", "----------"]
-    for name, (kind, text) in parameters.items():
-        lines += [f"{name} : {kind}", *wrapped(text.format(**words), "    ")[:-1]]
-    lines += ["", "Returns", "-------", joint.__name__, "", "Raises", "------", "ValueError, TypeError"]
-    lines += wrapped("If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not "
-                      "what it may be, or a particle would need an orientation.", "    ")
-    lines += ["Notes", "-----", *wrapped(f"Source: {joint.row.card.equations}" + _reference(joint))]
-    return "\n".join([*lines, "Examples", "--------", *_example(joint)])
+def _add_in_space(m: Any, joint: type[SpaceJoint], name: Any, *, first: Any, second: Any, at: Any = None, axis: Any = None,
+                  normal: Any = None, axes: Any = None, pitch: Any = None, length: Any = None, damping: Any = 0.0,
+                  cut: Any = False) -> SpaceJoint:
+    given = {"axis": axis, "normal": normal, "axes": axes}
+    directions = _directions(m, joint, name, given[axis_word(joint)]) if joint.row.axes else ()
+    if length_word(joint) == "pitch":
+        length = _check.number(f"pitch of {name!r}", pitch)
+        if not length:
+            raise ValueError(f"pitch of {name!r} must not be 0: take revolute")
+    if holds_distance(joint.row):
+        name = m._new_name(name, "joint")
+        sides = m._different(name, m._point("first", first), m._point("second", second))
+        length = None if length is None else _check.number(f"length of {name!r}", length, above=0)
+        return m._fasten(joint.kind, name, *sides, length=length)
+    at = at if is_at_point(joint.row) else m._at_origin(name, at, first, second)
+    return m._join(joint.kind, name, first, second, at, *directions, length=length, damping=damping, cut=cut)
 
 
-def wrapped(text: str, indent: str = "") -> list[str]:
-    """Lines of a paragraph and an empty one; [] for an empty text."""
-    return [*textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent), ""] if text else []
-
-
-def _reference(joint: type[Joint]) -> str:
-    return f"; {joint.row.card.reference}." if joint.row.card.reference else "."
-
-
-def _example(joint: type[Joint]) -> list[str]:
-    sides = "body" if joint.is_of_one_body else "m.ground, body, at=(1, 0)"
-    given = {word: text for word, text in (("axis", "(1, 0)"), ("length", "0.5")) if word in joint.takes}
-    arguments = ", ".join([sides, *(f"{word}={text}" for word, text in given.items())])
-    return [">>> import zerodrift as zd", '>>> m = zd.Mechanism("example")', '>>> body = m.body("body", 1.0, 0.1, at=(1, 0))',
-            f'>>> m.{joint.kind}("joint", {arguments}).force', "VectorMeasure('joint.force')"]
+def _directions(m: Elements, joint: type[SpaceJoint], name: Any, given: Any) -> tuple[Any, ...]:
+    """Axis of the joint, or two perpendicular axes, in the drawing."""
+    word = axis_word(joint)
+    if word != "axes":
+        if given is None:
+            raise TypeError(f"{name!r} needs {word}=, the direction in the drawing about which it turns")
+        return (m._direction(f"{word} of {name!r}", given),)
+    if np.ndim(given) == 0 or len(given) != 2:
+        raise ValueError(f"axes of {name!r} must be two directions, one of the first body and one of the second")
+    first, second = (m._direction(f"axes[{i}] of {name!r}", axis) for i, axis in enumerate(given))
+    cosine = float(first @ second)
+    if abs(cosine) > RIGHT_ANGLE:
+        raise ValueError(f"axes of {name!r} must be perpendicular in the drawing, and are "
+                         f"{np.degrees(np.arccos(cosine)):.6g} degrees apart")
+    return first, second

@@ -157,6 +157,21 @@ def holds_angle(row: JointKind) -> bool:
     return any(each.gauge == "angle" for each in row.rows)
 
 
+def is_slider(row: JointKind) -> bool:
+    """True if the joint keeps the relative angle and leaves the points of both bodies free along an axis."""
+    return holds_angle(row) and row.takes_axis
+
+
+def holds_distance(row: Any) -> bool:
+    """True if the joint, in the plane or in space, constrains the distance of two points and nothing else."""
+    return all(gauge == "distance" for gauge, *_ in row.rows)
+
+
+def draws_length(row: Any) -> bool:
+    """True if the length of the joint, in the plane or in space, defaults to the drawn distance."""
+    return row.takes_length and any(gauge == "distance" for gauge, *_ in row.rows)
+
+
 class Revolute(Joint):
     """A hinge, `Mechanism.revolute`."""
 

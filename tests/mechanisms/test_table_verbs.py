@@ -1,0 +1,88 @@
+"""Methods of `Mechanism` that are made from the core's tables: interface, checks, documentation, and their declarations."""
+
+import ast
+import doctest
+import inspect
+
+import pytest
+
+import zerodrift as zd
+from mechanisms.stub_of_verbs import STUB, stub
+from zerodrift.mechanisms.building.table_verbs import BY_HAND, JOINTS, TableVerbs
+from zerodrift.mechanisms.elements import joints, space_joints
+
+SIGNATURES = {      # those that scripts rely on: keyword arguments, with their defaults
+    "revolute": {"axis": None, "at": None, "damping": 0.0, "cut": False},
+    "prismatic": {"axis": ..., "at": None, "damping": 0.0, "cut": False},
+    "weld": {"at": None, "cut": False},
+    "rod": {"length": None},
+    "spherical": {"at": None, "cut": False},
+    "universal": {"axes": ..., "at": None, "cut": False},
+    "cylindrical": {"axis": ..., "at": None, "cut": False},
+    "screw": {"axis": ..., "pitch": ..., "at": None, "cut": False},
+    "planar": {"normal": ..., "at": None, "cut": False}}
+
+
+def test_every_kind_of_both_tables_has_a_method():
+    kinds = {*joints.JOINTS, *space_joints.JOINTS}
+    assert len(kinds) > 10
+    assert {*SIGNATURES} <= {*JOINTS}
+    assert kinds == {*JOINTS} | {*BY_HAND}
+    assert all(callable(getattr(zd.Mechanism, kind)) for kind in kinds)
+
+
+@pytest.mark.parametrize("kind", SIGNATURES)
+def test_its_arguments_are_those_that_scripts_rely_on(kind):
+    parameters = inspect.signature(getattr(zd.Mechanism, kind)).parameters
+    assert [*parameters][:4] == ["self", "name", "first", "second"]
+    given = {name: each.default for name, each in parameters.items() if each.kind is each.KEYWORD_ONLY}
+    assert {name: ... if value is inspect.Parameter.empty else value for name, value in given.items()} == SIGNATURES[kind]
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+def test_its_documentation_names_its_arguments_and_its_example_runs(kind):
+    method = getattr(zd.Mechanism, kind)
+    doc = inspect.getdoc(method)
+    assert max(map(len, doc.splitlines())) <= 120
+    assert all(f"{word} : " in doc or f", {word} : " in doc or f"{word}, " in doc
+               for word in inspect.signature(method).parameters if word != "self")
+    examples = doctest.DocTestParser().get_doctest(doc, {}, kind, None, 0)
+    assert len(examples.examples) == 4
+    assert doctest.DocTestRunner().run(examples).failed == 0
+
+
+def test_the_declarations_for_editors_are_those_of_the_methods():
+    """Written anew by ``python tests/mechanisms/stub_of_verbs.py``."""
+    assert STUB.read_text(encoding="utf-8") == stub()
+    declared = next(each for each in ast.parse(stub()).body if isinstance(each, ast.ClassDef))
+    assert {each.name for each in declared.body} == {name for name in vars(TableVerbs) if not name.startswith("_")}
+
+
+@pytest.mark.parametrize(("call", "error", "text"), [
+    (lambda m, a, b: m.revolute("A", a, b, at=(0, 0), axis=(1, 0)), ValueError, "axis of 'A' is for mechanisms in space"),
+    (lambda m, a, b: m.prismatic("A", a, b), TypeError, r"prismatic\(\): missing a required .*argument: 'axis'"),
+    (lambda m, a, b: m.rod("A", a, b.center), TypeError, "first must be a point, and 'a' is a whole body"),
+    (lambda m, a, b: m.rod("A", a.center, b.center, at=(0, 0)), TypeError, r"rod\(\): got an unexpected keyword argument 'at'"),
+    (lambda m, a, b: m.weld("A", a, b, at=(0, 0), cut=1), TypeError, "cut of 'A' must be True or False"),
+    (lambda m, a, b: m.planar("A", a, b, normal=(0, 1)), ValueError, "planar is a joint of space, .* a free body is meant")])
+def test_refusals_in_the_plane_name_what_is_wrong(call, error, text):
+    m = zd.Mechanism("refused")
+    bodies = [m.body(name, 1.0, 0.1, at=(i, 0)) for i, name in enumerate("ab")]
+    with pytest.raises(error, match=text):
+        call(m, *bodies)
+    assert [*m.joints] == []
+
+
+@pytest.mark.parametrize(("call", "error", "text"), [
+    (lambda m, a, b: m.revolute("A", a, b, at=(0, 0, 0)), TypeError, "'A' needs axis=, the direction in the drawing"),
+    (lambda m, a, b: m.revolute("A", a, b, at=(0, 0, 0), axis=(0, 0, 1), damping=-1), ValueError, "damping of 'A' must be"),
+    (lambda m, a, b: m.screw("A", a, b, axis=(0, 0, 1), pitch=0), ValueError, "pitch of 'A' must not be 0"),
+    (lambda m, a, b: m.universal("A", a, b, at=(0, 0, 0), axes=((1, 0, 0), (1, 1, 0))), ValueError, "45 degrees apart"),
+    (lambda m, a, b: m.rod("A", a.center, b.center, length=0), ValueError, "length of 'A' must be greater than 0"),
+    (lambda m, a, b: m.spherical("A", a, b), TypeError, "it needs at=, its place as drawn")])
+def test_refusals_in_space_name_what_is_wrong(call, error, text):
+    m = zd.Mechanism("refused", dimension=3)
+    bodies = [m.body(name, 1.0, (0.1, 0.1, 0.1), at=(i, 0, 0)) for i, name in enumerate("ab")]
+    with pytest.raises(error, match=text):
+        call(m, *bodies)
+    assert [*m.joints] == []
