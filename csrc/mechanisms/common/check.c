@@ -1,5 +1,4 @@
-/* The front builds the tables, and names bodies and joints to its user;
- * here it is only made sure that nothing is looked up that is not there. */
+/* Python builds the tables, and reports errors by the names of bodies and joints; these checks only ensure that every index is in range. */
 #include "check.h"
 
 #include <stdarg.h>
@@ -15,7 +14,7 @@ int zd_complain(zd_complaint to, const char *format, ...)
     return 0;
 }
 
-/* What uses refer to. */
+/* Elements with the numbers of joints and marker quantities that they may refer to. */
 typedef struct tables {
     const zd_elements *elements;
     int joints, gauges;
@@ -46,7 +45,7 @@ static int effort_is_right(const tables *of, int i, zd_complaint to)
            zd_complain(to, "effort %d: its kind, gauges, law or joint are not there", i);
 }
 
-/* How many there are of what a measure's index counts. */
+/* Number of entries that the index of a measure of this kind selects from. */
 static int count_of(const tables *of, int quantity)
 {
     switch (quantity) {

@@ -1,4 +1,4 @@
-/* Whether tables of a mechanism contradict themselves. */
+/* Consistency of the tables of a mechanism: every index must refer to an existing entry. */
 #ifndef ZD_COMMON_CHECK_H
 #define ZD_COMMON_CHECK_H
 
@@ -9,12 +9,12 @@ typedef struct zd_complaint {
     int size;
 } zd_complaint;
 
-/* Writes what is wrong; returns 0, that it is not right. */
+/* Writes the message of a violated rule; returns 0. */
 int zd_complain(zd_complaint to, const char *format, ...);
 
 static inline int zd_is_in(int index, int count) { return index >= 0 && index < count; }
 
-/* Whether relations, efforts and measures are of gauges and joints that there are; if not, says which is not. */
+/* True if relations, efforts and measures refer to existing marker quantities and joints; otherwise writes which one does not. */
 int zd_elements_are_right(const zd_elements *elements, int joints, int gauges, zd_complaint to);
 
 #endif

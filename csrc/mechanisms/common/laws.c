@@ -10,7 +10,7 @@ static int all_finite(const double *values, int count)
     return 1;
 }
 
-/* Whether a law has a compiled function that has said it. */
+/* Evaluates the compiled user function; returns 0 if there is none, or if its values are not all finite. */
 static int has_said(const zd_compiled_law *compiled, const zd_readings *at, double t, int count)
 {
     if (!compiled->function) return 0;
@@ -18,7 +18,8 @@ static int has_said(const zd_compiled_law *compiled, const zd_readings *at, doub
     return all_finite(at->out, count);
 }
 
-/* out <- `count` numbers. Where a compiled function has none that are finite, whoever it was compiled for is asked, and says why. */
+/* out (count,) <- values of user function `law`. If the compiled function has values that are not finite, the original one is called, as
+ * it reports the reason. */
 static int ask(const zd_planned_elements *elements, const zd_readings *at, int law, int first, int terms, double t, int count)
 {
     for (int i = 0; i < terms; i++) {

@@ -27,7 +27,7 @@ static void touch(const zd_packed *self, int first, int *end, int body)
     self->block[i] = block;
 }
 
-/* Where a body's entries begin in a row of the group whose blocks begin at `first`. */
+/* Offset of a body's entries in a row of the group whose blocks begin at `first`; -1 for the ground. */
 static int offset_of(const zd_packed *self, int first, int body)
 {
     int offset = 0;
@@ -41,7 +41,7 @@ static int is_in_group(const zd_planned_elements *elements, int before, int row)
     return a->owner == b->owner && a->index == b->index && (before < elements->mh) == (row < elements->mh);
 }
 
-/* How many rows the group from `row` on has. */
+/* Number of rows of the group that begins at `row`. */
 static int rows_of_group(const zd_planned_elements *elements, int row)
 {
     int count = 1;

@@ -77,7 +77,7 @@ static int forces_have_power(const zd_elements *elements)
     return 0;
 }
 
-/* Whether a row's rate has a part of its own, dg/dt or a_0 of (5). */
+/* True if the rate of a row has an explicit part, dg/dt or a_0 of (5). */
 static int rows_have_explicit_rate(const zd_elements *elements)
 {
     for (int i = 0; i < elements->relations; i++) {

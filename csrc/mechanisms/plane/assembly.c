@@ -16,13 +16,13 @@ static const double CLOSED = 1e-12;         /* these are as in assembly.py */
 static const double SMALLEST = 1e-3;        /* and in assembly_rows.c */
 static const double TRACKED = 0.1;
 static const double LONGEST = 0.4;
-static const double INDEPENDENT = 1e-7;     /* of a row: what has to be left once others are taken out */
+static const double INDEPENDENT = 1e-7;     /* smallest relative pivot of an independent row */
 enum { ATTEMPTS = 200, NEARER = 50, ITERATIONS = 40, POWERS = 200 };
 
 /* ---- steps ---- */
 
-/* x <- the least with J x = right, in the mass metric; returns whether rows are independent, but for those of coordinates that stay: loops
- * make them depend on each other, and such a row, met where the others are, is left out. */
+/* x <- minimum-norm solution of J x = right in the mass metric. Returns 0 if rows are redundant. A redundant row of a staying coordinate,
+ * as loops make them, is skipped where the other rows already satisfy it. */
 static int least_step(zd_assembly *self, const double *right, double *x)
 {
     const int n = self->n, m = self->rows;
@@ -52,7 +52,7 @@ static int least_step(zd_assembly *self, const double *right, double *x)
     return 1;
 }
 
-/* Where a step leads, shortened so that it moves no coordinate by more than that */
+/* to <- p + step, with the step shortened so that no scaled coordinate moves by more than `longest` */
 static void move(const zd_assembly *self, const double *p, double longest, double *step, double *to)
 {
     const double most = zd_largest(self->n, step), share = most > longest ? longest / most : 1;
@@ -146,7 +146,8 @@ static int track(zd_assembly *self, double *p)
     memset(self->start, 0, (size_t)self->most * sizeof *self->start);
     zd_assembly_write_rows(self, p, self->mh, 1, 0);
     zd_assembly_divide_by_sizes(self, self->rows > self->mh);
-    for (int k = 0; k < self->rows; k++) self->start[k] = zd_assembly_is_of_joint(self, k) || zd_assembly_drive_of(self, k) >= 0 ? 0 : self->r[k];
+    for (int k = 0; k < self->rows; k++) self->start[k] = zd_assembly_is_of_joint(self, k) || zd_assembly_drive_of(self, k) >= 0 ? 0
+        : self->r[k];
     const double way = zd_largest(self->rows, self->start);
     if (!(way < INFINITY)) return 0;
     const int parts = (int)fmin(200, fmax(1, ceil(way / TRACKED)));
@@ -187,7 +188,7 @@ static int approach(zd_assembly *self, const zd_assembly_problem *of, const doub
     return 1;
 }
 
-/* Whether all rows and targets are met as drawn; without targets the sizes of the rows need not be known for that. */
+/* True if all rows and targets are satisfied as drawn; without targets, the sizes of the rows are not needed for that. */
 static int is_closed(zd_assembly *self, const double *p, int held)
 {
     const zd_assembly_problem all = {ZD_OF_ALL, 1, 0};

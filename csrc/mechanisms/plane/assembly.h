@@ -5,9 +5,10 @@
 
 #include "assembly_rows.h"
 
-/* p and v (nv,) of a mechanism in absolute coordinates: p comes as drawn, at time 0; places (drives,) <- the coordinates that are driven,
- * where the constants of these relations are 0. Returns whether they are found; not where rows follow from others, or contradict each
- * other, or what is drawn is too far from closed: whoever tells of that looks more closely. */
+/* Position assembly and consistent velocities. p (nv,), absolute coordinates at time 0, is the reference configuration on entry and
+ * assembled on return; v (nv,) is computed; places (drives,) <- values of the driven coordinates, where the constants of these relations
+ * are 0. Returns 0 if no assembly is found: rows are redundant or contradictory, or the reference configuration is too far from closed.
+ * The caller then diagnoses the reason. */
 int zd_assemble(const zd_plane *mechanism, const zd_wanted *wanted, double *p, double *v, double *places);
 
 #endif

@@ -5,7 +5,7 @@
 #include "../../workspace.h"
 #include "tables.h"
 
-/* What a start wants beyond closed joints */
+/* Conditions of a start in addition to closed joints */
 typedef struct zd_wanted {
     double length;              /* m: how large the mechanism is */
     int targets;
@@ -31,7 +31,7 @@ typedef struct zd_assembly {
     int is_known[2];
     double *dense, *r, *J, *Q, *L;      /* (m, n), (most,), (most, n), (most, n), (most, most) */
     double *y, *step, *tried, *start;   /* (most,), (n,), (n,), (most,) */
-    int rows, firm;                     /* of r and J; the first so many are not of coordinates that stay */
+    int rows, firm;                     /* number of rows of r and J; the first `firm` of them exclude the targets that stay */
 } zd_assembly;
 
 enum zd_assembly_choice {

@@ -17,11 +17,13 @@ static int carrier_is_right(const zd_plane_tables *tables, int i, zd_complaint t
     const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(joint->kind);
     int touches = body == joint->first || body == joint->second;
     if (!touches) return zd_complain(to, "body %d: joint %d, which is to carry it, does not touch it", body, carrier);
-    if (kind->carrier == ZD_CARRIES_NOTHING) return zd_complain(to, "body %d: joint %d is a %s and carries nothing", body, carrier, kind->card.name);
+    if (kind->carrier == ZD_CARRIES_NOTHING) return zd_complain(to, "body %d: joint %d is a %s and carries nothing", body, carrier,
+                                                                kind->card.name);
     if (kind->carrier != ZD_TURNS && (is_particle(tables, joint->first) || is_particle(tables, joint->second)))
         return zd_complain(to, "body %d: joint %d is a %s, and a particle has no angle", body, carrier, kind->card.name);
     for (int other = 0; other < i; other++)
-        if (tables->body[other].carrier == carrier) return zd_complain(to, "joint %d carries both body %d and body %d", carrier, other + 1, body);
+        if (tables->body[other].carrier == carrier) return zd_complain(to, "joint %d carries both body %d and body %d", carrier, other + 1,
+                                                                       body);
     return 1;
 }
 
@@ -48,7 +50,8 @@ static int joint_is_right(const zd_plane_tables *tables, int i, zd_complaint to)
     if (!kind) return zd_complain(to, "joint %d: there is no kind %d", i, joint->kind);
     if (!is_body(tables, joint->first) || !is_body(tables, joint->second))
         return zd_complain(to, "joint %d: it joins bodies %d and %d, and the last one is %d", i, joint->first, joint->second, tables->bodies);
-    if (joint->first == joint->second && !kind->row[0].nonholonomic) return zd_complain(to, "joint %d: it joins body %d to itself", i, joint->first);
+    if (joint->first == joint->second && !kind->row[0].nonholonomic) return zd_complain(to, "joint %d: it joins body %d to itself", i,
+                                                                                        joint->first);
     if (!suits_particles(tables, joint->first, joint->second, joint->point1, joint->point2))
         return zd_complain(to, "joint %d: a particle has no points but its own", i);
     return 1;
@@ -59,7 +62,8 @@ static int gauge_is_right(const zd_plane_tables *tables, int i, zd_complaint to)
     const zd_plane_gauge *gauge = tables->gauge + i;
     if (!zd_is_in(gauge->kind, ZD_GAUGE_KINDS)) return zd_complain(to, "gauge %d: there is no kind %d", i, gauge->kind);
     if (!is_body(tables, gauge->first) || !is_body(tables, gauge->second))
-        return zd_complain(to, "gauge %d: it is read off bodies %d and %d, and the last one is %d", i, gauge->first, gauge->second, tables->bodies);
+        return zd_complain(to, "gauge %d: it is read off bodies %d and %d, and the last one is %d", i, gauge->first, gauge->second,
+                           tables->bodies);
     if (!suits_particles(tables, gauge->first, gauge->second, gauge->point1, gauge->point2))
         return zd_complain(to, "gauge %d: a particle has no points but its own", i);
     return 1;

@@ -1,4 +1,4 @@
-/* Whether tables of a mechanism contradict themselves. */
+/* Consistency of the tables of a planar mechanism. */
 #ifndef ZD_PLANE_CHECK_H
 #define ZD_PLANE_CHECK_H
 

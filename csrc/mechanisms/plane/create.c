@@ -11,7 +11,7 @@
 #include "products.h"
 #include "structure.h"
 
-/* What is filled in here, and constant afterwards. */
+/* Arrays that are filled during creation, and constant afterwards. */
 typedef struct parts {
     int *number, *angle;
     zd_plane_link *link;
@@ -35,7 +35,7 @@ static int has_tree(const zd_plane_tables *tables)
     return 0;
 }
 
-/* Of joints outside the tree, and relations. */
+/* Maximum number of rows: joints outside the tree, and relations. */
 static size_t most_rows(const zd_plane_tables *tables)
 {
     int joints = tables->joints;
@@ -73,7 +73,8 @@ static void take_parts(const zd_plane_tables *tables, zd_arena *arena, parts *to
     zd_elements_take(&to->elements, arena, &tables->elements, extra, rows);
     zd_packing none = {.weight = NULL};
     zd_hinged_take(&to->hinged, arena, has_tree(tables) ? bodies : 0, most_rows(tables));
-    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->elements.relations, (size_t)tables->elements.terms + extra,
+    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->elements.relations,
+                    (size_t)tables->elements.terms + extra,
                     most_lines(tables));
 }
 
@@ -103,7 +104,7 @@ static int number_bodies(const zd_plane_tables *tables, int *number)
 
 static zd_vector vector_of(const double *x) { return (zd_vector){x[0], x[1]}; }
 
-/* How a body hangs on the other one of the joint that carries it: as the second body on the first, or the other way round. */
+/* Connection of a body to its parent by its inboard joint, of which it is the second body, or the first if `is_second` is 0. */
 static zd_plane_link hang_on(const zd_plane_joint *joint, const zd_plane_body *body, int is_second)
 {
     static const enum zd_plane_hang hang[] = {[ZD_TURNS] = ZD_HANGS_TURNING, [ZD_SLIDES] = ZD_HANGS_SLIDING, [ZD_FIXED] = ZD_HANGS_FIXED};
@@ -331,5 +332,6 @@ void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_compiled_law
 
 zd_plane_plan zd_plane_planned(const zd_plane *mechanism)
 {
-    return (zd_plane_plan){mechanism->tree.link, mechanism->gauge, mechanism->elements.term, mechanism->elements.row, mechanism->elements.effort};
+    return (zd_plane_plan){mechanism->tree.link, mechanism->gauge, mechanism->elements.term, mechanism->elements.row,
+                           mechanism->elements.effort};
 }

@@ -22,7 +22,7 @@ static int write_force(const zd_plane *self, const zd_plane_frame *frame, double
     return status;
 }
 
-/* What is added up, long before it is: the machine waits where it adds to what a wider store has just cleared. */
+/* Clears the arrays that are accumulated, well before they are: adding right after a wide store stalls the processor. */
 static void clear(const zd_plane *self, int want, const zd_terms *out)
 {
     size_t nv = (size_t)self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->packed.size_of_C : (size_t)self->elements.m * nv;
@@ -42,7 +42,7 @@ static void write_packed_mass(const zd_plane_tree *tree, double *M)
     }
 }
 
-/* Of the wanted terms, those that are not known from sines and cosines alone, for which bodies are placed. */
+/* The wanted terms that need poses of bodies; the others follow from sines and cosines alone. */
 static int terms_of_bodies(const zd_plane *self, int want)
 {
     if (self->packing) {
@@ -64,7 +64,7 @@ static void place(const zd_plane *self, const zd_plane_frame *frame, int left, c
     if (is_moving) zd_plane_tree_move(&self->tree, frame->pose, v, frame->twist);
 }
 
-/* What is known from sines and cosines alone. */
+/* Terms that follow from sines and cosines alone. */
 static void write_hinged(const zd_plane *self, const zd_plane_frame *frame, int want, const double *v, const zd_terms *out)
 {
     const zd_hinged *hinged = &self->hinged;
@@ -74,7 +74,7 @@ static void write_hinged(const zd_plane *self, const zd_plane_frame *frame, int 
     if (want & ROWS) zd_hinged_close(hinged, &self->tree, frame->sines, v, want, out);
 }
 
-/* What is known of packed terms without the bodies' poses. */
+/* Packed terms that do not need poses of bodies. */
 static void write_packed(const zd_plane *self, const zd_plane_frame *frame, int want, double t, const double *p, const double *v,
                          const zd_terms *out)
 {

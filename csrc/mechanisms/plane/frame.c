@@ -1,8 +1,8 @@
-/* How the scratch of a mechanism is divided. */
+/* Layout of the scratch memory of a planar mechanism. */
 #include "gauge.h"
 #include "plan.h"
 
-/* Where the next `count` structures of that many bytes begin. */
+/* Offset of the next `count` structures of `bytes` each. */
 static size_t next(size_t *used, int count, size_t bytes)
 {
     const size_t here = *used;

@@ -46,7 +46,7 @@ zd_plane_reading zd_plane_gauge_read(const zd_plane_gauge *gauge, const zd_plane
     zd_vector apart = zd_minus(zd_plus(second->at, arm2), zd_plus(first->at, arm1));
     double length = is_distance(gauge) ? sqrt(zd_inner(apart, apart)) : 0;
     direction along = is_distance(gauge) ? (direction){zd_times(1 / length, apart), 0} : direction_of(gauge, first);
-    zd_vector on_first = along.turns ? zd_plus(arm1, apart) : arm1;     /* where the opposite force acts */
+    zd_vector on_first = along.turns ? zd_plus(arm1, apart) : arm1;     /* moment arm of the opposite force, from the first mass centre */
     return (zd_plane_reading){
         .value = (is_distance(gauge) ? length : zd_inner(along.unit, apart)) - gauge->zero,
         .first = {zd_times(-1, along.unit), -zd_cross(on_first, along.unit)},

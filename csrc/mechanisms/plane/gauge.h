@@ -1,4 +1,4 @@
-/* Reading gauges: what they say, how fast that changes, and what a unit force along them is for each body. */
+/* Values, rates and unit forces of gauges in the plane. */
 #ifndef ZD_PLANE_GAUGE_H
 #define ZD_PLANE_GAUGE_H
 
@@ -11,9 +11,9 @@ typedef struct zd_plane_reading {
 } zd_plane_reading;
 
 zd_plane_reading zd_plane_gauge_read(const zd_plane_gauge *gauge, const zd_plane_pose *pose);
-/* Returns the rate, and in `bias` what its derivative by time has besides the accelerations of coordinates. */
+/* Returns the rate; bias <- its derivative by time at vdot = 0. */
 double zd_plane_gauge_rate(const zd_plane_gauge *gauge, const zd_plane_pose *pose, const zd_plane_twist *twist, double *bias);
-/* The point of a gauge or joint on one of its bodies, from the drawing's origin. */
+/* Point of a gauge or joint on one of its bodies, from the global origin. */
 zd_vector zd_point_of(const zd_plane_pose *pose, const double *point);
 
 #endif

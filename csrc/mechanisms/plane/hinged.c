@@ -19,7 +19,7 @@ void zd_hinged_take(zd_hinged *self, zd_arena *arena, size_t bodies, size_t rows
 
 /* ---- constants ---- */
 
-/* Whether no body is free or slides. */
+/* True if no body is free or slides. */
 static int is_hinged(const zd_plane_tree *tree)
 {
     if (!tree->angles || tree->bodies > MOST) return 0;
@@ -41,7 +41,7 @@ static zd_vector in_axes_of_inner(const zd_plane_link *link, zd_vector a)
     return link->hang == ZD_HANGS_FIXED ? zd_rotated(link->cosine, link->sine, a) : a;
 }
 
-/* What turns with a body, about its joint and in its axes: first and second moments of mass. */
+/* First moment (kg m) and second moment (kg m^2) of the mass that turns with a body, about its inboard joint, in its axes. */
 typedef struct moments {
     zd_vector first;
     double second;

@@ -13,10 +13,10 @@
 /* A vector that is turned by an angle; angles are numbered as in zd_plane_tree.angle. */
 typedef struct zd_arm {
     int angle;
-    zd_vector along;        /* where the angle is zero */
+    zd_vector along;        /* the vector at angle zero */
 } zd_arm;
 
-typedef struct zd_hinged_pair {    /* of different angles that M couples */
+typedef struct zd_hinged_pair {    /* a pair of different angles that M couples */
     int i, j;
     double K, X;
 } zd_hinged_pair;
@@ -29,7 +29,7 @@ typedef struct zd_closure {
 } zd_closure;
 
 typedef struct zd_hinged {
-    int is_whole;               /* whether the tree is of this kind; else nothing else is set */
+    int is_whole;               /* 1 if all bodies of the tree turn about revolute joints; otherwise the other members are not set */
     int pairs, closures, arms;
     int *angle;                 /* (bodies + 1,) which angle is that of each body, where it has one of its own */
     double *inertia;            /* (angles,) the diagonal of M */
@@ -44,7 +44,7 @@ typedef struct zd_hinged {
 void zd_hinged_take(zd_hinged *self, zd_arena *arena, size_t bodies, size_t rows);
 void zd_hinged_plan(zd_hinged *self, const zd_plane_tree *tree, const zd_planned_elements *elements, const zd_plane_gauge *gauge);
 
-/* M, d, and the force of gravity, as far as they are wanted: all that is added up is zero before. `sines` is what zd_plane_tree_turn() wrote. */
+/* M, d, and the force of gravity; the arrays must be zero before. `sines` is from zd_plane_tree_turn(). */
 void zd_hinged_mass(const zd_hinged *self, const zd_plane_tree *tree, const double *sines, double *M);
 void zd_hinged_bias(const zd_hinged *self, const zd_plane_tree *tree, const double *sines, const double *v, double *d);
 void zd_hinged_weight(const zd_hinged *self, const zd_plane_tree *tree, const double *sines, zd_vector gravity, double *f);

@@ -1,4 +1,4 @@
-/* How large a mechanism is. */
+/* Characteristic length of a mechanism. */
 #ifndef ZD_PLANE_LENGTH_H
 #define ZD_PLANE_LENGTH_H
 

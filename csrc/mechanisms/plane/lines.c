@@ -15,9 +15,11 @@ zd_line zd_line_of(const zd_plane *mechanism, int row, int term, int C, int near
 {
     const zd_plane_gauge *gauge = mechanism->gauge + mechanism->elements.term[term].gauge;
     const zd_vector axis = {gauge->axis[0], gauge->axis[1]};
-    const int is_normal = gauge->kind == ZD_GAUGE_ACROSS || gauge->kind == ZD_GAUGE_SKID, has_near = near >= 0 && !is_of_second_alone(gauge->kind);
+    const int is_normal = gauge->kind == ZD_GAUGE_ACROSS || gauge->kind == ZD_GAUGE_SKID,
+        has_near = near >= 0 && !is_of_second_alone(gauge->kind);
     return (zd_line){
-        gauge->kind, row, term == mechanism->elements.row[row].first, gauge->first, gauge->second, has_near ? C + near : -1, far >= 0 ? C + far : -1,
+        gauge->kind, row, term == mechanism->elements.row[row].first, gauge->first, gauge->second, has_near ? C + near : -1,
+            far >= 0 ? C + far : -1,
         has_angle(mechanism, gauge->first), has_angle(mechanism, gauge->second), {gauge->point1[0], gauge->point1[1]},
         {gauge->point2[0], gauge->point2[1]}, is_normal ? zd_turned(1, axis) : axis, gauge->zero, mechanism->elements.coefficient[term]};
 }
@@ -117,7 +119,7 @@ static void write_xi(const zd_lines *self, const zd_plane_frame *frame, const do
     }
 }
 
-/* What rows have besides their gauges. */
+/* Initializes the constant and explicit parts of rows; the marker quantities are added to them. */
 static void begin_rows(const zd_lines *self, const zd_planned_elements *elements, int want, double t, const zd_terms *out)
 {
     for (const zd_line *line = self->line; line < self->line + self->count; line++) {
@@ -130,7 +132,8 @@ static void begin_rows(const zd_lines *self, const zd_planned_elements *elements
     }
 }
 
-void zd_lines_write(const zd_lines *self, const zd_revolute_joints *revolutes, const zd_plane *mechanism, const zd_plane_frame *frame, int want, double t,
+void zd_lines_write(const zd_lines *self, const zd_revolute_joints *revolutes, const zd_plane *mechanism, const zd_plane_frame *frame,
+                    int want, double t,
                     const double *p, const double *v, const zd_terms *out)
 {
     if (!self->count) return;

@@ -1,7 +1,6 @@
-/* How a body hangs on another one in a tree of bodies: what joints of the tree come down to.
+/* Connection of a body to its parent in a tree of bodies, as determined by its inboard joint.
  *
- * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
- */
+ * Plain declarations only: CFFI parses this text. SI units, radians. */
 #ifndef ZD_PLANE_LINK_H
 #define ZD_PLANE_LINK_H
 
@@ -20,15 +19,15 @@ enum zd_plane_hang {
 
 typedef struct zd_plane_link {
     enum zd_plane_hang hang;
-    int inner;              /* the body it hangs on */
-    int coordinate;         /* where its own coordinates begin */
+    int inner;              /* its parent */
+    int coordinate;         /* index of its first coordinate */
     zd_vector near;         /* from the inner mass centre to the joint, in the inner body's axes */
     zd_vector far;          /* from the joint to its own mass centre, in its own axes */
     zd_vector axis;         /* along which it slides, in the inner body's axes */
-    double along;           /* m: how far along the axis it is at displacement 0 */
-    double angle, cosine, sine;     /* of it less that of the inner body, where it slides or is fixed */
+    double along;           /* m: position along the axis at displacement 0 */
+    double angle, cosine, sine;     /* angle relative to the parent, where it slides or is fixed */
     double mass, inertia;
-    double carried;         /* kg: with all bodies that hang on it */
+    double carried;         /* kg: mass of the body and all its descendants */
 } zd_plane_link;
 
 #endif

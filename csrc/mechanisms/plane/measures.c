@@ -68,7 +68,8 @@ static int measure_tension(const zd_plane *self, const zd_plane_frame *frame, in
     return status;
 }
 
-static int measure_effort_force(const zd_plane *self, const zd_plane_frame *frame, const zd_output_spec *measure, const state *at, double *value)
+static int measure_effort_force(const zd_plane *self, const zd_plane_frame *frame, const zd_output_spec *measure, const state *at,
+                                double *value)
 {
     const zd_readings readings = zd_plane_frame_readings(self, frame);
     zd_vector force = {0, 0};
@@ -83,7 +84,8 @@ static int measure_effort_force(const zd_plane *self, const zd_plane_frame *fram
     return status;
 }
 
-static int measure_transmitted(const zd_plane *self, const zd_plane_frame *frame, const zd_output_spec *measure, const state *at, double *value)
+static int measure_transmitted(const zd_plane *self, const zd_plane_frame *frame, const zd_output_spec *measure, const state *at,
+                               double *value)
 {
     const zd_readings readings = zd_plane_frame_readings(self, frame);
     zd_plane_wrench reaction;

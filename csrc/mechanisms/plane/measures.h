@@ -4,7 +4,7 @@
 
 #include "plan.h"
 
-/* Fills in the names and sizes of the measures that the mechanism has been told. */
+/* Names and sizes of the mechanism's measures, in `measure`. */
 zd_measures zd_plane_measures(const zd_plane *self, zd_measure *measure);
 
 #endif

@@ -1,9 +1,9 @@
-/* The rows of each pin are those of revolute_joints.c, I and k x arm with opposite signs on its bodies. */
+/* The rows of each revolute joint are those of revolute_joints.c, I and k x arm with opposite signs on its bodies. */
 #include "products.h"
 
 #include "structure.h"
 
-/* The ways to the points of all pins stand first in the scratch, and behind them is room for a vector. */
+/* The arms of all joints are first in the scratch, followed by memory for a vector. */
 static const zd_vector *arms_in(const double *scratch) { return (const zd_vector *)scratch; }
 static double *room_in(double *scratch, const zd_revolute_joints *self) { return scratch + 4 * self->count; }
 
@@ -24,14 +24,14 @@ typedef struct coordinates {    /* a body's own coordinates */
     int first, turns;
 } coordinates;
 
-/* Of body i, which is looked at only where bodies differ. */
+/* Coordinates of body i; the link is read only if not all bodies have three coordinates. */
 ZD_INLINE coordinates coordinates_of(const int have_angles, const zd_plane *mechanism, int i)
 {
     const zd_plane_link *link = mechanism->tree.link + i;
     return have_angles ? (coordinates){3 * (i - 1), 1} : (coordinates){link->coordinate, link->hang == ZD_HANGS_FREE};
 }
 
-/* Of both ends of a pin, and of two ends that are on one side or not */
+/* Sign of C for the first and second body of a joint; and of the product for two bodies on the same and on opposite sides */
 static const double SIGN[] = {-1, 1}, SIGN_OF_TWO[] = {1, -1};
 
 /* Body by body, so that nothing is added up in memory. */

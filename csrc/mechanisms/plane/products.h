@@ -1,4 +1,4 @@
-/* Products with C of mechanisms whose rows are all of pins: C is not stored for them. */
+/* Products with C of mechanisms whose constraints are all revolute joints: C is not stored for them. */
 #ifndef ZD_PLANE_PRODUCTS_H
 #define ZD_PLANE_PRODUCTS_H
 

@@ -25,7 +25,7 @@ static zd_plane_wrench about(zd_plane_wrench what, const zd_plane_pose *body, zd
     return what;
 }
 
-/* frame->wrench <- what each body needs beyond what acts on it, but for joints of the tree. */
+/* frame->wrench <- inertia force of each body minus the applied and constraint forces on it, without joints of the tree. */
 static int write_needs(const zd_plane *self, const zd_plane_frame *frame, double t, const double *vdot, const double *lambda)
 {
     const zd_readings at = zd_plane_frame_readings(self, frame);
@@ -46,7 +46,7 @@ static int write_needs(const zd_plane *self, const zd_plane_frame *frame, double
     return ZD_DONE;
 }
 
-/* What a joint of the tree does to the body that it carries; along its own coordinate it does nothing, but for rounding. */
+/* Wrench of an inboard joint on its outer body; its component along the joint's coordinate is set to zero exactly. */
 static int of_tree(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, double t, const double *vdot,
                    const double *lambda, zd_plane_wrench *to)
 {

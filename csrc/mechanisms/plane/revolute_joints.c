@@ -1,9 +1,9 @@
-/* With u and w the ways from the mass centres of both bodies to their points, in the drawing's axes,
+/* With u and w the vectors from the mass centres of both bodies to their points, in global axes,
  *
  *     Phi = x2 + w - x1 - u,      C = [-I  -k x u | I  k x w],      xi = omega2^2 w - omega1^2 u.         (3), (5), (6)
  *
- * Gauges along x and y say the same one by one, and turn both points each time. Vectors over the coordinates are spread to three entries for
- * each body and for the ground, whose are zero, so that nothing asks which bodies a pin has. */
+ * Gauges along x and y are the same constraints individually, but rotate both points twice. Vectors over the coordinates have three entries
+ * for each body and for the ground, whose entries are zero, so that no branch depends on the bodies of a joint. */
 #include "revolute_joints.h"
 
 static int is_plain(const zd_plane *mechanism, const zd_relation *row, int kind)
@@ -20,7 +20,8 @@ int zd_is_revolute_joint_at(const zd_plane *mechanism, int row)
     if (row + 1 >= mechanism->elements.mh) return 0;
     const zd_relation *x = mechanism->elements.row + row, *y = x + 1;
     if (!is_plain(mechanism, x, ZD_GAUGE_X) || !is_plain(mechanism, y, ZD_GAUGE_Y)) return 0;
-    const zd_plane_gauge *a = mechanism->gauge + mechanism->elements.term[x->first].gauge, *b = mechanism->gauge + mechanism->elements.term[y->first].gauge;
+    const zd_plane_gauge *a = mechanism->gauge + mechanism->elements.term[x->first].gauge,
+        *b = mechanism->gauge + mechanism->elements.term[y->first].gauge;
     return a->first == b->first && a->second == b->second && are_alike(a->point1, b->point1) && are_alike(a->point2, b->point2);
 }
 
@@ -43,7 +44,7 @@ void zd_revolute_joints_turn(const zd_revolute_joints *self, const zd_plane *mec
 {
     const zd_plane_tree *tree = &mechanism->tree;
     const double *sine = frame->sines + tree->angles, *cosine = sine + tree->angles;
-    zd_vector *axis = frame->axis;          /* of each body: its own x */
+    zd_vector *axis = frame->axis;          /* x axis of each body */
     axis[0] = (zd_vector){1, 0};
     for (int i = 1, k = 0; i <= tree->bodies; i++) {
         const int turns = self->have_angles || tree->link[i].hang == ZD_HANGS_FREE;
@@ -87,7 +88,8 @@ static void write_xi(const zd_revolute_joints *self, const zd_plane_frame *frame
 {
     for (int k = 0; k < self->count; k++) {
         const zd_revolute_bodies *joint = self->between + k;
-        const double turn1 = zd_of_body(v, joint->first)[2], turn2 = zd_of_body(v, joint->second)[2], square1 = turn1 * turn1, square2 = turn2 * turn2;
+        const double turn1 = zd_of_body(v, joint->first)[2], turn2 = zd_of_body(v, joint->second)[2], square1 = turn1 * turn1,
+            square2 = turn2 * turn2;
         const zd_vector u = frame->arm[2 * k], w = frame->arm[2 * k + 1];
         xi[joint->row] = square2 * w.x - square1 * u.x;
         xi[joint->row + 1] = square2 * w.y - square1 * u.y;
@@ -114,7 +116,8 @@ static void write_C(const zd_revolute_joints *self, const zd_plane_frame *frame,
     }
 }
 
-void zd_revolute_joints_write(const zd_revolute_joints *self, const zd_plane *mechanism, const zd_plane_frame *frame, int want, const double *p, const double *v,
+void zd_revolute_joints_write(const zd_revolute_joints *self, const zd_plane *mechanism, const zd_plane_frame *frame, int want,
+                              const double *p, const double *v,
                    const zd_terms *out)
 {
     if (want & ZD_PHI) write_Phi(self, frame, zd_revolute_joints_spread(self, &mechanism->tree, p, frame->spread), out->Phi);

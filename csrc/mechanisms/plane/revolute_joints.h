@@ -1,14 +1,14 @@
-/* Revolute joints between bodies that are free: two rows that hold a point of one body to a point of another. They need the ways from mass
- * centres to these points and nothing else, so that C is not stored for products with it. */
+/* Revolute joints between free bodies: two rows for the coincidence of a point of one body and a point of another. They are written from
+ * the vectors from mass centres to these points alone, so that products with C do not need its stored entries. */
 #ifndef ZD_PLANE_REVOLUTE_JOINTS_H
 #define ZD_PLANE_REVOLUTE_JOINTS_H
 
 #include "plan.h"
 
-/* The data of pins lie in three arrays: most loops over all pins read one or two of them, and large mechanisms wait for memory. */
+/* The data are split into three arrays: most loops read one or two of them, and large mechanisms are bound by memory bandwidth. */
 typedef struct zd_revolute_bodies {
     int first, second;      /* bodies */
-    int row;                /* the first of the two */
+    int row;                /* index of the first of its two rows */
 } zd_revolute_bodies;
 
 typedef struct zd_points {
@@ -16,36 +16,37 @@ typedef struct zd_points {
 } zd_points;
 
 typedef struct zd_revolute_joint {
-    zd_vector zero;         /* from the first point to the second where Phi is zero */
-    int C, width;           /* where the first row begins in C, and how long each is */
-    int near, far;          /* where in a row the entries of each body begin; -1: it is the ground */
-    int near_turns, far_turns;  /* whether the body has an angle */
+    zd_vector zero;         /* vector from the first point to the second at Phi = 0 */
+    int C, width;           /* offset of the first row in C, and length of each row */
+    int near, far;          /* offsets of the bodies' entries in a row; -1: the body is the ground */
+    int near_turns, far_turns;  /* 1 if the body has an angle */
 } zd_revolute_joint;
 
 typedef struct zd_revolute_joints {
     int count;
-    zd_revolute_bodies *between; /* (count,), and so are these: */
+    zd_revolute_bodies *between; /* (count,), as the next two */
     zd_points *points;
     zd_revolute_joint *joint;
-    int *end_at;            /* (bodies + 2,): where the pins of each body begin in */
-    int *end;               /* (2 count,): 2 * pin, or 1 more where the body is its second */
-    int are_all;            /* whether there are no other rows */
-    int have_angles;        /* whether all bodies have three coordinates */
+    int *end_at;            /* (bodies + 2,): offsets of each body's joints in `end` */
+    int *end;               /* (2 count,): 2 * joint, plus 1 where the body is its second */
+    int are_all;            /* 1 if there are no other rows */
+    int have_angles;        /* 1 if all bodies have three coordinates */
 } zd_revolute_joints;
 
-/* Whether rows `row` and the next are a pin: gauges of the same two points along x and y, of which nothing else is asked. */
+/* True if `row` and the next are the x and y coincidence of the same two points, without further terms: a revolute joint. */
 int zd_is_revolute_joint_at(const zd_plane *mechanism, int row);
-/* Which pins each body has, once these are there. */
+/* Fills in end_at and end, after all joints were added. */
 void zd_revolute_joints_list(zd_revolute_joints *self, int bodies);
-/* The ways to all points, where sines and cosines are known. */
+/* frame->arm and frame->axis, from the sines and cosines. */
 void zd_revolute_joints_turn(const zd_revolute_joints *self, const zd_plane *mechanism, const zd_plane_frame *frame);
-/* Phi, C and xi of all pins, as far as they are wanted. */
-void zd_revolute_joints_write(const zd_revolute_joints *self, const zd_plane *mechanism, const zd_plane_frame *frame, int want, const double *p, const double *v,
-                   const zd_terms *out);
+/* Phi, C and xi of all revolute joints, as far as wanted. */
+void zd_revolute_joints_write(const zd_revolute_joints *self, const zd_plane *mechanism, const zd_plane_frame *frame, int want,
+                              const double *p,
+                               const double *v, const zd_terms *out);
 
-/* x (nv,) with three entries for each body: as it is, where all have them, else in `to`. */
+/* x (nv,) with three entries for each body: x itself if all bodies have three coordinates, otherwise a copy in `to`. */
 const double *zd_revolute_joints_spread(const zd_revolute_joints *self, const zd_plane_tree *tree, const double *x, double *to);
-/* Those of body i. */
+/* Entries of body i; zeros for the ground. */
 static inline const double *zd_of_body(const double *spread, int i)
 {
     static const double of_ground[3] = {0, 0, 0};

@@ -1,4 +1,4 @@
-/* How bodies that are free are stored, and which of their rows are pins. */
+/* Storage of free bodies, and the constraint rows that are revolute joints. */
 #include "structure.h"
 
 #include <string.h>
@@ -24,7 +24,7 @@ void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t ro
 
 static int has_angle(const zd_plane *mechanism, int body) { return mechanism->tree.link[body].hang == ZD_HANGS_FREE; }
 
-/* The pins among the rows, which are packed by then. */
+/* Finds the revolute joints among the packed rows. */
 static void plan_revolute_joints(zd_packing *self, const zd_plane *mechanism)
 {
     const zd_packed *packed = &self->packed;
@@ -32,7 +32,8 @@ static void plan_revolute_joints(zd_packing *self, const zd_plane *mechanism)
     for (int row = 0; row < mechanism->elements.m; row++) {
         if (!zd_is_revolute_joint_at(mechanism, row)) continue;
         const int term = mechanism->elements.row[row].first, next = mechanism->elements.row[row + 1].first;
-        const zd_plane_gauge *x = mechanism->gauge + mechanism->elements.term[term].gauge, *y = mechanism->gauge + mechanism->elements.term[next].gauge;
+        const zd_plane_gauge *x = mechanism->gauge + mechanism->elements.term[term].gauge,
+            *y = mechanism->gauge + mechanism->elements.term[next].gauge;
         revolutes->between[revolutes->count] = (zd_revolute_bodies){x->first, x->second, row};
         revolutes->points[revolutes->count] = (zd_points){{x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}};
         revolutes->joint[revolutes->count++] = (zd_revolute_joint){
@@ -46,7 +47,7 @@ static void plan_revolute_joints(zd_packing *self, const zd_plane *mechanism)
     revolutes->have_angles = mechanism->tree.angles == mechanism->tree.bodies;
 }
 
-/* The lines of rows that are not of pins, but for those whose law somebody else computes. */
+/* Plans the lines of all rows except revolute joints and user functions. */
 static void plan_lines(zd_packing *self, const zd_plane *mechanism)
 {
     const zd_packed *packed = &self->packed;
@@ -78,7 +79,7 @@ static int has_mass(const zd_plane *mechanism, int body)
     return link->mass > 0 && (link->hang != ZD_HANGS_FREE || link->inertia > 0);
 }
 
-/* What there is to know where pins and weight are all. */
+/* Fills in the description for SIMD lanes, if revolute joints and weight are all there is and all bodies have mass. */
 static void plan_pinned(zd_packing *self, const zd_plane *mechanism)
 {
     const zd_revolute_joints *revolutes = &self->revolutes;

@@ -1,4 +1,4 @@
-/* Which bodies each row of C touches: the structure of a mechanism in absolute coordinates, where nothing dense is stored. */
+/* Block structure of a mechanism in absolute coordinates, for which no dense matrix is stored. */
 #ifndef ZD_PLANE_STRUCTURE_H
 #define ZD_PLANE_STRUCTURE_H
 
@@ -8,14 +8,14 @@
 
 typedef struct zd_packing {
     zd_packed packed;
-    double *weight;         /* (nv,) f of (2), where nothing else acts */
+    double *weight;         /* (nv,) f of (2) due to gravity */
     zd_revolute_joints revolutes;
-    zd_pinned pinned;       /* the same for lanes; without pins where there is something else, or something without mass */
+    zd_pinned pinned;       /* the same for SIMD lanes; no joints if there are other elements, or bodies without mass */
     int *at, *pin_first, *pin_second;   /* its arrays */
     double *numbers;
     zd_lines lines;
-    int is_whole;           /* whether all rows are of these or of pins */
-    int *is_known;          /* (m,) whether a row is of one of these */
+    int is_whole;           /* 1 if all rows are lines or revolute joints */
+    int *is_known;          /* (m,) 1 if the row is a line's or a revolute joint's */
 } zd_packing;
 
 /* Memory for the packing of so many bodies, rows, terms of rows, and of lines at most. */

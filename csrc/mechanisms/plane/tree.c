@@ -95,7 +95,8 @@ void zd_plane_tree_move(const zd_plane_tree *tree, const zd_plane_pose *pose, co
     }
 }
 
-void zd_plane_tree_accelerate(const zd_plane_tree *tree, const zd_plane_pose *pose, const zd_plane_twist *twist, const double *vdot, zd_spin *spin)
+void zd_plane_tree_accelerate(const zd_plane_tree *tree, const zd_plane_pose *pose, const zd_plane_twist *twist, const double *vdot,
+                              zd_spin *spin)
 {
     spin[0] = (zd_spin){.turn = 0};
     for (int i = 1; i <= tree->bodies; i++) {
@@ -126,7 +127,7 @@ void zd_plane_tree_act_on_free(const zd_plane_link *link, double scale, zd_plane
     if (link->hang == ZD_HANGS_FREE) own[2] += scale * what.torque;
 }
 
-/* What a wrench on a body does to the body's own coordinates, and what of it goes on to the body that it hangs on. */
+/* Adds a body's share of a wrench to its own coordinates; returns the wrench that is transmitted to the parent. */
 static zd_plane_wrench pass_inward(const zd_plane_link *link, const zd_plane_pose *pose, zd_plane_wrench what, double scale, double *row)
 {
     double *own = row + link->coordinate, torque = what.torque + zd_cross(pose->far, what.force);     /* about the joint */

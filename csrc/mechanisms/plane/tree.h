@@ -1,8 +1,8 @@
 /* The kinematics of a tree of bodies in the plane: from coordinates outward to bodies, from forces on bodies inward to coordinates.
  *
- * Bodies are numbered here so that each one comes after the body that it hangs on; 0 is the ground. Angles of bodies that turn are their
+ * Bodies are numbered so that parents come before children; 0 is the ground. Angles of bodies that turn are their
  * own coordinates, measured from the ground, so that a torque on such a body reaches its own coordinate alone, while a force goes on to the
- * bodies further in. Nothing here knows of constraints, springs or drives.
+ * bodies further in. Constraints, springs and drives are not used here.
  */
 #ifndef ZD_PLANE_TREE_H
 #define ZD_PLANE_TREE_H
@@ -14,14 +14,14 @@ typedef struct zd_plane_tree {
     int bodies;             /* without the ground */
     int nv;
     const zd_plane_link *link;    /* (bodies + 1,) the first one unused */
-    int angles;             /* how many bodies have an angle among the coordinates */
+    int angles;             /* number of bodies that have an angle among the coordinates */
     const int *angle;       /* (angles,) which coordinates these are, in the order of bodies */
 } zd_plane_tree;
 
-typedef struct zd_plane_pose {    /* of a mass centre */
+typedef struct zd_plane_pose {    /* pose of a mass centre */
     zd_vector at;
     double angle, cosine, sine;
-    zd_vector near, far;    /* of the link, in the drawing's axes; `near` with the displacement */
+    zd_vector near, far;    /* vectors `near` and `far` of the link in global axes; `near` includes the displacement */
     zd_vector axis;
 } zd_plane_pose;
 
@@ -45,7 +45,8 @@ void zd_plane_tree_turn(const zd_plane_tree *tree, const double *p, double *memo
 /* Poses, with what zd_plane_tree_turn() wrote. */
 void zd_plane_tree_place(const zd_plane_tree *tree, const double *p, const double *memory, zd_plane_pose *pose);
 void zd_plane_tree_move(const zd_plane_tree *tree, const zd_plane_pose *pose, const double *v, zd_plane_twist *twist);
-void zd_plane_tree_accelerate(const zd_plane_tree *tree, const zd_plane_pose *pose, const zd_plane_twist *twist, const double *vdot, zd_spin *spin);
+void zd_plane_tree_accelerate(const zd_plane_tree *tree, const zd_plane_pose *pose, const zd_plane_twist *twist, const double *vdot,
+                              zd_spin *spin);
 /* row += what `scale` times the wrench on one body does to the coordinates. */
 void zd_plane_tree_inward(const zd_plane_tree *tree, const zd_plane_pose *pose, int body, double scale, zd_plane_wrench what, double *row);
 /* own += what that does to the coordinates of a body that is free. */

@@ -38,9 +38,9 @@ static zd_plane *create(const zd_varied *self, const zd_plane_tables *first, int
     return made;
 }
 
-typedef struct found {      /* where a mechanism starts, with all memory for it */
+typedef struct found {      /* start of one mechanism */
     double *poses, *rates, *places;     /* (bodies, 3) both; (drives,) */
-    double *p, *v, *scratch;            /* of these bodies in absolute coordinates */
+    double *p, *v, *scratch;            /* state of the mechanism in absolute coordinates, and its scratch */
 } found;
 
 static found take(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
@@ -48,7 +48,8 @@ static found take(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
     const zd_system *system = zd_plane_system(drawn);
     const size_t bodies = 3 * (size_t)drawn->tree.bodies;
     return (found){
-        .poses = zd_take_doubles(arena, bodies), .rates = zd_take_doubles(arena, bodies), .places = zd_take_doubles(arena, (size_t)self->drives),
+        .poses = zd_take_doubles(arena, bodies), .rates = zd_take_doubles(arena, bodies),
+            .places = zd_take_doubles(arena, (size_t)self->drives),
         .p = zd_take_doubles(arena, (size_t)system->nv), .v = zd_take_doubles(arena, (size_t)system->nv),
         .scratch = zd_take_doubles(arena, (size_t)system->scratch),
     };

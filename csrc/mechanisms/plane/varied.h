@@ -1,6 +1,6 @@
-/* Mechanisms that differ in their numbers, and where each of them starts.
+/* Mechanisms that differ in their parameters, with the start of each.
  *
- * Plain declarations and nothing else: CFFI reads this very text. SI units, radians.
+ * Plain declarations only: CFFI parses this text. SI units, radians.
  */
 #ifndef ZD_PLANE_VARIED_H
 #define ZD_PLANE_VARIED_H
@@ -14,17 +14,17 @@ typedef struct zd_varied {
     zd_plane_tables drawn;            /* in absolute coordinates, with the measures that the start holds */
     const double *gravity;      /* (runs, 2) */
     const double *poses;        /* (runs, bodies, 3): of mass centres, as drawn; NULL: starts are known, */
-    const double *length;       /* (runs,) m: how large each is */
+    const double *length;       /* (runs,) m: characteristic length of each */
     int targets;
     const zd_target *target;
     int drives;                 /* relations of constant speed, whose constants are 0 in the tables: the start says what they are */
     const int *drive;
 } zd_varied;
 
-/* As zd_family asks for it, where `of` is such. */
+/* Creates one mechanism, as zd_family requires; `of` is a zd_varied. */
 const zd_system *zd_varied_make(const void *of, int64_t run, double *p, double *v, void **made);
 void zd_varied_free(void *made);
-/* Where a drive of constant speed begins, of what was made: its number among the drives. */
+/* Initial value of the coordinate of a constant-speed drive; `drive` is its index among the drives. */
 double zd_varied_place(const void *of, const void *made, int drive);
 
 #endif

@@ -5,7 +5,7 @@
 #include "../../linalg/small.h"
 #include "link.h"
 
-/* What acts on a body: a force at its mass centre, and a torque. */
+/* Force at a body's mass centre, and torque. */
 typedef struct zd_plane_wrench {
     zd_vector force;
     double torque;

@@ -8,11 +8,11 @@ typedef struct zd_space_planned_body {
     double mass;
     zd_vector3 inertia;
     int turns;
-    int p, v;               /* where its coordinates and velocities begin */
+    int p, v;               /* offsets of its coordinates in p and of its velocities in v */
     int A, M;               /* and what is stored of A and M */
 } zd_space_planned_body;
 
-typedef struct zd_space_pose {   /* of a mass centre */
+typedef struct zd_space_pose {   /* pose of a mass centre */
     zd_vector3 at;
     zd_rotation turned;
 } zd_space_pose;

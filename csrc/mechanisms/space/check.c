@@ -8,7 +8,7 @@
 
 static int is_particle(const zd_space_tables *tables, int body) { return body && tables->body[body - 1].is_particle; }
 
-/* Whether a joint leaves a particle, which has no axes, its orientation. */
+/* True if the freedom is a rotation about a point, which a particle, having no axes, cannot have. */
 static int swings(const zd_space_joint_kind *kind, int freedom)
 {
     return kind->freedoms && kind->freedom[freedom].kind == ZD_SPACE_SWINGS;
@@ -27,7 +27,8 @@ static int carrier_is_right(const zd_space_tables *tables, int i, zd_complaint t
     if ((is_particle(tables, joint->first) && !swings(kind, 0)) || (is_particle(tables, joint->second) && !swings(kind, kind->freedoms - 1)))
         return zd_complain(to, "body %d: joint %d is a %s, and a particle has no axes", body, carrier, kind->card.name);
     for (int other = 0; other < i; other++)
-        if (tables->body[other].carrier == carrier) return zd_complain(to, "joint %d carries both body %d and body %d", carrier, other + 1, body);
+        if (tables->body[other].carrier == carrier) return zd_complain(to, "joint %d carries both body %d and body %d", carrier, other + 1,
+                                                                       body);
     return 1;
 }
 
@@ -77,7 +78,8 @@ static int gauge_is_right(const zd_space_tables *tables, int i, zd_complaint to)
     const zd_space_gauge *gauge = tables->gauge + i;
     if (!zd_is_in(gauge->kind, ZD_SPACE_GAUGES)) return zd_complain(to, "gauge %d: there is no kind %d", i, gauge->kind);
     if (!are_bodies(tables, gauge->first, gauge->second))
-        return zd_complain(to, "gauge %d: it is read off bodies %d and %d, and the last one is %d", i, gauge->first, gauge->second, tables->bodies);
+        return zd_complain(to, "gauge %d: it is read off bodies %d and %d, and the last one is %d", i, gauge->first, gauge->second,
+                           tables->bodies);
     if (gauge->counted && (gauge->kind != ZD_SPACE_ANGLE || !zd_is_in(gauge->counted - 1, angles_of(tables))))
         return zd_complain(to, "gauge %d: it counts the turns of angle %d of joints, which is not there", i, gauge->counted - 1);
     return (suits_particle(tables, gauge->first, gauge->point1) && suits_particle(tables, gauge->second, gauge->point2)) ||

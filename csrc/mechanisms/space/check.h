@@ -1,4 +1,4 @@
-/* Whether tables of a mechanism in space contradict themselves. */
+/* Consistency of the tables of a spatial mechanism. */
 #ifndef ZD_SPACE_CHECK_H
 #define ZD_SPACE_CHECK_H
 

@@ -9,7 +9,7 @@
 #include "point_joints.h"
 #include "unwrapped_angles.h"
 
-/* What is filled in here, and constant afterwards. */
+/* Arrays that are filled during creation, and constant afterwards. */
 typedef struct parts {
     zd_space *self;
     zd_space_planned_body *body;
@@ -119,7 +119,7 @@ static void plan_rows(const zd_space_tables *tables, int nonholonomic, parts *to
 
 /* ---- the system ---- */
 
-/* How large it is in m: the longest way from a mass centre to a point of a joint, or a length of one; 1 where there is none. */
+/* Characteristic length in m: the largest distance from a mass centre to a joint's point, or length of a joint; 1 if there is none. */
 static double length_of(const zd_space_tables *tables)
 {
     double largest = 0;

@@ -4,9 +4,9 @@
 
 #include "plan.h"
 
-/* frame->wrench <- all that acts on the bodies but for constraints. Returns ZD_DONE or ZD_CALLBACK. */
+/* frame->wrench <- all applied forces on the bodies, without constraint forces. Returns ZD_DONE or ZD_CALLBACK. */
 int zd_space_efforts_apply(const zd_space *self, const zd_space_frame *frame, double t);
-int zd_space_power(const zd_space *self, const zd_space_frame *frame, double t, double *power);     /* of (28) */
+int zd_space_power(const zd_space *self, const zd_space_frame *frame, double t, double *power);     /* power of the efforts, for (28) */
 double zd_space_potential(const zd_space *self, const zd_space_frame *frame);
 
 #endif

@@ -18,7 +18,7 @@ static int write_force(const zd_space *self, const zd_space_frame *frame, double
     return status;
 }
 
-/* Whether what is wanted depends on how bodies move. */
+/* True if a wanted term depends on velocities. */
 static int is_moving(const zd_space *self, int want)
 {
     return want & (ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->elements.has_velocity_forces) || (want & ROWS && self->elements.law);

@@ -3,7 +3,8 @@
 #include "plan.h"
 #include "unwrapped_angles.h"
 
-enum { POSE = sizeof(zd_space_pose) / sizeof(double), TWIST = sizeof(zd_space_twist) / sizeof(double), WRENCH = sizeof(zd_space_wrench) / sizeof(double),
+enum { POSE = sizeof(zd_space_pose) / sizeof(double), TWIST = sizeof(zd_space_twist) / sizeof(double),
+      WRENCH = sizeof(zd_space_wrench) / sizeof(double),
        QUATERNION = 4, ARMS = sizeof(zd_arms) / sizeof(double), DIRECTIONS = sizeof(zd_directions) / sizeof(double) };
 
 zd_space_frame zd_space_frame_of(const zd_space *space, double *scratch)
@@ -41,7 +42,8 @@ zd_space_frame zd_space_frame_of(const zd_space *space, double *scratch)
 int zd_space_frame_size(const zd_space *space)
 {
     return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->point_joints.count * (ARMS + DIRECTIONS)
-         + space->unwrapped.count + space->point_joints.turns + 2 + 3 * space->elements.longest + 3 + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
+         + space->unwrapped.count + space->point_joints.turns + 2 + 3 * space->elements.longest + 3
+             + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
 }
 
 void zd_space_frame_place(const zd_space *space, const zd_space_frame *frame, const double *p)

@@ -34,7 +34,7 @@ static moving difference(moving a, moving b)
     return (moving){zd_minus3(a.value, b.value), zd_minus3(a.rate, b.rate), zd_minus3(a.second, b.second)};
 }
 
-/* What the second derivative of a . b has. */
+/* Part of the second derivative of a . b without angular accelerations. */
 static double bias_of_product(moving a, moving b)
 {
     return zd_inner3(a.second, b.value) + 2 * zd_inner3(a.rate, b.rate) + zd_inner3(a.value, b.second);
@@ -199,7 +199,8 @@ static double bias_of_distance(moving apart, double rate)
 static double bias_of_angle(moving a, moving o, moving b, double rate)
 {
     const double x = zd_inner3(a.value, b.value), y = zd_inner3(o.value, b.value), size = x * x + y * y;
-    const double xdot = zd_inner3(a.rate, b.value) + zd_inner3(a.value, b.rate), ydot = zd_inner3(o.rate, b.value) + zd_inner3(o.value, b.rate);
+    const double xdot = zd_inner3(a.rate, b.value) + zd_inner3(a.value, b.rate),
+        ydot = zd_inner3(o.rate, b.value) + zd_inner3(o.value, b.rate);
     return (x * bias_of_product(o, b) - y * bias_of_product(a, b) - 2 * rate * (x * xdot + y * ydot)) / size;
 }
 
@@ -208,13 +209,15 @@ static zd_vector3 rate_of_way(const zd_space_gauge *gauge, const zd_space_pose *
 {
     double reach;
     const zd_vector3 way = way_to_contact(gauge, pose, o.value, &reach);
-    const zd_vector3 relative = zd_minus3(o.rate, zd_cross3(spin, o.value));        /* of o, in the second body's axes */
+    const zd_vector3 relative = zd_minus3(o.rate, zd_cross3(spin, o.value));        /* rate of o as seen from the second body */
     const zd_vector3 change = zd_minus3(zd_times3(zd_inner3(way, relative), way), shaped(gauge, pose, relative));
     return zd_plus3(zd_cross3(spin, way), zd_times3(1 / reach, change));
 }
 
-/* Of u . w, with u a direction of the first body, and w the velocity of the second less that of the first at C. */
-static double bias_of_contact(const zd_space_gauge *gauge, const zd_space_pose *pose, const zd_space_twist *twist, moving u, moving o, moving apart)
+/* Derivative of u . w without accelerations; u is a direction of the first body, and w the velocity at C of the second body relative to
+ * the first. */
+static double bias_of_contact(const zd_space_gauge *gauge, const zd_space_pose *pose, const zd_space_twist *twist, moving u, moving o,
+                              moving apart)
 {
     double reach;
     const zd_vector3 first = twist[gauge->first].spin, second = twist[gauge->second].spin;
@@ -250,7 +253,7 @@ double zd_space_gauge_bias(const zd_space_gauge *gauge, const zd_space_pose *pos
     case ZD_SPACE_CLEARANCE: return bias_of_contact(gauge, pose, twist, TURNING_FIRST(o), TURNING_FIRST(o), APART);
     case ZD_SPACE_SLIP: return bias_of_contact(gauge, pose, twist, TURNING_FIRST(a), TURNING_FIRST(o), APART);
     case ZD_SPACE_GLIDE: return bias_of_glide(TURNING_FIRST(a), POINT_Q);
-    case ZD_SPACE_SPIN:     /* of a turn the same, as the rate of a is perpendicular to the first body's own spin */
+    case ZD_SPACE_SPIN:     /* same for a turn, as the rate of a is perpendicular to the first body's own angular velocity */
     case ZD_SPACE_TURN: return zd_inner3(TURNING_FIRST(a).rate, second_twist->spin);
     default: return bias_of_place(gauge, APART);
     }
@@ -260,7 +263,8 @@ double zd_space_gauge_bias(const zd_space_gauge *gauge, const zd_space_pose *pos
 #undef APART
 }
 
-double zd_space_gauge_bias_with(const zd_space_gauge *gauge, const zd_space_pose *pose, const zd_space_twist *twist, const zd_space_twist *bias)
+double zd_space_gauge_bias_with(const zd_space_gauge *gauge, const zd_space_pose *pose, const zd_space_twist *twist,
+                                const zd_space_twist *bias)
 {
     const double own = zd_space_gauge_bias(gauge, pose, twist);
     return bias ? own + zd_space_gauge_rate(gauge, pose, bias) : own;

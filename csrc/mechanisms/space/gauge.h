@@ -1,4 +1,4 @@
-/* Reading gauges of space: what they say, how fast that changes, and what a unit force along them is for each body. */
+/* Values, rates and unit forces of gauges in space. */
 #ifndef ZD_SPACE_GAUGE_H
 #define ZD_SPACE_GAUGE_H
 
@@ -11,22 +11,23 @@ typedef struct zd_space_reading {
 } zd_space_reading;
 
 zd_space_reading zd_space_gauge_read(const zd_space_gauge *gauge, const zd_space_pose *pose);
-/* Its value, with the turns that it counts, of which angle (turns,) tells. */
+/* Value of a gauge; one that counts turns takes them from angle (angles,), the joint angles. */
 double zd_space_gauge_value(const zd_space_gauge *gauge, const zd_space_pose *pose, const double *angle);
-/* The same from what it reads without turns. */
+/* The same from its value without turns. */
 double zd_space_gauge_counted(const zd_space_gauge *gauge, double value, const double *angle);
-/* An angle with as many turns as bring it nearest to another. */
+/* The angle plus the multiple of 2 pi that is nearest to `near`. */
 double zd_with_turns(double angle, double near);
 double zd_space_gauge_rate(const zd_space_gauge *gauge, const zd_space_pose *pose, const zd_space_twist *twist);
-/* What the derivative of the rate by time has besides the accelerations of bodies. */
+/* Derivative of the rate by time, without the part that is linear in the bodies' accelerations. */
 double zd_space_gauge_bias(const zd_space_gauge *gauge, const zd_space_pose *pose, const zd_space_twist *twist);
-/* The same besides those of coordinates, where bodies have the accelerations `bias` if coordinates have none; NULL: they have none either. */
-double zd_space_gauge_bias_with(const zd_space_gauge *gauge, const zd_space_pose *pose, const zd_space_twist *twist, const zd_space_twist *bias);
-/* Whether a force along it does the opposite to the first body of what it does to the second. */
+/* The same at vdot = 0, where bodies have the accelerations `bias`; NULL: zero. */
+double zd_space_gauge_bias_with(const zd_space_gauge *gauge, const zd_space_pose *pose, const zd_space_twist *twist,
+                                const zd_space_twist *bias);
+/* True if a force along it acts on both bodies with opposite force and opposite torque about any point. */
 int zd_space_gauge_is_mutual(const zd_space_gauge *gauge);
 /* C of enum zd_space_gauge_kind. */
 zd_vector3 zd_space_contact(const zd_space_gauge *gauge, const zd_space_pose *pose);
-/* A point of a body, from the drawing's origin. */
+/* Point of a body, from the global origin. */
 zd_vector3 zd_space_point_of(const zd_space_pose *pose, const double *point);
 
 #endif

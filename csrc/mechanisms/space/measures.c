@@ -68,7 +68,8 @@ static int measure_tension(const zd_space *self, const zd_space_frame *frame, in
     zd_space_wrench reaction;
     const int status = zd_space_joint_reaction(self, frame, joint, at->t, at->vdot, at->lambda, &reaction);
     const zd_space_joint *ends = self->joint + joint;
-    const zd_vector3 apart = zd_minus3(zd_space_point_of(frame->pose + ends->second, ends->point2), zd_space_point_of(frame->pose + ends->first, ends->point1));
+    const zd_vector3 apart = zd_minus3(zd_space_point_of(frame->pose + ends->second, ends->point2),
+                                       zd_space_point_of(frame->pose + ends->first, ends->point1));
     *value = -zd_inner3(reaction.force, apart) / sqrt(zd_inner3(apart, apart));
     return status;
 }
@@ -78,7 +79,7 @@ static void write_vector(zd_vector3 what, double *to)
     to[0] = what.x, to[1] = what.y, to[2] = what.z;
 }
 
-/* Of efforts from measure->index on, the force or the moment on their second body */
+/* Force or moment on the second body of `size` efforts from measure->index on */
 static int measure_efforts(const zd_space *self, const zd_space_frame *frame, const zd_output_spec *measure, const state *at, double *value)
 {
     const zd_readings readings = zd_space_frame_readings(self, frame);
@@ -95,7 +96,8 @@ static int measure_efforts(const zd_space *self, const zd_space_frame *frame, co
     return status;
 }
 
-static int measure_transmitted(const zd_space *self, const zd_space_frame *frame, const zd_output_spec *measure, const state *at, double *value)
+static int measure_transmitted(const zd_space *self, const zd_space_frame *frame, const zd_output_spec *measure, const state *at,
+                               double *value)
 {
     const zd_readings readings = zd_space_frame_readings(self, frame);
     zd_space_wrench reaction;

@@ -1,10 +1,10 @@
-/* What can be measured of a mechanism in space. */
+/* Measures of a spatial mechanism. */
 #ifndef ZD_SPACE_MEASURES_H
 #define ZD_SPACE_MEASURES_H
 
 #include "plan.h"
 
-/* Those of self->observed, self->measures.count of them, of which `measure` has room for the descriptions. */
+/* Evaluator of the outputs in self->elements.output; their self->measures.count descriptions are written to `measure`. */
 zd_measures zd_space_measures(const zd_space *self, zd_measure *measure);
 
 #endif

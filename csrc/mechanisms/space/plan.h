@@ -1,4 +1,4 @@
-/* A mechanism in space as the core keeps it: joints turned into rows of gauges, and where their entries are stored. */
+/* Planned form of a spatial mechanism: joints converted to rows of gauges, and the storage of their entries. */
 #ifndef ZD_SPACE_PLAN_H
 #define ZD_SPACE_PLAN_H
 
@@ -9,46 +9,47 @@
 #include "tables.h"
 
 typedef struct zd_space_planned_joint {
-    int rows[ZD_SPACE_ROWS];    /* which rows of C are its own */
+    int rows[ZD_SPACE_ROWS];    /* indices of its rows of C */
     int row_count;
-    int carried;                    /* the body that it carries, and then it has no rows; 0: none */
+    int carried;                    /* the body of which it is the inboard joint, and then it has no rows; 0: none */
     int sign;                       /* 1: that is its second body, -1: its first */
-    int angles;                     /* how many the joints before it have */
+    int angles;                     /* number of angles of the joints before it */
 } zd_space_planned_joint;
 
 struct zd_space_frame;
 
-/* How bodies move that joints carry, in the place of free ones. */
+/* Kinematics and forces of a tree of bodies, used instead of those of free bodies. */
 typedef struct zd_carrying {
     void (*place)(const zd_space *self, const struct zd_space_frame *frame, const double *p);
     void (*move)(const zd_space *self, const struct zd_space_frame *frame, const double *v);     /* and frame->bias */
-    /* row += what `scale` times a unit force along a gauge does to the velocities */
-    void (*act)(const zd_space *self, const struct zd_space_frame *frame, const zd_space_gauge *gauge, double scale, const zd_space_reading *reading,
+    /* row (nv,) += scale times the generalized force of a unit force along a gauge */
+    void (*act)(const zd_space *self, const struct zd_space_frame *frame, const zd_space_gauge *gauge, double scale,
+                const zd_space_reading *reading,
                 double *row);
-    /* reaction += what a joint that carries a body does to its second one, about a point. Returns ZD_DONE or ZD_CALLBACK. */
+    /* reaction += wrench of an inboard joint on its second body, about a point. Returns ZD_DONE or ZD_CALLBACK. */
     int (*transmit)(const zd_space *self, const struct zd_space_frame *frame, int joint, zd_vector3 point, double t, const double *vdot,
                     const double *lambda, zd_space_wrench *reaction);
-    int scratch;                    /* doubles that it keeps behind all else of the frame */
-    void *tree;                     /* what it knows; released with the mechanism */
+    int scratch;                    /* number of doubles of the tree at the end of the frame */
+    void *tree;                     /* the tree's own data; released with the mechanism */
 } zd_carrying;
 
 /* Angles of joints that count turns: see unwrapped_angles.h. */
 typedef struct zd_unwrapped_angles {
     int count;
-    zd_space_gauge *angle;          /* (count,) what reads it */
+    zd_space_gauge *angle;          /* (count,) gauge of each angle */
     zd_vector3 *axis;               /* (count,) in the axes of the gauge's first body */
-    int *joint, *place;             /* (count,) of which joint it is, and which entry of p has it */
+    int *joint, *place;             /* (count,) its joint, and its index in p */
 } zd_unwrapped_angles;
 
 struct zd_space {
-    const double *numbers;          /* of functions that were written out from the plan; NULL: there are none */
+    const double *numbers;          /* inputs of generated functions; NULL: there are none */
     zd_vector3 gravity;
     int bodies, joints;
     zd_planned_elements elements;
     const zd_space_planned_body *body;           /* (bodies + 1,) the first one, of the ground, unused */
     const zd_space_joint *joint;
     const zd_space_planned_joint *planned;   /* (joints,) */
-    const zd_space_gauge *gauge;    /* those given, then those of the joints' rows */
+    const zd_space_gauge *gauge;    /* the given marker quantities, then those of the joints' rows */
     zd_packed packed;
     const double *weight;           /* (nv,) of the bodies, as generalized force */
     zd_point_joints point_joints;
@@ -58,20 +59,20 @@ struct zd_space {
     zd_measures measures;
 };
 
-/* What a mechanism keeps in a system's scratch while (t, p) stays; then what is made anew for each call. */
+/* Quantities kept in a system's scratch while (t, p) is unchanged, followed by those computed anew at each call. */
 typedef struct zd_space_frame {
     zd_space_pose *pose;
     zd_space_twist *twist;
     zd_space_wrench *wrench;
     double *quaternion;             /* (bodies + 1, 4), of the ground and of particles unused */
     double *angle;                  /* (turns,) of joints */
-    zd_arms *arms;                  /* (sockets,), and so are these: */
+    zd_arms *arms;                  /* (point joints,), as the next */
     zd_directions *directions;
-    double *turns;                  /* of the sockets' rows, see point_joints.h */
-    double *is_placed, *is_moving;  /* of measures alone: whether poses and twists are those of the state */
+    double *turns;                  /* angular entries of the point joints' rows, see point_joints.h */
+    double *is_placed, *is_moving;  /* used by measures only: 1 if poses and twists belong to the current state */
     double *row;                    /* (nv,) of measures alone */
-    double *x, *xdot, *out;         /* what a law is told, (longest,), and what it says, (longest + 3,) */
-    zd_space_twist *bias;                /* of carried bodies: their accelerations where vdot is zero; NULL: all are free, and have none */
+    double *x, *xdot, *out;         /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */
+    zd_space_twist *bias;                /* accelerations of bodies of a tree at vdot = 0; NULL: all bodies are free, and have none */
     double *carried;                /* (carrying.scratch,) */
 } zd_space_frame;
 
@@ -80,7 +81,7 @@ int zd_space_frame_size(const zd_space *space);      /* doubles */
 /* From coordinates to poses, and from velocities to twists. */
 void zd_space_frame_place(const zd_space *space, const zd_space_frame *frame, const double *p);
 void zd_space_frame_move(const zd_space *space, const zd_space_frame *frame, const double *v);
-/* The gauges of a frame that is placed, and moving where their rates are asked for. */
+/* Marker quantities of a placed frame; their rates need a moving one. */
 zd_readings zd_space_frame_readings(const zd_space *space, const zd_space_frame *frame);
 
 #endif

@@ -1,10 +1,9 @@
-/* With u and w the ways from the mass centres of both bodies to their points, and a and b directions of the first and of the second,
+/* With u and w the vectors from the mass centres of both bodies to their points, and a and b directions of the first and of the second,
  *
  *     Phi = x2 + w - x1 - u,      C v = v2 + omega2 x w - v1 - omega1 x u,        xi = omega1 x (omega1 x u) - omega2 x (omega2 x w)
  *     Phi = a . b,                C v = (omega2 - omega1) . (b x a),              xi = -a" . b - 2 a' . b' - a . b"      (3), (5), (6)
  *
- * with omega in the drawing's axes. In those of a body, (omega x w)_k = omega . (w x e_k),
- * where e_k is what the drawing's k-th axis is there. */
+ * with omega in global axes. In the axes of a body, (omega x w)_k = omega . (w x e_k), where e_k is the k-th global axis in body axes. */
 #include "point_joints.h"
 
 void zd_point_joints_take(zd_point_joints *self, zd_arena *arena, size_t bodies, size_t joints, size_t rows)
@@ -20,16 +19,18 @@ void zd_point_joints_take(zd_point_joints *self, zd_arena *arena, size_t bodies,
 #undef TAKE
 }
 
-/* ---- which rows they are ---- */
+/* ---- search ---- */
 
-static const zd_space_gauge *gauge_of_row(const zd_space *space, int row) { return space->gauge + space->elements.term[space->elements.row[row].first].gauge; }
+static const zd_space_gauge *gauge_of_row(const zd_space *space,
+                                          int row) { return space->gauge + space->elements.term[space->elements.row[row].first].gauge; }
 
 static int is_of_joint(const zd_space *space, int row, int joint)
 {
-    return row < space->elements.mh && space->elements.owner_of_row[row].owner == ZD_OF_JOINT && space->elements.owner_of_row[row].index == joint;
+    return row < space->elements.mh && space->elements.owner_of_row[row].owner == ZD_OF_JOINT
+        && space->elements.owner_of_row[row].index == joint;
 }
 
-/* How many rows from `row` on are of a socket. */
+/* Number of rows of the point joint that begins at `row`; 0 if there is none. */
 static int count_rows(const zd_space *space, int row)
 {
     const int joint = space->elements.owner_of_row[row].index;

@@ -1,5 +1,5 @@
-/* The rows of each socket are those of point_joints.c: of its bodies' centres 1 and -1 in the three rows of the point, of their angular velocities
- * what is in the scratch, with its sign. So C W C^T has products of three entries in the place of six. */
+/* The rows of each point joint are those of point_joints.c: for the velocities of its bodies' mass centres 1 and -1 in the three rows of the
+ * point, for their angular velocities the entries in the scratch. So C W C^T has products of three entries instead of six. */
 #include "products.h"
 
 #include "unwrapped_angles.h"
@@ -57,7 +57,7 @@ ZD_INLINE void times_all(const int rows, const zd_point_joints *self, const doub
     }
 }
 
-/* kernel(rows, ...) with that number known to the compiler, where all sockets have as many */
+/* kernel(rows, ...) with that number known to the compiler, where all joints have as many */
 #define FOR_ROWS(kernel, rows, ...)                 \
     switch (rows) {                                 \
     case 3: kernel(3, __VA_ARGS__); break;          \
@@ -74,7 +74,7 @@ static void times_C(const void *data, const zd_terms *terms, const double *x, do
     FOR_ROWS(times_all, self->point_joints.rows, &self->point_joints, turns, x, y)
 }
 
-/* What a socket has of angular velocities of one of its bodies; `end` is that of zd_point_joints. */
+/* Angular entries of C of a point joint for one of its bodies; `end` is numbered as in zd_point_joints. */
 ZD_INLINE const double *turns_of(const int rows, const zd_point_joints *self, const double *turns, int end)
 {
     const zd_point_joint *joint = self->joint + (end >> 1);
@@ -83,7 +83,7 @@ ZD_INLINE const double *turns_of(const int rows, const zd_point_joints *self, co
 
 ZD_INLINE int rows_of(const int rows, const zd_point_joints *self, int end) { return rows ? rows : self->joint[end >> 1].rows; }
 
-/* Of both ends of a socket */
+/* Sign of C for the first and second body of a joint */
 static const double SIGN[] = {-1, 1};
 
 /* Body by body, so that nothing is added up in memory. */

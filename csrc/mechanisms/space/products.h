@@ -1,10 +1,10 @@
-/* Products with A and, of a mechanism whose rows are all of sockets, with C, without their entries. */
+/* Products with A and, if all constraints are point joints, with C, without their stored entries. */
 #ifndef ZD_SPACE_PRODUCTS_H
 #define ZD_SPACE_PRODUCTS_H
 
 #include "plan.h"
 
-extern const zd_operations zd_space_products;       /* of any mechanism: with A alone */
-extern const zd_operations zd_point_joint_products;      /* where self->sockets.are_all */
+extern const zd_operations zd_space_products;       /* products with A only, for any spatial mechanism */
+extern const zd_operations zd_point_joint_products;      /* products with A and C, if self->point_joints.are_all */
 
 #endif

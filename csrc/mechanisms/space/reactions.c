@@ -1,5 +1,5 @@
-/* Reactions of joints. With the sign of (2), M vdot + d = f - C^T lambda, a row acts on bodies with -lambda times its wrenches;
- * what goes through a joint of the tree is asked of the tree. */
+/* Reactions of joints. With the sign of (2), M vdot + d = f - C^T lambda, a row acts on bodies with -lambda times its wrenches; the
+ * reaction of an inboard joint is computed by the tree. */
 #include "reactions.h"
 
 #include "../common/output_spec.h"
@@ -42,7 +42,8 @@ static void of_rows(const zd_space *self, const zd_space_frame *frame, int joint
 }
 
 /* Motors of the joint, by rows and by efforts, and its damping */
-static int of_drives(const zd_space *self, const zd_space_frame *frame, int joint, place at, double t, const double *lambda, zd_space_wrench *to)
+static int of_drives(const zd_space *self, const zd_space_frame *frame, int joint, place at, double t, const double *lambda,
+                     zd_space_wrench *to)
 {
     const zd_readings readings = zd_space_frame_readings(self, frame);
     double value;

@@ -4,7 +4,7 @@
 
 #include "plan.h"
 
-/* Phi, C, Phi_t and xi of rows that are of no socket, as far as they are wanted, from a frame that is placed and moving; C is zero before.
- * Returns ZD_DONE or ZD_CALLBACK. */
+/* Phi, C, Phi_t and xi of all rows except those of point joints, as far as wanted, from a frame that is placed and moving; C must be zero
+ * before. Returns ZD_DONE or ZD_CALLBACK. */
 int zd_space_rows_write(const zd_space *self, const zd_space_frame *frame, int want, double t, const zd_terms *out);
 #endif

@@ -57,7 +57,8 @@ void zd_unwrapped_angles_rate(const zd_space *space, const zd_space_frame *frame
     for (int k = 0; k < space->unwrapped.count; k++) {
         const zd_space_gauge *angle = space->unwrapped.angle + k;
         const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->unwrapped.axis[k]);
-        pdot[space->unwrapped.place[k]] = zd_inner3(axis, zd_minus3(spin_of(space, frame, angle->second, x), spin_of(space, frame, angle->first, x)));
+        pdot[space->unwrapped.place[k]] = zd_inner3(axis, zd_minus3(spin_of(space, frame, angle->second, x),
+                                                                    spin_of(space, frame, angle->first, x)));
     }
 }
 

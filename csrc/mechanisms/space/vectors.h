@@ -12,7 +12,7 @@ typedef struct zd_rotation {
     zd_vector3 x, y, z;     /* a body's axes, in the drawing's */
 } zd_rotation;
 
-/* What acts on a body: a force, and the torque about its mass centre. In the drawing's axes. */
+/* Force on a body, and torque about its mass centre, in global axes. */
 typedef struct zd_space_wrench {
     zd_vector3 force, torque;
 } zd_space_wrench;

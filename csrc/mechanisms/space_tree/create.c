@@ -41,7 +41,7 @@ static zd_space_axes axes_of(const double frame[3][3])
 static int coordinates_of(enum zd_space_freedom_kind kind) { return kind == ZD_SPACE_SWINGS ? 4 : 1; }
 static int velocities_of(enum zd_space_freedom_kind kind) { return kind == ZD_SPACE_SWINGS ? 3 : 1; }
 
-/* How a body hangs on the other one of the joint that carries it; a particle has no orientation that could swing. */
+/* Connection of a body to its parent by its inboard joint; a particle has no orientation, so that it has no rotation about a point. */
 static zd_space_link hang_on(const zd_space_joint *joint, int is_second, int turns)
 {
     const zd_space_joint_kind *kind = zd_space_joint_kind_of(joint->kind);
@@ -54,7 +54,8 @@ static zd_space_link hang_on(const zd_space_joint *joint, int is_second, int tur
     for (int i = 0; i < kind->freedoms; i++) {
         const zd_space_freedom *freedom = kind->freedom + (is_second ? i : kind->freedoms - 1 - i);
         if (freedom->kind == ZD_SPACE_SWINGS && !turns) continue;
-        link.freedom[link.freedoms++] = (zd_space_link_freedom){.kind = freedom->kind, .direction = freedom->direction, .sign = is_second ? 1 : -1,
+        link.freedom[link.freedoms++] = (zd_space_link_freedom){.kind = freedom->kind, .direction = freedom->direction,
+                                                                .sign = is_second ? 1 : -1,
                                              .zero = freedom->zero == ZD_SPACE_ZERO_ALONG ? joint->along : 0, .length = joint->length};
     }
     return link;
@@ -161,7 +162,8 @@ static void carry_bodies(zd_space *self, const parts *from)
     const zd_space_tree *tree = from->tree;
     memset(self->point_joints.has_row, 0, (size_t)self->elements.m * sizeof *self->point_joints.has_row);
     self->point_joints.count = self->point_joints.turns = self->point_joints.are_all = 0;
-    self->carrying = (zd_carrying){zd_space_tree_place, zd_space_tree_move, zd_space_tree_act, zd_space_tree_reaction, zd_space_tree_frame_size(tree->bodies, tree->nv),
+    self->carrying = (zd_carrying){zd_space_tree_place, zd_space_tree_move, zd_space_tree_act, zd_space_tree_reaction,
+                                   zd_space_tree_frame_size(tree->bodies, tree->nv),
                                    from->tree};
     zd_system *system = &self->system;
     system->nq = tree->nq;
@@ -199,7 +201,8 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
     if (!arena.base) return refuse(self, NULL, "there is no memory for the mechanism", message, message_size);
     take_parts(tables, &arena, &all);
     plan_links(tables, &all);
-    if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree has a circle: bodies carry each other", message, message_size);
+    if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree has a circle: bodies carry each other",
+                                                                    message, message_size);
     place_angles(self, &all);
     write_lengths(all.tree, all.lengths);
     carry_bodies(self, &all);

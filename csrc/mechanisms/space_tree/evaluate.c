@@ -12,10 +12,11 @@
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 
-/* Whether what is wanted depends on how bodies move. */
+/* True if a wanted term depends on velocities. */
 static int is_moving(const zd_space *self, int want)
 {
-    return want & (ZD_BIAS | ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->elements.has_velocity_forces) || (want & ROWS && self->elements.law);
+    return want & (ZD_BIAS | ZD_XI | ZD_POWER) || (want & ZD_FORCE && self->elements.has_velocity_forces)
+        || (want & ROWS && self->elements.law);
 }
 
 static int write_force(const zd_space *self, const zd_space_frame *frame, double t, double *f)

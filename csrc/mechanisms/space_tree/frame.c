@@ -1,7 +1,8 @@
-/* What the tree keeps of a frame, behind all else of it. */
+/* Layout of the tree's part of a frame, which is the last part of the scratch. */
 #include "links.h"
 
-enum { TWIST = sizeof(zd_space_twist) / sizeof(double), WAY = sizeof(zd_space_way) / sizeof(double), COMPOSITE = sizeof(zd_space_composite) / sizeof(double) };
+enum { TWIST = sizeof(zd_space_twist) / sizeof(double), WAY = sizeof(zd_space_way) / sizeof(double),
+      COMPOSITE = sizeof(zd_space_composite) / sizeof(double) };
 
 int zd_space_tree_frame_size(int bodies, int nv) { return nv * TWIST + (bodies + 1) * (WAY + TWIST + COMPOSITE); }
 

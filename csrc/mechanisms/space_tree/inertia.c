@@ -38,7 +38,7 @@ static zd_space_composite alone(const zd_space_planned_body *body, const zd_rota
     return own;
 }
 
-/* What hangs on a particle does not turn with it, nor does the particle with its inner body: it is a mass there. */
+/* Adds a composite to that of its parent. A particle contributes its mass alone, as it transmits no torque. */
 static void add_to_inner(const zd_space_link *link, zd_vector3 arm, const zd_space_composite *own, zd_space_composite *inner)
 {
     inner->mass += own->mass;
@@ -91,7 +91,8 @@ void zd_space_tree_mass(const zd_space *space, const zd_space_frame *frame, doub
 
 /* ---- inertia ---- */
 
-zd_space_wrench zd_space_tree_need(const zd_space_planned_body *body, const zd_space_pose *pose, const zd_space_twist *twist, const zd_space_twist *change)
+zd_space_wrench zd_space_tree_need(const zd_space_planned_body *body, const zd_space_pose *pose, const zd_space_twist *twist,
+                                   const zd_space_twist *change)
 {
     zd_space_wrench need = {zd_times3(body->mass, change->speed), {0, 0, 0}};
     if (!body->turns) return need;

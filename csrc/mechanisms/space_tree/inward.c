@@ -19,7 +19,7 @@ zd_space_wrench zd_space_tree_pass(const zd_space_link *link, const zd_space_pos
 typedef struct carried {
     int body;
     zd_space_wrench what;
-    int start, is_whole;    /* whether no particle on the way has kept a torque back */
+    int start, is_whole;    /* `is_whole`: 1 while no particle on the way to the ground has blocked a torque */
 } carried;
 
 static void step_inward(const zd_space_tree *tree, const zd_space_frame *frame, double scale, carried *on, double *row)
@@ -32,14 +32,16 @@ static void step_inward(const zd_space_tree *tree, const zd_space_frame *frame, 
     on->body = link->inner;
 }
 
-void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const zd_space_gauge *gauge, double scale, const zd_space_reading *reading,
+void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const zd_space_gauge *gauge, double scale,
+                       const zd_space_reading *reading,
                   double *row)
 {
     const zd_space_tree *tree = zd_space_tree_of(space);
     const int is_mutual = zd_space_gauge_is_mutual(gauge);
     const int first = is_mutual ? gauge->first : 0;
     carried one = {first, reading->first, first, 1}, other = {gauge->second, reading->second, gauge->second, 1};
-    while (one.body != other.body) step_inward(tree, frame, scale, tree->link[one.body].depth > tree->link[other.body].depth ? &one : &other, row);
+    while (one.body != other.body) step_inward(tree, frame, scale, tree->link[one.body].depth > tree->link[other.body].depth ? &one : &other,
+                                               row);
     if (one.is_whole && other.is_whole) return;
     zd_space_add_wrench(&one.what, 1, other.what);
     while (one.body) step_inward(tree, frame, scale, &one, row);

@@ -1,4 +1,4 @@
-/* How each body hangs on another: what joints of the tree come down to. */
+/* Connections of bodies to their parents, as determined by their inboard joints. */
 #ifndef ZD_SPACE_TREE_LINKS_H
 #define ZD_SPACE_TREE_LINKS_H
 
@@ -12,7 +12,7 @@ typedef struct zd_space_axes {
 /* One of the freedoms of the joint that carries a body, in the order in which the joint's frame makes them on its way outwards. */
 typedef struct zd_space_link_freedom {
     enum zd_space_freedom_kind kind;
-    int direction;          /* of the frame that comes along */
+    int direction;          /* index of the direction in the joint's moving frame */
     double sign;            /* -1 where the joint is taken backwards */
     double zero;            /* m: the distance along the direction where the coordinate is zero */
     double length;          /* m for each rad of what advances */
@@ -22,7 +22,7 @@ typedef struct zd_space_link_freedom {
 typedef struct zd_space_link {
     int inner;              /* the body that it hangs on; of a free one the ground, whatever that is */
     int is_free, turns;     /* turns: it has an orientation */
-    int depth;              /* how many bodies there are from it down to the ground, itself included */
+    int depth;              /* number of bodies from it down to the ground, itself included */
     int p, v, nq, nv;       /* its own coordinates and velocities */
     int freedoms;
     zd_space_link_freedom freedom[ZD_SPACE_FREEDOMS];
@@ -30,7 +30,7 @@ typedef struct zd_space_link {
     zd_space_axes near_axes, far_axes;   /* the joint's frame, in the same */
 } zd_space_link;
 
-/* Where the origin of the joint's frame is in the drawing before each freedom, and after the last. */
+/* Origins of the joint's frame in global axes, before each freedom and after the last. */
 typedef struct zd_space_way {
     zd_vector3 at[ZD_SPACE_FREEDOMS + 1];
 } zd_space_way;
@@ -47,7 +47,7 @@ typedef struct zd_space_tree {
     const int *order;           /* (bodies,) so that each one comes after the one that it hangs on */
 } zd_space_tree;
 
-/* What the tree keeps of a frame, in its scratch. */
+/* The tree's part of a frame, in its scratch. */
 typedef struct zd_space_tree_frame {
     zd_space_twist *column;          /* (nv,) the twist of the body's mass centre where it moves by this velocity alone */
     zd_space_way *way;               /* (bodies + 1,) */

@@ -69,7 +69,8 @@ static zd_rotation rotation_from(const zd_space_axes *F, const zd_space_axes *ow
                          zd_rotated3(&all, (zd_vector3){o[0].z, o[1].z, o[2].z})};
 }
 
-static void place_hanging(const zd_space_link *link, const double *p, const zd_space_pose *inner, zd_space_pose *pose, zd_space_way *way, zd_space_twist *column)
+static void place_hanging(const zd_space_link *link, const double *p, const zd_space_pose *inner, zd_space_pose *pose, zd_space_way *way,
+                          zd_space_twist *column)
 {
     zd_space_axes F = turned_axes(&inner->turned, &link->near_axes);
     zd_vector3 at = zd_plus3(inner->at, zd_rotated3(&inner->turned, link->near));
@@ -80,7 +81,7 @@ static void place_hanging(const zd_space_link *link, const double *p, const zd_s
     way->at[link->freedoms] = at;
     pose->turned = link->turns ? rotation_from(&F, &link->far_axes) : AS_DRAWN;
     pose->at = zd_minus3(at, zd_rotated3(&pose->turned, link->far));
-    for (int i = 0; i < link->freedoms; i++) {     /* what turns moves the mass centre, too */
+    for (int i = 0; i < link->freedoms; i++) {     /* velocity of the mass centre due to the rotations */
         const zd_space_link_freedom *freedom = link->freedom + i;
         const zd_vector3 arm = zd_minus3(pose->at, way->at[i]);
         for (zd_space_twist *own = column + freedom->v; own < column + freedom->v + (freedom->kind == ZD_SPACE_SWINGS ? 3 : 1); own++)

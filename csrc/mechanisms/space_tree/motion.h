@@ -12,9 +12,9 @@ void zd_space_tree_move(const zd_space *space, const zd_space_frame *frame, cons
 void zd_space_tree_accelerate(const zd_space *space, const zd_space_frame *frame, const double *vdot);
 /* A frame after a turn about one of its directions. */
 void zd_space_tree_turn_axes(zd_space_axes *F, int direction, double angle);
-/* How a body is turned. */
+/* Attitude of a body. */
 zd_rotation zd_space_tree_attitude(const zd_space_tree *tree, int body, const double *p);
-/* (1) but for angles that follow: ones, and of quaternions half of q times (0, omega). A (nq, nv) is zero before. */
+/* A of (1), without the rows of dependent angles: ones, and for quaternions half of q times (0, omega). A (nq, nv) must be zero before. */
 void zd_space_tree_write_A(const zd_space_tree *tree, const double *p, double *A);
 
 #endif

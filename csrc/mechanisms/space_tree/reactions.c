@@ -1,4 +1,4 @@
-/* What goes through a joint of the tree is what the bodies further out need for their accelerations beyond what else acts on them. */
+/* Reaction of an inboard joint: inertia forces of the outer bodies minus all other forces on them. */
 #include "reactions.h"
 
 #include "../common/laws.h"
@@ -19,7 +19,7 @@ static void add_row(const zd_space *space, const zd_space_frame *frame, const zd
     }
 }
 
-/* frame->wrench <- what each body needs beyond what acts on it, but for joints of the tree. */
+/* frame->wrench <- inertia force of each body minus the applied and constraint forces on it, without joints of the tree. */
 static int write_needs(const zd_space *space, const zd_space_frame *frame, double t, const double *vdot, const double *lambda)
 {
     const zd_readings readings = zd_space_frame_readings(space, frame);

@@ -1,4 +1,4 @@
-/* What goes through joints of the tree. */
+/* Reactions of inboard joints. */
 #ifndef ZD_SPACE_TREE_REACTIONS_H
 #define ZD_SPACE_TREE_REACTIONS_H
 

@@ -41,8 +41,8 @@ static zd_space_twist given_twist(const double *twists, int body)
     return (zd_space_twist){zd_vector3_of(twists + TWIST * (body - 1)), zd_vector3_of(twists + TWIST * (body - 1) + 3)};
 }
 
-/* The quaternion of the rotation whose entry (i, k) is a_i . b_k, with a scalar part that is not negative: of the four that are each right
- * but for their size, the one that loses no digits. */
+/* Quaternion, with a scalar part that is not negative, of the rotation whose entry (i, k) is a_i . b_k. Four formulas differ by a factor
+ * only; the one without cancellation is selected and normalized. */
 static void write_quaternion(const zd_space_axes *a, const zd_space_axes *b, double *q)
 {
 #define R(i, k) zd_inner3(a->d[i], b->d[k])
@@ -60,7 +60,7 @@ static void write_quaternion(const zd_space_axes *a, const zd_space_axes *b, dou
     for (int i = 0; i < 4; i++) q[i] = all[best][i] / size;
 }
 
-/* Where a joint's frame is on one of its bodies, and how that moves. */
+/* Pose and motion of a joint's frame on one of its bodies. */
 typedef struct side {
     zd_space_axes F;
     zd_vector3 at, speed, spin;
@@ -74,8 +74,8 @@ static side side_of(zd_space_pose pose, zd_space_twist twist, zd_vector3 point, 
     return of;
 }
 
-/* How far the outer frame has turned about a direction of the one that comes along: seen by a direction that later turns, about `next`,
- * leave. */
+/* Angle of the outer frame about a direction of the moving frame, measured on a direction that the later rotation, about `next`, leaves
+ * unchanged. */
 static double angle_between(const zd_space_axes *F, const zd_space_axes *outer, int direction, int next)
 {
     const int i = (direction + 1) % 3, k = (direction + 2) % 3, seen = next == direction ? i : next;

@@ -1,11 +1,12 @@
-/* As in ../space/unwrapped_angles.c: rates are those of the joint's axis, and the angle is that of both attitudes, with as many turns as are nearest. */
+/* As in ../space/unwrapped_angles.c: the rate is that about the joint's axis, and the angle is that between both attitudes plus the nearest
+ * multiple of 2 pi. */
 #include "unwrapped_angles.h"
 
 #include "../space/gauge.h"
 #include "inward.h"
 #include "motion.h"
 
-/* Whether the k-th angle is of a joint that carries nothing, so that it follows. */
+/* True if the k-th angle belongs to a joint outside the tree, so that it is a dependent coordinate. */
 static int follows(const zd_space *space, int k) { return !space->planned[space->unwrapped.joint[k]].carried; }
 
 void zd_space_tree_write_rates(const zd_space *space, const zd_space_frame *frame, double *A)
@@ -28,7 +29,8 @@ void zd_space_tree_follow(const void *data, double *p)
         if (!follows(space, k)) continue;
         const zd_rotation first = zd_space_tree_attitude(tree, angle->first, p), second = zd_space_tree_attitude(tree, angle->second, p);
         const zd_vector3 b = zd_rotated3(&second, zd_vector3_of(angle->b));
-        const double x = zd_inner3(zd_rotated3(&first, zd_vector3_of(angle->a)), b), y = zd_inner3(zd_rotated3(&first, zd_vector3_of(angle->o)), b);
+        const double x = zd_inner3(zd_rotated3(&first, zd_vector3_of(angle->a)), b),
+            y = zd_inner3(zd_rotated3(&first, zd_vector3_of(angle->o)), b);
         double *at = p + space->unwrapped.place[k];
         *at = zd_with_turns(atan2(y, x), *at);
     }

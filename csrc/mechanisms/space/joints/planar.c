@@ -2,7 +2,8 @@
 #include "primitives.h"
 
 const zd_space_joint_kind zd_space_planar = {
-    .card = {.name = "planar", .summary = "Slides one body on a plane of the other, and turns it about the plane's normal.", .equations = "(3), (5)"},
+    .card = {.name = "planar", .summary = "Slides one body on a plane of the other, and turns it about the plane's normal.",
+             .equations = "(3), (5)"},
     .rows = 3,
     .row = {POINT_IN_PLANE(A), PARALLEL_AXES},
     .coordinate = {ANGLE_ABOUT_AXIS},

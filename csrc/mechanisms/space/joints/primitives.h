@@ -19,11 +19,11 @@
 #define POINT_IN_PLANE(first) {.pick = {.gauge = ZD_SPACE_ALONG, .of_first = (first)}}
 #define POINT_ON_AXIS POINT_IN_PLANE(N), POINT_IN_PLANE(T)
 
-/* How far the second body has turned about the axis, and how far its point has moved along it. */
+/* Coordinates: angle of the second body about the axis, and displacement of its point along the axis. */
 #define ANGLE_ABOUT_AXIS {"angle", {.gauge = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}}
 #define DISPLACEMENT_ALONG_AXIS {"displacement", {.gauge = ZD_SPACE_ALONG, .of_first = A, .zero = ZD_SPACE_ZERO_ALONG}}
 
-/* What a joint leaves free of these. */
+/* Freedoms in these coordinates. */
 #define TURNS_ABOUT(which, called) {ZD_SPACE_TURNS, which, called, ZD_SPACE_ZERO_NONE}
 #define SLIDES_ALONG_AXIS {ZD_SPACE_SLIDES, A, "displacement", ZD_SPACE_ZERO_ALONG}
 #define SLIDES_ALONG(which, called) {ZD_SPACE_SLIDES, which, called, ZD_SPACE_ZERO_NONE}

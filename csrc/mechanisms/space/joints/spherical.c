@@ -2,7 +2,8 @@
 #include "primitives.h"
 
 const zd_space_joint_kind zd_space_spherical = {
-    .card = {.name = "spherical", .summary = "Turns one body about a point of the other; a particle is held at that point.", .equations = "(3), (5)"},
+    .card = {.name = "spherical", .summary = "Turns one body about a point of the other; a particle is held at that point.",
+             .equations = "(3), (5)"},
     .rows = 3,
     .row = {POINT_ON_POINT},
     .carries = 1, .freedoms = 1, .freedom = {SWINGS},

@@ -1,4 +1,4 @@
-/* The table of joints in space. A new row is a new file and one word here. */
+/* The table of joints in space. A new entry is a new file and one word here. */
 #include "joint.h"
 
 #include <stddef.h>

@@ -3,7 +3,8 @@
 #include "primitives.h"
 
 const zd_space_joint_kind zd_space_universal = {
-    .card = {.name = "universal", .summary = "Joins two bodies by a cross, with an axis on each that are perpendicular.", .equations = "(3), (5)"},
+    .card = {.name = "universal", .summary = "Joins two bodies by a cross, with an axis on each that are perpendicular.",
+             .equations = "(3), (5)"},
     .rows = 4,
     .row = {POINT_ON_POINT, PERPENDICULAR(A, N)},
     .coordinate = {
