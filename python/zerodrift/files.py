@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _check
-from .runs import sample_file
+from .runs import mapped_samples
 from .runs.saving import read
 from .runs.solution import Solution
 
@@ -45,11 +45,12 @@ def load(path: str | Path) -> Any:
     >>> bool((again.p == sol.p).all())
     True
     """
-    if Path(path).is_dir() or _is_zip(path):
+    path = _as_written_now(Path(path))
+    if path.is_dir() or _is_zip(path):
         ensemble = _ensembles().read(path, lambda description: _system(description, str(path)))
         if ensemble is not None:
             return ensemble
-    read_from = sample_file.read if sample_file.is_one(path) else read
+    read_from = mapped_samples.read if mapped_samples.is_one(path) else read
     values = read_from(path, lambda description: _system(description, str(path)))
     if values is not None:
         _check_whole(path, values)
@@ -60,6 +61,12 @@ def load(path: str | Path) -> Any:
         if description is not None:
             return _mechanism(description, str(path))
     raise ValueError(f"{path} must be a solution, an ensemble or a mechanism saved by zerodrift")
+
+
+def _as_written_now(path: Path) -> Path:
+    """Path of the file that ``save_to="run.zd"`` writes, run.npy, where there is no file of the earlier format."""
+    is_renamed = path.suffix == ".zd" and not path.exists() and path.with_suffix(".npy").exists()
+    return path.with_suffix(".npy") if is_renamed else path
 
 
 def _check_whole(path: str | Path, values: dict[str, Any]) -> None:

@@ -75,7 +75,7 @@ def test_those_of_a_structured_system_are_those_of_its_tree(formulation, rows, t
     assert system._core.packing is not None
     sol, tree = zd.simulate(system, 0.25, **options), zd.simulate(m.system("joint"), 0.25, **options)
     zd.simulate(system, 0.25, save_to=tmp_path / "rows", **options)
-    filed = zd.load(tmp_path / "rows.zd")
+    filed = zd.load(tmp_path / "rows.npy")
     for name in MANY:
         whole = sol.outputs[name] if name in sol.outputs else sol[name]
         np.testing.assert_allclose(whole, tree[name], rtol=0, atol=1e-8 * max(1.0, np.abs(tree[name]).max()))

@@ -1,14 +1,17 @@
-"""Rows that a run writes to a file: the same bits as in memory, bounded memory, and a file that is readable whatever happens."""
+"""Samples that a run writes to a file: the bits of those in memory, and files that any NumPy opens whatever happens."""
 
 import errno
+import json
 import os
 import re
 import subprocess
 import sys
 import textwrap
+import time
 import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,7 +20,7 @@ import pytest
 import zerodrift as zd
 from support import assert_same_bits
 from watched import At, throw
-from zerodrift.runs import memory, sample_file
+from zerodrift.runs import mapped_samples, memory, sample_file
 
 not_on_windows = pytest.mark.skipif(os.name == "nt", reason="Windows removes no file that is mapped into memory")
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits and kills as Linux does")
@@ -36,6 +39,10 @@ def ends(t, p, v):
 
 
 ends.terminal = True
+
+
+def names_in(folder):
+    return sorted(path.name for path in folder.iterdir())
 
 
 def is_in_file(array):
@@ -62,7 +69,7 @@ def assert_alike(one, other):
 def test_bits_are_those_of_a_run_in_memory(bar, tmp_path, monkeypatch, way, block):
     monkeypatch.setattr(sample_file, "BLOCK", block)
     here, there = (zd.simulate(bar, 2.0, save_to=to, **WAYS[way]) for to in (None, tmp_path / "run"))
-    again = zd.load(tmp_path / "run.zd")
+    again = zd.load(tmp_path / "run.npy")
     for sol in (there, again):
         assert_alike(here, sol)
         assert is_in_file(sol.p)
@@ -81,7 +88,7 @@ def test_values_between_rows_have_the_bits_of_a_run_in_memory(tmp_path, name, wa
     options |= {"outputs": ["C.position"]} if name == "mechanism" and way == "steps" else {}
     here, there = (zd.simulate(system, 1.0, save_to=to, **options) for to in (None, tmp_path / "run"))
     times = np.concatenate([np.linspace(0, here.t[-1], 23), here.t[:3], here.t[-1:]])
-    for sol in (there, zd.load(tmp_path / "run.zd")):
+    for sol in (there, zd.load(tmp_path / "run.npy")):
         assert is_in_file(sol.p)
         for one, other in zip(here(times), sol(times), strict=True):
             assert one.tobytes() == other.tobytes()
@@ -104,9 +111,9 @@ def test_measures_are_recorded_and_read_from_it(tmp_path, monkeypatch):
     m = zd.Mechanism("pendulum", gravity=(0, -9.81))
     pin = m.revolute("pin", m.ground, m.link("link", (0, 0), (1, 0), mass=1.0).start)
     options = {"step": 0.01, "outputs": [pin.force, pin.angle, "link.angle"]}
-    here, there = (zd.simulate(m, 1.0, save_to=to, **options) for to in (None, str(tmp_path / "run.zd")))
+    here, there = (zd.simulate(m, 1.0, save_to=to, **options) for to in (None, str(tmp_path / "run.npy")))
     monkeypatch.setattr("zerodrift.systems.measure_values.PART", 80)      # bytes: measures are evaluated at ten rows together
-    again = zd.load(tmp_path / "run.zd")
+    again = zd.load(tmp_path / "run.npy")
     for name in ("pin.force", "pin.force.y", "pin.angle", "link.angle", "link.end.velocity"):
         assert here[name].tobytes() == there[name].tobytes() == again[name].tobytes()
     again.outputs.clear()
@@ -135,7 +142,7 @@ def test_a_record_that_memory_has_no_room_for(tmp_path):
     except MemoryError as error:
         print(error)
     sol = zd.simulate(bar, 0.5, save_to=sys.argv[1], **options)
-    print(sol.message, len(sol.t), sol.p.shape, zd.load(sys.argv[1] + ".zd").t[-1], len(str(sol)) > 100)
+    print(sol.message, len(sol.t), sol.p.shape, zd.load(sys.argv[1] + ".npy").t[-1], len(str(sol)) > 100)
     """, tmp_path / "run")
     assert re.fullmatch(r"500001 samples take 72 MB, and (4\d|50)(\.\d)? MB of memory are free: save fewer with save_every or "
                         "t_eval, or write them to a file with save_to", lines[0])
@@ -150,9 +157,9 @@ def test_a_run_that_is_killed_leaves_its_rows(bar, tmp_path):
         if part > 0.01:
             os.kill(os.getpid(), signal.SIGKILL)
     zd.simulate(zd.systems.four_bar(), 1000.0, step=1e-3, save_to=sys.argv[1], progress=look)
-    """, tmp_path / "run.zd", expect=-9)
-    assert (tmp_path / ".run.zd.lock").exists()
-    sol = zd.load(tmp_path / "run.zd")
+    """, tmp_path / "run.npy", expect=-9)
+    assert (tmp_path / ".run.npy.lock").exists()
+    sol = zd.load(tmp_path / "run.npy")
     rows = len(sol.t)
     assert 1e3 < rows < 1e6
     assert_same_bits(zd.simulate(bar, sol.t[-1] + 0.01, step=1e-3), sol, slice(rows))
@@ -160,20 +167,80 @@ def test_a_run_that_is_killed_leaves_its_rows(bar, tmp_path):
     assert sol.message == f"stopped from outside, or has not ended yet: there are {rows} samples, the last at t = {sol.t[-1]:.6g}"
     assert sol.stats == {}
     assert f"{rows} samples" in repr(sol)
-    with (tmp_path / "run.zd").open("r+b") as file:
-        file.truncate((tmp_path / "run.zd").stat().st_size - 5)
-    assert len(zd.load(tmp_path / "run.zd").t) == rows - 1
+    with (tmp_path / "run.npy").open("r+b") as file:
+        file.truncate((tmp_path / "run.npy").stat().st_size - 5)
+    assert len(zd.load(tmp_path / "run.npy").t) == rows - 1
     zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")      # no lock stays behind
-    assert [path.name for path in tmp_path.iterdir()] == ["run.zd"]
+    assert names_in(tmp_path) == ["run.json", "run.npy"]
+
+
+@linux
+def test_a_run_that_is_killed_at_any_time_leaves_what_it_flushed(bar, tmp_path, monkeypatch):
+    """Twenty random times; NumPy opens the samples without this package, and they are those of a run in memory."""
+    code = """
+    import sys, zerodrift as zd
+    from zerodrift.runs import sample_file
+    sample_file.BLOCK = 20_000
+    zd.simulate(zd.systems.four_bar(), 0.01, step=1e-3, save_to=sys.argv[1] + "first")
+    print("runs", flush=True)
+    zd.simulate(zd.systems.four_bar(), 1e4, step=1e-3, save_to=sys.argv[1])
+    """
+    whole = zd.simulate(bar, 10.0, step=1e-3)
+    for wait in np.random.default_rng(37).uniform(0, 0.05, 20):
+        path = tmp_path / "run.npy"
+        with subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), path], stdout=subprocess.PIPE) as run:
+            assert run.stdout.readline() == b"runs\n"
+            while not path.exists():
+                time.sleep(1e-4)
+            time.sleep(wait)
+            run.kill()
+        samples, sol = np.load(path, mmap_mode="r"), zd.load(path)
+        assert len(sol.t) == len(samples)
+        rows = min(len(samples), len(whole.t))
+        for name in ("t", "p", "v", "multipliers", "kinetic_energy", "iterations"):
+            assert samples[name][:rows].tobytes() == getattr(whole, name)[:rows].tobytes() == getattr(sol, name)[:rows].tobytes()
+        assert not sol.success
+        path.unlink()
+
+
+def test_numpy_alone_opens_the_samples(bar, tmp_path):
+    sol = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
+    for samples in (np.load(tmp_path / "run.npy"), np.load(tmp_path / "run.npy", mmap_mode="r")):
+        for name in samples.dtype.names:
+            assert samples[name].tobytes() == getattr(sol, name).tobytes()
+    described = json.loads((tmp_path / "run.json").read_bytes())
+    assert described["solution"]["system"]["name"] == "four_bar"
+    assert [name for name, *_ in described["solution"]["system"]["coordinates"]] == [each.name for each in bar.coordinates]
+
+
+def test_files_of_the_earlier_format_are_read():
+    """Written by the version before NPY files, which printed these values."""
+    sol = zd.load(Path(__file__).with_name("earlier_samples.zd"))
+    assert sol.success
+    assert len(sol.t) == 11
+    assert sol.p[-1].tolist() == [-0.07356172718671403]
+    assert sol["pin.force"][-1].tolist() == [-1.6178399851061682, 2.57172623865542]
+
+
+def test_an_earlier_suffix_means_the_file_of_today(bar, tmp_path):
+    sol = zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run.zd")
+    assert names_in(tmp_path) == ["run.json", "run.npy"]
+    assert_alike(sol, zd.load(tmp_path / "run.zd"))
+
+
+def test_a_description_of_other_samples_is_refused(bar, tmp_path):
+    zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run")
+    zd.simulate(zd.systems.oscillator(), 0.1, step=0.05, save_to=tmp_path / "other")
+    (tmp_path / "run.json").write_bytes((tmp_path / "other.json").read_bytes())
+    with pytest.raises(ValueError, match=r"run\.json must describe samples of 144 bytes, not "):
+        zd.load(tmp_path / "run.npy")
 
 
 def test_one_that_was_killed_at_once_has_no_rows(bar, tmp_path):
     zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run")
-    path = tmp_path / "run.zd"
-    content = path.read_bytes()
-    _, _, length = sample_file.HEADER.unpack(content[:sample_file.HEADER.size])
-    header = sample_file.HEADER.pack(sample_file.MAGIC, sample_file.UNKNOWN, length)
-    path.write_bytes(header + content[sample_file.HEADER.size:][:length])
+    path = tmp_path / "run.npy"
+    empty = np.load(path)[:0]
+    np.save(path, empty)
     sol = zd.load(path)
     assert len(sol.t) == 0
     assert sol.p.shape == (0, 3)
@@ -182,8 +249,9 @@ def test_one_that_was_killed_at_once_has_no_rows(bar, tmp_path):
 
 def test_what_follows_the_rows_may_be_missing(bar, tmp_path):
     whole = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
-    path = tmp_path / "cut.zd"
-    path.write_bytes((tmp_path / "run.zd").read_bytes()[:-100])
+    path = tmp_path / "cut.npy"
+    path.write_bytes((tmp_path / "run.npy").read_bytes()[:-100])
+    (tmp_path / "cut.json").write_bytes((tmp_path / "run.json").read_bytes())
     sol = zd.load(path)
     assert_same_bits(whole, sol)
     assert not sol.success
@@ -192,9 +260,9 @@ def test_what_follows_the_rows_may_be_missing(bar, tmp_path):
 @pytest.mark.parametrize("length", [20, 100])
 def test_a_header_that_is_cut_short_is_refused(bar, tmp_path, length):
     zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run")
-    path = tmp_path / "run.zd"
+    path = tmp_path / "run.npy"
     path.write_bytes(path.read_bytes()[:length])
-    with pytest.raises(ValueError, match=r"run\.zd cannot be read: its header must be whole"):
+    with pytest.raises(ValueError, match=r"run\.npy cannot be read: its header must be whole"):
         zd.load(path)
 
 
@@ -203,20 +271,20 @@ def test_ctrl_c_keeps_what_was_written(bar, tmp_path):
         zd.simulate(bar, 100.0, step=1e-3, save_to=tmp_path / "run", progress=At(3, throw(KeyboardInterrupt())))
     sol = caught.value.solution
     assert 1 < len(sol.t) < 1e5
-    assert_alike(sol, zd.load(tmp_path / "run.zd"))
+    assert_alike(sol, zd.load(tmp_path / "run.npy"))
     assert sol.message == "interrupted from the keyboard"
 
 
 def test_runs_that_fail_say_so_in_the_file(bar, tmp_path):
     with pytest.raises(zd.ZerodriftError) as caught:
         zd.simulate(bar, 8.0, step=0.5, stabilization=None, save_to=tmp_path / "run")
-    assert_alike(caught.value.solution, zd.load(tmp_path / "run.zd"))
+    assert_alike(caught.value.solution, zd.load(tmp_path / "run.npy"))
     with pytest.raises(zd.InconsistentStart):
         zd.simulate(bar, 8.0, [1, 1, 1], step=0.1, save_to=tmp_path / "never")
-    assert not (tmp_path / "never.zd").exists()
+    assert not (tmp_path / "never.npy").exists()
 
 
-@pytest.mark.parametrize("after", [3, 10**9], ids=["in a run", "at its end"])
+@pytest.mark.parametrize("after", [5, 10**9], ids=["in a run", "at its end"])
 def test_a_disk_that_is_full_stops_the_run_and_keeps_its_rows(bar, tmp_path, monkeypatch, after):
     monkeypatch.setattr(sample_file, "BLOCK", 1000)
     puts, put = [], sample_file.SampleFile._put
@@ -232,8 +300,8 @@ def test_a_disk_that_is_full_stops_the_run_and_keeps_its_rows(bar, tmp_path, mon
     with pytest.raises(OSError, match="No space left") as caught:
         zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     sol = caught.value.solution
-    assert len(sol.t) == (12 if after == 3 else 101)
-    again = zd.load(tmp_path / "run.zd")
+    assert len(sol.t) == (12 if after == 5 else 101)
+    again = zd.load(tmp_path / "run.npy")
     assert_same_bits(sol, again)
 
 
@@ -243,7 +311,7 @@ def test_an_older_run_keeps_its_rows_where_its_file_is_replaced(bar, tmp_path):
     kept = first.p.copy()
     second = zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
     assert first.p.tobytes() == kept.tobytes()
-    assert len(zd.load(tmp_path / "run.zd").t) == len(second.t) == 11
+    assert len(zd.load(tmp_path / "run.npy").t) == len(second.t) == 11
 
 
 def test_a_file_that_cannot_be_removed_is_not_replaced(bar, tmp_path, monkeypatch):
@@ -255,9 +323,9 @@ def test_a_file_that_cannot_be_removed_is_not_replaced(bar, tmp_path, monkeypatc
     if os.name != "nt":
         monkeypatch.setattr(sample_file, "AS_WINDOWS", True)
         monkeypatch.setattr(sample_file.Path, "unlink", lambda path, missing_ok=False: path.suffix == ".lock" or refuse(path))
-    with pytest.raises(PermissionError, match=r"save_to cannot replace '.*run\.zd' while its samples are in use: a sol"):
+    with pytest.raises(PermissionError, match=r"save_to cannot replace '.*run\.npy' while its samples are in use: a sol"):
         zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
-    assert_same_bits(first, zd.load(tmp_path / "run.zd"))
+    assert_same_bits(first, zd.load(tmp_path / "run.npy"))
 
 
 @not_on_windows
@@ -270,22 +338,24 @@ def test_an_older_file_stays_where_no_header_can_be_written(bar, tmp_path, monke
         patched.setattr(sample_file.SampleFile, "_put", full)
         with pytest.raises(OSError, match="No space left"):
             zd.simulate(bar, 2.0, step=0.01, save_to=tmp_path / "run")
-    assert_same_bits(first, zd.load(tmp_path / "run.zd"))
-    assert [path.name for path in tmp_path.iterdir()] == ["run.zd"]
+    assert_same_bits(first, zd.load(tmp_path / "run.npy"))
+    assert names_in(tmp_path) == ["run.json", "run.npy"]
 
 
 @not_on_windows
 def test_a_file_that_is_moved_while_a_run_goes_on_keeps_its_rows(bar, tmp_path):
     """And so does the solution, which reads the file that was written and not another one of that name."""
     def move(part):
-        if not (tmp_path / "other.zd").exists():
-            (tmp_path / "run.zd").rename(tmp_path / "other.zd")
-            (tmp_path / "run.zd").write_text("notes")
+        if not (tmp_path / "other.npy").exists():
+            for ending in (".npy", ".json"):
+                (tmp_path / "run").with_suffix(ending).rename((tmp_path / "other").with_suffix(ending))
+                (tmp_path / "run").with_suffix(ending).write_text("notes")
 
     sol = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run", progress=move)
     here = zd.simulate(bar, 1.0, step=0.01)
     assert_same_bits(here, sol)
-    assert_same_bits(here, zd.load(tmp_path / "other.zd"))
+    assert_same_bits(here, zd.load(tmp_path / "other.npy"))
+    assert (tmp_path / "run.npy").read_text() == (tmp_path / "run.json").read_text() == "notes"
 
 
 # ---- one writer ----
@@ -294,14 +364,14 @@ def test_a_file_that_is_moved_while_a_run_goes_on_keeps_its_rows(bar, tmp_path):
 @pytest.mark.parametrize("executed", ["in a thread", "in a process"])
 def test_a_second_run_that_saves_to_a_file_in_use_is_refused(bar, tmp_path, executed):
     """Both orders end well: the first has its rows, and the name is free when it has ended."""
-    refusal = r"save_to must be a file that no other run writes to, and '.*run\.zd' is being written by process \d+, thread "
+    refusal = r"save_to must be a file that no other run writes to, and '.*run\.npy' is being written by process \d+, thread "
     code = "import sys, zerodrift as zd; zd.simulate(zd.systems.pendulum(), 1.0, step=0.01, save_to=sys.argv[1])"
     seen = []
 
     def again(part):
         if not seen and executed == "in a thread":
             with ThreadPoolExecutor(1) as pool, pytest.raises(zd.InUse, match=refusal) as caught:
-                pool.submit(zd.simulate, zd.systems.pendulum(), 1.0, step=0.01, save_to=tmp_path / "run.zd").result()
+                pool.submit(zd.simulate, zd.systems.pendulum(), 1.0, step=0.01, save_to=tmp_path / "run.npy").result()
             seen.append(caught.value)
         elif not seen:
             done = subprocess.run([sys.executable, "-c", code, tmp_path / "run"], capture_output=True, text=True, check=False)
@@ -311,8 +381,8 @@ def test_a_second_run_that_saves_to_a_file_in_use_is_refused(bar, tmp_path, exec
     sol = zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run", progress=again)
     assert seen
     assert_same_bits(zd.simulate(bar, 1.0, step=0.01), sol)
-    assert_same_bits(sol, zd.load(tmp_path / "run.zd"))
-    assert [path.name for path in tmp_path.iterdir()] == ["run.zd"]
+    assert_same_bits(sol, zd.load(tmp_path / "run.npy"))
+    assert names_in(tmp_path) == ["run.json", "run.npy"]
     if os.name != "nt":
         assert zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run").success
 
@@ -329,25 +399,27 @@ def test_a_run_that_fails_frees_its_file(bar, tmp_path):
 
 
 def test_what_is_refused_names_the_argument(bar, tmp_path):
-    (tmp_path / "mine.zd").write_text("notes")
-    (tmp_path / "folder.zd").mkdir()
+    (tmp_path / "mine.npy").write_text("notes")
+    (tmp_path / "folder.npy").mkdir()
+    (tmp_path / "text.json").write_text("notes")
     for to, error, message in ((3, TypeError, "save_to must be the path of a file, or None, not 3"),
                                (tmp_path / "a.npz", ValueError, "save_to must not end in .npz, which is what Solution.save"),
                                (tmp_path / "no" / "a", FileNotFoundError, "save_to must be in a folder that is there"),
                                (tmp_path / "mine", FileExistsError, "save_to must be a new file, or one that a run has"),
+                               (tmp_path / "text", FileExistsError, "save_to must be a new file"),
                                (tmp_path / "folder", FileExistsError, "save_to must be a new file")):
         with pytest.raises(error, match=message):
             zd.simulate(bar, 1.0, step=0.1, save_to=to)
     with pytest.raises(ValueError, match="save_every must be 1 where t_eval is given"):
         zd.simulate(bar, 1.0, step=0.1, save_to=tmp_path / "a", save_every=2, t_eval=[0.5])
-    assert (tmp_path / "mine.zd").read_text() == "notes"
+    assert (tmp_path / "mine.npy").read_text() == "notes"
 
 
 def test_another_byte_order_is_refused(bar, tmp_path, monkeypatch):
     zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
-    monkeypatch.setattr(sample_file.sys, "byteorder", "middle")
-    with pytest.raises(ValueError, match=r"run\.zd was written by a machine of another byte order"):
-        zd.load(tmp_path / "run.zd")
+    monkeypatch.setattr(mapped_samples.sys, "byteorder", "middle")
+    with pytest.raises(ValueError, match=r"run\.npy was written by a machine of another byte order"):
+        zd.load(tmp_path / "run.npy")
 
 
 # ---- the size, before anything runs ----

@@ -1,4 +1,4 @@
-/* Written by tests/direct_sources.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_direct.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
 #ifndef ZD_LANES
 #include "vertical_disc.h"
 

@@ -1,45 +1,41 @@
 """Files of samples: a run appends them while it is running; opening such a file maps it instead of reading it.
 
-Layout: MAGIC, the number of samples (-1 while the run is writing), the length of a JSON text, and that text, which gives the
-offset of each column within a sample and the fields of the solution that are known at the start. Samples of equal size follow,
-then, after the run has ended, the other fields in the format of `Solution.save`. A killed run leaves the samples written so far.
+``run.npy`` is an array of NumPy with a structured type, one field per column, which `numpy.load` opens, also with ``mmap_mode``.
+Its header has room for the largest number of samples and is rewritten after each flush, so that a killed run leaves what it
+flushed. After the array follow, once the run has ended, the other fields in the format of `Solution.save`. ``run.json`` has
+offset and shape of each column, recorded outputs, and the fields of the solution that are known at the start.
 """
 
 from __future__ import annotations
 
 import contextlib
 import io
-import itertools
 import json
 import os
-import struct
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, BinaryIO
-from zipfile import BadZipFile
+from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
 from .._locking import Lock
 from .._writing import temporary_beside
-from ..systems.base import BaseSystem
-from . import memory
-from .saving import EVENTS, described, packed, unpacked
+from . import mapped_samples, memory
+from .saving import EVENTS, described, packed
 from .solution import FIELDS, Solution
 
-SUFFIX = ".zd"
-MAGIC = b"zerodrift rows 1"
-HEADER = struct.Struct("=16sqq")
-UNKNOWN = -1            # number of samples while the run is writing
+SUFFIX = ".npy"
+EARLIER_SUFFIX = ".zd"  # of files in the format before NPY
+FORMAT = 2
+MOST_ROWS = 2**63 - 1   # the header has room for this number
+MAGIC = mapped_samples.MAGIC + bytes((1, 0))        # of NPY, version 1.0
 ALIGNED = 64            # bytes: the samples begin at a multiple of this offset
 BLOCK = 2**20           # bytes of samples buffered in memory before they are written; at least one sample
-NAMES = {"kinetic": "kinetic_energy", "potential": "potential_energy", "input": "energy_input"}     # of a solution, by column
 NOT_IN_ROWS = [name for name in FIELDS if name not in (
     "t", "p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
     "energy_input", "energy_violation", "outputs", *_gateway.COUNTS)]
-STOPPED = "stopped from outside, or has not ended yet"
 AS_WINDOWS = os.name == "nt"        # files that are open, or mapped into memory, are neither removed nor replaced there
 
 
@@ -50,21 +46,16 @@ def checked(save_to: Any) -> Path | None:
     path = Path(_check.instance("save_to", save_to, str | Path, "the path of a file, or None"))
     if path.suffix == ".npz":
         raise ValueError(f"save_to must not end in .npz, which is what Solution.save writes, but {str(path)!r} does")
+    if path.suffix == EARLIER_SUFFIX:
+        path = path.with_suffix(SUFFIX)
     path = path if path.suffix == SUFFIX else path.with_name(path.name + SUFFIX)
     if not path.parent.is_dir():
         raise FileNotFoundError(f"save_to must be in a folder that is there, and {str(path.parent)!r} is not")
-    if path.exists() and not is_one(path):
-        raise FileExistsError(f"save_to must be a new file, or one that a run has written before, which {str(path)!r} is not")
+    beside = mapped_samples.description_of(path)
+    for each, is_ours in ((path, mapped_samples.is_one), (beside, mapped_samples.is_description)):
+        if each.exists() and not is_ours(each):
+            raise FileExistsError(f"save_to must be a new file, or one that a run has written before, which {str(each)!r} is not")
     return path
-
-
-def is_one(path: str | Path) -> bool:
-    """Return whether a file exists and begins like a file of samples."""
-    path = Path(path)
-    if not path.is_file():
-        return False
-    with path.open("rb") as file:
-        return file.read(len(MAGIC)) == MAGIC
 
 
 class SampleFile:
@@ -75,20 +66,33 @@ class SampleFile:
         memory.check_disk(rows, row, path.parent)
         most = max(1, BLOCK // row)
         self._record = _gateway.Record(core, most if rows is None else min(most, rows), outputs)
-        self._path, self._row, self.rows = path, row, 0
+        self._path, self._row, self._begin, self.rows = path, row, 0, 0
 
     def begin(self, known: dict[str, Any], position_size: np.ndarray, outputs: Mapping[str, int]) -> None:
         """Write the header: fields of the solution that are known at the start, and the size of each recorded output by name."""
-        values = {"status": _gateway.INTERRUPTED, "success": False, "message": STOPPED, "stats": {}, "outputs": (),
-                  **dict.fromkeys(EVENTS), **known}
-        layout = {"row bytes": self._row, "byte order": sys.byteorder, "columns": self._record.columns,
-                  "integers": _gateway.COUNTS, "solution": described(values), "position size": position_size.tolist(),
-                  "outputs": outputs}
-        content = json.dumps(layout).encode()
-        content += b" " * (-(HEADER.size + len(content)) % ALIGNED)
-        self._begin = HEADER.size + len(content)
-        with _replacing(self._path) as self._file:
-            self._put(HEADER.pack(MAGIC, UNKNOWN, len(content)) + content)
+        layout = {mapped_samples.FORMAT: FORMAT, "row bytes": self._row, "byte order": sys.byteorder,
+                  "columns": self._record.columns, "integers": _gateway.COUNTS,
+                  "position size": position_size.tolist(), "outputs": outputs,
+                  "solution": described({"outputs": (), **dict.fromkeys(EVENTS), **known})}
+        names = {name: mapped_samples.NAMES.get(name, name) for name in self._record.columns}
+        self._type = [*((names[name], "=f8", shape) for name, (_, shape) in self._record.columns.items()),
+                      *((name, "=i4") for name in _gateway.COUNTS)]
+        self._begin = len(self._header(MOST_ROWS))
+        self._begin += -self._begin % ALIGNED
+        with _replacing(self._path, json.dumps(layout).encode()) as self._file:
+            self._put(self._header(0))
+
+    def _header(self, rows: int) -> bytes:
+        """Header of an NPY file, version 1.0, filled with blanks up to the first sample."""
+        text = repr({"descr": np.lib.format.dtype_to_descr(np.dtype(self._type)), "fortran_order": False, "shape": (rows,)})
+        length = max(self._begin - len(MAGIC) - 2, len(text) + 1)
+        return MAGIC + length.to_bytes(2, "little") + text.ljust(length - 1).encode() + b"\n"
+
+    def _count(self) -> None:
+        """Write the number of samples into the header."""
+        self._file.seek(0)
+        self._put(self._header(self.rows))
+        self._file.seek(self._begin + self.rows * self._row)
 
     def _put(self, content: Any) -> None:
         """Write all bytes: one write to an unbuffered file may be partial."""
@@ -114,13 +118,15 @@ class SampleFile:
         if len(rows):
             self._put(rows)
             self.rows += len(rows)
+            self._count()
 
     grow = keep         # writing empties the buffer
 
     def join(self) -> None:
         """Map the written samples, without the partial one that a full disk may have left."""
         self._file.truncate(self._begin + self.rows * self._row)    # before it is mapped: Windows cannot truncate a mapped file
-        self._opened = _columns(self._file, self._begin, self.rows, self._row, self._record.columns, _gateway.COUNTS)
+        self._opened = mapped_samples.columns(
+            self._file, self._begin, self.rows, self._row, self._record.columns, _gateway.COUNTS)
 
     def take(self) -> dict[str, np.ndarray]:
         """Columns by name, mapped from the file."""
@@ -131,10 +137,6 @@ class SampleFile:
         rest = io.BytesIO()
         np.savez(rest, **packed({name: getattr(solution, name) for name in NOT_IN_ROWS} | {"outputs": {}}))
         with self._file:
-            self._sync()        # samples reach the disk before the header that counts them
-            self._file.seek(0)
-            self._put(HEADER.pack(MAGIC, self.rows, self._begin - HEADER.size))
-            self._sync()
             self._file.seek(self._begin + self.rows * self._row)
             self._put(rest.getvalue())
             self._sync()
@@ -150,21 +152,27 @@ def locked(path: Path) -> Lock:
 
 
 @contextlib.contextmanager
-def _replacing(path: Path) -> Iterator[Any]:
-    """New file that replaces an older one once its header is written; solutions that map the older one stay valid."""
+def _replacing(path: Path, description: bytes) -> Iterator[Any]:
+    """New file and description, which replace older ones once they are written; solutions that map the older file stay valid."""
+    beside = mapped_samples.description_of(path)
     if AS_WINDOWS:      # an open file cannot be renamed there
         _remove(path)
+        beside.write_bytes(description)
         yield path.open("x+b", buffering=0)
         return
-    temporary = temporary_beside(path)
+    temporary, temporary_description = temporary_beside(path), temporary_beside(path)
     file = temporary.open("x+b", buffering=0)
     try:
+        temporary_description.write_bytes(description)
         yield file
         os.fsync(file.fileno())
+        path.unlink(missing_ok=True)        # so that no samples are ever beside the description of others
+        os.replace(temporary_description, beside)
         os.replace(temporary, path)
     except BaseException:
         file.close()
-        temporary.unlink(missing_ok=True)
+        for each in (temporary, temporary_description):
+            each.unlink(missing_ok=True)
         raise
 
 
@@ -175,65 +183,3 @@ def _remove(path: Path) -> None:
     except PermissionError as error:
         raise PermissionError(f"save_to cannot replace {str(path)!r} while its samples are in use: a solution that "
                               "reads them, here or in another process, has to go first; or take another name") from error
-
-
-def _columns(file: Path | BinaryIO, begin: int, rows: int, row: int, columns: Mapping[str, Any],
-             integers: Any) -> dict[str, np.ndarray]:
-    """Columns of a file by name, mapped into memory: only the parts that are used are read."""
-    shape = rows, row // 8
-    table = np.asarray(np.memmap(file, float, "r", begin, shape)) if rows else np.empty(shape)
-    found = {name: table[:, start:start + int(np.prod(shape))].reshape(rows, *shape) for name, (start, shape) in columns.items()}
-    counts = table.view(np.intc)
-    return found | {name: counts[:, i - len(integers)] for i, name in enumerate(integers)}
-
-
-def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> dict[str, Any]:
-    """Fields of the solution in a file, its columns mapped. `rebuilt` makes the system of a mechanism from JSON."""
-    path = Path(path)
-    with path.open("rb") as file:
-        rows, length, layout = _header(path, file.read)
-        begin, row = HEADER.size + length, layout["row bytes"]
-        if layout["byte order"] != sys.byteorder:
-            raise ValueError(f"{path} was written by a machine of another byte order, {layout['byte order']}")
-        if has_ended := rows != UNKNOWN:
-            file.seek(begin + rows * row)
-        else:
-            rows = (path.stat().st_size - begin) // row
-        rest = _rest(file.read()) if has_ended else {}
-    columns = _columns(path, begin, rows, row, layout["columns"], layout["integers"])
-    description = json.loads(str(rest.pop("zerodrift"))) if rest else layout["solution"] | {"message": _stopped(columns["t"])}
-    arrays = rest or {"position_size": np.array(layout["position size"])}
-    outputs = _split(columns.pop("outputs", None), layout["outputs"])
-    energies = dict.fromkeys(("potential_energy", "energy_input", "energy_violation"))
-    named = {NAMES.get(name, name): column for name, column in columns.items()}
-    return unpacked(description, arrays, rebuilt) | energies | named | {"outputs": outputs}
-
-
-def _header(path: Path, take: Callable[[int], bytes]) -> tuple[int, int, dict[str, Any]]:
-    """Number of samples, length of the JSON text, and that text parsed."""
-    try:
-        _, rows, length = HEADER.unpack(take(HEADER.size))
-        return rows, length, json.loads(take(length))
-    except (struct.error, ValueError) as error:
-        raise ValueError(f"{path} cannot be read: its header must be whole ({error})") from None
-
-
-def _rest(content: bytes) -> dict[str, np.ndarray]:
-    """Fields written after the samples; empty if they are incomplete."""
-    try:
-        with np.load(io.BytesIO(content), allow_pickle=False) as file:
-            return dict(file)
-    except (BadZipFile, EOFError, ValueError):
-        return {}
-
-
-def _stopped(t: np.ndarray) -> str:
-    """Message of a run that did not end."""
-    return f"{STOPPED}: there are " + (f"{len(t)} samples, the last at t = {t[-1]:.6g}" if len(t) else "no samples")
-
-
-def _split(rows: np.ndarray | None, sizes: Mapping[str, int]) -> dict[str, np.ndarray]:
-    """Measures by name, (k,) or (k, size) each, from the samples (k, sum of sizes) of all of them."""
-    ends = itertools.accumulate(sizes.values())
-    parts = {name: rows[:, end - size:end] for (name, size), end in zip(sizes.items(), ends, strict=True)}
-    return {name: part[:, 0] if part.shape[1] == 1 else part for name, part in parts.items()}

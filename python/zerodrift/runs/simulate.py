@@ -113,9 +113,10 @@ def simulate(
         the run. ``sol[name]`` then reads the record, and `Solution.save` includes it. Measures that are not recorded are
         evaluated by ``sol[name]`` at access; recording is cheaper if many are used.
     save_to : str or Path, optional
-        File to which samples are written during the run, for records larger than memory. The arrays of the solution, and
-        those of `load`, are then mapped from the file. The suffix ``.zd`` is added if it is missing. A killed run leaves the
-        samples written so far. An older file of the same name is replaced at the start, unless another run is writing it.
+        File to which samples are written during the run, for records larger than memory: an array with a structured type,
+        which any NumPy opens, with the suffix ``.npy``, which is added if it is missing, and its description with ``.json``.
+        The arrays of the solution, and those of `load`, are then mapped from the file. A killed run leaves the samples
+        written so far. An older file of the same name is replaced at the start, unless another run is writing it.
     on_singular : {"stop", "continue"}
         Behaviour when the motion reaches a bifurcation, at the end of a step or within it. A bifurcation is a position in
         which constraints that are independent elsewhere become dependent and no longer determine the motion, as in a

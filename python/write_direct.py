@@ -1,24 +1,30 @@
-"""The direct functions of built-in systems, written from their counterparts in SymPy: ``python tests/direct_sources.py`` writes
-them anew into csrc/systems/direct, after which the core has to be built again.
+"""Writer of csrc/systems/direct, the closed-form functions of built-in systems, from their
+derivations in tests/symbolic_counterparts.py:
+``python python/write_direct.py``, after which the core has to be built again.
 """
+
+import sys
+from pathlib import Path
 
 import sympy
 
-from support import ROOT
-from symbolic_counterparts import OF_PARAMETERS
-from zerodrift.symbolics.emit import closed_form
+ROOT = Path(__file__).resolve().parent.parent
+sys.path += [str(ROOT / "tests"), str(ROOT / "python")]     # where it does not run in the test suite
+
+from symbolic_counterparts import OF_PARAMETERS  # noqa: E402
+from zerodrift.symbolics.emit import closed_form  # noqa: E402
 
 FOLDER = ROOT / "csrc" / "systems" / "direct"
-# Where in the doubles of a system those of its direct functions begin: behind its own, or with these where they are the same.
+# Offset of the constants of the closed-form functions in the doubles of a system: after its own, or 0 where they are the same.
 BEGINS = {"four_bar": 14, "driven_four_bar": 18, "pendulum": 0, "slider_crank": 0, "chaplygin_sleigh": 0,
           "oscillator": 0, "knife_edge": 0, "vertical_disc": 0}
-# Systems that bring their own D have no independent velocities that are entries of v.
+# Systems that provide D have no independent velocities that are entries of v.
 EMBEDS = {"chaplygin_sleigh": (False,), "knife_edge": (False,)}
-HEADING = f"/* Written by tests/direct_sources.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
+HEADING = f"/* Written by python/write_direct.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
 
 
 def sources():
-    """The text of each file by its name."""
+    """Text of each file by its name."""
     texts, sizes = {}, {}
     for name, counterpart in OF_PARAMETERS.items():
         system = counterpart()
