@@ -29,10 +29,11 @@ ARC = np.linspace(-1.9, 0.05, 200)     # rad, the part of the manifold that is d
 
 
 def figure_1() -> Figure:
-    """Inaccuracy of the state, (a) in dependent coordinates, which leave the manifold, (b) in an independent one, which do not."""
+    """Inaccuracy of the state, (a) in dependent coordinates, which leave the manifold, (b) in an independent coordinate."""
     figure, axes = plot.panels(1, 2, 9, 4.6)
     exact = _run(step=1e-3, integrator="rk4")
-    for ax, title, independent in ((axes[0, 0], "(a) dependent coordinates", False), (axes[0, 1], "(b) independent coordinate", True)):
+    for ax, title in zip(axes[0], ("(a) dependent coordinates", "(b) independent coordinate"), strict=True):
+        independent = ax is axes[0, 1]
         run = _of_angle() if independent else _run(step=STEP, integrator="euler", stabilization=None).p
         _manifold(ax, title)
         ax.plot(*exact.p.T, color=EXACT, linewidth=2.5, label="exact motion")
@@ -68,7 +69,7 @@ def figure_2(p: Any = (0.5, -1.2), v: Any = (0.75, -0.05)) -> Figure:
 
 
 def figure_3(p: Any = (0.5, -1.2), v: Any = (0.75, -0.05), share: float = 0.55) -> Figure:
-    """Correction of the energy, (29): the velocity keeps its direction in the tangent and gets the length that the energy requires."""
+    """Correction of the energy, (29): the velocity keeps its direction, and the energy determines its length."""
     figure, axes = plot.panels(1, 1, 6, 5)
     ax = axes[0, 0]
     p, v = project(PENDULUM, np.array(p), np.array(v))
