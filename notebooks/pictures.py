@@ -31,7 +31,7 @@ def mechanisms() -> Figure:
     figure, axes = zd.plot.panels(1, 4, 15, 4.2, width_ratios=(1.35, 1.25, 1.1, 1.05))
     zd.plot.mechanism(zd.simulate(slider_crank(), 1.0), t=0.035, names=True, forces=["pin", "wrist", "cylinder"], ax=axes[0, 0])
     for ax, model, path in ((axes[0, 1], zd.models.jansen(), "F"), (axes[0, 2], zd.models.quick_return(), "ram")):
-        zd.plot.mechanism(zd.simulate(model, 1.0, step=0.005), path=path, ax=ax)
+        zd.plot.mechanism(zd.simulate(model, 1.0, step=0.005), ghosts=3, path=path, ax=ax)
     zd.plot.mechanism(zd.simulate(zd.models.planetary_gear(), 0.6, step=0.002), t=0.1, ax=axes[0, 3])
     for ax in axes.flat:
         ax.axis("off")

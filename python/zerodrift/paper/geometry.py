@@ -77,9 +77,11 @@ def figure_3(p: Any = (0.5, -1.2), v: Any = (0.75, -0.05), share: float = 0.55) 
     required = v * speed / np.hypot(*v)
     _manifold(ax, "the energy correction changes the length of v")
     turn = np.linspace(0, 2 * np.pi, 200)
-    ax.plot(p[0] + speed * np.cos(turn), p[1] + speed * np.sin(turn), ":", color="gray", label="velocities of the required energy")
+    circle = p + speed * np.column_stack([np.cos(turn), np.sin(turn)])
+    ax.plot(*circle.T, ":", color="gray", label="velocities of the required energy")
     tangent = v / np.hypot(*v)
-    ax.plot(*(p + np.outer([-0.6, 0.75], tangent)).T, "--", color="gray", linewidth=1, label="velocities that the constraint allows")
+    line = p + np.outer([-0.6, 0.75], tangent)
+    ax.plot(*line.T, "--", color="gray", linewidth=1, label="velocities that the constraint allows")
     _arrow(ax, p, v, NUMERICAL, "v̄")
     _arrow(ax, p, required, CORRECTED, "v̿", side=-1)
     _point(ax, p, CORRECTED, "p̄")
@@ -105,7 +107,8 @@ def _of_angle() -> np.ndarray:
 
 
 def _manifold(ax: Axes, title: str) -> None:
-    ax.plot(np.cos(ARC), np.sin(ARC), color="gray", linewidth=5, alpha=0.35, solid_capstyle="round", label="constraint manifold, Φ = 0")
+    ax.plot(np.cos(ARC), np.sin(ARC), color="gray", linewidth=5, alpha=0.35, solid_capstyle="round",
+            label="constraint manifold, Φ = 0")
     ax.set_title(title)
     ax.set_aspect("equal")
     ax.set(xlabel="x [m]", ylabel="y [m]")
@@ -132,5 +135,6 @@ def _between(ax: Axes, start: np.ndarray, end: np.ndarray, name: str, aside: tup
 
 def _explained(figure: Figure, columns: int = 3) -> Figure:
     """Legend below all axes, where it covers nothing."""
-    figure.legend(*figure.axes[0].get_legend_handles_labels(), frameon=False, loc="outside lower center", ncols=columns, fontsize=9)
+    lines, names = figure.axes[0].get_legend_handles_labels()
+    figure.legend(lines, names, frameon=False, loc="outside lower center", ncols=columns, fontsize=9)
     return figure
