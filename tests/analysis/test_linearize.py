@@ -97,22 +97,47 @@ def test_a_free_rotor_nutates_in_fixed_axes(layout):
 
 
 def test_frequency_of_a_four_bar_is_that_of_small_oscillations():
+    """Periods of three oscillations, extrapolated to zero energy; the period is an analytic function of the energy."""
     bar = zd.models.four_bar().system("joint")
     rest = zd.equilibrium(bar)
     lin = zd.linearize(bar, rest)
-    periods = []
-    for amplitude in (0.02, 0.01):
+    periods, energies = [], []
+    for amplitude in (0.08, 0.04, 0.02):
         p, v = zd.assemble(bar, {"crank.angle": rest["crank.angle"] + amplitude, "crank.angular_velocity": 0.0})
 
         def speed(t, p, v):
             return v[0]
 
-        speed.direction, speed.terminal = -1, 3
-        sol = zd.simulate(bar, 10.0, p, v, integrator="dop853", rtol=1e-12, atol=1e-14, events=[speed])
-        crossings = sol.t_events[0]
-        periods.append((crossings[-1] - crossings[0]) / (len(crossings) - 1))
-    small = periods[1] + (periods[1] - periods[0]) / 3        # the period grows with the square of the amplitude
-    assert 1 / lin.frequencies[0] == pytest.approx(small, rel=1e-7)       # the next term is amplitude^4, 1e-8
+        speed.direction, speed.terminal = -1, 2
+        sol = zd.simulate(bar, 10.0, p, v, integrator="dop853", rtol=1e-13, atol=1e-15, events=[speed])
+        periods.append(float(np.diff(sol.t_events[0]).mean()))
+        energies.append(bar.evaluate(p, np.zeros(3)).V - bar.evaluate(rest.p, np.zeros(3)).V)
+    small = np.polyfit(energies, periods, 2)[-1]
+    assert 1 / lin.frequencies[0] == pytest.approx(small, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["four_bar", "double_wishbone"])
+def test_accelerations_of_every_formulation_have_the_spectrum(name, formulation):
+    """A from fourth-order differences of accelerations at states on the constraints; the basis does not move at rest."""
+    system = getattr(zd.models, name)().system("joint")
+    if formulation not in zd.formulations(system):
+        pytest.skip("the system does not have what it needs")
+    eq = zd.equilibrium(system)
+    lin = zd.linearize(system, eq)
+
+    def flow(state):
+        p, v = zd.project(system, *np.split(state, [system.nq]), projection=zd.Projection(tol=1e-13))
+        vdot, _ = zd.acceleration(system, p, v, 0.0, formulation)
+        return np.concatenate([v if (A := system.evaluate(p, v).A) is None else A @ v, vdot])
+
+    here, h, columns = np.concatenate([eq.p, eq.v]), 1e-3, []
+    for column in lin.basis.T:
+        step = h * column / max(1.0, np.abs(column).max())
+        change = 8 * (flow(here + step) - flow(here - step)) - flow(here + 2 * step) + flow(here - 2 * step)
+        columns.append(np.linalg.lstsq(lin.basis, change / 12, rcond=None)[0] * np.abs(column).max(initial=1.0) / h)
+    found = np.linalg.eigvals(np.array(columns).T)
+    size = np.abs(lin.eigenvalues).max()
+    assert max(np.abs(found - each).min() for each in lin.eigenvalues) < 1e-7 * size
 
 
 @pytest.mark.parametrize("name", ["four_bar", "closed_pendulum", "double_wishbone", "quarter_car", "andrews", "heavy_top"])

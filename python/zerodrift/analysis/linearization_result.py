@@ -16,6 +16,8 @@ from .quantities import find, names_of
 from .spectrum import complement, of_matrix
 from .state import scales, state
 
+ROUNDING = 1e-12        # of an eigenvalue: a smaller real part is printed as zero
+
 
 class Linearization:
     """A linear motion z' = A z + B u, y = C z + D u, (p, v) = (p0, v0) + basis z.
@@ -137,8 +139,10 @@ class Linearization:
         for i, value in enumerate(self.eigenvalues):
             if value.imag < 0:
                 continue
-            number = f"{value.real:+.6g}" + (f" ± {value.imag:.6g}i" if value.imag else "")
-            lines.append(f"    {self.frequencies[i]:<16.6g} {self.damping[i]:<15.4g} {number:<27} {self.dominant(i)}")
+            is_damped = abs(value.real) > ROUNDING * abs(value)
+            number = f"{value.real if is_damped else 0.0:+.6g}" + (f" ± {value.imag:.6g}i" if value.imag else "")
+            damping = self.damping[i] if is_damped else 0.0
+            lines.append(f"    {self.frequencies[i]:<16.6g} {damping:<15.4g} {number:<27} {self.dominant(i)}")
         if self.ignored:
             lines.append(f"  ignored: {', '.join(self.ignored)}")
         if np.any(self.rate):

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import _check
-from ..analysis.linearization_result import Linearization
+from ..analysis.linearization_result import ROUNDING, Linearization
 from ..analysis.retraction import onto
 from . import style as _style
 from .drawing import drawing_axes
@@ -60,7 +60,8 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
         ax.plot(*lin.system.points(p).T, **{"color": _style.COLOURS[1], "alpha": 0.45, "linewidth": 1.0} | style)
     ax.plot(*reference.T, color=_style.COLOURS[0], linewidth=1.6)
     value = lin.eigenvalues[index]
-    pair = f"{lin.frequencies[index]:.4g} Hz, damping ratio {lin.damping[index]:.3g}"
+    damping = lin.damping[index] if abs(lin.damping[index]) > ROUNDING else 0.0
+    pair = f"{lin.frequencies[index]:.4g} Hz, damping ratio {damping:.3g}"
     ax.set_title(pair if value.imag else f"{value.real:.4g} 1/s")
     return ax
 
