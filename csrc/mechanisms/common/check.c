@@ -87,3 +87,41 @@ int zd_elements_are_right(const zd_elements *elements, int joints, int gauges, z
             if (!all[k].is_right(&of, i, to)) return 0;
     return 1;
 }
+
+int zd_mass_is_right(int body, double mass, zd_complaint to)
+{
+    return mass >= 0 || zd_complain(to, "body %d: its mass must not be negative, and is %g", body, mass);
+}
+
+int zd_inertia_is_right(int body, double inertia, int is_particle, zd_complaint to)
+{
+    if (!(inertia >= 0)) return zd_complain(to, "body %d: its inertia must not be negative, and is %g", body, inertia);
+    return !is_particle || inertia == 0 || zd_complain(to, "body %d: a particle has no inertia", body);
+}
+
+int zd_bodies_are_right(const char *entry, int index, const char *verb, int first, int second, int bodies, zd_complaint to)
+{
+    return (zd_is_in(first, bodies + 1) && zd_is_in(second, bodies + 1)) ||
+           zd_complain(to, "%s %d: it %s bodies %d and %d, and the last one is %d", entry, index, verb, first,
+                       second, bodies);
+}
+
+int zd_carrier_exists(int body, int carrier, int joints, zd_complaint to)
+{
+    return zd_is_in(carrier, joints) || zd_complain(to, "body %d: there is no joint %d to carry it", body, carrier);
+}
+
+int zd_carrier_connects(int body, int carrier, int first, int second, zd_complaint to)
+{
+    return body == first || body == second || zd_complain(to, "body %d: joint %d, which is to carry it, does not touch it", body, carrier);
+}
+
+int zd_mechanism_is_right(const void *tables, int bodies, int arrays, const zd_checked *checked, const zd_elements *elements, int joints,
+                          int gauges, zd_complaint to)
+{
+    if (bodies < 1) return zd_complain(to, "a mechanism needs at least one body");
+    for (int k = 0; k < arrays; k++)
+        for (int i = 0; i < checked[k].count; i++)
+            if (!checked[k].is_right(tables, i, to)) return 0;
+    return zd_elements_are_right(elements, joints, gauges, to);
+}

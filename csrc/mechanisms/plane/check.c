@@ -5,18 +5,16 @@
 
 #include "../common/check.h"
 
-static int is_body(const zd_plane_tables *tables, int body) { return zd_is_in(body, tables->bodies + 1); }
 static int is_particle(const zd_plane_tables *tables, int body) { return body && tables->body[body - 1].is_particle; }
 
 static int carrier_is_right(const zd_plane_tables *tables, int i, zd_complaint to)
 {
     int carrier = tables->body[i].carrier, body = i + 1;
     if (carrier == -1) return 1;
-    if (!zd_is_in(carrier, tables->joints)) return zd_complain(to, "body %d: there is no joint %d to carry it", body, carrier);
+    if (!zd_carrier_exists(body, carrier, tables->joints, to)) return 0;
     const zd_plane_joint *joint = tables->joint + carrier;
     const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(joint->kind);
-    int touches = body == joint->first || body == joint->second;
-    if (!touches) return zd_complain(to, "body %d: joint %d, which is to carry it, does not touch it", body, carrier);
+    if (!zd_carrier_connects(body, carrier, joint->first, joint->second, to)) return 0;
     if (kind->carrier == ZD_CARRIES_NOTHING) return zd_complain(to, "body %d: joint %d is a %s and carries nothing", body, carrier,
                                                                 kind->card.name);
     if (kind->carrier != ZD_TURNS && (is_particle(tables, joint->first) || is_particle(tables, joint->second)))
@@ -27,12 +25,12 @@ static int carrier_is_right(const zd_plane_tables *tables, int i, zd_complaint t
     return 1;
 }
 
-static int body_is_right(const zd_plane_tables *tables, int i, zd_complaint to)
+static int body_is_right(const void *all, int i, zd_complaint to)
 {
+    const zd_plane_tables *tables = all;
     const zd_plane_body *body = tables->body + i;
-    if (!(body->mass >= 0)) return zd_complain(to, "body %d: its mass must not be negative, and is %g", i + 1, body->mass);
-    if (!(body->inertia >= 0)) return zd_complain(to, "body %d: its inertia must not be negative, and is %g", i + 1, body->inertia);
-    if (body->is_particle && body->inertia > 0) return zd_complain(to, "body %d: a particle has no inertia", i + 1);
+    if (!zd_mass_is_right(i + 1, body->mass, to)) return 0;
+    if (!zd_inertia_is_right(i + 1, body->inertia, body->is_particle, to)) return 0;
     return carrier_is_right(tables, i, to);
 }
 
@@ -43,13 +41,13 @@ static int suits_particles(const zd_plane_tables *tables, int first, int second,
            !(is_particle(tables, second) && (point2[0] != 0 || point2[1] != 0));
 }
 
-static int joint_is_right(const zd_plane_tables *tables, int i, zd_complaint to)
+static int joint_is_right(const void *all, int i, zd_complaint to)
 {
+    const zd_plane_tables *tables = all;
     const zd_plane_joint *joint = tables->joint + i;
     const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(joint->kind);
     if (!kind) return zd_complain(to, "joint %d: there is no kind %d", i, joint->kind);
-    if (!is_body(tables, joint->first) || !is_body(tables, joint->second))
-        return zd_complain(to, "joint %d: it joins bodies %d and %d, and the last one is %d", i, joint->first, joint->second, tables->bodies);
+    if (!zd_bodies_are_right("joint", i, "joins", joint->first, joint->second, tables->bodies, to)) return 0;
     if (joint->first == joint->second && !kind->row[0].nonholonomic) return zd_complain(to, "joint %d: it joins body %d to itself", i,
                                                                                         joint->first);
     if (!suits_particles(tables, joint->first, joint->second, joint->point1, joint->point2))
@@ -57,13 +55,12 @@ static int joint_is_right(const zd_plane_tables *tables, int i, zd_complaint to)
     return 1;
 }
 
-static int gauge_is_right(const zd_plane_tables *tables, int i, zd_complaint to)
+static int gauge_is_right(const void *all, int i, zd_complaint to)
 {
+    const zd_plane_tables *tables = all;
     const zd_plane_gauge *gauge = tables->gauge + i;
     if (!zd_is_in(gauge->kind, ZD_GAUGE_KINDS)) return zd_complain(to, "gauge %d: there is no kind %d", i, gauge->kind);
-    if (!is_body(tables, gauge->first) || !is_body(tables, gauge->second))
-        return zd_complain(to, "gauge %d: it is read off bodies %d and %d, and the last one is %d", i, gauge->first, gauge->second,
-                           tables->bodies);
+    if (!zd_bodies_are_right("gauge", i, "is read off", gauge->first, gauge->second, tables->bodies, to)) return 0;
     if (!suits_particles(tables, gauge->first, gauge->second, gauge->point1, gauge->point2))
         return zd_complain(to, "gauge %d: a particle has no points but its own", i);
     return 1;
@@ -71,16 +68,9 @@ static int gauge_is_right(const zd_plane_tables *tables, int i, zd_complaint to)
 
 int zd_plane_tables_are_right(const zd_plane_tables *tables, char *message, int message_size)
 {
-    zd_complaint to = {message, message_size};
-    const struct {
-        int count;
-        int (*is_right)(const zd_plane_tables *, int, zd_complaint);
-    } all[] = {     /* joints before the bodies that they carry */
-        {tables->joints, joint_is_right}, {tables->bodies, body_is_right}, {tables->gauges, gauge_is_right},
-    };
-    if (tables->bodies < 1) return zd_complain(to, "a mechanism needs at least one body");
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-        for (int i = 0; i < all[k].count; i++)
-            if (!all[k].is_right(tables, i, to)) return 0;
-    return zd_elements_are_right(&tables->elements, tables->joints, tables->gauges, to);
+    const zd_complaint to = {message, message_size};
+    const zd_checked all[] = {     /* joints before the bodies whose inboard joints they are */
+        {tables->joints, joint_is_right}, {tables->bodies, body_is_right}, {tables->gauges, gauge_is_right}};
+    const int arrays = sizeof all / sizeof all[0];
+    return zd_mechanism_is_right(tables, tables->bodies, arrays, all, &tables->elements, tables->joints, tables->gauges, to);
 }

@@ -1,4 +1,4 @@
-/* Bodies, joints and gauges of space; what gauges are used for is looked at elsewhere. */
+/* Checks of bodies, joints and gauges in space; elements are checked in ../common/check.c. */
 #include "check.h"
 
 #include <stddef.h>
@@ -18,11 +18,10 @@ static int carrier_is_right(const zd_space_tables *tables, int i, zd_complaint t
 {
     const int carrier = tables->body[i].carrier, body = i + 1;
     if (carrier == -1) return 1;
-    if (!zd_is_in(carrier, tables->joints)) return zd_complain(to, "body %d: there is no joint %d to carry it", body, carrier);
+    if (!zd_carrier_exists(body, carrier, tables->joints, to)) return 0;
     const zd_space_joint *joint = tables->joint + carrier;
     const zd_space_joint_kind *kind = zd_space_joint_kind_of(joint->kind);
-    if (body != joint->first && body != joint->second)
-        return zd_complain(to, "body %d: joint %d, which is to carry it, does not touch it", body, carrier);
+    if (!zd_carrier_connects(body, carrier, joint->first, joint->second, to)) return 0;
     if (!kind->carries) return zd_complain(to, "body %d: joint %d is a %s and carries nothing", body, carrier, kind->card.name);
     if ((is_particle(tables, joint->first) && !swings(kind, 0)) || (is_particle(tables, joint->second) && !swings(kind, kind->freedoms - 1)))
         return zd_complain(to, "body %d: joint %d is a %s, and a particle has no axes", body, carrier, kind->card.name);
@@ -32,21 +31,14 @@ static int carrier_is_right(const zd_space_tables *tables, int i, zd_complaint t
     return 1;
 }
 
-static int body_is_right(const zd_space_tables *tables, int i, zd_complaint to)
+static int body_is_right(const void *all, int i, zd_complaint to)
 {
+    const zd_space_tables *tables = all;
     const zd_space_body *body = tables->body + i;
-    const double *I = body->inertia;
-    if (!(body->mass >= 0)) return zd_complain(to, "body %d: its mass must not be negative, and is %g", i + 1, body->mass);
-    for (int k = 0; k < 3; k++) {
-        if (!(I[k] >= 0)) return zd_complain(to, "body %d: its inertia must not be negative, and is %g", i + 1, I[k]);
-        if (body->is_particle && I[k] > 0) return zd_complain(to, "body %d: a particle has no inertia", i + 1);
-    }
+    if (!zd_mass_is_right(i + 1, body->mass, to)) return 0;
+    for (int k = 0; k < 3; k++)
+        if (!zd_inertia_is_right(i + 1, body->inertia[k], body->is_particle, to)) return 0;
     return carrier_is_right(tables, i, to);
-}
-
-static int are_bodies(const zd_space_tables *tables, int first, int second)
-{
-    return zd_is_in(first, tables->bodies + 1) && zd_is_in(second, tables->bodies + 1);
 }
 
 /* A particle has no axes: its point is its place. */
@@ -55,12 +47,12 @@ static int suits_particle(const zd_space_tables *tables, int body, const double 
     return !(body && tables->body[body - 1].is_particle) || (point[0] == 0 && point[1] == 0 && point[2] == 0);
 }
 
-static int joint_is_right(const zd_space_tables *tables, int i, zd_complaint to)
+static int joint_is_right(const void *all, int i, zd_complaint to)
 {
+    const zd_space_tables *tables = all;
     const zd_space_joint *joint = tables->joint + i;
     if (!zd_space_joint_kind_of(joint->kind)) return zd_complain(to, "joint %d: there is no kind %d", i, joint->kind);
-    if (!are_bodies(tables, joint->first, joint->second))
-        return zd_complain(to, "joint %d: it joins bodies %d and %d, and the last one is %d", i, joint->first, joint->second, tables->bodies);
+    if (!zd_bodies_are_right("joint", i, "joins", joint->first, joint->second, tables->bodies, to)) return 0;
     if (joint->first == joint->second) return zd_complain(to, "joint %d: it joins body %d to itself", i, joint->first);
     return (suits_particle(tables, joint->first, joint->point1) && suits_particle(tables, joint->second, joint->point2)) ||
            zd_complain(to, "joint %d: a particle has no points but its own", i);
@@ -73,13 +65,12 @@ static int angles_of(const zd_space_tables *tables)
     return angles;
 }
 
-static int gauge_is_right(const zd_space_tables *tables, int i, zd_complaint to)
+static int gauge_is_right(const void *all, int i, zd_complaint to)
 {
+    const zd_space_tables *tables = all;
     const zd_space_gauge *gauge = tables->gauge + i;
     if (!zd_is_in(gauge->kind, ZD_SPACE_GAUGES)) return zd_complain(to, "gauge %d: there is no kind %d", i, gauge->kind);
-    if (!are_bodies(tables, gauge->first, gauge->second))
-        return zd_complain(to, "gauge %d: it is read off bodies %d and %d, and the last one is %d", i, gauge->first, gauge->second,
-                           tables->bodies);
+    if (!zd_bodies_are_right("gauge", i, "is read off", gauge->first, gauge->second, tables->bodies, to)) return 0;
     if (gauge->counted && (gauge->kind != ZD_SPACE_ANGLE || !zd_is_in(gauge->counted - 1, angles_of(tables))))
         return zd_complain(to, "gauge %d: it counts the turns of angle %d of joints, which is not there", i, gauge->counted - 1);
     return (suits_particle(tables, gauge->first, gauge->point1) && suits_particle(tables, gauge->second, gauge->point2)) ||
@@ -89,14 +80,8 @@ static int gauge_is_right(const zd_space_tables *tables, int i, zd_complaint to)
 int zd_space_tables_are_right(const zd_space_tables *tables, char *message, int message_size)
 {
     const zd_complaint to = {message, message_size};
-    const struct {
-        int count;
-        int (*is_right)(const zd_space_tables *, int, zd_complaint);
-    } all[] = {     /* joints before the bodies that they carry */
+    const zd_checked all[] = {     /* joints before the bodies whose inboard joints they are */
         {tables->joints, joint_is_right}, {tables->bodies, body_is_right}, {tables->gauges, gauge_is_right}};
-    if (tables->bodies < 1) return zd_complain(to, "a mechanism needs at least one body");
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-        for (int i = 0; i < all[k].count; i++)
-            if (!all[k].is_right(tables, i, to)) return 0;
-    return zd_elements_are_right(&tables->elements, tables->joints, tables->gauges, to);
+    const int arrays = sizeof all / sizeof all[0];
+    return zd_mechanism_is_right(tables, tables->bodies, arrays, all, &tables->elements, tables->joints, tables->gauges, to);
 }
