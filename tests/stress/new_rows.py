@@ -4,8 +4,9 @@
 
 A new entry is a new file and one word in `registry.c`, a new kind of joint a file and one word in `joints/table.c`, and a new
 term one line in `system.h`. The tests that run were not written for them: they are parametrized over the core's tables, and
-selected by the new names. The entries are small, but each one that can have parameters has one. The joints are then used from
-Python, and compared with the same mechanism made of existing joints and couplings.
+selected by the new names. The entries are small, but each one that can have parameters has one. The joints, in the plane and in
+space, are then used from Python, and compared with the same mechanism made of existing joints and constraints. The declarations
+of methods for editors, a generated file, are written anew.
 """
 
 import difflib
@@ -20,6 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", "*.so", ".pytest_cache", ".hypothesis", ".venv")
 PLANE = "csrc/mechanisms/plane/joints"
+SPACE = "csrc/mechanisms/space/joints"
 REGISTRY, INTERFACE, JOINTS = "csrc/registry.c", "csrc/include/zerodrift/system.h", f"{PLANE}/table.c"
 
 INTEGRATOR = r"""
@@ -326,6 +328,21 @@ const zd_plane_element_kind zd_soft_guide = {
 };
 """
 
+POINT_ON_PLANE = r"""
+/* A point on a plane: the second body's point stays in a plane of the first, whose normal is the axis. */
+#include "primitives.h"
+
+const zd_space_joint_kind zd_point_on_plane = {
+    .card = {
+        .name = "point_on_plane", .summary = "Keeps a point in a plane of the first body.", .equations = "(3), (5)",
+        .description = "The body may turn about the point, and the point may slide. It is for this count of files alone.",
+    },
+    .rows = 1,
+    .row = {POINT_IN_PLANE(A)},
+    .axes = 1,
+};
+"""
+
 # A plate on a swinging arm, by a new kind of joint and by what there was; it prints how far motions and reactions are apart.
 JOINTS_USED = r"""
 import tempfile
@@ -348,6 +365,7 @@ def swing(join, *more):
     joint = join(m, arm, plate)
     if more:
         m.motor("push", joint, force=PUSH)
+        m.start({"J.speed": 0.0})       # as of a joint coordinate, which a joint outside the tree does not have
     m.start({"arm.angular_velocity": 1.5})
     return m
 
@@ -398,6 +416,55 @@ for new, old, names, more in ((parallel, coupler, PLATE, ()), (offset_slider, pr
         assert max(errors) < 1e-8       # of the steps: coordinates of joints and of bodies are integrated differently
 """
 
+# A rod with one end on a tilted plane, by a new kind of joint in space and by a constraint on that end's position.
+SPACE_JOINT_USED = r"""
+import inspect
+import tempfile
+import numpy as np
+import sympy as sp
+import zerodrift as zd
+
+NORMAL, END = np.array([0.6, 0.0, 0.8]), [sp.Symbol(f"rod.end.position.{axis}") for axis in "xyz"]
+
+
+def slide(join):
+    m = zd.Mechanism("slide", dimension=3, gravity=(0.3, 0.2, -9.81))
+    rod = m.link("rod", (0.0, 0.1, 0.9), (0.4, 0.2, -0.3), mass=1.2)
+    m.body("plate", 0.7, (0.1, 0.2, 0.15), at=(0.0, 0.1, 0.9))
+    m.spherical("ball", "plate", rod.start)
+    m.spring("spring", m.ground.point((0, 0, 2)), "plate.center", stiffness=40.0, damping=0.3)
+    join(m, rod)
+    return m
+
+
+def by_joint(m, rod):
+    m.point_on_plane("J", m.ground.point(at=rod.end), rod.end, normal=NORMAL)
+
+
+def by_constraint(m, rod):
+    m.constraint("J", sum(n * (x - x0) for n, x, x0 in zip(NORMAL, END, rod.end.drawn)))
+
+
+def motion(m, layout):
+    sol = zd.simulate(m.system(layout), 1.0, step=0.002)
+    return np.hstack([sol[name] for name in ("rod.position", "plate.position", "ball.force")])
+
+
+assert [*inspect.signature(zd.Mechanism.point_on_plane).parameters][-2:] == ["normal", "at"]
+m, other = slide(by_joint), slide(by_constraint)
+assert any(shape.kind == "patch" and shape.name == "J" for shape in m.system()._shapes(m.system().p0))
+with tempfile.TemporaryDirectory() as folder:
+    again = zd.load(m.save(folder + "/m"))
+for layout in ("joint", "absolute"):
+    moved, expected = motion(m, layout), motion(other, layout)
+    assert np.array_equal(moved, motion(again, layout))
+    error = np.max(np.abs(moved - expected) / np.maximum(np.abs(expected).max(axis=0), 1))
+    force = zd.simulate(m.system(layout), 1.0, step=0.002)["J.force"]
+    across = np.abs(np.cross(force, NORMAL)).max() / np.abs(force).max()
+    print(f"point_on_plane {layout:10}{error:9.1e} tangential force {across:9.1e}   greatest reaction {np.abs(force).max():.3g}")
+    assert error < 1e-8 and across < 1e-12      # steps; rounding
+"""
+
 LINE_OF_TERM = '    TERM(ZD_HEAT, 0x1000, heat, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "what friction turns into heat, in W") \\\n'
 
 # What is added: the file that it is in, its text, the file that is changed, where, and by what.
@@ -411,13 +478,17 @@ ADDED = {
     "a joint": (f"{PLANE}/parallel.c", PARALLEL, JOINTS, r"(X\(zd_plane_knife_edge\))", r"\1 X(zd_parallel)"),
     "a joint that takes something": (f"{PLANE}/offset_slider.c", OFFSET_SLIDER, JOINTS, r"(X\(zd_parallel\))",
                                      r"\1 X(zd_offset_slider)"),
+    "a joint in space": (f"{SPACE}/point_on_plane.c", POINT_ON_PLANE, f"{SPACE}/table.c", r"(X\(zd_space_knife_edge\))",
+                         r"\1 X(zd_point_on_plane)"),
     "an element": (f"{PLANE}/soft_guide.c", SOFT_GUIDE, JOINTS, r"(X\(zd_plane_torque\))", r"\1 X(zd_soft_guide)"),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }
-NAMES = "ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide"
-WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_rows.py", "tests/point/test_terms.py",
+NAMES = ("ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide "
+         "or point_on_plane")
+WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_methods.py", "tests/point/test_terms.py",
          "tests/test_structure_of_core.py", "tests/mechanisms/plane/joints", "tests/mechanisms/test_joint_verbs.py",
-         "tests/mechanisms/test_force_verbs.py", "tests/mechanisms/test_files.py", "tests/mechanisms/test_compiled.py"]
+         "tests/mechanisms/test_force_verbs.py", "tests/mechanisms/test_table_verbs.py", "tests/mechanisms/test_files.py",
+         "tests/mechanisms/test_compiled.py"]
 
 
 def words(before, after):
@@ -441,7 +512,7 @@ def add(folder, file, text, changed, where, by):
 
 def run(folder, *command):
     """Output of a command; if it fails, the script exits."""
-    environment = os.environ | {"PYTHONPATH": str(folder / "python")}
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(folder / "python"), str(folder / "tests")])}
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
     if done.returncode:
         sys.exit(f"{' '.join(map(str, command))}\n{done.stdout[-6000:]}\n{done.stderr[-3000:]}")
@@ -456,6 +527,8 @@ def main(folder):
         print(f"{what:30}{new:12}{changed:16}{count:8}{lines:8}")
     run(folder, sys.executable, "setup.py", "-q", "build_ext", "--inplace")
     print(run(folder, sys.executable, "-c", JOINTS_USED))
+    print(run(folder, sys.executable, "-c", SPACE_JOINT_USED))
+    run(folder, sys.executable, "tests/mechanisms/stub_of_verbs.py")        # the generated declarations for editors
     for picked in ([*WHOLE], ["tests", "-k", NAMES]):
         print(run(folder, sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *picked).splitlines()[-1])
 

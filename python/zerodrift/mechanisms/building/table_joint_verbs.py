@@ -10,7 +10,7 @@ import numpy as np
 
 from ... import _check
 from ..elements.joints import Joint, draws_length, holds_angle, holds_distance, is_slider
-from ..elements.space_joints import SpaceJoint, is_at_point
+from ..elements.space_joints import SpaceJoint, advances, is_at_point, is_on_plane
 from .registry import Elements
 from .space_joint_verbs import checked_cut
 from .table_joint_documentation import documentation
@@ -69,12 +69,12 @@ def axis_word(joint: type[SpaceJoint]) -> str:
     """Name of the argument for directions: two axes, the normal of a plane that holds the second point, or an axis."""
     if joint.row.axes == 2:
         return "axes"
-    return "normal" if joint.row.rows[0][:2] == ("along", 0) else "axis"
+    return "normal" if is_on_plane(joint.row) else "axis"
 
 
 def length_word(joint: type[SpaceJoint]) -> str:
     """Name of the argument for the length: a screw's is its pitch."""
-    return "pitch" if any(freedom.kind == "advances" for freedom in joint.row.freedoms or ()) else "length"
+    return "pitch" if advances(joint.row) else "length"
 
 
 def _signature(plane: type[Joint] | None, space: type[SpaceJoint] | None) -> inspect.Signature:

@@ -59,11 +59,17 @@ class SpaceJoint(Joint):
         self.frames = frames
 
     def length_with(self, numbers: Numbers) -> float:
-        """Length in m; if not given, the distance in the drawing; 0 for kinds without a length."""
+        """Length in m, by default the distance in the drawing; advance per radian of a screw; 0 for kinds without a length."""
         if not self.row.takes_length:
             return 0.0
+        if advances(self.row):
+            return numbers(self, "pitch", self.length) / (2 * np.pi)
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
         return numbers(self, "length", float(np.linalg.norm(apart)) if self.length is None else self.length)
+
+    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
+        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        return {"pitch": now(self, "pitch", self.length)} if advances(self.row) else super().numbers(now)
 
     def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
         """Semiaxes of the rolling body along the rows of the second frame, in m; zero for joints without rolling."""
@@ -124,6 +130,21 @@ def is_at_point(row: JointKind) -> bool:
     return {"x", "y", "z"} <= {gauge for gauge, _, _ in row.rows}
 
 
+def is_on_plane(row: JointKind) -> bool:
+    """True if the joint holds the second point on a plane of the first body, whose normal is the joint's axis."""
+    return {direction for gauge, direction, _ in row.rows if gauge == "along"} == {DIRECTIONS.index("axis")}
+
+
+def is_blade(row: JointKind) -> bool:
+    """True if the joint holds a velocity across a direction of the second body."""
+    return any(gauge == "glide" for gauge, _, _ in row.rows)
+
+
+def advances(row: JointKind) -> bool:
+    """True if the bodies advance along the axis in proportion to their rotation, as on a screw, whose length is the pitch."""
+    return any(freedom.kind == "advances" for freedom in row.freedoms or ())
+
+
 def _made(kind: str) -> type[SpaceJoint]:
     """Class of a kind of joint, from its entry in the core's table."""
     name = "Space" + "".join(word.capitalize() for word in kind.split("_"))
@@ -134,20 +155,6 @@ def _made(kind: str) -> type[SpaceJoint]:
 # Kinds by name. They are attributes of this module for pickle and copy.
 BY_KIND = {kind: _made(kind) for kind in sorted(JOINTS)}
 globals().update({joint.__name__: joint for joint in BY_KIND.values()})
-
-
-class Screw(BY_KIND["screw"]):      # type: ignore[name-defined,misc]
-    """Turns one body about an axis of the other, along which it advances, `Mechanism.screw`."""
-
-    kind = "screw"
-
-    def length_with(self, numbers: Numbers) -> float:
-        """Advance per radian, in m."""
-        return numbers(self, "pitch", self.length) / (2 * np.pi)
-
-    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
-        return {"pitch": now(self, "pitch", self.length)}
 
 
 class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
@@ -180,4 +187,4 @@ class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
             f"semiaxes.{axis}": each for axis, each in zip(AXES, found, strict=True)}
 
 
-BY_KIND["screw"], BY_KIND["rolling"] = Screw, SpaceRolling
+BY_KIND["rolling"] = SpaceRolling

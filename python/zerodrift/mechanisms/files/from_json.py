@@ -12,8 +12,9 @@ import numpy as np
 from ... import _check
 from ..building.table_force_verbs import NEEDED, taken
 from ..building.table_joint_verbs import verb
+from ..building.table_verbs import PLANE
 from ..elements.immutable import amend
-from ..elements.joints import BY_ROW, Joint
+from ..elements.joints import Joint
 from ..elements.table_forces import FORCES_BY_ROW, MadeForce
 from .expressions_json import from_json
 from .space_from_json import IN_SPACE, keep_rotations
@@ -127,24 +128,6 @@ def _point(m: Any, name: str, *, body: Any, local: Any) -> None:
     m.point(name, body, local)
 
 
-def _revolute(m: Any, name: str, *, first: Any, second: Any, damping: Any, cut: Any) -> None:
-    m.revolute(name, told_place(m, first), told_place(m, second), damping=damping, cut=cut)
-
-
-def _prismatic(m: Any, name: str, *, first: Any, second: Any, axis: Any, damping: Any, cut: Any) -> None:
-    axis, sides = told_direction("axis", axis), (told_place(m, first), told_place(m, second))
-    joint = m.prismatic(name, *sides, axis=sides[0].body.pose.direction(axis), damping=damping, cut=cut)
-    amend(joint, axis=axis)
-
-
-def _weld(m: Any, name: str, *, first: Any, second: Any, cut: Any = False) -> None:
-    m.weld(name, told_place(m, first), told_place(m, second), cut=cut)
-
-
-def _rod(m: Any, name: str, *, first: Any, second: Any, length: Any = None) -> None:
-    m.rod(name, told_place(m, first), told_place(m, second), length=length)
-
-
 def _slot(m: Any, name: str, *, first: Any, second: Any, axis: Any) -> None:
     axis, line = told_direction("axis", axis), point_of_body(m, first)
     joint = m.slot(name, line.body, told_place(m, second), axis=line.body.pose.direction(axis))
@@ -179,7 +162,7 @@ def _by_row(joint: type[Joint]) -> Callable[..., None]:
             amend(made, first=point_of_body(m, places["first"]))
 
     words, needed = inspect.signature(verb(joint)).parameters, inspect.Parameter.empty
-    optional = {word: None for word in joint.takes if words[word].default is None}
+    optional = {word: words[word].default for word in joint.takes if words[word].default is None or word == "cut"}
     make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
         inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=optional.get(word, needed))
         for word in ("first", "second", *joint.takes)])
@@ -272,9 +255,9 @@ def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
 
 
 MADE: dict[str, Callable[..., None]] = {
-    "body": _body, "link": _link, "particle": _particle, "point": _point, "revolute": _revolute, "prismatic": _prismatic,
-    "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _gear,
-    "rack_pinion": _rack_pinion, "coupler": _coupler, "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
+    "body": _body, "link": _link, "particle": _particle, "point": _point, "slot": _slot, "rolling": _rolling,
+    "knife_edge": _knife_edge, "gear": _gear, "rack_pinion": _rack_pinion, "coupler": _coupler,
+    "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
-    "force": _force, "torque": _torque, **{kind: _by_row(joint) for kind, joint in BY_ROW.items()},
+    "force": _force, "torque": _torque, **{kind: _by_row(joint) for kind, joint in PLANE.items()},
     **{kind: _force_by_row(force) for kind, force in FORCES_BY_ROW.items()}}

@@ -11,7 +11,7 @@ from ... import _check
 from ..elements.bodies import Point
 from ..elements.frames import Pose3, given_rotation
 from ..elements.immutable import amend
-from ..elements.space_joints import BY_KIND, SpaceJoint
+from ..elements.space_joints import BY_KIND, SpaceJoint, advances
 from .values_from_json import law_and_of, point_of_body, told_direction, told_place
 
 SAME = 1e-9         # difference of a joint's two frames in the drawing, at most
@@ -64,7 +64,7 @@ def _joint(kind: str) -> Callable[..., None]:
              cut: Any = False) -> None:
         sides = m._different(name, *(m._point("a side", told_place(m, side)) for side in (first, second)))
         both = _frames(m, *sides, frames)
-        if kind == "screw" and not _check.number("length", length):
+        if advances(BY_KIND[kind].row) and not _check.number("length", length):
             raise ValueError("length must not be 0: it is the pitch")
         made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), *sides, *(both[0][:2] @ sides[0].body.pose.rotation.T),
                                      length=None if length is None else _check.number("length", length), damping=damping)

@@ -15,16 +15,16 @@ from ...systems.shapes import Shape
 from ..elements.bodies import Body, Link, Particle, Point
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Bushing, Spring
+from ..elements.joints import holds_distance
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
-from ..elements.space_joints import SpaceJoint, SpaceRolling
+from ..elements.space_joints import SpaceJoint, SpaceRolling, has_torque, is_at_point, is_blade, is_on_plane
 
 APART = 1e-9        # m: smaller distances count as zero
 FLAT = 1e-6         # of the extent of points: deviation from a plane, at most
 ALIKE = 1e-6        # of the largest moment: difference of equal moments, at most
 ROUND = np.linspace(0, 2 * np.pi, 49)
 CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
-ALONG = ("prismatic", "cylindrical", "screw", "slot")       # joints that are drawn as sleeves
 
 
 class SpaceSketch:
@@ -103,22 +103,21 @@ class SpaceSketch:
         axes = [self._turned(joint, i, at) for i in (0, 1)]
         if isinstance(joint, SpaceRolling):
             yield from self._rolled(joint, second, axes[1])
-        elif joint.kind == "rod":
+            return
+        if is_on_plane(joint.row) or is_blade(joint.row):
+            yield Shape("patch", np.array([second, *axes[0][1 if is_on_plane(joint.row) else 0:][:2]]), joint.name)
+            return
+        if holds_distance(joint.row):
             yield Shape("rod", np.array([first, second]), joint.name)
-        elif joint.kind == "revolute":
-            yield Shape("pin", np.array([second, axes[0][0]]), joint.name)
-        elif joint.kind == "universal":
-            yield Shape("pin", np.array([second, axes[0][0]]), joint.name)
-            yield Shape("pin", np.array([second, axes[1][1]]), joint.name)
-        elif joint.kind in ALONG:
+        elif is_at_point(joint.row) and joint.row.axes:
+            yield from (Shape("pin", np.array([second, axes[i][i]]), joint.name) for i in range(joint.row.axes))
+        elif joint.row.axes:
             yield Shape("track", np.array([first, second]), joint.name)
             yield Shape("sleeve", np.array([second, axes[0][0]]), joint.name)
-        elif joint.kind in ("planar", "knife_edge"):
-            yield Shape("patch", np.array([second, *axes[0][1 if joint.kind == "planar" else 0:][:2]]), joint.name)
         else:
-            yield Shape("ball" if joint.kind == "spherical" else "weld", second[None], joint.name)
+            yield Shape("weld" if has_torque(joint.row) else "ball", second[None], joint.name)
         for side, place in ((joint.first, first), (joint.second, second)):
-            if side.body is self.drawing.ground and joint.kind not in ("rolling", "planar", "knife_edge"):
+            if side.body is self.drawing.ground:
                 yield Shape("ground", place[None], joint.name)
 
     def _rolled(self, joint: SpaceRolling, centre: np.ndarray, axes: np.ndarray) -> Iterator[Shape]:
