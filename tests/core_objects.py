@@ -14,7 +14,7 @@ SOURCES = sorted(CSRC.rglob("*.c"))
 CC = os.environ.get("CC", "cc")
 needs_compiler = pytest.mark.skipif(not shutil.which(CC) or not SOURCES, reason="no C compiler, or no sources of the core")
 # Without -fPIC, constants with addresses in them stay read-only data, so that symbols tell what could change.
-FLAGS = ("-O1", "-std=c11", "-ffp-contract=off", "-fno-pic", "-I", CSRC)
+FLAGS = ("-O0", "-std=c11", "-ffp-contract=off", "-fno-pic", "-I", CSRC)
 
 
 def unit_of(path):
