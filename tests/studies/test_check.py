@@ -5,6 +5,7 @@ import pytest
 
 import zerodrift as zd
 from four_bar_in_python import bias, force, four_bar, jacobian, potential, xi
+from zerodrift._gateway import CoreSystem
 
 
 def test_built_in_systems_are_right(system):
@@ -57,3 +58,26 @@ def test_a_balance_that_closes_in_another_split_is_no_mistake():
     """Forces may as well stand in bias, with the opposite sign."""
     moved = four_bar(force=None, bias=lambda p, v, L, m, g: bias(p, v, L, m) - force(p, L, m, g))
     assert zd.check(moved)
+
+
+MODELS = sorted(set(zd.models.__all__) - {"chain"})
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_derivatives_of_every_model_equal_differences_of_accelerations(name):
+    """Random tangent directions, in which every state and velocity has a part; driven mechanisms have none."""
+    system = getattr(zd.models, name)().system()
+    report = zd.check(system, samples=1)
+    assert report, report
+    is_driven = not zd.mass_matrix(system, tangent=True).size
+    assert ("derivatives of accelerations" in report.checks) != is_driven
+
+
+def test_a_wrong_jacobian_of_a_system_is_said(monkeypatch):
+    system = zd.models.four_bar().system("joint", compiled=True)
+    if not system.compiled:
+        pytest.skip("there is no compiler")
+    assert zd.check(system)
+    right = CoreSystem.jacobian
+    monkeypatch.setattr(CoreSystem, "jacobian", lambda *args: right(*args) * (1 + 1e-6))
+    assert "derivatives of accelerations: that of the acceleration of" in repr(zd.check(system))

@@ -41,8 +41,13 @@ def along(function: Callable[[float], np.ndarray], size: float) -> np.ndarray:
     -------
     ndarray
     """
+    return with_error(function, size)[0]
+
+
+def with_error(function: Callable[[float], np.ndarray], size: float) -> tuple[np.ndarray, float]:
+    """The derivative of `along`, and the difference to that of lower order, which estimates its error."""
     if not size > 0:
-        return np.zeros_like(np.asarray(function(0.0), dtype=float))
+        return np.zeros_like(np.asarray(function(0.0), dtype=float)), 0.0
     best, least = None, np.inf
     for step in STEPS:
         h = step / size
@@ -53,5 +58,5 @@ def along(function: Callable[[float], np.ndarray], size: float) -> np.ndarray:
         if error < least:
             best, least = derivative, error
         if error <= AGREE * np.abs(derivative).max(initial=1e-300):
-            return derivative
-    return np.tensordot(FOURTH, ends, 1) / h if best is None else best
+            return derivative, error
+    return (np.tensordot(FOURTH, ends, 1) / h, np.inf) if best is None else (best, least)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..analysis.comparison import derivatives_of_accelerations
 from ..errors import ZerodriftError
 from ..runs.operations import acceleration, project
 from ..runs.settings import Projection
@@ -17,6 +18,7 @@ from ..systems.base import BaseSystem, Terms, system_of
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity
 AGREE = 1e-5                            # relative: far above the error 1e-10 of a difference, far below any mistake
 NEGLIGIBLE = 1e-9                       # relative: smaller eigenvalues and singular values are zero to rounding
+EXACT = 1e-7                            # relative: agreement of derivatives with differences of eighth order
 SPREAD = 0.1                            # relative distance of the sampled states from the start
 
 
@@ -240,4 +242,26 @@ def _power(state: _State) -> Iterator[tuple[str, str]]:
         f"T + V changes at {rate:.6g} W, and {given + reaction:.6g} W come in")
 
 
-COMPARISONS = (_mass, _consistency, _jacobian, _xi, _quaternions, _complement, _power)
+def _derivatives(state: _State) -> Iterator[tuple[str, str]]:
+    """Derivatives of accelerations along a random tangent direction, where differences of accelerations are accurate."""
+    system, terms = state.system, state.terms
+    violated = [np.zeros(1) if each is None else each for each in (terms.Phi, _velocity_violation(terms, state.v)
+                                                                   if terms.C is not None else None)]
+    if max(np.abs(each).max(initial=0.0) for each in violated) > NEGLIGIBLE * (1 + np.abs(state.v).max(initial=0.0)):
+        return      # sampled off the constraints, where redundant ones contradict each other
+    try:
+        compared = derivatives_of_accelerations(system, state.t, state.p, state.v, np.random.default_rng(len(terms.M)))
+    except ZerodriftError:
+        return      # said elsewhere, or a neighbouring state is singular
+    if compared is None or not np.isfinite(compared.expected).all():
+        return
+    given, expected, error = compared
+    size = max(np.abs(given).max(initial=0.0), np.abs(expected).max(initial=0.0), 1e-3)
+    worst = int(np.abs(given - expected).argmax())
+    agree = np.abs(given - expected).max() <= EXACT * size or error > EXACT * size / 10
+    yield "derivatives of accelerations", "" if agree else (
+        f"that of the acceleration of {system.velocities[worst].name!r} along a tangent direction is {given[worst]:.9g} and "
+        f"should be {expected[worst]:.9g}")
+
+
+COMPARISONS = (_mass, _consistency, _jacobian, _xi, _quaternions, _complement, _power, _derivatives)
