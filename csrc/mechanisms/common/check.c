@@ -33,7 +33,7 @@ static int relation_is_right(const tables *of, int i, zd_complaint to)
 {
     const zd_relation *row = of->elements->relation + i;
     return (row->terms > 0 && terms_are_right(of, row->first, row->terms, row->law, row->joint)) ||
-           zd_complain(to, "relation %d: its gauges, law or joint are not there", i);
+           zd_complain(to, "relation %d: its gauges, user function and joint must exist", i);
 }
 
 static int effort_is_right(const tables *of, int i, zd_complaint to)
@@ -42,7 +42,7 @@ static int effort_is_right(const tables *of, int i, zd_complaint to)
     const int needs_law = effort->kind == ZD_EFFORT_LAW;
     return (zd_is_in(effort->kind, ZD_EFFORT_LAW + 1) && zd_is_in(effort->gauge, of->gauges) && needs_law == (effort->law >= 0) &&
             terms_are_right(of, effort->first, effort->terms, effort->law, effort->joint)) ||
-           zd_complain(to, "effort %d: its kind, gauges, law or joint are not there", i);
+           zd_complain(to, "effort %d: its kind, gauges, user function and joint must exist", i);
 }
 
 /* Number of entries that the index of a measure of this kind selects from. */
@@ -72,7 +72,7 @@ static int measure_is_right(const tables *of, int i, zd_complaint to)
     const int size = quantity <= ZD_ACCELERATIONS || quantity >= ZD_EFFORT_FORCE ? measure->size : 1;
     const int terms = quantity == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : 1;
     return (size > 0 && zd_is_in(index, count) && index + size <= count && zd_is_in(measure->term, terms)) ||
-           zd_complain(to, "measure %s: what it is of is not there", measure->name);
+           zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
 }
 
 int zd_elements_are_right(const zd_elements *elements, int joints, int gauges, zd_complaint to)
@@ -90,36 +90,36 @@ int zd_elements_are_right(const zd_elements *elements, int joints, int gauges, z
 
 int zd_mass_is_right(int body, double mass, zd_complaint to)
 {
-    return mass >= 0 || zd_complain(to, "body %d: its mass must not be negative, and is %g", body, mass);
+    return mass >= 0 || zd_complain(to, "body %d: its mass must be at least 0, not %g", body, mass);
 }
 
 int zd_inertia_is_right(int body, double inertia, int is_particle, zd_complaint to)
 {
-    if (!(inertia >= 0)) return zd_complain(to, "body %d: its inertia must not be negative, and is %g", body, inertia);
-    return !is_particle || inertia == 0 || zd_complain(to, "body %d: a particle has no inertia", body);
+    if (!(inertia >= 0)) return zd_complain(to, "body %d: its inertia must be at least 0, not %g", body, inertia);
+    return !is_particle || inertia == 0 || zd_complain(to, "body %d: the inertia of a particle must be 0", body);
 }
 
-int zd_bodies_are_right(const char *entry, int index, const char *verb, int first, int second, int bodies, zd_complaint to)
+int zd_bodies_are_right(const char *entry, int index, int first, int second, int bodies, zd_complaint to)
 {
     return (zd_is_in(first, bodies + 1) && zd_is_in(second, bodies + 1)) ||
-           zd_complain(to, "%s %d: it %s bodies %d and %d, and the last one is %d", entry, index, verb, first,
-                       second, bodies);
+           zd_complain(to, "%s %d: its bodies must be from 0 to %d, not %d and %d", entry, index, bodies, first, second);
 }
 
 int zd_carrier_exists(int body, int carrier, int joints, zd_complaint to)
 {
-    return zd_is_in(carrier, joints) || zd_complain(to, "body %d: there is no joint %d to carry it", body, carrier);
+    return zd_is_in(carrier, joints) ||
+           zd_complain(to, "body %d: its inboard joint must be at least -1 and below %d, not %d", body, joints, carrier);
 }
 
 int zd_carrier_connects(int body, int carrier, int first, int second, zd_complaint to)
 {
-    return body == first || body == second || zd_complain(to, "body %d: joint %d, which is to carry it, does not touch it", body, carrier);
+    return body == first || body == second || zd_complain(to, "body %d: its inboard joint %d must connect it", body, carrier);
 }
 
 int zd_mechanism_is_right(const void *tables, int bodies, int arrays, const zd_checked *checked, const zd_elements *elements, int joints,
                           int gauges, zd_complaint to)
 {
-    if (bodies < 1) return zd_complain(to, "a mechanism needs at least one body");
+    if (bodies < 1) return zd_complain(to, "a mechanism must have at least one body");
     for (int k = 0; k < arrays; k++)
         for (int i = 0; i < checked[k].count; i++)
             if (!checked[k].is_right(tables, i, to)) return 0;

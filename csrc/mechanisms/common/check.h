@@ -18,8 +18,8 @@ static inline int zd_is_in(int index, int count) { return index >= 0 && index < 
  * numbered from 1; the ground is 0. */
 int zd_mass_is_right(int body, double mass, zd_complaint to);
 int zd_inertia_is_right(int body, double inertia, int is_particle, zd_complaint to);
-/* The two bodies of an entry ("joint", "gauge") must exist; `verb`: "joins", "is read off". */
-int zd_bodies_are_right(const char *entry, int index, const char *verb, int first, int second, int bodies, zd_complaint to);
+/* The two bodies of an entry, a "joint" or "gauge", must exist. */
+int zd_bodies_are_right(const char *entry, int index, int first, int second, int bodies, zd_complaint to);
 /* Inboard joint of a body: it must exist, and connect the body. */
 int zd_carrier_exists(int body, int carrier, int joints, zd_complaint to);
 int zd_carrier_connects(int body, int carrier, int first, int second, zd_complaint to);

@@ -15,13 +15,13 @@ static int carrier_is_right(const zd_plane_tables *tables, int i, zd_complaint t
     const zd_plane_joint *joint = tables->joint + carrier;
     const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(joint->kind);
     if (!zd_carrier_connects(body, carrier, joint->first, joint->second, to)) return 0;
-    if (kind->carrier == ZD_CARRIES_NOTHING) return zd_complain(to, "body %d: joint %d is a %s and carries nothing", body, carrier,
-                                                                kind->card.name);
+    if (kind->carrier == ZD_CARRIES_NOTHING)
+        return zd_complain(to, "body %d: its inboard joint %d must be of a kind for trees, not a %s", body, carrier, kind->card.name);
     if (kind->carrier != ZD_TURNS && (is_particle(tables, joint->first) || is_particle(tables, joint->second)))
-        return zd_complain(to, "body %d: joint %d is a %s, and a particle has no angle", body, carrier, kind->card.name);
+        return zd_complain(to, "body %d: its inboard joint %d must not be a %s, as a particle has no angle", body, carrier, kind->card.name);
     for (int other = 0; other < i; other++)
-        if (tables->body[other].carrier == carrier) return zd_complain(to, "joint %d carries both body %d and body %d", carrier, other + 1,
-                                                                       body);
+        if (tables->body[other].carrier == carrier)
+            return zd_complain(to, "joint %d must be the inboard joint of one body, not of bodies %d and %d", carrier, other + 1, body);
     return 1;
 }
 
@@ -46,12 +46,12 @@ static int joint_is_right(const void *all, int i, zd_complaint to)
     const zd_plane_tables *tables = all;
     const zd_plane_joint *joint = tables->joint + i;
     const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(joint->kind);
-    if (!kind) return zd_complain(to, "joint %d: there is no kind %d", i, joint->kind);
-    if (!zd_bodies_are_right("joint", i, "joins", joint->first, joint->second, tables->bodies, to)) return 0;
-    if (joint->first == joint->second && !kind->row[0].nonholonomic) return zd_complain(to, "joint %d: it joins body %d to itself", i,
-                                                                                        joint->first);
+    if (!kind) return zd_complain(to, "joint %d: its kind must be from 0 to %d, not %d", i, zd_plane_joint_kinds() - 1, joint->kind);
+    if (!zd_bodies_are_right("joint", i, joint->first, joint->second, tables->bodies, to)) return 0;
+    if (joint->first == joint->second && !kind->row[0].nonholonomic)
+        return zd_complain(to, "joint %d: its bodies must differ, and both are %d", i, joint->first);
     if (!suits_particles(tables, joint->first, joint->second, joint->point1, joint->point2))
-        return zd_complain(to, "joint %d: a particle has no points but its own", i);
+        return zd_complain(to, "joint %d: its point on a particle must be the mass centre", i);
     return 1;
 }
 
@@ -59,10 +59,11 @@ static int gauge_is_right(const void *all, int i, zd_complaint to)
 {
     const zd_plane_tables *tables = all;
     const zd_plane_gauge *gauge = tables->gauge + i;
-    if (!zd_is_in(gauge->kind, ZD_GAUGE_KINDS)) return zd_complain(to, "gauge %d: there is no kind %d", i, gauge->kind);
-    if (!zd_bodies_are_right("gauge", i, "is read off", gauge->first, gauge->second, tables->bodies, to)) return 0;
+    if (!zd_is_in(gauge->kind, ZD_GAUGE_KINDS))
+        return zd_complain(to, "gauge %d: its kind must be from 0 to %d, not %d", i, ZD_GAUGE_KINDS - 1, gauge->kind);
+    if (!zd_bodies_are_right("gauge", i, gauge->first, gauge->second, tables->bodies, to)) return 0;
     if (!suits_particles(tables, gauge->first, gauge->second, gauge->point1, gauge->point2))
-        return zd_complain(to, "gauge %d: a particle has no points but its own", i);
+        return zd_complain(to, "gauge %d: its point on a particle must be the mass centre", i);
     return 1;
 }
 

@@ -302,7 +302,7 @@ zd_plane *zd_plane_create(const zd_plane_tables *tables, char *message, int mess
     zd_plane *self = zd_take(&arena, sizeof *self);
     take_parts(tables, &arena, &all);
     if (!number_bodies(tables, all.number)) {
-        snprintf(message, (size_t)message_size, "the tree has a circle: bodies carry each other");
+        snprintf(message, (size_t)message_size, "the tree of inboard joints must have no loop");
         zd_release(self);
         return NULL;
     }

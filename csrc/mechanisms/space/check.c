@@ -22,12 +22,13 @@ static int carrier_is_right(const zd_space_tables *tables, int i, zd_complaint t
     const zd_space_joint *joint = tables->joint + carrier;
     const zd_space_joint_kind *kind = zd_space_joint_kind_of(joint->kind);
     if (!zd_carrier_connects(body, carrier, joint->first, joint->second, to)) return 0;
-    if (!kind->carries) return zd_complain(to, "body %d: joint %d is a %s and carries nothing", body, carrier, kind->card.name);
+    if (!kind->carries)
+        return zd_complain(to, "body %d: its inboard joint %d must be of a kind for trees, not a %s", body, carrier, kind->card.name);
     if ((is_particle(tables, joint->first) && !swings(kind, 0)) || (is_particle(tables, joint->second) && !swings(kind, kind->freedoms - 1)))
-        return zd_complain(to, "body %d: joint %d is a %s, and a particle has no axes", body, carrier, kind->card.name);
+        return zd_complain(to, "body %d: its inboard joint %d must not be a %s, as a particle has no axes", body, carrier, kind->card.name);
     for (int other = 0; other < i; other++)
-        if (tables->body[other].carrier == carrier) return zd_complain(to, "joint %d carries both body %d and body %d", carrier, other + 1,
-                                                                       body);
+        if (tables->body[other].carrier == carrier)
+            return zd_complain(to, "joint %d must be the inboard joint of one body, not of bodies %d and %d", carrier, other + 1, body);
     return 1;
 }
 
@@ -51,11 +52,12 @@ static int joint_is_right(const void *all, int i, zd_complaint to)
 {
     const zd_space_tables *tables = all;
     const zd_space_joint *joint = tables->joint + i;
-    if (!zd_space_joint_kind_of(joint->kind)) return zd_complain(to, "joint %d: there is no kind %d", i, joint->kind);
-    if (!zd_bodies_are_right("joint", i, "joins", joint->first, joint->second, tables->bodies, to)) return 0;
-    if (joint->first == joint->second) return zd_complain(to, "joint %d: it joins body %d to itself", i, joint->first);
+    if (!zd_space_joint_kind_of(joint->kind))
+        return zd_complain(to, "joint %d: its kind must be from 0 to %d, not %d", i, zd_space_joint_kinds() - 1, joint->kind);
+    if (!zd_bodies_are_right("joint", i, joint->first, joint->second, tables->bodies, to)) return 0;
+    if (joint->first == joint->second) return zd_complain(to, "joint %d: its bodies must differ, and both are %d", i, joint->first);
     return (suits_particle(tables, joint->first, joint->point1) && suits_particle(tables, joint->second, joint->point2)) ||
-           zd_complain(to, "joint %d: a particle has no points but its own", i);
+           zd_complain(to, "joint %d: its point on a particle must be the mass centre", i);
 }
 
 static int angles_of(const zd_space_tables *tables)
@@ -69,12 +71,13 @@ static int gauge_is_right(const void *all, int i, zd_complaint to)
 {
     const zd_space_tables *tables = all;
     const zd_space_gauge *gauge = tables->gauge + i;
-    if (!zd_is_in(gauge->kind, ZD_SPACE_GAUGES)) return zd_complain(to, "gauge %d: there is no kind %d", i, gauge->kind);
-    if (!zd_bodies_are_right("gauge", i, "is read off", gauge->first, gauge->second, tables->bodies, to)) return 0;
+    if (!zd_is_in(gauge->kind, ZD_SPACE_GAUGES))
+        return zd_complain(to, "gauge %d: its kind must be from 0 to %d, not %d", i, ZD_SPACE_GAUGES - 1, gauge->kind);
+    if (!zd_bodies_are_right("gauge", i, gauge->first, gauge->second, tables->bodies, to)) return 0;
     if (gauge->counted && (gauge->kind != ZD_SPACE_ANGLE || !zd_is_in(gauge->counted - 1, angles_of(tables))))
-        return zd_complain(to, "gauge %d: it counts the turns of angle %d of joints, which is not there", i, gauge->counted - 1);
+        return zd_complain(to, "gauge %d: it must count the turns of an angle of a joint, not of angle %d", i, gauge->counted - 1);
     return (suits_particle(tables, gauge->first, gauge->point1) && suits_particle(tables, gauge->second, gauge->point2)) ||
-           zd_complain(to, "gauge %d: a particle has no points but its own", i);
+           zd_complain(to, "gauge %d: its point on a particle must be the mass centre", i);
 }
 
 int zd_space_tables_are_right(const zd_space_tables *tables, char *message, int message_size)

@@ -203,7 +203,7 @@ zd_space *zd_space_create(const zd_space_tables *tables, char *message, int mess
     take_parts(tables, &arena, &all);
     const int alone = plan(tables, &all);
     if (alone < 0) return all.self;
-    snprintf(message, (size_t)message_size, "row %d: it is about the ground alone", alone);
+    snprintf(message, (size_t)message_size, "row %d: it must depend on a body, not on the ground alone", alone);
     zd_release(arena.base);
     return NULL;
 }

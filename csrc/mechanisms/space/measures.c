@@ -67,7 +67,8 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
 {
     const zd_space_joint *ends = ((const zd_space *)mechanism)->joint + joint;
     const zd_space_pose *pose = ((const zd_space_frame *)frame)->pose;
-    const zd_vector3 first = zd_space_point_of(pose + ends->first, ends->point1), second = zd_space_point_of(pose + ends->second, ends->point2);
+    const zd_vector3 first = zd_space_point_of(pose + ends->first, ends->point1);
+    const zd_vector3 second = zd_space_point_of(pose + ends->second, ends->point2);
     write_vector(zd_minus3(second, first), vector);
 }
 

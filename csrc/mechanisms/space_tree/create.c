@@ -201,7 +201,7 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
     if (!arena.base) return refuse(self, NULL, "there is no memory for the mechanism", message, message_size);
     take_parts(tables, &arena, &all);
     plan_links(tables, &all);
-    if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree has a circle: bodies carry each other",
+    if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree of inboard joints must have no loop",
                                                                     message, message_size);
     place_angles(self, &all);
     write_lengths(all.tree, all.lengths);

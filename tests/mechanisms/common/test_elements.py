@@ -33,14 +33,14 @@ def law(number, t, x, xdot):
 
 @pytest.mark.parametrize("relation", [Relation([3]), Relation([-1]), Relation([]), Relation([0], law=0), Relation([0], joint=0)])
 def test_relations_are_of_what_there_is(room, relation):
-    with pytest.raises(ValueError, match="relation 0: its gauges, law or joint are not there"):
+    with pytest.raises(ValueError, match="relation 0: its gauges, user function and joint must exist"):
         core(room, relations=[relation])
 
 
 @pytest.mark.parametrize("effort", [Effort("spring", 3), Effort("law", 0), Effort("constant", 0, law=0),
                                     Effort("spring", 0, joint=0), Effort("law", 0, law=0, inputs=[3])])
 def test_efforts_are_of_what_there_is(room, effort):
-    with pytest.raises(ValueError, match="effort 0: its kind, gauges, law or joint are not there"):
+    with pytest.raises(ValueError, match="effort 0: its kind, gauges, user function and joint must exist"):
         core(room, law, efforts=[effort])
 
 
@@ -50,13 +50,13 @@ def test_efforts_are_of_what_there_is(room, effort):
     *(measure(quantity, 1) for quantity in ("effort", "effort power", "effort force", "drive", "drive power")),
     measure("effort force", 0, 2), measure("drive", 0, term=1)])
 def test_measures_are_of_what_there_is(room, wrong):
-    with pytest.raises(ValueError, match="measure it: what it is of is not there"):
+    with pytest.raises(ValueError, match="measure it: the entries that it measures must exist"):
         core(room, efforts=[Effort("constant", 0)], relations=[Relation([0])], **wrong)
 
 
 def test_a_quantity_that_there_is_not(room, monkeypatch):
     monkeypatch.setitem(room.written_elements.__globals__["QUANTITIES"], "none", 99)
-    with pytest.raises(ValueError, match="measure it: what it is of is not there"):
+    with pytest.raises(ValueError, match="measure it: the entries that it measures must exist"):
         core(room, **measure("none", 0))
 
 
