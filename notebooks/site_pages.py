@@ -9,6 +9,8 @@ from pathlib import Path
 
 import zerodrift as zd
 from zerodrift import errors
+from zerodrift._gateway.base import statuses
+from zerodrift.explanations import classes, explanations
 from zerodrift.mechanisms.elements.joints import JOINTS
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS
 
@@ -59,13 +61,28 @@ def elements() -> Iterable[str]:
 
 
 def messages() -> Iterable[str]:
-    """Errors and warnings, each with its own words."""
-    yield from ("# When it stops", "", "Errors of the package are `zerodrift.ZerodriftError`; most carry the solution up to the place "
-                "where it stopped, as `error.solution`.", "")
-    for title, classes in (("Errors", ERRORS), ("Warnings", WARNINGS)):
-        yield from (f"## {title}", "")
-        for each in classes:
-            yield from (f"### {each.__name__}", "", inspect.cleandoc(each.__doc__ or ""), "")
+    """Errors and warnings by code: meaning, the core's sentences, causes, cures, and lines that provoke it."""
+    yield from ("# When it stops", "", "A message ends with a code, such as `[zd:branch-jump]`, which `error.code` holds. "
+                "`python -m zerodrift explain branch-jump` prints the section below it.", "",
+                "Errors of the package are {py:class}`zerodrift.ZerodriftError`; most carry the solution up to the place where it "
+                "stopped, as `error.solution`. Wrong arguments are `ValueError` and `TypeError`, whose message states the rule, the value "
+                "and a hint.", "")
+    codes, explained = classes(), explanations()
+    yield from ("| code | class | meaning |", "|---|---|---|")
+    yield from (f"| [`{code}`](#{code}) | `{each.__name__}` | {first_sentence(each)} |" for code, each in codes.items())
+    for code, each in codes.items():
+        found = explained[code]
+        yield from ("", f"({code})=", f"## {code}", "", f"`zerodrift.{each.__name__}`. " + inspect.cleandoc(each.__doc__ or "").split("\n\n")[0], "")
+        if said := [row.sentence for row in statuses() if row.error == each.__name__]:
+            yield from ("As printed:", "", *(f"* {sentence}" for sentence in said), "")
+        for title, sentences in (("Causes", found.causes), ("Cures", found.cures)):
+            yield from (f"**{title}**", "", *(f"* {sentence}" for sentence in sentences), "")
+        if found.snippet:
+            yield from ("These lines provoke it:", "", "```python", "import zerodrift as zd", "", found.snippet, "```", "")
+
+
+def first_sentence(cls: type) -> str:
+    return " ".join(inspect.cleandoc(cls.__doc__ or "").split("\n\n")[0].split()).split("; ")[0].rstrip(".")
 
 
 def models() -> Iterable[str]:

@@ -1,4 +1,4 @@
-"""The command line: ``python -m zerodrift reproduce [--out DIR]``, and ``gallery``."""
+"""The command line: ``python -m zerodrift reproduce [--out DIR]``, ``gallery``, and ``explain CODE``."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.command is None:
         parser.print_help()
         return 0
+    if options.command is _explain:
+        return _explain(options.code)
     try:
         import matplotlib.pyplot  # noqa: F401  (only now)
     except ValueError as error:     # of a setting of matplotlib's own, such as the environment variable MPLBACKEND
@@ -50,6 +52,21 @@ def _gallery(folder: Path) -> None:
     print(f"{len(gallery.exhibits())} models in motion (animated PNG) and the page that shows them, {page.resolve()}")
 
 
+def _explain(code: str | None) -> int:
+    from .explanations import classes, explain
+
+    if code is None:
+        for each, of in sorted(classes().items()):
+            print(f"{each:24}{of.__name__}")
+        return 0
+    try:
+        print(explain(code))
+    except ValueError as error:
+        print(f"python -m zerodrift: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
 def _folder(given: str) -> Path:
     """A folder that may have to be made yet."""
     if not given.strip() or "\0" in given:
@@ -69,6 +86,10 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument("--out", type=_folder, default=folder, metavar="DIR",
                              help="folder to write to (default: %(default)s)")
         command.set_defaults(command=does)
+    explaining = commands.add_parser("explain", help="Causes and cures of an error or a warning, by the code in its message",
+                                     description="Causes and cures of an error or a warning.")
+    explaining.add_argument("code", nargs="?", metavar="CODE", help="such as branch-jump; left out: all codes")
+    explaining.set_defaults(command=_explain)
     return parser
 
 

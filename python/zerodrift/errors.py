@@ -1,36 +1,65 @@
-"""Errors and warnings of the package."""
+"""Errors and warnings of the package.
+
+Each has a short stable code, which ends its message, ``[zd:branch-jump]``; ``python -m zerodrift explain branch-jump`` prints
+its causes and cures.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
 
-class ZerodriftError(Exception):
+class _Coded(BaseException):
+    """Base of errors and warnings whose message ends with their code."""
+
+    code: str
+
+    def __str__(self) -> str:
+        return f"{super().__str__()} [zd:{self.code}]"
+
+
+def sentence(error: BaseException) -> str:
+    """The message of an error without its code, for messages that contain it."""
+    return BaseException.__str__(error) if isinstance(error, _Coded) else str(error)
+
+
+class ZerodriftError(_Coded, Exception):
     """Base of all errors of this package.
 
     Attributes
     ----------
+    code : str
+        Short stable name of the error, such as "branch-jump"; the message ends with it.
     solution : Solution or None
         Partial solution up to the failure, if it happened during a run.
     """
 
+    code = "zerodrift-error"
     solution: Any = None
 
 
 class InconsistentStart(ZerodriftError, ValueError):
     """The initial state violates the constraints; `zerodrift.assemble` finds a consistent one."""
 
+    code = "inconsistent-start"
+
 
 class UnreachableTolerance(ZerodriftError, ValueError):
     """The tolerance is below what double precision can reach for this system."""
+
+    code = "unreachable-tolerance"
 
 
 class UnsuitedFormulation(ZerodriftError, ValueError):
     """The formulation does not suit this system."""
 
+    code = "unsuited-formulation"
+
 
 class UnsuitedIntegrator(ZerodriftError, ValueError):
     """The integrator does not suit this system."""
+
+    code = "unsuited-integrator"
 
 
 class InconsistentSystem(ZerodriftError, ValueError):
@@ -38,67 +67,99 @@ class InconsistentSystem(ZerodriftError, ValueError):
     matrix changes the length of a unit quaternion.
     """
 
+    code = "inconsistent-system"
+
 
 class SingularSystem(ZerodriftError, ArithmeticError):
     """The mass matrix is not positive definite where required, or constraints are dependent or contradict each other."""
+
+    code = "singular-system"
 
 
 class Bifurcation(SingularSystem):
     """Constraints that are independent elsewhere become dependent at or within this step and do not determine the motion."""
 
+    code = "bifurcation"
+
 
 class Diverged(ZerodriftError, ArithmeticError):
     """The state left the range of doubles."""
+
+    code = "diverged"
 
 
 class CorrectionFailed(ZerodriftError):
     """A correction did not reach its tolerance."""
 
+    code = "correction-failed"
+
 
 class BranchJump(CorrectionFailed):
     """A step ended on (or near) another assembly branch: displacement and velocities disagree, as it was far too long."""
+
+    code = "branch-jump"
 
 
 class StepFailed(ZerodriftError):
     """The equations of an implicit step were not solved, or adaptive steps became too short or too many."""
 
+    code = "step-failed"
+
 
 class WorkerLost(ZerodriftError):
     """An executor did not return all runs of an ensemble; `solution` is the Ensemble of those that it did return."""
+
+    code = "worker-lost"
 
 
 class InUse(ZerodriftError, ValueError):
     """Another run writes to the file of `save_to`, or another ensemble to the folder of `store`."""
 
+    code = "in-use"
+
 
 class StaleCore(ZerodriftError, ImportError):
     """The compiled core is older than the C sources beside it."""
 
+    code = "stale-core"
 
-class CorrectionWarning(UserWarning):
+
+class CorrectionWarning(_Coded, UserWarning):
     """Corrections were skipped, as they had no bounded solution; `Solution.energy_skipped` counts them over time."""
 
+    code = "correction-skipped"
 
-class AccuracyWarning(UserWarning):
+
+class AccuracyWarning(_Coded, UserWarning):
     """Steps were too long, as the energy balance or the motion of one component shows: the result satisfies the constraints,
     but is not the motion.
     """
 
+    code = "accuracy"
 
-class StabilityWarning(UserWarning):
+
+class StabilityWarning(_Coded, UserWarning):
     """Fixed steps exceeded the stability limit of the integrator, or stability rather than accuracy limited adaptive steps."""
 
+    code = "stability"
 
-class LockedWarning(UserWarning):
+
+class LockedWarning(_Coded, UserWarning):
     """The mechanism cannot move, and constraints are redundant, for example because of skew hinge axes."""
 
+    code = "locked"
 
-class CostWarning(UserWarning):
+
+class CostWarning(_Coded, UserWarning):
     """A run would take much time or memory, and could take less; issued before it starts."""
 
+    code = "cost"
 
-class Interrupted(KeyboardInterrupt):
+
+class Interrupted(_Coded, KeyboardInterrupt):
     """A computation was interrupted from the keyboard; `solution` has its partial result, such as a Solution or Ensemble."""
+
+    code = "interrupted"
 
     def __init__(self, message: str, solution: Any) -> None:
         super().__init__(message)
@@ -108,14 +169,22 @@ class Interrupted(KeyboardInterrupt):
 class CompilationFailed(ZerodriftError):
     """The C compiler cannot be run, rejected the source of a symbolic system, or wrote no library that can be loaded."""
 
+    code = "compilation-failed"
 
-class NoCompilerWarning(UserWarning):
+
+class NoCompilerWarning(_Coded, UserWarning):
     """There is no C compiler: a symbolic system is evaluated in Python, about a hundred times slower."""
 
+    code = "no-compiler"
 
-class CacheWarning(UserWarning):
+
+class CacheWarning(_Coded, UserWarning):
     """The compile cache cannot be written, or other users can write it: each process compiles its systems again."""
+
+    code = "cache"
 
 
 class EquilibriumFailed(ZerodriftError):
     """No equilibrium or steady motion was found; the message has the best position and the direction of the remaining force."""
+
+    code = "equilibrium-failed"

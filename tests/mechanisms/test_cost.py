@@ -171,7 +171,7 @@ def test_long_chains_in_joint_coordinates_say_what_they_cost():
 def test_a_run_of_one_says_so_before_it_starts(steps):
     system = chain(340).system("joint")
     start = {"p0": np.zeros(340), "v0": np.zeros(340), "on_failure": "return"}
-    with (pytest.warns(zd.CostWarning, match=r"^a step takes about .*s, .* system\('absolute'\) has these$") as told,
+    with (pytest.warns(zd.CostWarning, match=r"^a step takes about .*s, .* system\('absolute'\) has these \[zd:cost\]$") as told,
           pytest.raises(ZeroDivisionError)):
         zd.simulate(system, 1.0, progress=At(1, throw(ZeroDivisionError())), **start, **steps)
     assert [each.filename for each in told] == [__file__]

@@ -92,7 +92,7 @@ def test_systems_that_the_core_refuses(changed, sentence):
 
 def test_an_energy_correction_without_potential_is_refused_by_the_core():
     core = zd.System(1, mass=[[1.0]], p0=[0.0])._core
-    with pytest.raises(zd.ZerodriftError, match=r"^energy correction needs V \(potential energy in J\)$"):
+    with pytest.raises(zd.ZerodriftError, match=r"^energy correction needs V \(potential energy in J\) \[zd:"):
         between(core, handed(correction={"energy": {}}), np.zeros(1), np.zeros(1))
 
 

@@ -52,7 +52,7 @@ def test_ctrl_c_keeps_what_was_computed(bar):
     error = interrupted_after_samples(bar)
     assert isinstance(error, zd.errors.Interrupted)
     sol = error.solution
-    assert str(error) == sol.message == "interrupted from the keyboard"
+    assert zd.errors.sentence(error) == sol.message == "interrupted from the keyboard"
     assert not sol.success
     assert sol.status > 0
     assert 1 < len(sol.t) < 1e5

@@ -128,12 +128,26 @@ def default(table: str) -> str:
     return cards(table)[lib.zd_default_row(TABLES[table])].name
 
 
+class Status(NamedTuple):
+    """An entry of the core's list of statuses."""
+
+    status: int
+    error: str      # name of the exception that stands for it
+    sentence: str
+
+
+def statuses() -> list[Status]:
+    """The core's list of statuses of failures."""
+    rows: list[Status] = []
+    while c := lib.zd_status_at(len(rows)):
+        rows.append(Status(c.status, text(c.error) or "ZerodriftError", text(c.sentence)))
+    return [row for row in rows if row.status < 0]
+
+
 def _errors() -> dict[int, type[Exception]]:
     """The exceptions that stand for failed statuses, whose names the core's list of statuses has."""
-    rows, named = [], {"": errors.ZerodriftError, **vars(builtins), **vars(errors)}
-    while c := lib.zd_status_at(len(rows)):
-        rows.append((c.status, named[text(c.error)]))
-    return {status: error for status, error in rows if status < 0}
+    named = {**vars(builtins), **vars(errors)}
+    return {row.status: named[row.error] for row in statuses()}
 
 
 ERRORS = _errors()

@@ -14,7 +14,7 @@ from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 from .. import _check, _gateway
-from ..errors import WorkerLost
+from ..errors import WorkerLost, sentence
 from ..runs.settings import VECTOR_UNITS
 from ..runs.threads import LOOK
 from .identity import version
@@ -181,7 +181,7 @@ def _made(head: bytes, table: bytes) -> bytes:
         kept = "what is kept of a run" if plan.reduce is None else f"what {named(plan.reduce)} returned of a run"
         return packed(run_range(plan, 0, plan.runs.count, _is_cancelled), kept)
     except (ImportError, WorkerLost) as error:
-        return packed(WorkerLost(f"{error} (on {platform.node()})"))
+        return packed(WorkerLost(f"{sentence(error)} (on {platform.node()})"))
     except TypeError as error:      # a value of reduce that cannot be pickled
         return packed(TypeError(str(error)))
     except KeyboardInterrupt:       # without its solution, which is not sent back

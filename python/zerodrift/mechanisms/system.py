@@ -12,7 +12,7 @@ from .. import _check
 from .._gateway import Variable
 from .._gateway import is_length as is_length_of
 from .._gateway.mechanisms import MechanismCore
-from ..errors import ZerodriftError
+from ..errors import ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import NO_COMPILER, DirectFunctions
 from ..systems.base import BaseSystem
 from ..systems.parameter_tables import NumberTables, refusals
@@ -302,12 +302,12 @@ class MechanismSystem(BaseSystem):
 
     def _advice(self, error: Exception) -> str | None:
         """Advice for a singular start, or None."""
-        if isinstance(self._tables, SpaceTables) and "follow" in str(error):
+        if isinstance(self._tables, SpaceTables) and "follow" in sentence(error):
             tables, assembly, p = self._start.closed(0.0)
             told = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
             if told:
                 return told
-        return advice.at_start(str(error), self._start, self.constraints)
+        return advice.at_start(sentence(error), self._start, self.constraints)
 
     def _why_locked(self) -> str | None:
         """Sentence on skew axes; None if drives move what joints alone would lock."""

@@ -74,11 +74,26 @@ class View:
         webbrowser.open(self.save(folder / "film.html").as_uri())
 
     def _repr_html_(self) -> str:
-        """A frame that may run scripts and nothing else, in front of a still picture, which untrusted notebooks keep."""
+        """A frame in front of a still picture, which untrusted notebooks keep."""
         name = html.escape(self._scene["name"], quote=True)
-        return (f'<div style="position:relative;height:{self.height}px;max-width:960px">'
-                f'<img alt="{name} at the start of the motion" src="data:image/png;base64,{self._still()}" '
-                'style="position:absolute;max-width:100%;max-height:100%">'
+        return self.frame(f'<img alt="{name} at the start of the motion" src="data:image/png;base64,{self._still()}" '
+                          'style="position:absolute;max-width:100%;max-height:100%">')
+
+    def frame(self, behind: str = "") -> str:
+        """The film as a frame that may run scripts and nothing else.
+
+        Parameters
+        ----------
+        behind : str
+            HTML that is shown where frames are not.
+
+        Returns
+        -------
+        str
+            HTML.
+        """
+        name = html.escape(self._scene["name"], quote=True)
+        return (f'<div style="position:relative;height:{self.height}px;max-width:960px">{behind}'
                 f'<iframe title="Film of {name}" sandbox="allow-scripts" srcdoc=\'{_quoted(self.page)}\' '
                 'style="position:absolute;width:100%;height:100%;border:0;background:Canvas"></iframe></div>')
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..._gateway.mechanisms import MechanismCore
 from ..._rotations import quaternion_of
-from ...errors import CorrectionFailed, InconsistentStart, SingularSystem
+from ...errors import CorrectionFailed, InconsistentStart, SingularSystem, sentence
 from ..elements import columns
 from ..elements.drawing import Drawing
 from ..elements.forces import Motor
@@ -133,7 +133,7 @@ class Starting:
         except CorrectionFailed:
             raise CorrectionFailed(self._not_closed(assembly, p)) from None
         except InconsistentStart as error:
-            raise InconsistentStart(f"{error}{self._loop_in_words(tables, assembly, p)}") from None
+            raise InconsistentStart(f"{sentence(error)}{self._loop_in_words(tables, assembly, p)}") from None
 
     def _unforced(self, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
         """Coordinates whose positions, and whose rates, neither held values nor drives determine."""

@@ -1,0 +1,189 @@
+"""`zd.explore`: sliders for parameters, and the film of the motion that they make."""
+
+from __future__ import annotations
+
+import html
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from .. import _check
+from ..errors import ZerodriftError
+from ..runs.simulate import simulate
+from ..runs.solution import Solution
+from .view import View, view
+
+STEPS = 100         # of a slider
+SHOWN = ("forces", "path", "graphs", "names", "speed")      # arguments of `view`; all others are those of `simulate`
+
+
+class Exploration:
+    """A motion for values of parameters; at the end of a notebook's cell it shows sliders above its film.
+
+    Attributes
+    ----------
+    values : dict of str to float
+        Present values of the parameters.
+    solution : Solution or None
+        The motion for these values; None if they allow none.
+    film : View or None
+        Its film.
+    message : str
+        The reason for which there is no motion; empty if there is one.
+    """
+
+    def __init__(self, made: Callable[[dict[str, float]], Any], t_span: Any, ranges: Mapping[str, tuple[float, float]],
+                 values: Mapping[str, float], options: Mapping[str, Any]) -> None:
+        self._made, self._t_span, self.ranges, self.values = made, t_span, dict(ranges), dict(values)
+        self._shown = {name: options[name] for name in SHOWN if name in options}
+        self._settings = {name: value for name, value in options.items() if name not in SHOWN}
+        self.solution: Solution | None = None
+        self.film: View | None = None
+        self.message = ""
+        self._run()
+
+    def set(self, values: Mapping[str, float] | None = None, /, **named: float) -> Exploration:
+        """Change values of parameters, and simulate again.
+
+        Parameters
+        ----------
+        values : dict of str to float, optional
+            Values by name, for names that Python does not take as keywords.
+        **named
+            Values by name.
+
+        Returns
+        -------
+        Exploration
+            Itself.
+
+        Raises
+        ------
+        ValueError
+            If a name is none of the parameters.
+        """
+        for name, value in {**(values or {}), **named}.items():
+            if name not in self.values:
+                raise ValueError(f"values must name parameters of this exploration, {', '.join(self.values)}, not {name!r}")
+            self.values[name] = _check.number(name, value)
+        self._run()
+        return self
+
+    def _run(self) -> None:
+        """Simulate; values that allow no motion leave the reason in `message`."""
+        self.solution = self.film = None
+        self.message = ""
+        try:
+            self.solution = simulate(self._made(self.values), self._t_span, **self._settings)
+        except (ZerodriftError, ValueError) as error:
+            self.message = str(error)
+            return
+        self.film = view(self.solution, **self._shown)
+
+    def widget(self) -> Any:
+        """Sliders above the film, as a widget of ipywidgets.
+
+        Raises
+        ------
+        ImportError
+            If ipywidgets is not installed.
+        """
+        try:
+            import ipywidgets
+        except ImportError:
+            raise ImportError("sliders need ipywidgets, which is not installed: pip install 'zerodrift[notebook]'") from None
+        picture = ipywidgets.HTML(self._picture())
+        sliders = [ipywidgets.FloatSlider(value=self.values[name], min=low, max=high, step=(high - low) / STEPS, description=name,
+                                          readout_format=".4g", continuous_update=True, style={"description_width": "12em"},
+                                          layout={"width": "34em", "max_width": "100%"})
+                   for name, (low, high) in self.ranges.items()]
+
+        def moved(change: Any) -> None:
+            self.set({change["owner"].description: change["new"]})
+            picture.value = self._picture()
+
+        for slider in sliders:
+            slider.observe(moved, names="value")
+        return ipywidgets.VBox([*sliders, picture])
+
+    def _picture(self) -> str:
+        """The film, or the reason for which there is none."""
+        return f"<pre>{html.escape(self.message)}</pre>" if self.film is None else self.film.frame()
+
+    def _ipython_display_(self) -> None:
+        from IPython.display import display
+
+        display(self.widget())
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name} = {value:g}" for name, value in self.values.items())
+        return f"<exploration of {values}: {self.message or self.solution.message}>"
+
+
+def explore(system: Any, parameters: Mapping[str, tuple[float, float]], t_span: Any = 10.0, **options: Any) -> Exploration:
+    """Sliders that simulate again while they are dragged, above the film and its graphs.
+
+    Parameters
+    ----------
+    system : system, Mechanism or callable
+        A callable receives the parameters by name and returns a system or a Mechanism: so lengths are varied, as by
+        ``zd.explore(zd.models.hoecken, {"coupler": (2.0, 3.0)})``.
+    parameters : dict of str to (float, float)
+        Range of each slider: names are those of `with_parameters`, or arguments of the callable. It starts at the system's own
+        value, if that is within the range, otherwise in the middle.
+    t_span : float or (float, float)
+        As of `simulate`.
+    **options
+        ``forces``, ``path``, ``graphs``, ``names`` and ``speed`` are those of `view`; all others are those of `simulate`.
+
+    Returns
+    -------
+    Exploration
+        It shows itself at the end of a notebook's cell, which needs ipywidgets (extra ``notebook``); `Exploration.set` is the
+        same without sliders.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If there are no parameters, a range is not increasing, or a name is none of the system.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> crank = zd.explore(zd.models.slider_crank(), {"spring.stiffness": (0.5, 5.0)}, 2.0, step=0.01, graphs=["crank.angle"])
+    >>> soft = crank.solution["crank.angle"][-1]
+    >>> bool(crank.set({"spring.stiffness": 5.0}).solution["crank.angle"][-1] != soft)
+    True
+    """
+    ranges = _ranges(parameters)
+    if inspect.isroutine(system) or inspect.isfunction(system):
+        own = {name: each.default for name, each in inspect.signature(system).parameters.items()}
+        return Exploration(lambda values: system(**values), t_span, ranges, _first(ranges, own), options)
+    whole = system.system() if hasattr(system, "system") else system
+    unknown = [name for name in ranges if name not in whole.parameters]
+    if unknown:
+        raise ValueError(f"parameters must be those of {whole.name}, {', '.join(whole.parameters)}, not {unknown[0]!r}")
+    return Exploration(system.with_parameters, t_span, ranges, _first(ranges, whole.parameters), options)
+
+
+def _ranges(parameters: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
+    """The ranges, as pairs of increasing numbers."""
+    if not isinstance(parameters, Mapping) or not parameters:
+        raise TypeError("parameters must be a dict of ranges by name, such as {'rod.mass': (0.5, 2.0)}, not "
+                        f"{_check.shown(parameters)}")
+    found = {}
+    for name, given in parameters.items():
+        try:
+            low, high = (float(each) for each in given)
+        except (TypeError, ValueError):
+            raise TypeError(f"the range of {name!r} must be two numbers, not {_check.shown(given)}") from None
+        if not low < high < float("inf") or low == float("-inf"):
+            raise ValueError(f"the range of {name!r} must increase and be finite, not {_check.shown(given)}")
+        found[name] = low, high
+    return found
+
+
+def _first(ranges: Mapping[str, tuple[float, float]], own: Mapping[str, Any]) -> dict[str, float]:
+    """The system's own values where these lie in the ranges, otherwise the middles."""
+    return {name: float(own[name]) if isinstance(own.get(name), int | float) and low <= own[name] <= high else (low + high) / 2
+            for name, (low, high) in ranges.items()}

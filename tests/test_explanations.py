@@ -1,0 +1,70 @@
+"""Codes of errors and warnings: each is explained, its example provokes it, and its message ends with it."""
+
+import pickle
+import re
+import subprocess
+import sys
+import warnings
+
+import pytest
+
+import zerodrift as zd
+from zerodrift.__main__ import main
+from zerodrift.explanations import classes, explain, explanations
+
+EXPLANATIONS = explanations()
+PROVOKED = [code for code, each in EXPLANATIONS.items() if each.snippet]
+
+
+def test_every_error_and_warning_is_explained():
+    assert set(classes()) == set(EXPLANATIONS)
+    assert all(each.causes and each.cures for each in EXPLANATIONS.values())
+    public = {each for each in vars(zd.errors).values() if isinstance(each, type) and issubclass(each, BaseException)
+              and not each.__name__.startswith("_")}
+    assert set(classes().values()) == public
+
+
+@pytest.mark.parametrize("code", PROVOKED)
+def test_the_example_provokes_it(code, monkeypatch):
+    """Examples that change the environment do so for themselves alone."""
+    if "sympy" in EXPLANATIONS[code].snippet:
+        pytest.importorskip("sympy")
+    monkeypatch.setenv("CC", "cc")
+    lines = compile(EXPLANATIONS[code].snippet, code, "exec")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        if issubclass(classes()[code], Warning):
+            warnings.simplefilter("error", classes()[code])
+        with pytest.raises((zd.ZerodriftError, Warning)) as caught:
+            exec(lines, {"zd": zd})
+    assert caught.value.code == code
+    assert str(caught.value).endswith(f" [zd:{code}]")
+
+
+@pytest.mark.parametrize("code", classes())
+def test_codes_are_short_words(code):
+    assert re.fullmatch(r"[a-z]+(-[a-z]+){0,2}", code)
+    assert explain(code).startswith(f"{code} ({classes()[code].__name__})")
+    assert explain(f"[zd:{code}]") == explain(code)
+
+
+def test_a_message_within_another_has_no_code():
+    error = zd.BranchJump("sentence")
+    assert zd.errors.sentence(error) == "sentence"
+    assert zd.errors.sentence(ValueError("x")) == "x"
+    assert str(pickle.loads(pickle.dumps(error))) == str(error) == "sentence [zd:branch-jump]"
+
+
+def test_the_command_explains(capsys):
+    assert main(["explain", "branch-jump"]) == 0
+    assert "Take shorter steps" in capsys.readouterr().out
+    assert main(["explain"]) == 0
+    assert set(classes()) == {line.split()[0] for line in capsys.readouterr().out.splitlines()}
+    assert main(["explain", "branch-jmp"]) == 2
+    assert "branch-jump" in capsys.readouterr().err
+
+
+def test_the_command_needs_no_matplotlib():
+    code = ("import sys; from zerodrift.__main__ import main; main(['explain', 'diverged']); "
+            "assert 'matplotlib' not in sys.modules")
+    subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
