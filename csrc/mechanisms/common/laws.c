@@ -1,4 +1,4 @@
-/* A law is handed the gauges of its row or effort, and takes what it says. */
+/* Values of user functions, and of rows and efforts without one, from the gauges at one state. */
 #include <math.h>
 
 #include "laws.h"

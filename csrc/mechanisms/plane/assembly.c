@@ -168,7 +168,7 @@ static double distance(const zd_assembly *self, const double *p, const double *d
     return sqrt(sum);
 }
 
-/* From closed positions to those nearest to the drawing on the same branch, by the method of Gauss and Newton; `memory` (2, n). */
+/* Gauss-Newton method from closed positions to those nearest to the reference configuration on the same branch; `memory` (2, n). */
 static int approach(zd_assembly *self, const zd_assembly_problem *of, const double *drawn, double *p, double *memory)
 {
     double *step = memory, *tried = memory + self->n, before = distance(self, p, drawn);

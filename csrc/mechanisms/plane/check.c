@@ -1,4 +1,4 @@
-/* Bodies, joints and gauges of the plane; what gauges are used for is looked at elsewhere. */
+/* Checks of bodies, joints and gauges in the plane; elements are checked in ../common/check.c. */
 #include "check.h"
 
 #include <stddef.h>

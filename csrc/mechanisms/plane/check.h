@@ -4,7 +4,7 @@
 
 #include "tables.h"
 
-/* Returns whether they are right; if not, says where in `message`. */
+/* Returns 1, or 0 with the violated rule in `message`. */
 int zd_plane_tables_are_right(const zd_plane_tables *tables, char *message, int message_size);
 
 #endif

@@ -43,7 +43,7 @@ static size_t most_rows(const zd_plane_tables *tables)
     return (size_t)(joints > 0 ? joints : 0) * ZD_JOINT_ROWS + (size_t)tables->elements.relations;
 }
 
-/* Gauges of rows that are of no pin, of which a joint has x and y of the same points. */
+/* Maximum number of lines: gauges of rows that are not of revolute joints, which have x and y of the same points. */
 static size_t most_lines(const zd_plane_tables *tables)
 {
     size_t lines = (size_t)tables->elements.terms;
@@ -88,7 +88,7 @@ static int inner_of(const zd_plane_tables *tables, int body)
     return joint->first == body ? joint->second : joint->first;
 }
 
-/* Numbers bodies so that the one that each hangs on comes first; returns whether they hang on the ground, all of them. */
+/* Numbers bodies so that parents come before children. Returns 0 if not all of them are connected to the ground by the tree. */
 static int number_bodies(const zd_plane_tables *tables, int *number)
 {
     int numbered = 0, before = -1;
@@ -251,7 +251,7 @@ static void make_system(const zd_plane_tables *tables, const parts *from, int co
         .data = self,
         .lengths = from->lengths,
         .length = zd_plane_tables_length(tables),
-        .failure = "a law of the mechanism failed",
+        .failure = "a user function of the mechanism failed",
         .measures = &self->measures,
         .structure = self->packing ? &self->packing->packed.structure : NULL,
         .operations = self->packing && self->packing->revolutes.are_all ? &zd_plane_products : NULL,

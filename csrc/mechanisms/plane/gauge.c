@@ -1,5 +1,5 @@
-/* The kinds of gauges. Each is a component of Q - P along a direction, its length, or an angle; the direction is the drawing's, or turns
- * with the first body. */
+/* The kinds of gauges. Each is a component of Q - P along a direction, its length, or an angle; the direction is a global axis, or
+ * rotates with the first body. */
 #include "gauge.h"
 
 typedef struct direction {

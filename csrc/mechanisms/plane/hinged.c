@@ -35,7 +35,7 @@ static void number_angles(zd_hinged *self, const zd_plane_tree *tree)
         if (tree->link[i].hang == ZD_HANGS_TURNING) self->angle[i] = k++;
 }
 
-/* A vector in the axes of a body, in those of the body that it hangs on; only where it is fixed to it, or has no axes of its own. */
+/* A vector in body axes, converted to the parent's axes; only for bodies that are fixed to it, or have no axes of their own. */
 static zd_vector in_axes_of_inner(const zd_plane_link *link, zd_vector a)
 {
     return link->hang == ZD_HANGS_FIXED ? zd_rotated(link->cosine, link->sine, a) : a;
@@ -47,7 +47,7 @@ typedef struct moments {
     double second;
 } moments;
 
-/* Adds what a body is to the one that it hangs on: all that is further out where it is fixed to that, else a mass at its joint. */
+/* Adds the moments of a body to those of its parent: its composite if it is fixed to it, otherwise a point mass at its joint. */
 static void add_inward(const zd_plane_tree *tree, int body, const moments *own, moments *inner)
 {
     const zd_plane_link *link = tree->link + body;

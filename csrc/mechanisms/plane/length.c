@@ -29,7 +29,7 @@ double zd_plane_tables_length(const zd_plane_tables *tables)
         all.largest = fmax(all.largest, fmax(fabs(joint->length), fmax(fabs(joint->along), fabs(joint->across))));
     }
     for (const zd_plane_gauge *gauge = tables->gauge; gauge < tables->gauge + tables->gauges; gauge++) {
-        if (gauge->kind < ZD_GAUGE_ALONG) continue;     /* places are measured from the drawing's origin, which may be far away */
+        if (gauge->kind < ZD_GAUGE_ALONG) continue;     /* vectors of position gauges begin at the global origin, which may be far away */
         extend(&all, gauge->first, gauge->point1);
         extend(&all, gauge->second, gauge->point2);
         all.largest = fmax(all.largest, fabs(gauge->zero));

@@ -171,7 +171,7 @@ void zd_plane_tree_transmit(const zd_plane_tree *tree, const zd_plane_pose *pose
 
 /* ---- the mass matrix ---- */
 
-/* Adds a body, with all that hangs on it, to the body that it hangs on. Where it turns by itself, it is a mass at its joint. */
+/* Adds the composite of a body to that of its parent; one that turns relative to it is a point mass at its joint. */
 static void add_to_inner(const zd_plane_link *link, const zd_plane_pose *pose, const zd_plane_composite *own, zd_plane_composite *inner)
 {
     int turns_with = link->hang == ZD_HANGS_SLIDING || link->hang == ZD_HANGS_FIXED;
@@ -183,7 +183,7 @@ static void add_to_inner(const zd_plane_link *link, const zd_plane_pose *pose, c
     inner->inertia += own->inertia + 2 * zd_inner(own->first, arm);
 }
 
-/* The momentum of a body, with all that hangs on it, where it moves at unit rate of its own coordinate. */
+/* Momentum of a body's composite at unit rate of the body's own coordinate. */
 static zd_plane_wrench momentum(const zd_plane_link *link, const zd_plane_pose *pose, const zd_plane_composite *own)
 {
     if (link->hang == ZD_HANGS_SLIDING) return (zd_plane_wrench){zd_times(link->carried, pose->axis), zd_cross(own->first, pose->axis)};

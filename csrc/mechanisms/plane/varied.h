@@ -17,7 +17,7 @@ typedef struct zd_varied {
     const double *length;       /* (runs,) m: characteristic length of each */
     int targets;
     const zd_target *target;
-    int drives;                 /* relations of constant speed, whose constants are 0 in the tables: the start says what they are */
+    int drives;                 /* relations of constant speed, whose constants are 0 in the tables and set by the start */
     const int *drive;
 } zd_varied;
 

@@ -143,7 +143,7 @@ static void make_system(const zd_space_tables *tables, const parts *from)
         .data = self,
         .lengths = from->lengths,
         .length = length_of(tables),
-        .failure = "a law of the mechanism failed",
+        .failure = "a user function of the mechanism failed",
         .measures = &self->measures,
         .structure = &self->packed.structure,
         .operations = self->point_joints.are_all && self->elements.m ? &zd_point_joint_products : &zd_space_products,

@@ -1,7 +1,7 @@
-/* Each primitive once: its value, what a unit force along it is for both bodies, and its bias.
+/* Primitive gauges: value, wrenches of a unit force on both bodies, and bias of each.
  *
- * All are made of points and directions that move with bodies. With omega and the acceleration of mass centres as the drawing's axes have
- * them, a direction a has the rate omega x a and, where no velocity changes, the second rate omega x (omega x a); so has the way from the
+ * All are made of points and directions that move with bodies. With omega and the acceleration of mass centres in global axes,
+ * a direction a has the rate omega x a and, where no velocity changes, the second rate omega x (omega x a); so has the way from the
  * mass centre to a point. The derivative of omega is there what the turned derivative of its own components is, as omega x omega vanishes.
  */
 #include "gauge.h"
@@ -77,7 +77,7 @@ static void read_distance(const zd_space_gauge *gauge, const zd_space_pose *pose
     pull(gauge, pose, zd_times3(1 / to->value, apart), to);
 }
 
-/* S x, with S the shape of the ellipsoid, in the drawing's axes. */
+/* S x in global axes, with S the shape of the ellipsoid */
 static zd_vector3 shaped(const zd_space_gauge *gauge, const zd_space_pose *pose, zd_vector3 x)
 {
     const zd_rotation *turned = &pose[gauge->second].turned;

@@ -1,4 +1,4 @@
-/* From what the table of joints says of a number to the gauge that reads it. */
+/* Gauges of the entries of a joint's table. */
 #include "picked.h"
 
 #include <string.h>

@@ -44,7 +44,7 @@ static int count_rows(const zd_space *space, int row)
     return rows;
 }
 
-/* Which sockets each body has. */
+/* Lists the point joints of each body. */
 static void list_ends(zd_point_joints *self, int bodies)
 {
     int *at = self->end_at;
@@ -102,7 +102,7 @@ void zd_point_joints_plan(zd_point_joints *self, const zd_space *space)
 
 ZD_INLINE void keep(double sign, zd_vector3 a, double *to) { to[0] = sign * a.x, to[1] = sign * a.y, to[2] = sign * a.z; }
 
-/* sign times point x e_k, for each of the drawing's axes. */
+/* sign times point x e_k, for each global axis e_k */
 ZD_INLINE void turn_point(double sign, const zd_rotation *R, zd_vector3 point, double *to)
 {
     keep(sign, zd_cross3(point, (zd_vector3){R->x.x, R->y.x, R->z.x}), to);

@@ -57,7 +57,7 @@ ZD_INLINE void times_all(const int rows, const zd_point_joints *self, const doub
     }
 }
 
-/* kernel(rows, ...) with that number known to the compiler, where all joints have as many */
+/* kernel(rows, ...), with a constant number of rows if all joints have the same */
 #define FOR_ROWS(kernel, rows, ...)                 \
     switch (rows) {                                 \
     case 3: kernel(3, __VA_ARGS__); break;          \

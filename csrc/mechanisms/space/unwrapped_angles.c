@@ -2,8 +2,8 @@
  *
  *     angle' = (a x o) . (omega2 - omega1)
  *
- * where a x o is perpendicular to b, as it is where the joint is closed. The angle itself is atan2(o . b, a . b) and as many turns as
- * bring it nearest to the coordinate: what rates lose in a step is then taken out, and no turn is lost unless that is half a turn.
+ * where a x o is perpendicular to b, as it is if the joint is closed. The angle is atan2(o . b, a . b) plus the multiple of 2 pi that brings
+ * it nearest to the coordinate. This removes the error of the integrated rate in each step; turns are correct while it is below pi.
  */
 #include "unwrapped_angles.h"
 

@@ -1,4 +1,4 @@
-/* From tables to a tree: how each body hangs on another, and where its coordinates are. */
+/* From tables to a tree: parents of bodies, their order, and the indices of their coordinates. */
 #include "tree.h"
 
 #include <stdio.h>
@@ -101,7 +101,7 @@ static void plan_links(const zd_space_tables *tables, parts *to)
     *to->tree = (zd_space_tree){tables->bodies, p, v, to->link, to->order};
 }
 
-/* Bodies in an order in which the one that each hangs on comes first, and their depths; returns whether there is such an order. */
+/* Orders the bodies so that parents come before children, and sets their depths. Returns 0 if the tree has a loop. */
 static int order_bodies(const zd_space_tree *tree, zd_space_link *link, int *order)
 {
     int count = 0, before = -1;
@@ -145,7 +145,7 @@ static int place_of_angle(const zd_space_link *link, int number)
     return -1;
 }
 
-/* Angles of joints that carry nothing follow the coordinates of the tree. */
+/* Angles of joints outside the tree are dependent coordinates, after those of the tree. */
 static void place_angles(zd_space *self, parts *to)
 {
     const int end = to->tree->nq;

@@ -1,5 +1,5 @@
-/* A wrench on a body does to each velocity its product with the column, which is the twist of that body by this velocity; then it goes on
- * to the body that this one hangs on. */
+/* The generalized force of a wrench on a body is its product with the column of each velocity, the twist of the body at unit velocity; the
+ * wrench is then transmitted to the parent. */
 #include "inward.h"
 
 #include <string.h>

@@ -9,7 +9,7 @@ typedef struct zd_space_axes {
     zd_vector3 d[ZD_SPACE_AXES];
 } zd_space_axes;
 
-/* One of the freedoms of the joint that carries a body, in the order in which the joint's frame makes them on its way outwards. */
+/* Freedom of the inboard joint of a body, in the order in which the joint's frame moves from the parent to the body. */
 typedef struct zd_space_link_freedom {
     enum zd_space_freedom_kind kind;
     int direction;          /* index of the direction in the joint's moving frame */
@@ -20,7 +20,7 @@ typedef struct zd_space_link_freedom {
 } zd_space_link_freedom;
 
 typedef struct zd_space_link {
-    int inner;              /* the body that it hangs on; of a free one the ground, whatever that is */
+    int inner;              /* its parent; for a free body the ground */
     int is_free, turns;     /* turns: it has an orientation */
     int depth;              /* number of bodies from it down to the ground, itself included */
     int p, v, nq, nv;       /* its own coordinates and velocities */
@@ -38,13 +38,13 @@ typedef struct zd_space_way {
 typedef struct zd_space_composite {  /* a body with all that hangs on it, as if its joints were fixed */
     double mass;
     zd_vector3 first;           /* kg m: its mass times the way from the body's mass centre to its own */
-    double second[6];           /* kg m^2: inertia about the body's mass centre, xx, yy, zz, xy, xz, yz, in the drawing's axes */
+    double second[6];           /* kg m^2: inertia about the body's mass centre, xx, yy, zz, xy, xz, yz, in global axes */
 } zd_space_composite;
 
 typedef struct zd_space_tree {
     int bodies, nq, nv;
     const zd_space_link *link;       /* (bodies + 1,), the first one unused */
-    const int *order;           /* (bodies,) so that each one comes after the one that it hangs on */
+    const int *order;           /* (bodies,) parents before children */
 } zd_space_tree;
 
 /* The tree's part of a frame, in its scratch. */

@@ -30,7 +30,7 @@ static void swing_axes(zd_space_axes *F, const double *q)
     *F = (zd_space_axes){{zd_rotated3(&all, R.x), zd_rotated3(&all, R.y), zd_rotated3(&all, R.z)}};
 }
 
-/* Moves the joint's frame and its origin by one freedom, and says along which directions its velocities are: angular ones, but of slides. */
+/* Moves the joint's frame and origin by one freedom; column <- the axes of its velocities: linear for a slide, angular otherwise. */
 static void go(const zd_space_link_freedom *freedom, const double *p, zd_space_axes *F, zd_vector3 *at, zd_space_twist *column)
 {
     const double *x = p + freedom->p;
@@ -155,7 +155,7 @@ static void turn(traveller *to, zd_vector3 rate)
     to->turning.spin = zd_plus3(to->turning.spin, rate);
 }
 
-/* A freedom, whose velocities are along `column`: of a slide the direction is in its speed, else in its spin. */
+/* Adds the velocity of a freedom along its `column`: the linear part for a slide, the angular part otherwise. */
 static void travel(traveller *to, const zd_space_link_freedom *freedom, const zd_space_twist *column, const double *v, zd_vector3 arm)
 {
     const double *rate = v + freedom->v;

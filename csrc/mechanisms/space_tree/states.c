@@ -91,7 +91,7 @@ static int next_turn(const zd_space_link *link, int i)
     return link->freedom[i].direction;
 }
 
-/* An angle that says the same, and is nearest to what the displacement of a screw says. */
+/* The angle plus the multiple of 2 pi that brings it nearest to `wished`, the angle of a screw's displacement. */
 static double nearest_turn(double angle, double wished) { return angle + TURN * nearbyint((wished - angle) / TURN); }
 
 /* A freedom's coordinates and velocities, from the inner side, as far as the frame has come, to the outer one; then it comes along. */
