@@ -10,11 +10,13 @@ import sympy as sp
 import tolerances as tol
 import zerodrift as zd
 from zerodrift.mechanisms.building.table_force_verbs import force_verb, taken
+from zerodrift.mechanisms.elements.frames import about
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_BY_ROW, WRITTEN, made_force
 from zerodrift.mechanisms.files import from_json, to_json
 
 OF = {"w": "B1.angular_velocity", "x": "B0.position.x"}
 LAW = sp.Symbol("w") * 2 - sp.Symbol("x")
+SPACE_LAW = 3 * sp.cos(5 * sp.Symbol("t")) + sp.Symbol("B0.position.x")
 
 
 def two_bodies():
@@ -105,6 +107,51 @@ def test_its_numbers_can_be_changed():
     assert [effort.stiffness for effort in stiffer._tables.efforts] == [1, 20, 5]
 
 
+IN_SPACE = {        # on the points P and Q, by hand and by the entry's own method
+    "spring": (lambda m, P, Q: m.spring("F", P, Q, stiffness=30.0, damping=0.2, length=0.4),
+               {"stiffness": 30.0, "damping": 0.2, "length": 0.4}),
+    "force": (lambda m, P, Q: m.force("F", Q, along=(0.6, 0.0, 0.8), value=SPACE_LAW, frame="B0"),
+              {"axis": (0.6, 0.0, 0.8), "value": SPACE_LAW})}
+
+
+def two_bodies_in_space():
+    m = zd.Mechanism("two bodies", dimension=3, gravity=(0.1, 0.2, -9.81))
+    bodies = [m.body(f"B{i}", 1.0 + i, (0.1, 0.2, 0.15), at=(i, 0.3, 0.1), rotation=about((1, 2, 3), 0.4 + i),
+                     com=(0.05, 0.02, 0.1))
+              for i in range(2)]
+    m.revolute("pin", m.ground, bodies[0], at=(0.1, 0.1, 0), axis=(0, 1, 0.2))
+    m.spherical("elbow", *bodies, at=(0.6, 0.5, 0))
+    return m, bodies[0].point((0.2, 0.1, 0.1)), bodies[1].point((-0.1, 0.3, 0.2))
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+@pytest.mark.parametrize("kind", IN_SPACE)
+def test_in_space_it_does_what_the_method_by_hand_does(kind, layout, monkeypatch, tmp_path):
+    """And is drawn, saved and read again."""
+    force = made_force(kind)
+    by_hand, given = IN_SPACE[kind]
+    hand, row = two_bodies_in_space(), two_bodies_in_space()
+    by_hand(*hand)
+    force_verb(force)(row[0], "F", *row[1:], **given)
+    one, other = (zd.simulate(each[0].system(layout), 0.3, step=0.01) for each in (hand, row))
+    assert np.abs(one["F.force"]).max() > 1
+    for name in ("F.force", "B0.position", "B1.position", "B1.rotation", "elbow.force"):
+        np.testing.assert_allclose(other[name], one[name], atol=1e-10)      # rounding, grown by the motion
+    assert [shape.name for shape in other.system._shapes(other.p[0])].count("F") == 1
+    monkeypatch.setattr(zd.Mechanism, kind, force_verb(force))
+    monkeypatch.setitem(to_json.WRITTEN, kind, to_json._made_force)
+    monkeypatch.setitem(from_json.MADE, kind, from_json._force_by_row(force))
+    again = zd.simulate(zd.load(row[0].save(tmp_path / "m")).system(layout), 0.3, step=0.01)
+    np.testing.assert_array_equal(again.p, other.p)
+
+
+def test_in_space_there_are_those_that_need_one_axis_at_most():
+    m, P, Q = two_bodies_in_space()
+    assert {kind for kind in ELEMENTS if made_force(kind).is_in_space()} >= {"spring", "force"}
+    with pytest.raises(ValueError, match="bushing is there for mechanisms in the plane"):
+        force_verb(made_force("bushing"))(m, "F", P, Q, axis=(1, 0, 0), stiffness=1.0)
+
+
 def test_what_is_drawn():
     """A spring between its points with a damper beside it, and of others where they are."""
     for kind, drawn in (("spring", ["spring", "damper"]), ("bushing", ["bushing"]), ("force", ["load"]), ("torque", ["moment"])):
@@ -120,6 +167,7 @@ def test_each_refusal_names_what_is_wrong():
     bob = m.particle("bob", 1.0, at=(0, 1))
     spring, bushing, force, torque = (force_verb(made_force(kind)) for kind in ("spring", "bushing", "force", "torque"))
     for call, error, text in (
+            (lambda: spring(m, "F", P.body, Q, stiffness=1), TypeError, "first must be a point"),
             (lambda: spring(m, "F", P, Q), TypeError, r"spring\(\): missing a required .*argument: 'stiffness'"),
             (lambda: spring(m, "F", P, Q, stiffness=-1), ValueError, "stiffness of 'F' must be at least 0"),
             (lambda: spring(m, "F", P, Q, stiffness=(1, 2)), ValueError, "stiffness of 'F'"),

@@ -20,13 +20,14 @@ SIGNATURES = {      # those that scripts rely on: keyword arguments, with their 
     "universal": {"axes": ..., "at": None, "cut": False},
     "cylindrical": {"axis": ..., "at": None, "cut": False},
     "screw": {"axis": ..., "pitch": ..., "at": None, "cut": False},
-    "planar": {"normal": ..., "at": None, "cut": False}}
+    "planar": {"normal": ..., "at": None, "cut": False},
+    "spring": {"stiffness": ..., "damping": 0.0, "length": None}}
 
 
 def test_every_kind_of_both_tables_has_a_method():
     kinds = {*joints.JOINTS, *space_joints.JOINTS}
     assert len(kinds) > 10
-    assert {*SIGNATURES} <= {*JOINTS}
+    assert {*SIGNATURES} - {"spring"} <= {*JOINTS}
     assert kinds == {*JOINTS} | {*BY_HAND}
     assert all(callable(getattr(zd.Mechanism, kind)) for kind in kinds)
 
@@ -39,7 +40,7 @@ def test_its_arguments_are_those_that_scripts_rely_on(kind):
     assert {name: ... if value is inspect.Parameter.empty else value for name, value in given.items()} == SIGNATURES[kind]
 
 
-@pytest.mark.parametrize("kind", JOINTS)
+@pytest.mark.parametrize("kind", [*JOINTS, "spring"])
 def test_its_documentation_names_its_arguments_and_its_example_runs(kind):
     method = getattr(zd.Mechanism, kind)
     doc = inspect.getdoc(method)

@@ -10,7 +10,7 @@ import numpy as np
 from ... import _check
 from ..._rotations import AXES
 from ..elements.bodies import Body, Particle, Point
-from ..elements.forces import Actuator, Bushing, Force, Motor, SpaceBushing, Spring, Torque, TorsionSpring
+from ..elements.forces import Actuator, Bushing, Force, Motor, SpaceBushing, Torque, TorsionSpring
 from ..elements.frames import perpendicular
 from ..elements.joints import Joint
 from .registry import Elements
@@ -126,40 +126,6 @@ class ForceVerbs(Elements):
         if drives == "length" and law.constant is not None:
             _check.number(law.what, law.constant, above=0)
         return self._add(Actuator(name, first, second, drives, law))
-
-    def spring(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, stiffness: Any,
-               length: float | None = None, damping: float = 0.0) -> Spring:
-        """Put a spring with a damper between two points.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Point, Particle or name
-        stiffness : float
-            In N/m, at least 0.
-        length : float, optional
-            At which it is slack, in m; left out: as drawn.
-        damping : float
-            In N s/m, at least 0.
-
-        Returns
-        -------
-        Spring
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("bungee")
-        >>> bob = m.particle("bob", 1.0, at=(0, -1))
-        >>> m.spring("rope", m.ground.point((0, 0)), bob, stiffness=50.0).force
-        Measure('rope.force')
-        """
-        name = self._new_name(name, "spring")
-        first, second = self._different(name, self._point("first", first), self._point("second", second))
-        if length is not None:
-            length = _check.number(f"length of {name!r}", length, least=0)
-        stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
-        return self._add(Spring(name, first, second, stiffness, length, damping))
 
     def torsion_spring(self, name: str, joint: Joint | str, *, stiffness: float, angle: float = 0.0,
                        damping: float = 0.0) -> TorsionSpring:

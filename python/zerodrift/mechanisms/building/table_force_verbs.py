@@ -11,26 +11,30 @@ import numpy as np
 from ... import _check
 from ..elements.table_forces import MadeForce
 from .registry import Elements
-from .table_joint_documentation import SIDES, wrapped
+from .table_joint_documentation import POINTS, SIDES, wrapped
 
 TAKEN = {
-    "axis": ("array_like (2,)", "Its direction in the drawing; it turns with the first body."),
-    "stiffness": ("float{size}", "In N/m, along angles in N m/rad, at least 0{each}. It is slack as drawn."),
-    "damping": ("float{size}", "In N s/m, along angles in N m s/rad, at least 0{each}."),
-    "length": ("float, optional", "At which it is slack, in m, at least 0; left out: as drawn."),
+    "axis": ("array_like {vector}", "Its direction in the drawing; it turns with the first body."),
+    "stiffness": ("float{size}", "In N/m{rotary_stiffness}, at least 0{each}.{unstressed}"),
+    "damping": ("float{size}", "In N s/m{rotary_damping}, at least 0{each}."),
+    "length": ("float, optional", "Unstressed length in m, at least 0; left out: as drawn."),
     "value": ("float, callable or SymPy expression",
-              "In N, along angles in N m; of t, parameters and measures of positions and velocities."),
-    "of": ("dict of str to measure", "Under which names a callable is handed which measures.")}
-AT = "array_like (2,)", "Position of the element in the drawing, in m."
+              "In N{rotary_value}; of t, parameters and measures of positions and velocities."),
+    "of": ("dict of str to measure", "Measures by the names of the callable's arguments.")}
+AT = "array_like {vector}", "Position of the element in the drawing, in m."
+ROTARY = {"stiffness": "N m/rad", "damping": "N m s/rad", "value": "N m"}
+KINDS = {"name": "str", "first": "Side", "second": "Side"}
 NEEDED = inspect.Parameter.empty
 
 
-def force_verb(force: type[MadeForce]) -> Callable[..., MadeForce]:
-    """Method of `Mechanism` for one kind of force element."""
+def force_verb(force: type[MadeForce], build: Callable[..., Any] | None = None) -> Callable[..., Any]:
+    """Method of `Mechanism` for one kind of force element; `build` makes it, by default the class `force`."""
+    at = {} if force.is_between_points() else {"at": None}
     signature = inspect.Signature(
-        [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD) for name in ("self", "name", "first", "second")]
-        + [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial)
-           for name, initial in {"at": None, **taken(force)}.items()])
+        [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation=KINDS.get(name, NEEDED))
+         for name in ("self", "name", "first", "second")]
+        + [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial, annotation="Any")
+           for name, initial in {**at, **taken(force)}.items()], return_annotation="Any")
 
     def make(m: Elements, *given: Any, **named: Any) -> MadeForce:
         try:
@@ -39,7 +43,7 @@ def force_verb(force: type[MadeForce]) -> Callable[..., MadeForce]:
             raise TypeError(f"{force.kind}(): {error}") from None
         bound.apply_defaults()
         values = dict(bound.arguments)
-        return _add(values.pop("self"), force, values.pop("name"), **values)
+        return _add(values.pop("self"), force, build or force, values.pop("name"), **values)
 
     make.__name__, make.__qualname__ = force.kind, f"Mechanism.{force.kind}"
     make.__doc__, make.__signature__ = _documentation(force), signature      # type: ignore[attr-defined]
@@ -55,11 +59,16 @@ def taken(force: type[MadeForce]) -> dict[str, Any]:
     return {**axis, "stiffness": NEEDED, "damping": 0.0, **length}
 
 
-def _add(m: Elements, force: type[MadeForce], name: Any, *, first: Any, second: Any, at: Any, axis: Any = None,
-         stiffness: Any = None, damping: Any = 0.0, length: Any = None, value: Any = None, of: Any = None) -> MadeForce:
-    m._in_the_plane(force.kind)
+def _add(m: Elements, force: type[MadeForce], build: Callable[..., Any], name: Any, *, first: Any, second: Any, at: Any = None,
+         axis: Any = None, stiffness: Any = None, damping: Any = 0.0, length: Any = None, value: Any = None,
+         of: Any = None) -> Any:
+    if not force.is_in_space():
+        m._in_the_plane(force.kind)
     name = m._new_name(name, force.kind)
-    first, second = m._sides(name, first, second, at)
+    if force.is_between_points():
+        first, second = m._different(name, m._point("first", first), m._point("second", second))
+    else:
+        first, second = m._sides(name, first, second, at)
     if force.has("angle"):
         m._turning(name, force.kind, first.body, second.body)
     if axis is not None:
@@ -72,7 +81,7 @@ def _add(m: Elements, force: type[MadeForce], name: Any, *, first: Any, second: 
         law = m._law(f"value of {force.kind} {name!r}", value, of)
     if length is not None:
         values["length"] = _check.number(f"length of {name!r}", length, least=0)
-    return m._add(force(name, first, second, axis, values, law))
+    return m._add(build(name, first, second, axis, values, law))
 
 
 def _each(quantity: str, name: str, force: type[MadeForce], given: Any) -> dict[str, float]:
@@ -86,16 +95,21 @@ def _each(quantity: str, name: str, force: type[MadeForce], given: Any) -> dict[
 def _documentation(force: type[MadeForce]) -> str:
     """Docstring in the style of the handwritten ones."""
     card, several = force.row.card, len(force.row.gauges) > 1
-    words = {"size": f" or array_like ({len(force.row.gauges)},)" if several else "",
+    words = {"vector": "(2,) or (3,)" if force.is_in_space() else "(2,)",
+             "unstressed": "" if "length" in taken(force) else " It is unstressed as drawn.",
+             **{f"rotary_{quantity}": f", along angles in {unit}" * force.has("angle") for quantity, unit in ROTARY.items()},
+             "size": f" or array_like ({len(force.row.gauges)},)" if several else "",
              "each": f"; for each of {', '.join(gauge for gauge, _ in force.row.gauges)}" if several else ""}
     lines = [card.summary, "", *wrapped(card.description), "Parameters", "----------"]
-    for name, (kind, text) in {"name": ("str", ""), **SIDES, "at": AT, **{word: TAKEN[word] for word in taken(force)}}.items():
+    sides = POINTS if force.is_between_points() else {**SIDES, "at": AT}
+    for name, (kind, text) in {"name": ("str", ""), **sides, **{word: TAKEN[word] for word in taken(force)}}.items():
         lines += [f"{name} : {kind.format(**words)}", *wrapped(text.format(**words), "    ")[:-1]]
     lines += ["", "Returns", "-------", force.__name__, "", "Notes", "-----", *wrapped(f"Source: {card.equations}.")]
     axis = ", axis=(1, 0)" if "axis" in taken(force) else ""
+    given = "m.ground.point((0, 0)), body.center" if force.is_between_points() else "m.ground, body, at=(1, 0)"
     value = "stiffness=2.0" if force.row.is_spring else "value=2.0"
     lines += ["Examples", "--------", ">>> import zerodrift as zd", '>>> m = zd.Mechanism("example")',
               '>>> body = m.body("body", 1.0, 0.1, at=(1, 0))',
-              f'>>> m.{force.kind}("element", m.ground, body, at=(1, 0){axis}, {value})',
+              f'>>> m.{force.kind}("element", {given}{axis}, {value})',
               f"<{force.kind} element: ground - body>"]
     return "\n".join(lines)

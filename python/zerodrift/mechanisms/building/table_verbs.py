@@ -6,9 +6,10 @@ are only those whose arguments no entry of a table describes.
 
 from __future__ import annotations
 
+from ..elements.forces import Spring
 from ..elements.joints import BY_ROW, Joint, Prismatic, Revolute, Rod, Weld
 from ..elements.space_joints import BY_KIND
-from ..elements.table_forces import FORCES_BY_ROW
+from ..elements.table_forces import FORCES_BY_ROW, made_force
 from .registry import Elements
 from .table_force_verbs import force_verb
 from .table_joint_verbs import verb
@@ -24,5 +25,6 @@ class TableVerbs(Elements):
 
 for _kind in JOINTS:
     setattr(TableVerbs, _kind, verb(PLANE.get(_kind), BY_KIND.get(_kind)))
+setattr(TableVerbs, Spring.kind, force_verb(made_force(Spring.kind), Spring.from_values))
 for _kind, _force in FORCES_BY_ROW.items():
     setattr(TableVerbs, _kind, force_verb(_force))

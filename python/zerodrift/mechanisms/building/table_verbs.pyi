@@ -357,3 +357,34 @@ class TableVerbs(Elements):
         >>> m.universal("joint", m.ground, body, at=(1, 0, 0), axes=((1, 0, 0), (0, 1, 0))).force
         VectorMeasure3('joint.force')
         """
+
+    def spring(self, name: str, first: Side, second: Side, *, stiffness: Any, damping: Any = 0.0, length: Any = None) -> Any:
+        """Spring with a damper between two points.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Point, Particle or name
+        stiffness : float
+            In N/m, at least 0.
+        damping : float
+            In N s/m, at least 0.
+        length : float, optional
+            Unstressed length in m, at least 0; left out: as drawn.
+
+        Returns
+        -------
+        Spring
+
+        Notes
+        -----
+        Source: (2), (28).
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("example")
+        >>> body = m.body("body", 1.0, 0.1, at=(1, 0))
+        >>> m.spring("element", m.ground.point((0, 0)), body.center, stiffness=2.0)
+        <spring element: ground - body>
+        """

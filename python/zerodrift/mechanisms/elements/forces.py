@@ -112,6 +112,11 @@ class Spring(Fixed):
         self.name, self.first, self.second = name, first, second
         self.stiffness, self.free_length, self.damping = stiffness, free_length, damping
 
+    @classmethod
+    def from_values(cls, name: str, first: Point, second: Point, axis: None, values: dict[str, float], law: None) -> Spring:
+        """A spring from the arguments of elements that the core's table describes."""
+        return cls(name, first, second, values["stiffness"], values.get("length"), values["damping"])
+
     @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""

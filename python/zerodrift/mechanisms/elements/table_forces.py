@@ -16,6 +16,7 @@ from .user_functions import Law
 
 ELEMENTS = element_kinds()
 WRITTEN = "spring", "torsion_spring", "bushing", "force", "torque"      # kinds with a class in `forces.py`
+IN_BOTH = {"distance", "along", "glide"}       # marker quantities that the plane and space have, with one axis
 EFFORTS = {"force": "The force along its gauge, in N", "torque": "The moment along its gauge, in N m"}
 
 
@@ -43,13 +44,29 @@ class MadeForce(Fixed):
 
     def __init__(self, name: str, first: Point, second: Point, axis: np.ndarray | None, values: dict[str, float],
                  law: Law | None) -> None:
-        self.name, self.first, self.second, self.axis = name, first, second, axis       # the axis (2,) in the first body's frame
+        self.name, self.first, self.second = name, first, second
+        self.axis = axis        # (2,) or (3,), in the first body's frame
         self.values, self.law = values, law
 
     @property
     def measured_name(self) -> str:
         """First part of the names of its measures."""
         return self.name
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self.first.dimension
+
+    @classmethod
+    def is_in_space(cls) -> bool:
+        """True if the element exists in space, too: its marker quantities need no second direction."""
+        return {gauge for gauge, _ in cls.row.gauges} <= IN_BOTH
+
+    @classmethod
+    def is_between_points(cls) -> bool:
+        """True if the element acts along the distance of two points, so that its sides are points."""
+        return {gauge for gauge, _ in cls.row.gauges} == {"distance"}
 
     @classmethod
     def has(cls, *gauges: str) -> bool:
@@ -71,11 +88,14 @@ class MadeForce(Fixed):
     def zero(self, which: str | None, numbers: Numbers) -> float:
         """Offset of a marker quantity: its value as drawn, or the given length."""
         apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        if which == "along" and self.dimension == 3:
+            return float(self.first.body.pose.local_direction(apart) @ self.axis)
         if which in ("along", "across"):
             (x, y), axis = self.first.body.pose.local_direction(apart), self.axis if which == "along" else _turned(self.axis)
             return columns.plain(x * axis[0] + y * axis[1])
         if which == "length":
-            return numbers(self, "length", self.values.get("length", columns.hypot(*apart)))
+            drawn = columns.hypot(*apart) if len(apart) == 2 else float(np.linalg.norm(apart))
+            return numbers(self, "length", self.values.get("length", drawn))
         return self.second.body.pose.angle - self.first.body.pose.angle if which == "angle" else 0.0
 
     def __repr__(self) -> str:

@@ -19,6 +19,7 @@ from ..elements.frames import triple
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..elements.space_joints import SpaceJoint
+from ..elements.table_forces import MadeForce
 from . import space_tree
 from .tables import Tables
 from .tree import carriers
@@ -163,6 +164,11 @@ class SpaceTables(Tables):
             number = self._gauge(f"{bushing.name} {stiffness} {axis}", gauge)
             values = (self.numbers(bushing, path, bushing.values[path]) for path in (f"{stiffness}.{axis}", f"{damping}.{axis}"))
             self.efforts.append(rows.Effort("spring", number, *values))
+
+    def _made_gauge(self, made: MadeForce, kind: str, zero: str | None) -> Gauge:     # type: ignore[override]
+        (first, point1), (second, point2) = self._place(made.first), self._place(made.second)
+        axis = AS_DRAWN[0] if made.axis is None else self._direction(made.first.body, made.axis)
+        return Gauge(kind, first, second, point1, point2, a=axis, zero=made.zero(zero, self.numbers))
 
     def _force(self, force: Force) -> None:
         body, local = self._place(force.point)

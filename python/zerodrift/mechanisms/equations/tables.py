@@ -332,13 +332,16 @@ class Tables:
         self._observe_effort(torque)
 
 
+    def _made_gauge(self, made: MadeForce, kind: str, zero: str | None) -> Gauge:
+        (first, point1), (second, point2) = self._place(made.first), self._place(made.second)
+        axis = (1.0, 0.0) if made.axis is None else _pair(made.axis)
+        return Gauge(kind, first, second, point1, point2, axis, made.zero(zero, self.numbers))
+
     def _made_force(self, made: MadeForce) -> None:
         """Add the force along each marker quantity; the measure is that of the first."""
-        (first, point1), (second, point2) = self._place(made.first), self._place(made.second)
-        axis, index = (1.0, 0.0) if made.axis is None else _pair(made.axis), len(self.efforts)
+        index = len(self.efforts)
         for i, (kind, zero) in enumerate(made.row.gauges):
-            gauge = Gauge(kind, first, second, point1, point2, axis, made.zero(zero, self.numbers))
-            number = self._gauge(f"{made.name} {i}", gauge)
+            number = self._gauge(f"{made.name} {i}", self._made_gauge(made, kind, zero))
             if made.law is not None:
                 self._effort(made.name, "value", number, made)
                 continue

@@ -242,7 +242,7 @@ def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
     def make(m: Any, name: str, **given: Any) -> None:
         sides = given.pop("first"), given.pop("second")
         if axis := given.get("axis"):
-            axis = told_direction("axis", axis)
+            axis = told_direction("axis", axis, m.dimension)
             given["axis"] = point_of_body(m, sides[0]).body.pose.direction(axis)
         if "value" in given:
             given["value"], given["of"] = law_and_of(given["value"], "value")

@@ -19,6 +19,7 @@ from ..elements.joints import holds_distance
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..elements.space_joints import SpaceJoint, SpaceRolling, has_torque, is_at_point, is_blade, is_on_plane
+from ..elements.table_forces import MadeForce
 
 APART = 1e-9        # m: smaller distances count as zero
 FLAT = 1e-6         # of the extent of points: deviation from a plane, at most
@@ -135,6 +136,10 @@ class SpaceSketch:
         for spring in self.drawing.of((Spring, Actuator)):
             ends = np.array([self._placed(spring.first, at), self._placed(spring.second, at)])
             yield Shape("spring" if isinstance(spring, Spring) else "rod", ends, spring.name)
+        for made in self.drawing.of(MadeForce):
+            ends = np.array([self._placed(made.first, at), self._placed(made.second, at)])
+            is_spring = made.row.is_spring and made.has("distance")
+            yield Shape("spring", ends, made.name) if is_spring else Shape("bushing", ends[1:], made.name)
         for bushing in self.drawing.of(Bushing):
             yield Shape("bushing", self._placed(bushing.second, at)[None], bushing.name)
             for side in (bushing.first, bushing.second):
