@@ -116,12 +116,12 @@ int zd_carrier_connects(int body, int carrier, int first, int second, zd_complai
     return body == first || body == second || zd_complain(to, "body %d: its inboard joint %d must connect it", body, carrier);
 }
 
-int zd_mechanism_is_right(const void *tables, int bodies, int arrays, const zd_checked *checked, const zd_elements *elements, int joints,
+int zd_mechanism_is_right(const void *of, int bodies, int arrays, const zd_checked *checked, const zd_elements *elements, int joints,
                           int gauges, zd_complaint to)
 {
     if (bodies < 1) return zd_complain(to, "a mechanism must have at least one body");
     for (int k = 0; k < arrays; k++)
         for (int i = 0; i < checked[k].count; i++)
-            if (!checked[k].is_right(tables, i, to)) return 0;
+            if (!checked[k].is_right(of, i, to)) return 0;
     return zd_elements_are_right(elements, joints, gauges, to);
 }

@@ -30,8 +30,8 @@ typedef struct zd_checked {
     int (*is_right)(const void *tables, int index, zd_complaint to);
 } zd_checked;
 
-/* Checks all arrays in their order, then the elements. */
-int zd_mechanism_is_right(const void *tables, int bodies, int arrays, const zd_checked *checked, const zd_elements *elements, int joints,
+/* Checks all arrays of the tables `of` in their order, then the elements. */
+int zd_mechanism_is_right(const void *of, int bodies, int arrays, const zd_checked *checked, const zd_elements *elements, int joints,
                           int gauges, zd_complaint to);
 
 /* True if relations, efforts and measures refer to existing marker quantities and joints; otherwise writes which one does not. */

@@ -18,7 +18,7 @@ typedef struct zd_measure_numerics {
     void (*move)(const void *mechanism, const void *frame, const double *v);
     double (*bias)(const void *mechanism, const void *frame, int gauge);     /* second derivative of a gauge at vdot = 0 */
     void (*write_row)(const void *mechanism, const void *frame, int gauge, double scale, double *row);      /* (nv,) */
-    void (*unit_wrench)(const void *mechanism, const void *frame, int gauge, double *wrench);   /* wrench of a unit force on the second body */
+    void (*unit_wrench)(const void *mechanism, const void *frame, int gauge, double *wrench);   /* unit force on the second body */
     /* Wrench of a joint on its second body, and the vector between its points. Returns ZD_DONE or ZD_CALLBACK. */
     int (*reaction)(const void *mechanism, const void *frame, int joint, const zd_measured_state *at, double *wrench);
     void (*apart)(const void *mechanism, const void *frame, int joint, double *vector);
