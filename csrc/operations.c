@@ -11,7 +11,7 @@
 #include "run/explain.h"
 #include "run/resample.h"
 #include "run/status.h"
-#include "stepping/spread.h"
+#include "paths/spread.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)

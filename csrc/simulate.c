@@ -1,7 +1,8 @@
 /* The outer loop of a run: one step, events within it, samples that are due; again until the end. */
 #include "run/explain.h"
 #include "run/run.h"
-#include "stepping/clock.h"
+#include "step/clock.h"
+#include "step/step.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between readings of the clock */
 
@@ -9,7 +10,7 @@ static int take_step(zd_run *run)
 {
     const zd_settings *settings = &run->settings;
     if (settings->t_eval || settings->events) zd_output_keep_beginning(&run->output);
-    int status = zd_step_loop_take_step(&run->loop);
+    int status = zd_step(&run->loop);
     if (status || !settings->events) return status;
     return zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);
 }

@@ -9,6 +9,7 @@ from collections import defaultdict
 import pytest
 
 from core_objects import CSRC, unit_of
+from room_order import ORDER, height
 
 LONGEST = 40        # lines of a function
 
@@ -76,6 +77,21 @@ def test_there_are_no_circles_of_files(uses):
 
 def test_there_are_no_circles_of_folders(uses):
     assert circles({(folder_of(a), folder_of(b)) for a, b in uses}) == set()
+
+
+def test_rooms_depend_downward(uses):
+    """The order that `tests/stress/step_trace.py` counts climbs by."""
+    ordered, found = {room for line in ORDER for room in line}, {(folder_of(a), folder_of(b)) for a, b in uses}
+    assert ordered <= {room for pair in found for room in pair}
+    assert {(a, b) for a, b in found if a != b and {a, b} <= ordered and height(b) >= height(a)} == set()
+
+
+def test_the_step_knows_no_closed_form_beyond_its_paths():
+    """Sizes of steps, integrators, output and samples do not ask whether a step is in closed form."""
+    asking = {unit_of(path) for path in CSRC.rglob("*.[ch]")
+              if re.search(r"\b(zd_is_direct|zd_is_embedded)\(|path\.is_short", path.read_text())}
+    assert {unit for unit in asking if unit.split("/")[0] in ("integrators", "step", "output", "run", "batch", "simulate")} <= {
+        "step/step", "output/record", "run/start"}
 
 
 @pytest.mark.parametrize("room", ["integrators", "corrections"])

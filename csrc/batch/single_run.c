@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../stepping/clock.h"
+#include "../step/clock.h"
 #include "event_samples.h"
 
 static const double SLICE = 0.02;       /* s: interval at which a stop request is checked */

@@ -1,11 +1,13 @@
 #include "motion.h"
 
-static int correct(zd_motion *motion, int64_t step, int forced, int constraints_hold)
+enum which { ALL, PROJECTION, REST };
+
+static int correct(zd_motion *motion, int64_t step, int forced, enum which which)
 {
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
         if (!active->row->after_step || !(forced || zd_is_one_of(active->every, step))) continue;
-        if (constraints_hold && active->row->target) continue;
+        if (which != ALL && (active->row->target != NULL) != (which == PROJECTION)) continue;
         int status = active->row->after_step(active->self, motion);
         if (status) return status;
     }
@@ -14,12 +16,17 @@ static int correct(zd_motion *motion, int64_t step, int forced, int constraints_
 
 int zd_motion_correct(zd_motion *motion, int64_t step, int forced)
 {
-    return correct(motion, step, forced, 0);
+    return correct(motion, step, forced, ALL);
+}
+
+int zd_motion_project(zd_motion *motion, int64_t step, int forced)
+{
+    return correct(motion, step, forced, PROJECTION);
 }
 
 int zd_motion_correct_rest(zd_motion *motion, int64_t step, int forced)
 {
-    return correct(motion, step, forced, 1);
+    return correct(motion, step, forced, REST);
 }
 
 int zd_motion_is_corrected(const zd_motion *motion, int64_t step)

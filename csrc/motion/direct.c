@@ -144,6 +144,8 @@ static void use(zd_motion *motion, const zd_elimination *order)
     const int embeds = motion->path.embeds;
     motion->rate.evaluate = !order ? zd_motion_rate : embeds ? zd_motion_embedded_rate : zd_motion_direct_rate;
     motion->rate.direct = motion->is_stabilized || embeds || motion->rate.size > motion->formulation_size ? NULL : order;
+    motion->path.is_short = motion->path.lands && motion->target.every == 1 && motion->rate.direct && !motion->point->terms.A
+        && !motion->system.quaternions;
 }
 
 void zd_direct_leave(zd_motion *motion)

@@ -86,6 +86,7 @@ typedef struct zd_path {
     double *dp;             /* (nq,): position correction of one iteration */
     double *allowed;        /* (mh,): largest |Phi| that meets the projection's tolerance */
     int lands;              /* true if one function projects and computes the acceleration at the end of a step */
+    int is_short;           /* true if a step needs nothing else, with a state (p, v), pdot = v, that equals the point's at its ends */
     int64_t energy_skipped; /* counters at the start of the step, restored if it is repeated on the matrix path */
     int64_t energy_corrections;
     double energy_corrected;
@@ -126,6 +127,7 @@ struct zd_motion {
     int acceleration_needs; /* terms that (8), (9), (13) need with the enabled corrections */
     zd_active active[ZD_CORRECTIONS_MAX];
     int corrections;        /* number of enabled corrections */
+    int others_after_step;  /* number of those that are applied after a step, other than the projection */
     int is_stabilized;      /* true if one of them changes the right side of (6) */
     zd_rate rate;
     const double *state;    /* integrated state of the point: at the end of the step, or at a stage */
@@ -240,7 +242,8 @@ static inline void zd_count_position_iterations(zd_motion *motion, int iteration
 
 /* correct.c: applies the corrections that are due in this step, in their order; `forced`: all */
 int zd_motion_correct(zd_motion *motion, int64_t step, int forced);
-/* The same without the projection, which has been made already. */
+/* The projection alone, (25)-(27); and the corrections that follow it. */
+int zd_motion_project(zd_motion *motion, int64_t step, int forced);
 int zd_motion_correct_rest(zd_motion *motion, int64_t step, int forced);
 /* True if all corrections are due in this step. */
 int zd_motion_is_corrected(const zd_motion *motion, int64_t step);

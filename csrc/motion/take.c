@@ -73,6 +73,7 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *c
     motion->acceleration_needs |= correction->needs;
     motion->corrections_need |= correction->needs;
     motion->is_stabilized |= correction->stabilize != NULL;
+    motion->others_after_step += correction->after_step && !correction->target;
     motion->corrections_size += size;
     motion->rate.size += size;
     zd_motion_count_pairs(motion);

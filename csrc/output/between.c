@@ -6,14 +6,16 @@
  */
 #include "between.h"
 
-zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder)
+zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder)
 {
+    zd_stepper *stepper = loop->stepper;
     zd_output self = {
+        .loop = loop,
         .stepper = stepper,
         .recorder = recorder,
         .t_eval = settings->t_eval,
         .t_evals = settings->t_evals,
-        .has_polynomial = !(settings->step > 0) && stepper->integrator->spread,
+        .has_polynomial = zd_is_adaptive(loop) && stepper->integrator->spread,
     };
     if (settings->t_eval || settings->events) {
         self.before = zd_state_take(arena, stepper->motion);
@@ -99,7 +101,7 @@ int zd_output_make_shorter(zd_output *self, double t)
 {
     self->is_spread = 0;
     int status = zd_stepper_return_to(self->stepper, &self->before);
-    return status ? status : zd_stepper_make_substep(self->stepper, t);
+    return status ? status : zd_substep(self->loop, t);
 }
 
 int zd_output_go(zd_output *self, double t)

@@ -2,12 +2,14 @@
 #ifndef ZD_BETWEEN_H
 #define ZD_BETWEEN_H
 
-#include "../stepping/checkpoint.h"
-#include "../stepping/short_step.h"
-#include "../stepping/spread.h"
+#include "../paths/checkpoint.h"
+#include "../paths/closed_form.h"
+#include "../paths/spread.h"
+#include "../step/step.h"
 #include "record.h"
 
 typedef struct zd_output {
+    zd_step_loop *loop;
     zd_stepper *stepper;
     zd_recorder *recorder;
     const double *t_eval;   /* (t_evals,) s: requested times; NULL: none */
@@ -26,7 +28,7 @@ typedef struct zd_output {
     double *y;              /* (size,) state from dense output */
 } zd_output;
 
-zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_stepper *stepper, zd_recorder *recorder);
+zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder);
 static inline int zd_output_looks_between(const zd_output *self) { return self->has_polynomial && self->aside.y; }
 void zd_output_keep_beginning(zd_output *self);
 /* True if dense output is available for the last step. */

@@ -79,7 +79,7 @@ static int happens(const zd_watch *self, int event)
 
 static int correct(zd_stepper *stepper)
 {
-    return zd_stepper_land(stepper, stepper->t, 0, 1);
+    return zd_path_end(zd_path_of_state(stepper->motion), stepper, stepper->t, 0, 1, 0);
 }
 
 /* Moves to a time within the step or at its ends, corrected. */

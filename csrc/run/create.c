@@ -7,8 +7,8 @@
 #include "../point/quaternions.h"
 #include "../point/units.h"
 #include "../registry.h"
-#include "../stepping/adaptive.h"
-#include "../stepping/variables.h"
+#include "../step/adaptive.h"
+#include "../paths/variables.h"
 #include "arguments.h"
 #include "explain.h"
 #include "start.h"
@@ -80,11 +80,12 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .motion = motion,
         .stepper = &run->stepper,
         .safeguards = &run->safeguards,
+        .sizes = settings->step > 0 ? &zd_fixed_sizes : &zd_adaptive_sizes,
         .end = settings->t1,
     };
-    if (!(settings->step > 0)) run->loop.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
+    if (zd_is_adaptive(&run->loop)) run->loop.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
     run->recorder = zd_recorder_take(arena, settings, motion);
-    run->output = zd_output_take(arena, settings, &run->stepper, &run->recorder);
+    run->output = zd_output_take(arena, settings, &run->loop, &run->recorder);
     run->watch = zd_watch_take(arena, settings->events, &run->output);
     return here;
 }

@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-#include "../stepping/adaptive.h"
-#include "../stepping/spread.h"
+#include "../step/step.h"
+#include "../paths/spread.h"
 
 /* One sample of an array with `size` numbers per sample. */
 static const double *row_of(const zd_saved *saved, const double *array, int size, int64_t row)
@@ -44,12 +44,13 @@ static int place(zd_resample *self, int64_t row)
 
 static int make_step(zd_resample *self, int64_t row)
 {
-    zd_stepper *stepper = &self->run->stepper;
-    const double t = time_of(self->saved, row), next = time_of(self->saved, row + 1), step = self->run->settings.step;
+    zd_step_loop *loop = &self->run->loop;
+    const double t = time_of(self->saved, row), next = time_of(self->saved, row + 1);
     const int is_last = row + 2 == self->saved->rows;
-    if (!(step > 0)) zd_adaptive_weigh(&self->run->loop);
-    int status = zd_stepper_integrate(stepper, step > 0 && !is_last ? step : next - t);
-    return status ? status : zd_stepper_land(stepper, next, row + 1, is_last);
+    return zd_step_attempt(loop, &(zd_attempt){
+        .kind = ZD_REPEATED_STEP, .forced = is_last, .step = row + 1,
+        .h = zd_is_adaptive(loop) || is_last ? next - t : self->run->settings.step, .t1 = next,
+    });
 }
 
 static int is_at(const zd_resample *self, int64_t row)
@@ -88,7 +89,7 @@ static int begin_from_before(zd_resample *self, int64_t row)
 
 static int may_have_polynomial(const zd_resample *self)
 {
-    return !(self->run->settings.step > 0) && self->run->stepper.integrator->spread;
+    return zd_is_adaptive(&self->run->loop) && self->run->stepper.integrator->spread;
 }
 
 static int make_general_step(zd_resample *self, int64_t row)
@@ -142,5 +143,5 @@ int zd_resample_move(zd_resample *self, double t)
     }
     self->has_polynomial = 0;
     status = begin(self, row, self->is_general);
-    return status ? status : zd_stepper_make_substep(&self->run->stepper, t);
+    return status ? status : zd_substep(&self->run->loop, t);
 }

@@ -7,8 +7,8 @@
 #include "../output/events.h"
 #include "../output/record.h"
 #include "../safeguards/safeguards.h"
-#include "../stepping/step_loop.h"
-#include "../stepping/step.h"
+#include "../step/step_loop.h"
+#include "../paths/stepper.h"
 
 enum { ZD_MESSAGE = 500 };
 

@@ -15,7 +15,7 @@
 #include "../point/row_name.h"
 #include "../point/units.h"
 #include "../registry.h"
-#include "../stepping/adaptive.h"
+#include "../step/adaptive.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start relative to sizes, if the corrections' own is tighter */
 static const double ROUNDING = 0x1p-46;         /* rounding of Phi relative to the largest size: tens of roundings of its terms */
@@ -203,7 +203,7 @@ static int check_quaternions(zd_run *run)
 /* First size of adaptive steps. */
 static int choose_step(zd_run *run, double *states, const double *p0, const double *v0)
 {
-    if (run->settings.step > 0) return ZD_DONE;
+    if (!zd_is_adaptive(&run->loop)) return ZD_DONE;
     int status = zd_adaptive_start(&run->loop, states);
     return status ? status : zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);     /* it has evaluated other points */
 }
@@ -255,7 +255,7 @@ static int are_independent(const zd_motion *motion)
 
 static int choose_step_directly(zd_run *run, double *states, const double *p0, const double *v0)
 {
-    if (run->settings.step > 0) return ZD_DONE;
+    if (!zd_is_adaptive(&run->loop)) return ZD_DONE;
     zd_direct_choose(&run->motion);
     return zd_is_direct(&run->motion) ? choose_step(run, states, p0, v0) : ZD_SINGULAR;
 }

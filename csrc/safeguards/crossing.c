@@ -13,7 +13,7 @@
  * With more than two constraints the determinant is computed only after a noticeable rotation between consecutive points of the step: see
  * where `was_turned` of a rank is set.
  *
- * Shorter steps distinguish the two cases, in stepping/passage.c: through a bifurcation the motion is continuous, so that one of them
+ * Shorter steps distinguish the two cases, in step/passage.c: through a bifurcation the motion is continuous, so that one of them
  * ends near enough for limits.c to recognize it; otherwise the orientation changes in one step, however short the steps are.
  */
 #include "crossing.h"

@@ -1,4 +1,4 @@
-/* Acceptance of steps: detection only; the reaction is in stepping. */
+/* Acceptance of steps: detection only; the reaction is in step/step.c. */
 #ifndef ZD_SAFEGUARDS_H
 #define ZD_SAFEGUARDS_H
 

@@ -7,7 +7,6 @@
 zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0);
 /* Chooses the size of the first step; work (3, size). */
 int zd_adaptive_start(zd_step_loop *loop, double *work);
-int zd_adaptive_step(zd_step_loop *loop);
 /* Passes the approximate error scale of the next step to an integrator that needs it. */
 void zd_adaptive_weigh(zd_step_loop *loop);
 

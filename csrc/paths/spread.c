@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-#include "short_step.h"
+#include "closed_form.h"
 
 static int are_reviewed(const zd_motion *motion)
 {
@@ -53,7 +53,7 @@ int zd_spread(zd_stepper *stepper)
         status = motion->formulation->express(motion->solver, motion->point, stepper->y);
     }
     /* The point is where the step has ended. */
-    motion->rate.vdot = zd_is_short(motion) && motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
+    motion->rate.vdot = motion->path.is_short && motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
     if (!status) status = stepper->integrator->spread(stepper->memory, &motion->rate, last->t, last->h, last->y, stepper->y);
     motion->rate.vdot = NULL;
     return status;
@@ -65,5 +65,6 @@ int zd_spread_land(zd_stepper *stepper, double t, double *y)
     if (are_reviewed(stepper->motion)) take_variables_back(stepper);
     stepper->integrator->between(stepper->memory, (t - last->t) / last->h, last->y, y);
     stepper->motion->statistics.output_steps++;
-    return zd_is_short(stepper->motion) ? zd_short_land_between(stepper, t, y) : zd_stepper_land_within(stepper, t);
+    if (stepper->motion->path.is_short) return zd_short_land_between(stepper, t, y);
+    return zd_path_end(zd_path_of_state(stepper->motion), stepper, t, 0, 1, 1);
 }

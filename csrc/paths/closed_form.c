@@ -1,4 +1,4 @@
-#include "short_step.h"
+#include "closed_form.h"
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
@@ -28,18 +28,34 @@ ZD_INLINE int integrate(const int n, zd_stepper *stepper, double h)
     return status;      /* values that are not finite are found at the end of the step */
 }
 
-int zd_short_integrate(zd_step_loop *loop, double h)
+static int integrate_from(zd_stepper *stepper, double h)
 {
-    zd_stepper *stepper = loop->stepper;
-    const zd_point *point = loop->motion->point;
+    const zd_point *point = stepper->motion->point;
     stepper->last.t = stepper->t;
     stepper->last.h = h;
     point->rank->was_ill_conditioned = 0;
     return ZD_SIZED(integrate, point->system->nv, stepper, h);
 }
 
+/* Projects the state y at t, and moves the point to it. */
+ZD_INLINE int project(const int n, zd_stepper *stepper, double t, double *y)
+{
+    zd_point *point = stepper->motion->point;
+    point->t = stepper->t = t;
+    int status = zd_direct_land(stepper->motion, t, y, y + n);
+    zd_copy_pairs(n, y, point->p);
+    zd_copy_pairs(n, y + n, point->v);
+    return status;
+}
+
+static int project_state(zd_stepper *stepper, double t1, int64_t step, int forced)
+{
+    (void)step, (void)forced;       /* due in every step */
+    return ZD_SIZED(project, stepper->motion->system.nv, stepper, t1, stepper->y);
+}
+
 /* Applies the other corrections at the point, and computes its acceleration. */
-ZD_INLINE int correct_rest(const int n, zd_stepper *stepper, double *y, int64_t step, int forced)
+ZD_INLINE int correct(const int n, zd_stepper *stepper, double *y, int64_t step, int forced)
 {
     zd_motion *motion = stepper->motion;
     int status = zd_motion_correct_rest(motion, step, forced);
@@ -48,35 +64,29 @@ ZD_INLINE int correct_rest(const int n, zd_stepper *stepper, double *y, int64_t 
     return zd_motion_accelerate(motion);
 }
 
-/* Corrects the state y at t, and moves the point to it. */
-ZD_INLINE int correct(const int n, zd_stepper *stepper, double t, double *y, int64_t step, int forced)
+static int correct_state(zd_stepper *stepper, int64_t step, int forced)
 {
-    zd_point *point = stepper->motion->point;
-    point->t = stepper->t = t;
-    int status = zd_direct_land(stepper->motion, t, y, y + n);
-    zd_copy_pairs(n, y, point->p);
-    zd_copy_pairs(n, y + n, point->v);
-    return !status && stepper->motion->corrections > 1 ? correct_rest(n, stepper, y, step, forced) : status;
+    return ZD_SIZED(correct, stepper->motion->system.nv, stepper, stepper->y, step, forced);
 }
 
-ZD_INLINE int land(const int n, zd_step_loop *loop, double t1)
+ZD_INLINE int check(const int n, zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
-    zd_stepper *stepper = loop->stepper;
     const double h = stepper->last.h;
-    int status = correct(n, stepper, t1, stepper->y, loop->step, t1 == loop->end || loop->parts);
-    if (status) return status;
-    if (!loop->parts && zd_safeguards_glance(n, loop->safeguards, h, loop->step + 1, stepper->y, stepper->y + n)) return ZD_DONE;
-    return is_finite(n, stepper->y) ? zd_safeguards_judge(loop->safeguards, h, loop->step + 1, loop->parts) : ZD_NOT_FINITE;
+    if (!parts && zd_safeguards_glance(n, safeguards, h, next_step, stepper->y, stepper->y + n)) return ZD_DONE;
+    return is_finite(n, stepper->y) ? zd_safeguards_judge(safeguards, h, next_step, parts) : ZD_NOT_FINITE;
 }
 
-int zd_short_land(zd_step_loop *loop, double t1)
+static int check_state(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
-    return ZD_SIZED(land, loop->motion->system.nv, loop, t1);
+    return ZD_SIZED(check, stepper->motion->system.nv, stepper, safeguards, next_step, parts);
 }
+
+const zd_evaluation_path zd_closed_form_path = {"closed form", integrate_from, project_state, correct_state, NULL, check_state};
 
 ZD_INLINE int land_between(const int n, zd_stepper *stepper, double t, double *y)
 {
-    int status = correct(n, stepper, t, y, 0, 1);
+    int status = project(n, stepper, t, y);
+    if (!status && stepper->motion->others_after_step) status = correct(n, stepper, y, 0, 1);
     return status || is_finite(n, y) ? status : ZD_NOT_FINITE;
 }
 

@@ -2,7 +2,7 @@
 #ifndef ZD_SPREAD_H
 #define ZD_SPREAD_H
 
-#include "step.h"
+#include "stepper.h"
 
 /* Allocates the copy of the formulation's choice of variables that values within a step need where that choice may change at its end. To be
  * called before the first step. ZD_NO_MEMORY */

@@ -3,7 +3,7 @@
 #define ZD_VARIABLES_H
 
 #include "../constraints/rank.h"
-#include "step.h"
+#include "stepper.h"
 
 /* (p, v), if it may have to replace the motion's variables; otherwise without a formulation. */
 zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integrator, const zd_system *independent);

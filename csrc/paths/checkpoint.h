@@ -2,7 +2,7 @@
 #ifndef ZD_CHECKPOINT_H
 #define ZD_CHECKPOINT_H
 
-#include "step.h"
+#include "stepper.h"
 
 typedef struct zd_checkpoint {
     int is_set;             /* true if a state is saved */

@@ -1,10 +1,9 @@
-#include "step.h"
+#include "stepper.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../constraints/rank.h"
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
 #include "../point/quaternions.h"
 #include "../point/units.h"
@@ -41,7 +40,7 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
 
 /* ---- a step ---- */
 
-static void remember(zd_stepper *self, double h)
+void zd_stepper_remember(zd_stepper *self, double h)
 {
     const zd_motion *motion = self->motion;
     const zd_point *point = motion->point;
@@ -63,53 +62,12 @@ int zd_stepper_make(zd_stepper *self, double h)
          : integrator->step(self->memory, &motion->rate, self->t, h, self->y, &motion->statistics);
 }
 
-int zd_stepper_integrate(zd_stepper *self, double h)
-{
-    remember(self, h);
-    int status = zd_stepper_make(self, h);
-    if (status) return status;
-    return zd_is_finite(self->motion->rate.size, self->y) ? ZD_DONE : ZD_NOT_FINITE;
-}
-
-/* End of a step on the closed-form path in independent velocities: embed() computes the dependent ones. */
-static int land_embedded(zd_stepper *self, double t1, int64_t step, int forced)
+void zd_stepper_begin_end(zd_stepper *self, double t1)
 {
     zd_motion *motion = self->motion;
-    int status = zd_embed_enter(motion, t1, self->y);
-    if (!status) status = zd_motion_correct(motion, step, forced);
-    if (!status) status = zd_embed_leave(motion, self->y);
-    return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
-}
-
-/* End of a step; `leave` is the formulation's function that writes the state: leave() or express(). */
-static int land(zd_stepper *self, double t1, int64_t step, int forced, int (*leave)(void *, zd_point *, double *))
-{
-    zd_motion *motion = self->motion;
-    const zd_formulation *formulation = motion->formulation;
     self->t = t1;
     motion->state = self->y;
     if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;
-    if (zd_is_embedded(motion)) return land_embedded(self, t1, step, forced);
-    /* If Phi drifts, the state begins with p; otherwise p has been normalised when it was computed. */
-    if (formulation->drifts_from & ZD_PHI) zd_quaternions_normalise(&motion->system, self->y);
-    int status = formulation->enter(motion->solver, motion->point, t1, self->y);
-    if (!status) status = zd_motion_correct(motion, step, forced);
-    if (!status) zd_point_follow(motion->point);
-    if (!status) status = leave(motion->solver, motion->point, self->y);
-    /* Dependent velocities are recomputed from the state to the last bit, so that the next step can start from quantities known here. */
-    if (!status && formulation->settle) status = formulation->settle(motion->solver, motion->point);
-    return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
-}
-
-int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced)
-{
-    return land(self, t1, step, forced, self->motion->formulation->leave);
-}
-
-int zd_stepper_land_within(zd_stepper *self, double t)
-{
-    const zd_formulation *formulation = self->motion->formulation;
-    return land(self, t, 0, 1, formulation->settle ? formulation->express : formulation->leave);
 }
 
 int zd_stepper_return(zd_stepper *self)

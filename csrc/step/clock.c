@@ -13,11 +13,6 @@ double zd_count_steps(double t0, double t1, double step)
     return fabs(ratio - rounded) <= 1e-9 * rounded ? rounded : ceil(ratio);
 }
 
-double zd_time_of_step(double t0, double size, int64_t step, int64_t steps, double end)
-{
-    return step == steps ? end : t0 + (double)step * size;
-}
-
 /* clock() is elapsed time on Windows, and CPU time of all threads elsewhere; some libraries for Windows have no timespec_get(). */
 double zd_seconds_now(void)
 {

@@ -1,6 +1,6 @@
-/* Parts of a step: integrate, correct at its end, or return to its start. */
-#ifndef ZD_STEP_H
-#define ZD_STEP_H
+/* The integrated state of a run: integrate it, save it, return to it. */
+#ifndef ZD_STEPPER_H
+#define ZD_STEPPER_H
 
 #include "../integrators/integrator.h"
 #include "../motion/motion.h"
@@ -33,14 +33,10 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
                      zd_variables dependent, const zd_system *independent);
 /* Integrates y from t to t + h. */
 int zd_stepper_make(zd_stepper *self, double h);
-/* The same, with the start saved, so that the step can be undone. */
-int zd_stepper_integrate(zd_stepper *self, double h);
-/* Moves the point to y at t1 and applies the corrections that are due in this step, or all if `forced`, to both. */
-int zd_stepper_land(zd_stepper *self, double t1, int64_t step, int forced);
-/* The same with all corrections, without a new choice of variables. */
-int zd_stepper_land_within(zd_stepper *self, double t);
-/* A step to a time within the last one, with all corrections. */
-int zd_stepper_make_substep(zd_stepper *self, double t);
+/* Saves the start of a step of size h, so that it can be undone. */
+void zd_stepper_remember(zd_stepper *self, double h);
+/* Sets the time at the end of a step, before the point is moved to y. */
+void zd_stepper_begin_end(zd_stepper *self, double t1);
 /* Returns point and y to the start of the step. */
 int zd_stepper_return(zd_stepper *self);
 

@@ -13,10 +13,6 @@
 #include "../linalg/norms.h"
 #include "../linalg/roots.h"
 #include "../step_limits.h"
-#include "passage.h"
-#include "path.h"
-#include "short_step.h"
-#include "variables.h"
 
 static const double AFTER_FAILURE = 0.25;   /* ratio of the size after a failed step to that before */
 static const double SHARE_OF_MOVE = 0.9;    /* ratio of the intended change of coordinates to the largest allowed */
@@ -76,10 +72,11 @@ static void watch_stiffness(zd_step_loop *loop, double lambda_h)
     zd_control *control = &loop->control;
     if (!(lambda_h > 0)) return;
     if (lambda_h > ZD_STABILITY_LIMIT * loop->stepper->integrator->decay) {
-        control->at_limit++;
-        control->below_limit = 0;
-        if (control->at_limit >= ZD_STIFF_AFTER) loop->motion->statistics.stiff += control->at_limit == ZD_STIFF_AFTER ? ZD_STIFF_AFTER : 1;
-    } else if (++control->below_limit >= ZD_NOT_STIFF_AFTER) control->at_limit = 0;
+        control->stiffness.at_limit++;
+        control->stiffness.below_limit = 0;
+        if (control->stiffness.at_limit >= ZD_STIFF_AFTER)
+            loop->motion->statistics.stiff += control->stiffness.at_limit == ZD_STIFF_AFTER ? ZD_STIFF_AFTER : 1;
+    } else if (++control->stiffness.below_limit >= ZD_NOT_STIFF_AFTER) control->stiffness.at_limit = 0;
 }
 
 void zd_adaptive_weigh(zd_step_loop *loop)
@@ -114,37 +111,19 @@ static double find_move(const zd_step_loop *loop)
     return largest / loop->settings->max_move;
 }
 
-/* Integrates a step of size h to t1 and estimates its error; finishes the step only if norm and move are at most 1. */
-static int attempt(zd_step_loop *loop, double h, double t1, double *norm)
+static int estimate(zd_step_loop *loop, const zd_attempt *attempt)
 {
     zd_stepper *stepper = loop->stepper;
-    const int is_short = zd_is_short(loop->motion);
-    zd_adaptive_weigh(loop);
-    int status = is_short ? zd_short_integrate(loop, h) : zd_stepper_integrate(stepper, h);
-    if (status) return status;
-    set_scale(loop, stepper->last.y, stepper->y);
+    zd_control *control = &loop->control;
     double lambda_h;
-    status = stepper->integrator->error(stepper->memory, &loop->motion->rate, t1, h, stepper->y, loop->control.scale, norm, &lambda_h);
+    set_scale(loop, stepper->last.y, stepper->y);
+    int status = stepper->integrator->error(stepper->memory, &loop->motion->rate, attempt->t1, attempt->h, stepper->y, control->scale,
+                                            &control->norm, &lambda_h);
     if (status) return status;
-    if (isnan(*norm)) return ZD_NOT_FINITE;
-    loop->control.move = loop->settings->max_move > 0 ? find_move(loop) : 0;
-    if (!(*norm <= 1 && loop->control.move <= 1)) return ZD_DONE;
-    watch_stiffness(loop, lambda_h);
-    return is_short ? zd_short_land(loop, t1) : zd_passage_land(loop, t1);
-}
-
-/* The same on the matrix path if the closed-form path fails; stiffness is counted once. */
-static int attempt_on_either_path(zd_step_loop *loop, double h, double t1, double *norm)
-{
-    const zd_control before = loop->control;
-    const int64_t stiff = loop->motion->statistics.stiff;
-    int status = attempt(loop, h, t1, norm);
-    if (!zd_path_is_left(loop, status)) return status;
-    loop->control.at_limit = before.at_limit;
-    loop->control.below_limit = before.below_limit;
-    loop->motion->statistics.stiff = stiff;
-    status = zd_path_leave(loop);
-    return status ? status : attempt(loop, h, t1, norm);
+    if (isnan(control->norm)) return ZD_NOT_FINITE;
+    control->move = loop->settings->max_move > 0 ? find_move(loop) : 0;
+    if (zd_control_accepts(control)) watch_stiffness(loop, lambda_h);
+    return ZD_DONE;
 }
 
 static double factor(const zd_step_loop *loop, double norm)
@@ -168,35 +147,53 @@ static int is_final(int status)
            || status == ZD_NOT_JACOBIAN;
 }
 
-int zd_adaptive_step(zd_step_loop *loop)
+static int begin(zd_step_loop *loop)
 {
     const int64_t most = loop->settings->max_steps;
     if (most && loop->step > most) return ZD_TOO_MANY_STEPS;
-    double t = loop->stepper->t, norm = 0, largest = ZD_MAX_FACTOR;
-    double tiny = 16 * 0x1p-52 * fmax(fabs(t), fabs(loop->end));
-    int foreseen = foresee(loop);
-    if (foreseen) return foreseen;
-    for (;;) {
-        double h = bounded(loop, loop->control.h), t1 = h == loop->end - t ? loop->end : t + h;
-        if (!(t1 > t)) return ZD_TINY_STEP;
-        int status = attempt_on_either_path(loop, t1 - t, t1, &norm);
-        if (zd_variables_lose_digits(loop->stepper, status)) {
-            status = zd_step_loop_use_dependent(loop);
-            if (!status) status = attempt(loop, t1 - t, t1, &norm);
-        }
-        if (!status && norm <= 1 && loop->control.move <= 1) {
-            loop->control.h = by_move(loop, h, h * fmin(largest, factor(loop, norm)));
-            if (loop->stepper->integrator->fit)
-                loop->control.h = loop->stepper->integrator->fit(loop->stepper->memory, loop->control.h);
-            zd_step_histogram_step(&loop->control.histogram, t1);
-            return ZD_DONE;
-        }
-        if (is_final(status)) return status;
-        loop->motion->statistics.rejected++;
-        loop->control.h = status ? h * AFTER_FAILURE : by_move(loop, h, h * fmin(1, factor(loop, norm)));
-        largest = 1;
-        if (!(loop->control.h > tiny)) return status ? status : ZD_TINY_STEP;
-        status = zd_stepper_return(loop->stepper);
-        if (status) return status;
-    }
+    loop->control.norm = 0;
+    loop->control.largest_factor = ZD_MAX_FACTOR;
+    loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), fabs(loop->end));
+    return foresee(loop);
 }
+
+static int next(zd_step_loop *loop, zd_attempt *attempt)
+{
+    const double t = loop->stepper->t, h = loop->control.bounded = bounded(loop, loop->control.h);
+    attempt->t1 = h == loop->end - t ? loop->end : t + h;
+    attempt->h = attempt->t1 - t;
+    attempt->forced = attempt->t1 == loop->end || loop->parts;
+    return attempt->t1 > t ? ZD_DONE : ZD_TINY_STEP;
+}
+
+static void accept(zd_step_loop *loop)
+{
+    const zd_integrator *integrator = loop->stepper->integrator;
+    zd_control *control = &loop->control;
+    const double h = control->bounded;
+    control->h = by_move(loop, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
+    if (integrator->fit) control->h = integrator->fit(loop->stepper->memory, control->h);
+    zd_step_histogram_step(&control->histogram, loop->stepper->t);
+}
+
+static int repeats(zd_step_loop *loop, int *status)
+{
+    zd_control *control = &loop->control;
+    const double h = control->bounded;
+    if (!*status && zd_control_accepts(control)) {
+        accept(loop);
+        return 0;
+    }
+    if (is_final(*status)) return 0;
+    loop->motion->statistics.rejected++;
+    control->h = *status ? h * AFTER_FAILURE : by_move(loop, h, h * fmin(1, factor(loop, control->norm)));
+    control->largest_factor = 1;
+    if (!(control->h > control->smallest)) {
+        if (!*status) *status = ZD_TINY_STEP;
+        return 0;
+    }
+    *status = zd_stepper_return(loop->stepper);
+    return !*status;
+}
+
+const zd_step_sizes zd_adaptive_sizes = {begin, next, zd_adaptive_weigh, estimate, repeats};

@@ -1,0 +1,90 @@
+/* Fixed steps. One that cannot be corrected or is not accepted is repeated in equal parts: two, four, eight; if these fail, too, the run
+ * fails.
+ */
+#include "../linalg/small.h"
+#include "clock.h"
+#include "step_loop.h"
+
+enum { MOST_PARTS = 8 };    /* largest number of parts of a step that fails */
+
+static int next_part(zd_step_loop *loop, zd_attempt *attempt, double t1)
+{
+    const double t0 = loop->undivided->t;
+    attempt->t1 = loop->part == loop->parts ? t1 : t0 + (t1 - t0) * loop->part / loop->parts;
+    attempt->h = attempt->t1 - loop->stepper->t;
+    attempt->forced = 1;
+    return ZD_DONE;
+}
+
+static int next(zd_step_loop *loop, zd_attempt *attempt)
+{
+    const zd_settings *settings = loop->settings;
+    const double t1 = zd_time_of_step(settings->t0, settings->step, loop->step, loop->steps, loop->end);
+    if (loop->parts) return next_part(loop, attempt, t1);
+    attempt->t1 = t1;
+    attempt->h = loop->step == loop->steps ? t1 - loop->stepper->t : settings->step;
+    attempt->forced = t1 == loop->end;
+    return ZD_DONE;
+}
+
+static void *take_state(zd_arena *arena, const void *of)
+{
+    const zd_state state = zd_state_take(arena, of);
+    return zd_take_filled(arena, &state, sizeof state);
+}
+
+static int remember_undivided(zd_step_loop *loop)
+{
+    zd_motion *motion = loop->motion;
+    const zd_last *last = &loop->stepper->last;
+    const int own = motion->formulation_size;
+    if (!loop->undivided) loop->undivided = zd_store_take(&motion->store, take_state, motion);
+    zd_state *undivided = loop->undivided;
+    if (!undivided) return ZD_NO_MEMORY;
+    undivided->t = last->t;
+    zd_copy(motion->system.nq, last->p, undivided->p);
+    zd_copy(motion->system.nv, last->v, undivided->v);
+    zd_copy(motion->rate.size - own, last->y + own, undivided->extra);
+    return ZD_DONE;
+}
+
+static int is_too_far(int status)
+{
+    return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING || status == ZD_BIFURCATION_PASSED;
+}
+
+/* Returns to the start of the undivided step, to repeat it in twice as many parts. */
+static int divide(zd_step_loop *loop, int *status)
+{
+    for (;;) {
+        loop->parts *= 2;
+        if (!is_too_far(*status) || loop->parts > MOST_PARTS) return 0;
+        loop->part = 1;
+        *status = zd_stepper_return_to(loop->stepper, loop->undivided);
+        if (!*status) *status = zd_safeguards_begin(loop->safeguards, loop->step + 1);
+        if (!*status) return 1;
+    }
+}
+
+static int begin_parts(zd_step_loop *loop, int *status)
+{
+    if (remember_undivided(loop)) {
+        *status = ZD_NO_MEMORY;
+        return 0;
+    }
+    loop->parts = 1;
+    return divide(loop, status);
+}
+
+static int repeats(zd_step_loop *loop, int *status)
+{
+    if (!*status && !loop->parts) return 0;
+    if (!loop->parts) return is_too_far(*status) ? begin_parts(loop, status) : 0;
+    if (*status) return divide(loop, status);
+    if (loop->part++ < loop->parts) return 1;
+    loop->parts = 0;
+    loop->motion->statistics.subdivided++;
+    return 0;
+}
+
+const zd_step_sizes zd_fixed_sizes = {.next = next, .repeats = repeats};

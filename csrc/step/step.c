@@ -1,0 +1,194 @@
+/* One step of a run, in order:
+ *
+ *  1. choose the integrated variables, the evaluation path and the size
+ *  2. save the start of the step; integrate
+ *  3. adaptive steps: estimate the error, and reject the step if it is too large
+ *  4. project positions, then velocities, onto the constraints: (25)-(27)
+ *  5. correct the energy: (29)
+ *  6. write the integrated state from the corrected point
+ *  7. check: assembly branch, pivots or orientation of C, stability, resolution, consistency of the system
+ *  8. accept; or return to the start of the step and repeat it: by matrices, through a bifurcation, in (p, v), or with a shorter step
+ *
+ * A step to a sample or an event within the last one is the same without 3 and 7.
+ */
+#include "step.h"
+
+#include <math.h>
+
+#include "../paths/variables.h"
+#include "passage.h"
+
+enum { MOST_HALVINGS = 8 };     /* largest number of halvings of a substep that fails */
+
+/* Saves the start of the step for the checks of the matrix path; steps in closed form do not need it. */
+static int begin_matrix_path(zd_step_loop *loop)
+{
+    loop->motion->path.was_taken = 0;
+    return zd_safeguards_begin(loop->safeguards, loop->step);
+}
+
+static int choose_path(zd_step_loop *loop)
+{
+    zd_motion *motion = loop->motion;
+    int status = zd_variables_use_chosen(loop->stepper);
+    if (status || !motion->path.direct || zd_direct_continues(motion)) return status;
+    zd_direct_choose(motion);
+    return motion->path.was_taken && !zd_is_direct(motion) ? begin_matrix_path(loop) : ZD_DONE;
+}
+
+ZD_INLINE int attempt(zd_step_loop *loop, const zd_attempt *a)
+{
+    zd_stepper *stepper = loop->stepper;
+    const zd_motion *motion = loop->motion;
+    const zd_step_sizes *sizes = loop->sizes;
+    const int is_new = a->kind == ZD_NEW_STEP, is_checked = is_new || a->kind == ZD_THROUGH_BIFURCATION;
+    const zd_evaluation_path *path = is_checked ? zd_path_of(motion) : zd_path_of_state(motion);
+    if (sizes->weigh && (is_new || a->kind == ZD_REPEATED_STEP)) sizes->weigh(loop);
+    int status = path->integrate(stepper, a->h);
+    if (!status && sizes->estimate && is_new) {
+        status = sizes->estimate(loop, a);
+        if (status || !zd_control_accepts(&loop->control)) return status;
+    }
+    if (!status) status = path->project(stepper, a->t1, a->step, a->forced);                                /* (25)-(27) */
+    if (!status && motion->others_after_step) status = path->correct(stepper, a->step, a->forced);          /* (29) */
+    if (!status && path->finish) status = path->finish(stepper, 0);
+    if (!status && is_checked) status = path->check(stepper, loop->safeguards, a->step + 1, loop->parts);
+    return status;
+}
+
+int zd_step_attempt(zd_step_loop *loop, const zd_attempt *a)
+{
+    return attempt(loop, a);
+}
+
+/* ---- returns to the start of the step ---- */
+
+static int return_for_matrices(zd_step_loop *loop, const zd_attempt *a)
+{
+    zd_direct_leave(loop->motion);
+    if (a->kind == ZD_SUBSTEP) return zd_stepper_return(loop->stepper);
+    zd_direct_forget_energy(loop->motion);
+    int status = zd_stepper_return(loop->stepper);
+    return status ? status : begin_matrix_path(loop);
+}
+
+/* To (p, v); the safeguards may have saved the end of the step already. */
+static int return_for_dependent(zd_step_loop *loop, const zd_attempt *a)
+{
+    int status = zd_variables_use_dependent(loop->stepper);
+    if (status || a->kind == ZD_SUBSTEP || !loop->safeguards->guard.has_begun) return status;
+    return zd_safeguards_begin(loop->safeguards, loop->step + 1);
+}
+
+static int make_from_start(zd_step_loop *loop, double t)
+{
+    int status = zd_stepper_return(loop->stepper);
+    return status ? status : zd_substep(loop, t);
+}
+
+/* Through the bifurcation in the step, if the settings allow it and the motion is continuous there. */
+static int return_for_bifurcation(zd_step_loop *loop, const zd_attempt *a)
+{
+    zd_attempt through = *a;
+    int found, status;
+    if (loop->settings->on_singular == ZD_STOP) return ZD_BIFURCATION_PASSED;
+    through.kind = ZD_THROUGH_BIFURCATION;
+    status = zd_passage_find(loop, a->t1, make_from_start, &found);
+    if (status || !found) return status == ZD_CALLBACK || status == ZD_NO_MEMORY ? status : ZD_BRANCH;
+    loop->safeguards->crossing.may_pass = 1;
+    status = zd_stepper_return(loop->stepper);
+    if (!status) status = zd_step_attempt(loop, &through);
+    if (zd_variables_lose_digits(loop->stepper, status)) {
+        status = return_for_dependent(loop, a);
+        if (!status) status = zd_step_attempt(loop, &through);
+    }
+    loop->safeguards->crossing.may_pass = 0;
+    return status;
+}
+
+ZD_INLINE int attempt_or_pass(zd_step_loop *loop, const zd_attempt *a)
+{
+    int status = attempt(loop, a);
+    return status == ZD_BIFURCATION_PASSED && a->kind == ZD_NEW_STEP ? return_for_bifurcation(loop, a) : status;
+}
+
+/* By matrices, and in (p, v), after an attempt with *status that these can mend. */
+static int attempt_again(zd_step_loop *loop, const zd_attempt *a, int status)
+{
+    if (status && zd_is_direct(loop->motion)) {
+        status = return_for_matrices(loop, a);
+        if (!status) status = attempt_or_pass(loop, a);
+    }
+    if (!zd_variables_lose_digits(loop->stepper, status)) return status;
+    status = return_for_dependent(loop, a);
+    return status ? status : attempt_or_pass(loop, a);
+}
+
+/* Attempts on the chosen path, by matrices, and in (p, v), until one succeeds. */
+ZD_INLINE int attempt_on_each_path(zd_step_loop *loop, const zd_attempt *a)
+{
+    const zd_stiffness before = loop->control.stiffness;
+    const int64_t stiff = loop->motion->statistics.stiff;
+    int status = attempt_or_pass(loop, a);
+    if (!status && !loop->motion->point->rank->was_ill_conditioned) return ZD_DONE;
+    if (status && zd_is_direct(loop->motion)) {     /* the step is counted once */
+        loop->control.stiffness = before;
+        loop->motion->statistics.stiff = stiff;
+    }
+    return attempt_again(loop, a, status);
+}
+
+/* ---- steps ---- */
+
+int zd_step(zd_step_loop *loop)
+{
+    zd_motion *motion = loop->motion;
+    zd_rank *rank = motion->point->rank;
+    zd_attempt next = {.kind = ZD_NEW_STEP, .step = ++loop->step};
+    int status = choose_path(loop);
+    if (status) return status;
+    if (loop->sizes->begin) status = loop->sizes->begin(loop);
+    for (int again = !status; again;) {
+        status = loop->sizes->next(loop, &next);
+        if (status) break;
+        status = attempt_on_each_path(loop, &next);
+        again = loop->sizes->repeats(loop, &status);
+    }
+    if (rank->was_deficient) motion->statistics.rank_drops++;
+    rank->was_deficient = rank->was_doubtful = 0;
+    if (!status) motion->statistics.steps++;
+    if (!status && zd_is_direct(motion)) motion->statistics.direct_steps++;
+    return status;
+}
+
+static int is_too_long(int status)
+{
+    return status == ZD_NO_STEP || status == ZD_NO_EMBEDDING || status == ZD_NO_CONVERGENCE;
+}
+
+static int attempt_to(zd_step_loop *loop, double t)
+{
+    const zd_attempt substep = {.kind = ZD_SUBSTEP, .h = t - loop->stepper->t, .t1 = t, .forced = 1};
+    return attempt_on_each_path(loop, &substep);
+}
+
+/* Divided into parts if a single step fails: the run's own step may have converged only because its iteration started from the polynomial of
+ * the step before, or was made in other variables. */
+int zd_substep(zd_step_loop *loop, double t)
+{
+    zd_stepper *stepper = loop->stepper;
+    double part = t - stepper->t;
+    int status = attempt_to(loop, t), halvings = 0;
+    while (status ? is_too_long(status) && halvings < MOST_HALVINGS : stepper->t != t) {
+        if (status) {
+            halvings++;
+            part /= 2;
+            status = zd_stepper_return(stepper);
+            if (status) break;
+        }
+        const double h = fmin(part, t - stepper->t);
+        status = attempt_to(loop, h == part ? stepper->t + h : t);
+    }
+    loop->motion->statistics.output_steps++;
+    return status;
+}

@@ -1,0 +1,84 @@
+/* Step loop of a run: its progress, and the control of its next step. */
+#ifndef ZD_STEP_LOOP_H
+#define ZD_STEP_LOOP_H
+
+#include "../paths/path.h"
+#include "step_histogram.h"
+
+/* Attempts at a step. */
+enum zd_attempt_kind {
+    ZD_NEW_STEP,            /* step of the run, with error estimate and checks */
+    ZD_THROUGH_BIFURCATION, /* the same, repeated with checks alone */
+    ZD_REPEATED_STEP,       /* step between two samples of an earlier run, without checks */
+    ZD_SUBSTEP,             /* step to a time within one of the run, without checks */
+};
+typedef struct zd_attempt {
+    enum zd_attempt_kind kind;
+    int forced;             /* true if all corrections are applied, due or not */
+    int64_t step;           /* number of the step, by which corrections are due */
+    double h, t1;           /* s: size, and time at the end */
+} zd_attempt;
+
+typedef struct zd_stiffness {
+    int at_limit;           /* steps at the stability limit */
+    int below_limit;        /* consecutive shorter steps */
+} zd_stiffness;
+
+typedef struct zd_control { /* control of adaptive steps */
+    double h;               /* s: size of the next step */
+    double bounded;         /* s: size of the current attempt, before rounding of its end */
+    double smallest;        /* s: step size underflow */
+    double largest_factor;  /* ratio of the next size to the current one */
+    double norm;            /* error estimate of the last attempt, RMS in units of scale; 0: fixed steps */
+    double move;            /* largest change of a coordinate in the last step, in units of max_move; 0: max_move is not set */
+    zd_step_histogram histogram;    /* distribution of the steps in time */
+    double *scale;          /* (size,): error scale, atol + rtol |y| */
+    zd_stiffness stiffness;
+} zd_control;
+
+/* True if the error estimate and the change of coordinates in the last attempt are small enough. */
+static inline int zd_control_accepts(const zd_control *control) { return control->norm <= 1 && control->move <= 1; }
+
+typedef struct zd_step_loop zd_step_loop;
+
+/* Sizes of steps: fixed.c, adaptive.c. NULL: nothing is done. */
+typedef struct zd_step_sizes {
+    int (*begin)(zd_step_loop *loop);   /* before the first attempt at a step */
+    int (*next)(zd_step_loop *loop, zd_attempt *attempt);   /* size and end of the next attempt */
+    void (*weigh)(zd_step_loop *loop);  /* passes the approximate error scale to an integrator that needs it */
+    int (*estimate)(zd_step_loop *loop, const zd_attempt *attempt);     /* control.norm and control.move of an integrated step */
+    /* True if another attempt follows this one with *status; otherwise *status is that of the step. */
+    int (*repeats)(zd_step_loop *loop, int *status);
+} zd_step_sizes;
+
+extern const zd_step_sizes zd_fixed_sizes, zd_adaptive_sizes;
+
+struct zd_step_loop {
+    const zd_settings *settings;
+    zd_motion *motion;
+    zd_stepper *stepper;
+    zd_safeguards *safeguards;
+    const zd_step_sizes *sizes;     /* fixed or adaptive */
+    double end;             /* s: t1 of the settings, or the time of a terminal event */
+    int64_t step;           /* number of the current step, from 1 */
+    int64_t steps;          /* number of fixed steps of the run */
+    zd_state *undivided;    /* start of a step that is repeated in parts; NULL until there is one */
+    int parts, part;        /* number of these parts, 0: the step is not divided; the current one, from 1 */
+    zd_control control;
+};
+
+static inline int zd_is_adaptive(const zd_step_loop *loop) { return loop->sizes == &zd_adaptive_sizes; }
+
+/* True if `every` divides the number of the step, or it is the last one, or one of several parts. */
+static inline int zd_step_loop_is_due(const zd_step_loop *loop, int64_t every)
+{
+    return zd_is_one_of(every, loop->step) || loop->stepper->t == loop->end || loop->parts;
+}
+
+/* True if all enabled corrections were applied at the end of the step. */
+static inline int zd_step_loop_is_corrected(const zd_step_loop *loop)
+{
+    return zd_motion_is_corrected(loop->motion, loop->step) || loop->stepper->t == loop->end || loop->parts;
+}
+
+#endif

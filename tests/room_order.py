@@ -1,0 +1,23 @@
+"""The order of the core's rooms, from the public interface up to the outer loop: a file uses only what stands in lower lines."""
+
+ORDER = (
+    ("include/zerodrift",),
+    ("workspace", "zerodrift"),
+    ("linalg",),
+    ("point",),
+    ("constraints",),
+    ("formulations", "step_limits"),
+    ("motion",),
+    ("integrators", "safeguards"),
+    ("corrections", "paths"),
+    ("step",),
+    ("output",),
+    ("run",),
+    ("simulate", "operations"),
+    ("batch",),
+)
+
+
+def height(room):
+    """The line of a room from below; rooms without one (systems, tables, bindings) are read through tables and stand lowest."""
+    return next((line for line, rooms in enumerate(ORDER) if room in rooms), 0)
