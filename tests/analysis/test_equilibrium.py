@@ -167,16 +167,48 @@ def chain(links, length=1.5):
 
 
 def test_a_chain_converges_to_the_catenary():
-    a = brentq(lambda a: 2 * a * np.sinh(0.5 / a) - 1.5, 0.05, 5)
+    """From 10 to 1,000 links, those from 100 on without dense matrices."""
+    a = brentq(lambda a: 2 * a * np.sinh(0.5 / a) - 1.5, 0.05, 5, xtol=1e-15)
     sag, tension = a * (np.cosh(0.5 / a) - 1), G / 1.5 * a      # the level part of the tension
-    errors = []
-    for links in (10, 20, 40):
+    counts, errors = np.array([10, 20, 40, 100, 300, 1000]), []
+    for links in counts:
         eq = zd.equilibrium(chain(links))
         assert eq.stable is True
-        assert eq["first.force.y"] == pytest.approx(G / 2, rel=1e-10)
+        assert eq["first.force.y"] == pytest.approx(G / 2, rel=1e-9)
+        assert (eq.basis is None) == (links >= 100)
         errors.append((eq[f"l{links // 2}.start.position.y"] + sag, eq["first.force.x"] + tension))
-    ratios = np.array(errors[:-1]) / np.array(errors[1:])
-    assert ratios == pytest.approx(np.full((2, 2), 4.0), rel=0.03)      # second order
+    orders = np.diff(np.log(np.abs(errors)), axis=0) / -np.diff(np.log(counts))[:, None]
+    assert orders == pytest.approx(np.full((5, 2), 2.0), abs=0.03)
+    assert "sparse factors" in repr(eq)
+
+
+def test_sparse_and_dense_matrices_have_the_same_equilibrium(monkeypatch):
+    """A chain with springs across its links and to the ground."""
+    m = chain(16)
+    for i in (3, 9):
+        m.spring(f"across {i}", m[f"l{i}"].start, m[f"l{i + 2}"].end, stiffness=40.0, length=0.1)
+    m.spring("tie", m.ground.point((0.2, -1.0)), m["l5"].end, stiffness=10.0, length=0.2)
+    system = m.system("absolute")
+    dense = zd.equilibrium(system)
+    monkeypatch.setattr("zerodrift.analysis.large.MANY", 10)
+    sparse = zd.equilibrium(system)
+    assert sparse.basis is None
+    assert sparse.stable is dense.stable is True
+    assert sparse.p == pytest.approx(dense.p, abs=1e-9)
+    assert sparse["first.force"] == pytest.approx(dense["first.force"], rel=1e-8)
+    assert zd.equilibrium(system, near=sparse.p).iterations <= 1
+    with pytest.raises(ValueError, match="near must hold coordinates"):
+        zd.equilibrium(system, near={"l5.angle": 0.1})
+
+
+def test_many_bodies_that_fall_are_refused(monkeypatch):
+    m = zd.Mechanism("two stones", gravity=(0, -G))
+    for i in range(2):
+        m.body(f"stone {i}", 1.0, 1.0, at=(i, 0))
+    m.revolute("pin", m["stone 0"], m["stone 1"], at=(0.5, 0))
+    monkeypatch.setattr("zerodrift.analysis.large.MANY", 2)
+    with pytest.raises(zd.EquilibriumFailed, match="two stones must have a position in which its forces balance"):
+        zd.equilibrium(m.system("absolute"))
 
 
 def test_too_many_coordinates_are_refused():

@@ -12,7 +12,8 @@ from ..errors import EquilibriumFailed, ZerodriftError
 from ..runs.operations import project
 from ..runs.settings import Projection
 from ..systems.base import BaseSystem, core_of, system_of
-from .equilibrium_result import Equilibrium, at_rest, in_motion
+from .equilibrium_result import Equilibrium, at_rest, in_motion, of_many
+from .large import MANY, blocks_that_meet, found
 from .quantities import names_of, values_of
 from .relaxation import settled
 from .rest import Balance, Search
@@ -31,7 +32,8 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     retraction, in a trust region of 0.3 rad or characteristic lengths. Holonomic, nonholonomic and redundant constraints are
     treated alike, and no coordinate is chosen as independent. The search goes downhill, so that the forces do work in each
     step; where it does not converge, the motion is integrated, stopped at each maximum of its kinetic energy, and Newton's
-    method finishes. The stiffness is that of fourth-order or better differences of the residuals, 1e-12.
+    method finishes. The stiffness is that of fourth-order or better differences of the residuals, 1e-12. Mechanisms in the plane
+    with more than 200 velocities, of joints and springs, are solved by sparse factors where SciPy is installed.
 
     Parameters
     ----------
@@ -75,6 +77,8 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     system, t = system_of(system), _check.number("t", t)
     core_of(system)
     _check.choice("stability", stability, ("stable", "any"))
+    if hold == () and v is None and (meet := blocks_that_meet(system)) is not None:
+        return of_many(*found(system, t, _first(system, near), meet))
     p = near_to(system, near, t)
     if v is not None:
         if hold != ():
@@ -84,6 +88,14 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     held = {name: rows_of(at, {name: None})[0] for name in names_of(hold, "hold")}
     balance, iterations, how = _found(system, t, p, held, is_downhill=stability == "stable")
     return at_rest(balance, iterations, how)
+
+
+def _first(system: BaseSystem, near: Any) -> np.ndarray:
+    """The position (nq,) from which the search begins, of a system of many bodies."""
+    if isinstance(near, Mapping):
+        raise ValueError(f"near must hold coordinates, not values of quantities, where there are more than {MANY} velocities")
+    return np.array(system._state_or_start(None, None, "near", "v", 0.0)[0]) if near is None else (
+        _check.vector("near", near, system.nq))
 
 
 def balanced(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import CorrectionFailed
 from ..systems.base import BaseSystem
 from .flow import Flow
+from .large import SparseBalance
 from .names import pivots
 from .quantities import Reading, components
 from .rest import Balance
@@ -37,7 +38,7 @@ class Equilibrium:
         Efforts, conjugate to the rates of the quantities that are held, in N or N m.
     stiffness : ndarray (k, k)
         Reduced stiffness matrix, on a mass-orthonormal basis of the directions that nothing holds: its eigenvalues are squares
-        of angular frequencies, in 1/s^2. None in a steady motion, as damping.
+        of angular frequencies, in 1/s^2. None in a steady motion, and with `damping` and `basis` of many bodies.
     damping : ndarray (k, k)
         Reduced damping matrix on the same basis, in 1/s.
     basis : ndarray (nv, k)
@@ -74,7 +75,7 @@ class Equilibrium:
     def __repr__(self) -> str:
         word = {True: "stable", False: "unstable", None: "stability not decided by the linearization"}[self.stable]
         what = "steady motion" if np.any(self.v) else "equilibrium"
-        word = word if self.basis.shape[1] else "nothing is free to move"
+        word = word if self.basis is None or self.basis.shape[1] else "nothing is free to move"
         lines = [f"<{what} of {self.system.name}: {word}; {self.how}, {self.iterations} iterations>"]
         oscillating = self.frequencies[np.abs(self.eigenvalues.imag) > 0]
         if oscillating.size:
@@ -126,6 +127,14 @@ def in_motion(at: State, iterations: int) -> Equilibrium:
                        free=tuple(pivots(at, flow.tangent.basis @ spectrum.removed)),
                        residual=float(np.linalg.norm(flow.unsteady)),
                        iterations=iterations, how="Gauss-Newton method")
+
+
+def of_many(balance: SparseBalance, stable: bool | None, iterations: int) -> Equilibrium:
+    """The result for a mechanism of many bodies, without its modes and free directions: `stable` is True or None."""
+    state = (balance.p, balance.rest, np.zeros_like(balance.rest), balance.lam)
+    return Equilibrium(balance.system, balance.t, state, {}, stiffness=None, damping=None, basis=None,
+                       spectrum=of_matrix(np.zeros((0, 0))), stable=stable, free=(), residual=balance.residual,
+                       iterations=iterations, how="Newton's method with sparse factors")
 
 
 def _efforts(balance: Balance) -> dict[str, Any]:
