@@ -328,6 +328,19 @@ const zd_plane_element_kind zd_soft_guide = {
 };
 """
 
+SOFT_PLANE = r"""
+/* A point is pulled back along an axis of the first body, and moves across it freely. */
+#include "joint.h"
+
+const zd_plane_element_kind zd_soft_plane = {
+    .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
+    .gauges = 1,
+    .gauge = {ZD_GAUGE_ALONG}, .zero = {ZD_ZERO_ALONG},
+    .is_spring = 1,
+    .effort = "force", .sign = 1,
+};
+"""
+
 POINT_ON_PLANE = r"""
 /* A point on a plane: the second body's point stays in a plane of the first, whose normal is the axis. */
 #include "primitives.h"
@@ -391,6 +404,14 @@ def soft_guide(m, arm, plate):
     return m.soft_guide("J", arm, plate.point((0, 0)), axis=arm.pose.direction(np.array([1.0, 0.0])), stiffness=60.0, damping=0.5)
 
 
+def soft_plane(m, arm, plate):
+    return m.soft_plane("J", arm, plate.point((0, 0)), axis=arm.pose.direction(np.array([1.0, 0.0])), stiffness=60.0, damping=0.5)
+
+
+def bushing_along(m, arm, plate):
+    return m.bushing("J", arm, plate.point((0, 0)), stiffness=(60.0, 0.0), damping=(0.5, 0.0))
+
+
 def bushing(m, arm, plate):
     return m.bushing("J", arm, plate.point((0, 0)), stiffness=(0.0, 60.0), damping=(0.0, 0.5))
 
@@ -401,7 +422,7 @@ def motion(m, layout, names, compiled=False):
 
 
 for new, old, names, more in ((parallel, coupler, PLATE, ()), (offset_slider, prismatic, SLIDER, ("push",)),
-                              (soft_guide, bushing, MOVED, ())):
+                              (soft_guide, bushing, MOVED, ()), (soft_plane, bushing_along, MOVED, ())):
     m, other = swing(new, *more), swing(old, *more)
     with tempfile.TemporaryDirectory() as folder:
         again = zd.load(m.save(folder + "/m"))
@@ -416,8 +437,8 @@ for new, old, names, more in ((parallel, coupler, PLATE, ()), (offset_slider, pr
         assert max(errors) < 1e-8       # of the steps: coordinates of joints and of bodies are integrated differently
 """
 
-# A rod with one end on a tilted plane, by a new kind of joint in space and by a constraint on that end's position.
-SPACE_JOINT_USED = r"""
+# A rod with one end on a tilted plane, by a new kind of joint in space and by a constraint on that end; and a soft plane.
+SPACE_USED = r"""
 import inspect
 import tempfile
 import numpy as np
@@ -434,6 +455,10 @@ def slide(join):
     m.spherical("ball", "plate", rod.start)
     m.spring("spring", m.ground.point((0, 0, 2)), "plate.center", stiffness=40.0, damping=0.3)
     join(m, rod)
+    if join is by_joint:
+        m.soft_plane("K", m.ground, rod.center, axis=(0, 1, 0), stiffness=25.0, damping=0.2)
+    else:
+        m.bushing("K", m.ground, rod.center, stiffness=(0, 25.0, 0), damping=(0, 0.2, 0))
     return m
 
 
@@ -481,10 +506,12 @@ ADDED = {
     "a joint in space": (f"{SPACE}/point_on_plane.c", POINT_ON_PLANE, f"{SPACE}/table.c", r"(X\(zd_space_knife_edge\))",
                          r"\1 X(zd_point_on_plane)"),
     "an element": (f"{PLANE}/soft_guide.c", SOFT_GUIDE, JOINTS, r"(X\(zd_plane_torque\))", r"\1 X(zd_soft_guide)"),
+    "an element of plane and space": (f"{PLANE}/soft_plane.c", SOFT_PLANE, JOINTS, r"(X\(zd_soft_guide\))",
+                                      r"\1 X(zd_soft_plane)"),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }
 NAMES = ("ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide "
-         "or point_on_plane")
+         "or point_on_plane or soft_plane")
 WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_methods.py", "tests/point/test_terms.py",
          "tests/test_structure_of_core.py", "tests/mechanisms/plane/joints", "tests/mechanisms/test_joint_verbs.py",
          "tests/mechanisms/test_force_verbs.py", "tests/mechanisms/test_table_verbs.py", "tests/mechanisms/test_files.py",
@@ -527,7 +554,7 @@ def main(folder):
         print(f"{what:30}{new:12}{changed:16}{count:8}{lines:8}")
     run(folder, sys.executable, "setup.py", "-q", "build_ext", "--inplace")
     print(run(folder, sys.executable, "-c", JOINTS_USED))
-    print(run(folder, sys.executable, "-c", SPACE_JOINT_USED))
+    print(run(folder, sys.executable, "-c", SPACE_USED))
     run(folder, sys.executable, "tests/mechanisms/stub_of_verbs.py")        # the generated declarations for editors
     for picked in ([*WHOLE], ["tests", "-k", NAMES]):
         print(run(folder, sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *picked).splitlines()[-1])
