@@ -83,6 +83,23 @@ def test_the_readme_is_short():
     assert len(README.read_text().split()) < 900
 
 
+def section(title):
+    return re.search(rf"^## {title}\n(.*?)(?=^## )", README.read_text(), re.DOTALL | re.MULTILINE).group(1)
+
+
+def test_the_readme_has_five_strengths_and_five_limits():
+    assert [len(re.findall(r"^\* ", section(title), re.MULTILINE)) for title in ("Strengths", "Limits")] == [5, 5]
+
+
+def test_the_examples_of_the_readme_are_fifteen_and_ten_lines():
+    blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
+    assert [len([line for line in block.splitlines() if line]) for block in blocks] == [15, 10]
+
+
+def test_the_readme_counts_the_models():
+    assert f"`zd.models` has {len(zerodrift.models.__all__)} known mechanisms" in README.read_text()
+
+
 def test_links_of_the_readme_lead_to_files():
     links = re.findall(r"\]\((?!https?:)([^)#]+)\)", README.read_text())
     assert len(links) >= 5
