@@ -96,9 +96,9 @@ def test_violation_draws_the_largest_component_on_a_logarithmic_scale(bar):
     ax = drawn(plot.violation(bar))
     assert ax.get_yscale() == "log"
     phi = np.abs(bar.position_violation).max(axis=1)
-    shown = curves(ax)["|Φ| [m]"].get_ydata()
+    shown = curves(ax)["position violation |Φ| [m]"].get_ydata()
     np.testing.assert_array_equal(shown[phi > 0], phi[phi > 0])
-    assert "|Ψ| [m/s]" in curves(ax)
+    assert "velocity violation |Ψ| [m/s]" in curves(ax)
 
 
 def test_exact_zeros_are_triangles_on_the_lower_edge(bar):
@@ -122,8 +122,8 @@ def test_a_violation_that_is_zero_throughout_can_be_drawn(bar):
 
 def test_violation_of_nonholonomic_constraints_only(bar):
     rolling = altered(bar, position_violation=np.empty((len(bar.t), 0)))
-    assert list(curves(drawn(plot.violation(rolling)))) == ["|Ψ| [m]"]
-    assert plot.violation(rolling).get_ylabel() == "|Ψ| [m]"
+    assert list(curves(drawn(plot.violation(rolling)))) == ["velocity violation |Ψ| [m]"]
+    assert plot.violation(rolling).get_ylabel() == "velocity violation |Ψ| [m]"
 
 
 def test_a_run_that_blew_up_can_be_drawn():
@@ -321,3 +321,29 @@ def test_axes_that_are_none(wrong):
 
 def test_no_two_integrators_have_the_same_colour():
     assert len(set(zd.plot.COLOURS)) == len(zd.plot.COLOURS) >= len(zd.integrators())
+
+
+THREE = ["alpha1", "alpha2", "alpha3"]
+SIX = [*THREE, "alpha1_dot", "alpha2_dot", "alpha3_dot"]
+DRAWN = {"motion": plot.motion, "violation": plot.violation, "energy": plot.energy,
+         "measures": lambda sol: plot.measures(sol, THREE), "six measures": lambda sol: plot.measures(sol, SIX)}
+
+
+@pytest.mark.parametrize("draw", DRAWN.values(), ids=DRAWN)
+def test_legends_cover_no_curve(bar, draw):
+    """On the canvas: no point of a curve lies in the box of the legend."""
+    ax = draw(bar)
+    ax.figure.canvas.draw()
+    box = ax.get_legend().get_window_extent()
+    for line in ax.lines:
+        points = line.get_transform().transform(line.get_xydata())
+        points = points[np.isfinite(points).all(axis=1)]
+        assert not box.count_contains(points)
+
+
+def test_room_for_a_legend_does_not_grow_with_each_curve(bar):
+    ax = plot.violation(bar, positions=False, label="one")
+    once = ax.get_ylim()
+    plot.violation(bar, positions=False, label="one", ax=ax)
+    plot.violation(bar, positions=False, label="one", ax=ax)
+    assert ax.get_ylim()[1] < 10 * once[1]

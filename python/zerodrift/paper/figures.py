@@ -166,4 +166,5 @@ def _one_legend(figure: Figure, *axes: Any) -> None:
     for ax in axes:
         if ax.get_legend():
             ax.get_legend().remove()
+            ax.autoscale_view()     # without the room for it
     figure.legend(handles, labels, loc="outside upper center", ncols=len(labels), frameon=False)

@@ -144,9 +144,9 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     rates = [Variable(c.name, f"{c.unit}/s" if c.unit else "1/s") for c in constraints[:mh]] + list(constraints[mh:])
     lines = []
     if positions and mh:
-        lines.append((sol.position_violation, _style.with_unit("|Φ|", constraints[:mh])))
+        lines.append((sol.position_violation, _style.with_unit("position violation |Φ|", constraints[:mh])))
     if velocities and constraints:
-        lines.append((sol.velocity_violation, _style.with_unit("|Ψ|", rates)))
+        lines.append((sol.velocity_violation, _style.with_unit("velocity violation |Ψ|", rates)))
     if not lines:
         raise ValueError(f"{sol.system.name} has no such constraints, so there is no violation to draw")
     ax = _style.axes(ax)

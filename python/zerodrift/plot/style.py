@@ -56,8 +56,24 @@ def finished(ax: Axes, ylabel: str, *, legend: bool = True) -> Axes:
     ax.set_xlabel("t [s]")
     ax.set_ylabel(ylabel)
     if legend:
-        ax.legend(frameon=False)
+        legend_above(ax)
     return ax
+
+
+def legend_above(ax: Axes) -> None:
+    """Legend at the top of the axes; where limits are automatic, they leave room for it, so that it covers no curve."""
+    names = ax.get_legend_handles_labels()[1]
+    size = plt.rcParams["font.size"]
+    width, height = ax.get_window_extent().size * 72 / ax.figure.dpi      # in points, as the size of the font
+    columns = max(1, min(len(names), int(width / (0.6 * size * max(map(len, names), default=0) + 4 * size))))
+    ax.legend(frameon=False, loc="upper center", ncols=columns)
+    if not ax.get_autoscaley_on():
+        return
+    share = min(0.6, (1.6 * -(-len(names) // columns) + 0.8) * size / height)
+    ax.autoscale_view(scalex=False)
+    scale = ax.yaxis.get_transform()
+    low, high = scale.transform(ax.get_ylim())
+    ax.set_ylim(top=scale.inverted().transform(low + (high - low) / (1 - share)), auto=None)
 
 
 def line(ax: Axes, t: np.ndarray, values: np.ndarray, log: bool, **style: Any) -> None:

@@ -18,7 +18,8 @@ def table(x: Any, y: Any, *, argument: str = "t") -> Table:
 
     The cubic spline with continuous first and second derivatives, and a continuous third one at the second and the last but one
     point (not-a-knot, as SciPy's ``CubicSpline``); through two or three points the straight line or the parabola. A prescribed
-    motion has the speed and the acceleration of the spline.
+    motion has the speed and the acceleration of the spline. From a CSV file with a heading and two columns:
+    ``zd.table(*np.loadtxt("data.csv", delimiter=",", skiprows=1).T)``.
 
     Parameters
     ----------
