@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
@@ -17,6 +18,7 @@ from ..systems.shapes import Shape
 from .mechanism import NOTHING, Extras
 from .points import with_equal_scales
 from .space_arrows import SpaceArrows
+from .space_names import keep_apart
 from .style import COLOURS
 
 SIZE = 0.04         # of the picture: half the length of a pin
@@ -111,7 +113,7 @@ class SpacePicture:
         with_equal_scales(ax)
         for i, path in enumerate(paths):
             ax.plot(*path.T, color=COLOURS[(i + 3) % len(COLOURS)], linewidth=1.2)
-        named = {shape.name for shape in moments[0] if shape.name} if extras.names else set()
+        named = dict.fromkeys(shape.name for shape in moments[0] if shape.name) if extras.names else {}
         self._texts = {name: ax.text(0, 0, 0, name, fontsize="small") for name in named if len(named) <= MOST_NAMES}
 
     def faintly(self, moments: Sequence[int]) -> None:
@@ -138,7 +140,9 @@ class SpacePicture:
         for shape in self._moments[moment]:
             if text := self._texts.get(shape.name):
                 text.set_position_3d(_anchor(shape) + 0.5 * self.size)
-        return [*self._drawn.values(), *self._texts.values(), *(self._arrows.show(moment) if self._arrows else [])]
+        arrows = self._arrows.show(moment) if self._arrows else []
+        keep_apart(self.ax, [*self._texts.values(), *(artist for artist in arrows if isinstance(artist, Text))])
+        return [*self._drawn.values(), *self._texts.values(), *arrows]
 
     def _artist(self, kind: str) -> Any:
         """Artist of matplotlib for all shapes of a kind."""
