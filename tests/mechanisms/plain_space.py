@@ -21,7 +21,7 @@ class Plain:
 
     def __init__(self, rng, bodies, loops, on_ground=None, coordinates=None):
         self.m = zd.Mechanism("random", dimension=3, gravity=rng.normal(size=3))
-        self.bodies, self.held, self.on_ground, self.joints = [self.m.ground], [], [], {}
+        self.bodies, self.held, self.on_ground, self.joints, self.drawn = [self.m.ground], [], [], {}, {}
         self.pose = {"ground": (np.zeros(3), Rotation.identity())}
         self.mass = {}
         for b in range(bodies):
@@ -33,6 +33,7 @@ class Plain:
             self._join(rng, f"loop{k}", kind, self.bodies[one], self.bodies[other])
         if on_ground:
             self._put_on_ground(rng, on_ground)
+        self._add_idle(rng)
         self._add_forces(rng)
         self.system = self.m.system(coordinates)
 
@@ -56,7 +57,12 @@ class Plain:
         axis /= np.linalg.norm(axis)
         normal = np.cross(axis, rng.normal(size=3))
         normal /= np.linalg.norm(normal)
-        other = place + rng.uniform(0.5, 1) * normal
+        self._put(name, kind, first, second, place, axis, normal, place + rng.uniform(0.5, 1) * normal)
+
+    def _add_idle(self, rng):
+        """No redundant joints but those that come about by chance."""
+
+    def _put(self, name, kind, first, second, place, axis, normal, other):
         given = {"planar": {"normal": axis}, "universal": {"axes": (axis, normal)}, "screw": {"axis": axis, "pitch": PITCH},
                  **{each: {"axis": axis} for each in ("revolute", "prismatic", "cylindrical")}}.get(kind, {})
         if kind == "rod":
@@ -69,6 +75,7 @@ class Plain:
         axes = [(self._turned_back(first, d), self._turned_back(second, d)) for d in (axis, normal)]
         self.held.append((kind, first.name, second.name, *ends, axes))
         self.joints[name] = first.name, second.name, other if kind == "rod" else place
+        self.drawn[name] = kind, first, second, place, axis, normal, other
 
     def _put_on_ground(self, rng, kind):
         """The last body rolls on a plane of the ground, or a point of it glides along a blade."""

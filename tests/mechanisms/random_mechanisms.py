@@ -19,6 +19,7 @@ class Maker:
         self.d = {"mass": np.zeros(0), "gravity": np.array([0.3, -9.81]), "joints": [], "drives": [], "blades": [], "springs": [],
                   "forces": [], "efforts": []}
         self.joints, self.free = [], []         # of the package; those of the tree without a drive
+        self.drawn = []                         # kind, bodies, place and axis of each joint
         self._grow()
 
     def _grow(self):
@@ -61,13 +62,7 @@ class Maker:
     # ---- parts ----
 
     def _body(self):
-        number = len(self.bodies)
-        at, angle, com = self._place(), self.random.uniform(-3, 3), self.random.uniform(-0.3, 0.3, 2)
-        mass, inertia = self.random.uniform(0.5, 2.0), self.random.uniform(0.02, 0.2)
-        self.bodies.append(self.m.body(f"B{number}", mass, inertia, at=at, angle=angle, com=com))
-        c, s = np.cos(angle), np.sin(angle)
-        self.poses.append((*(at + np.array([[c, -s], [s, c]]) @ com), angle))
-        self.d["mass"] = np.append(self.d["mass"], [mass, mass, inertia])
+        number = self._apart()
         first = int(self.random.integers(-1, number)) if self.random.random() < 0.95 else None
         if first is not None:
             kind = self.random.choice(["revolute", "prismatic", "weld"], p=[0.7, 0.22, 0.08])
@@ -75,9 +70,20 @@ class Maker:
             if kind != "weld":
                 self.free.append(len(self.joints) - 1)
 
-    def _joint(self, kind, first, second, at):
+    def _apart(self):
+        """A body that no joint holds yet; its number."""
+        at, angle, com = self._place(), self.random.uniform(-3, 3), self.random.uniform(-0.3, 0.3, 2)
+        mass, inertia = self.random.uniform(0.5, 2.0), self.random.uniform(0.02, 0.2)
+        self.bodies.append(self.m.body(f"B{len(self.bodies)}", mass, inertia, at=at, angle=angle, com=com))
+        c, s = np.cos(angle), np.sin(angle)
+        self.poses.append((*(at + np.array([[c, -s], [s, c]]) @ com), angle))
+        self.d["mass"] = np.append(self.d["mass"], [mass, mass, inertia])
+        return len(self.bodies) - 1
+
+    def _joint(self, kind, first, second, at, axis=None):
         name = f"J{len(self.joints)}"
-        axis = np.array([np.cos(turn := self.random.uniform(0, 6)), np.sin(turn)])
+        if axis is None:
+            axis = np.array([np.cos(turn := self.random.uniform(0, 6)), np.sin(turn)])
         described = {"kind": kind, "first": first, "second": second,
                      "point1": self._local(first, at), "point2": self._local(second, at),
                      "angle": self.poses[second][2] - (0.0 if first < 0 else self.poses[first][2]), "along": 0.0}
@@ -98,6 +104,7 @@ class Maker:
             joint = self.m.rod(name, sides[0].point(at=other), sides[1].point(at=at))
         self.joints.append(joint)
         self.d["joints"].append(described)
+        self.drawn.append((kind, first, second, at, axis))
 
     def _freedom(self, **more):
         """Velocities that are left free, with more drives or blades than there are."""
@@ -119,6 +126,7 @@ class Maker:
         old, joint = self.d["joints"][again], self.joints[again]
         self.joints.append(self.m.revolute(f"J{len(self.joints)}", joint.first, joint.second))
         self.d["joints"].append(dict(old))
+        self.drawn.append(self.drawn[again])
 
     def _drive(self):
         joint = int(self.random.choice(self.free or [0]))

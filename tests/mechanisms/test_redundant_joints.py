@@ -117,6 +117,27 @@ def test_reactions_read_after_a_run_are_those_that_were_recorded(formulation):
     assert not sol.unique("ball 0.force").any()
 
 
+def with_a_handle(hinges):
+    """A door whose axis is not upright, with a handle that swings on it."""
+    m = zd.Mechanism("door", dimension=3, gravity=(0, 0, -9.81))
+    door = m.body("door", 20.0, (3.0, 2.0, 1.0), at=(0.4, 0, 1.0))
+    for i in range(hinges):
+        m.revolute(f"hinge {i}", m.ground, door, at=(0.07 * i, 0, 0.3 + 1.4 * i), axis=(0.05, 0, 1))
+    handle = m.link("handle", (0.7, 0, 1.0), (0.7, -0.1, 0.8), mass=1.0)
+    m.revolute("pin", door, handle.start, axis=(0, 1, 0))
+    m.start({"hinge 0.speed": 2.0, "pin.speed": 1.0})
+    return m
+
+
+def test_what_a_door_carries_is_known_and_how_its_hinges_share_their_own_load_is_not(formulation):
+    how = {"t_eval": np.linspace(0, 0.5, 6), "formulation": formulation, **FINE}
+    want, sol = (zd.simulate(with_a_handle(hinges).system("joint"), 0.5, **how) for hinges in (1, 2))
+    np.testing.assert_allclose(sol["pin.force"], want["pin.force"], atol=1e-6)
+    np.testing.assert_allclose(sol["hinge 0.force"] + sol["hinge 1.force"], want["hinge 0.force"], atol=1e-5)      # of 208 N
+    assert sol.unique("pin.force").all()
+    assert not sol.unique("hinge 0.force").all()
+
+
 def test_a_certificate_of_a_braced_pendulum_holds():
     m = braced("rod", 5)
     found = zd.reference(m, 1.0, error=1e-9, t_eval=[1.0])

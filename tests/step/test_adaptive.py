@@ -141,6 +141,18 @@ def test_bad_values(options, message):
         zd.simulate(BAR, 1.0, **({"integrator": "dop853"} | options))
 
 
+def test_what_is_as_in_scipy_and_what_is_not(bar):
+    """`max_step=inf` is no bound, as is SciPy's default; time goes forward, `atol` is one number, a start is not an event."""
+    assert adaptive(bar, 0.5, max_step=np.inf).p.tobytes() == adaptive(bar, 0.5).p.tobytes()
+    with pytest.raises(ValueError, match="t_span must run forwards: 0 is not after 1"):
+        zd.simulate(bar, (1.0, 0.0), **CHOSEN)
+    with pytest.raises(TypeError, match="atol must be a real number"):
+        zd.simulate(bar, 1.0, atol=np.array([1e-9, 1e-6]), **CHOSEN)
+    spring = zd.systems.oscillator(mass=1.0, stiffness=1.0, x0=0.0, v0=1.0)
+    sol = zd.simulate(spring, 7.0, integrator="dop853", rtol=1e-10, atol=1e-10, events=lambda t, p, v: p[0])
+    np.testing.assert_allclose(sol.t_events[0], [np.pi, 2 * np.pi], atol=1e-8)      # and not at t = 0
+
+
 # ---- how many ----
 
 
