@@ -27,6 +27,7 @@ enum { PROJECTIONS = 6 };
 static const double SMALL_PIVOTS[] = {0x1p-20, 0x1p-30, 0x1p-40}; /* relative to the squared row: candidates for dependent rows */
 static const double NEGLIGIBLE_ARM = 0x1p-20;               /* arm relative to the mechanism's length: a shorter one counts as zero */
 static const double SATISFIED_BY_VELOCITY = 0x1p-28;        /* residual relative to its terms: the row is satisfied */
+static const double ZERO_VELOCITY = 0x1p-14;                /* of the velocities before the projection: a smaller one counts as zero */
 static const double SATISFIED_BY_ACCELERATION = 0x1p-20;    /* residual relative to the largest term of (6): the row is satisfied */
 
 typedef struct search {
@@ -127,13 +128,22 @@ static int is_satisfied(const zd_row_of_C *row, const double *x, double target, 
     return fabs(sum) <= share * size;
 }
 
+/* True if the projected random velocity satisfies the row. Where the constraints leave no freedom it is rounding error, and so is the
+ * sum of a row's terms: the size of the row at the velocities before the projection counts, too. */
+static int is_satisfied_by_velocity(const search *self, const zd_row_of_C *row)
+{
+    double reach = 0;
+    for (int j = 0; j < row->count; j++) reach += fabs(row->x[j]) * self->unit[row->column[j]];
+    return is_satisfied(row, self->x, 0, SATISFIED_BY_VELOCITY, ZERO_VELOCITY * reach);
+}
+
 /* Restores rows that the projected velocity violates; returns how many remain set aside. */
 static int restore_violated(search *self, const zd_point *point, int *holonomic)
 {
     int count = *holonomic = 0;
     for (int k = 0; k < zd_constraints(point->system); k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        if (!is_satisfied(&row, self->x, 0, SATISFIED_BY_VELOCITY, 0)) self->aside[k] = 0;
+        if (!is_satisfied_by_velocity(self, &row)) self->aside[k] = 0;
         count += self->aside[k];
         *holonomic += self->aside[k] && k < point->system->mh;
     }
@@ -221,7 +231,7 @@ static int satisfies_all(const search *self, const zd_point *point)
     int does = 1;
     for (int k = 0; does && k < zd_constraints(point->system); k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        does = is_satisfied(&row, self->x, 0, SATISFIED_BY_VELOCITY, 0);
+        does = is_satisfied_by_velocity(self, &row);
     }
     return does;
 }

@@ -1,5 +1,7 @@
 """Constraints that the tree of joint coordinates satisfies: braces within welded bodies, second hinges, bearings and rails."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -143,6 +145,31 @@ def test_a_certificate_of_a_braced_pendulum_holds():
     found = zd.reference(m, 1.0, error=1e-9, t_eval=[1.0])
     want = zd.simulate(m.system("absolute"), 1.0, rtol=1e-12, atol=1e-12, integrator="dop853", t_eval=[1.0])
     assert abs(found.solution["arm.angle"] - want["arm.angle"]).max() < found.error
+
+
+def locked_on_rails(bodies):
+    """Bodies on a hinge and in a slot each, which together lock them with one constraint too many, and a pendulum."""
+    random = np.random.default_rng(3)
+    m = zd.Mechanism("locked", dimension=3, gravity=(0, 0, -9.81))
+    for i in range(bodies):
+        body = m.body(f"b{i}", 1.0, (0.3, 0.2, 0.1), at=random.normal(size=3))
+        m.revolute(f"hinge {i}", m.ground, body, at=random.normal(size=3), axis=random.normal(size=3))
+        m.slot(f"slot {i}", m.ground, body.point(at=random.normal(size=3)), axis=random.normal(size=3))
+    bob = m.body("bob", 1.0, (0.3, 0.2, 0.1), at=(1, 0, 0))
+    m.revolute("pin", m.ground, bob, at=(0, 0, 0), axis=(0, 1, 0))
+    return m.system("absolute")
+
+
+@pytest.mark.parametrize("bodies", [4, 6])
+def test_constraints_of_what_cannot_move_are_counted_among_few_and_many(bodies, formulation):
+    """Above forty constraints they are found by a random velocity, which is rounding error where nothing can move."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", zd.AccuracyWarning)
+        sol = zd.simulate(locked_on_rails(bodies), 0.3, formulation=formulation, **FINE)
+    assert sol.stats["rank"] == 6 * bodies + 5
+    assert len(sol.stats["redundant"]) == bodies
+    free = zd.simulate(locked_on_rails(0), 0.3, **FINE)
+    np.testing.assert_allclose(sol["bob.position"][-1], free["bob.position"][-1], atol=AGREE)
 
 
 def test_contradictions_among_welded_bodies_are_refused():
