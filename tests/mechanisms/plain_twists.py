@@ -18,11 +18,17 @@ def skew(r):
     return np.array([[0.0, -r[2], r[1]], [r[2], 0.0, -r[0]], [-r[1], r[0], 0.0]])
 
 
+def cross(a, b):
+    """As NumPy's, of which much of the time would go to shapes."""
+    return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
 class Bodies:
     """Poses {name: (mass centre, Rotation)} and velocities v (6 n,) at one state."""
 
     def __init__(self, names, poses, v):
         self.poses, self.v, self.at, self.n = poses, v, {name: 6 * i for i, name in enumerate(names)}, 6 * len(names)
+        self.turned = {name: R.as_matrix() for name, (_, R) in poses.items()}
 
     def fixed(self, value):
         value = np.asarray(value, dtype=float)
@@ -30,13 +36,13 @@ class Bodies:
 
     def direction(self, body, local):
         """A direction (3,) that turns with a body."""
-        value = self.poses[body][1].apply(local)
+        value = self.turned[body] @ local
         if body not in self.at:
             return self.fixed(value)
         spin, row = self.v[self.at[body] + 3:self.at[body] + 6], np.zeros((3, self.n))
         row[:, self.at[body] + 3:self.at[body] + 6] = -skew(value)
-        rate = np.cross(spin, value)
-        return Number(value, row, rate, np.cross(spin, rate))
+        rate = cross(spin, value)
+        return Number(value, row, rate, cross(spin, rate))
 
     def point(self, body, local):
         """A point at (3,) from a body's mass centre, in the body's axes."""
@@ -61,7 +67,7 @@ def rows_of(joint, bodies, length):
     kind, first, second, local1, local2, ((a1, a2), (n1, n2)) = joint
     one, other = (lambda d: bodies.direction(first, d)), (lambda d: bodies.direction(second, d))
     apart = bodies.point(second, local2) - bodies.point(first, local1)
-    t1, t2 = np.cross(a1, n1), np.cross(a2, n2)
+    t1, t2 = cross(a1, n1), cross(a2, n2)
     if kind == "rod":
         return [(apart @ apart).root() + bodies.fixed(-length)]
     together = [apart @ bodies.fixed(axis) for axis in AXES]

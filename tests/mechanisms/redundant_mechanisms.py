@@ -17,8 +17,8 @@ from mechanisms.plain_space import KINDS, Plain
 from mechanisms.plain_twists import RANK, Dense, constrained, singular
 from mechanisms.random_mechanisms import Maker
 
-SECONDS, STATES = 0.3, 4
-RUN = {"integrator": "dop853", "rtol": 1e-10, "atol": 1e-10, "t_eval": np.linspace(0.0, SECONDS, STATES)}
+SECONDS, STATES = 0.3, 3
+RUN = {"integrator": "dop853", "rtol": 1e-10, "atol": 1e-10, "t_eval": np.linspace(0.0, SECONDS, STATES), "max_steps": 3000}
 FINE = RUN | {"rtol": 1e-12, "atol": 1e-12}         # of what differs: does it come from steps?
 MOTION = 1e-6       # of positions and angles: tolerances of 1e-10, which motions of linkages multiply
 HELD = 1e-9         # residuals of positions and velocities, which are projected to 1e-12
