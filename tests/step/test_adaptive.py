@@ -142,7 +142,7 @@ def test_bad_values(options, message):
 
 
 def test_what_is_as_in_scipy_and_what_is_not(bar):
-    """`max_step=inf` is no bound, as is SciPy's default; time goes forward, `atol` is one number, a start is not an event."""
+    """`max_step=inf` does not bound steps, as in SciPy; time goes forward, `atol` is one number, a start is not an event."""
     assert adaptive(bar, 0.5, max_step=np.inf).p.tobytes() == adaptive(bar, 0.5).p.tobytes()
     with pytest.raises(ValueError, match="t_span must run forwards: 0 is not after 1"):
         zd.simulate(bar, (1.0, 0.0), **CHOSEN)
