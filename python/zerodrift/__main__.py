@@ -68,7 +68,7 @@ def _explain(code: str | None) -> int:
 
 
 def _folder(given: str) -> Path:
-    """A folder that may have to be made yet."""
+    """Path of a folder that need not exist; its name is checked."""
     if not given.strip() or "\0" in given:
         raise argparse.ArgumentTypeError(f"a folder is needed, not {given!r}")
     return Path(given)

@@ -133,7 +133,7 @@ def _unconstrained(frame: Any, q: Any, u: Any, pdot: list[Any], bodies: Any, loa
     free = KanesMethod(frame, list(q), list(u), kd_eqs=[rate - value for rate, value in zip(rates, pdot, strict=True)])
     force, _ = free.kanes_equations(list(bodies), list(loads) if loads else None)
     M, bias = free.mass_matrix, force - free.forcing
-    if potential is not None:       # what it describes is among the loads
+    if potential is not None:       # the loads contain the potential's forces already
         gradient = sympy.Matrix([potential]).jacobian(q) * sympy.Matrix(pdot).jacobian(u)
         force = force + gradient.T
     kinematics = None if pdot == list(u) else dict(zip(rates, pdot, strict=True))

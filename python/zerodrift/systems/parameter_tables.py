@@ -14,7 +14,7 @@ class NumberTables(NamedTuple):
     """k systems."""
 
     core: CoreSystem                # whose functions all of them have
-    data: np.ndarray | None         # (k, size): what these are handed; None: the core's own
+    data: np.ndarray | None         # (k, size): parameters passed to its functions; None: the core's own
     size: int                       # of that, in doubles; 0: it consists of something else
     p0: np.ndarray | None           # (k, nq) or (nq,): their starts; None: they have none
     v0: np.ndarray | None           # (k, nv) or (nv,)

@@ -33,7 +33,7 @@ def plain(text: str) -> str:
 def rolled(statements: list[str], least: int) -> list[str]:
     """C for statements one after the other, in loops of `least` or more.
 
-    Those without marks stay where they are, between those before and behind.
+    A mark (`MARK`) stands for an index that a loop can run over. Statements without marks keep their place.
     """
     items: list[str] = []
     for has_marks, group in groupby(statements, key=lambda statement: "\x01" in statement):
