@@ -35,7 +35,7 @@ def swung(count, doubled=0, formulation="schur"):
     with pytest.warns(zd.AccuracyWarning, match=r"at t = 0\.05, .* was left of constraint '[ABC]\d+.*\.[xy]' once") as told:
         sol = zd.simulate(system, 0.1, None, v, step=1e-3, formulation=formulation)
     assert len(told) == 1
-    assert "digits     lost near a bifurcation" in repr(sol)
+    assert "digits      lost near a bifurcation" in repr(sol)
     return sol, np.abs(sol.p[-1, 2 : 3 * (count + 1) : 3] - (ANGLE + 0.1 * SPEED)).max()
 
 
@@ -57,7 +57,7 @@ def test_long_chains_that_lose_digits_say_so():
     assert "digits" not in repr(early)
     with pytest.warns(zd.AccuracyWarning, match=r"was left of constraint '[ABC]\d+\.[xy]' once others are eliminated"):
         late = zd.simulate(system, 3.5, None, v, step=1e-3)
-    assert "digits     lost near a bifurcation" in repr(late)
+    assert "digits      lost near a bifurcation" in repr(late)
     assert off(late) > 100 * off(early)
 
 

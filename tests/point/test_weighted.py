@@ -226,6 +226,6 @@ def test_a_small_pivot_is_told_with_its_row_and_decides_nothing():
     velocity[3::6], velocity[4::6] = sine, -cosine
     with pytest.warns(zd.AccuracyWarning, match=r"at t = 0\.05, .* was left of constraint '.*' once others are eliminated"):
         sol = zd.simulate(rods.system(gravity=0.0), 0.1, None, velocity, step=1e-3)
-    assert "digits     lost near a bifurcation" in repr(sol)
+    assert "digits      lost near a bifurcation" in repr(sol)
     assert 0 < sol.stats["smallest_pivot"] < 1e-8
     assert_close(sol.p[-1, 2::6], np.full(15, angle - 0.1), 1e-10, scale=1.0, what="angles")
