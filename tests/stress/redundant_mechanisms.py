@@ -1,10 +1,10 @@
 """Random mechanisms with welds, braces, doubled joints and idle loops against a dense model. Writes redundant_mechanisms.md.
 
-    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/redundant_mechanisms.py [how many [processes [commit]]]
+    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/redundant_mechanisms.py [many [processes [commit [s]]]]
 
 Every second one is in space. Each is run in joint and in absolute coordinates, by each formulation in turn; at three states of
 each motion the residuals, the rank (by singular values) and the accelerations are those of plain NumPy, and both motions are the
-same. Refusals are counted by their reason.
+same. Refusals are counted by their reason. After s seconds it ends with those that are done.
 """
 
 import sys
@@ -30,7 +30,8 @@ def tried(seed):
 
 def main():
     """Runs them and writes the table."""
-    many, processes = (int(sys.argv[i]) if len(sys.argv) > i else default for i, default in ((1, 2000), (2, 1)))
+    many, processes, seconds = (int(sys.argv[i]) if len(sys.argv) > i else default
+                                for i, default in ((1, 2000), (2, 1), (4, 10**6)))
     begin, counts, listed, singular = time.time(), Counter(), [], 0
     with ProcessPoolExecutor(processes) as pool:
         for seed, (formulation, words) in enumerate(pool.map(tried, range(many), chunksize=5)):
@@ -41,6 +42,10 @@ def main():
                        if not word.endswith(FINE_WORDS)]
             if seed % 50 == 49:
                 print(seed + 1, *listed[-3:], flush=True)
+            if time.time() > begin + seconds:
+                many = seed + 1
+                pool.shutdown(wait=False, cancel_futures=True)
+                break
     commit = f", commit {sys.argv[3]}" if len(sys.argv) > 3 else ""
     lines = [f"# {many} random mechanisms with redundant constraints", "",
              f"Written by `tests/stress/redundant_mechanisms.py`, zerodrift {zd.__version__}{commit}, "
