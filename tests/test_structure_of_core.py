@@ -102,6 +102,16 @@ def test_integrators_and_corrections_see_the_motion_and_no_run(uses, room):
     assert {folder_of(b) for a, b in uses if folder_of(a) == room} <= below | {room}
 
 
+def test_plane_and_space_share_the_room_common_alone():
+    """Neither includes a file of the other, and `common` includes none of both."""
+    included = defaultdict(set)
+    for a, b in includes():
+        if a.startswith("mechanisms/") and b.startswith("mechanisms/"):
+            room, of = (unit.split("/")[1].removesuffix("_tree") for unit in (a, b))     # space_tree is of space
+            included[room].add(of)
+    assert included == {"common": {"common"}, "plane": {"plane", "common"}, "space": {"space", "common"}}
+
+
 def functions():
     """The lines of each function, from its name to the closing brace: both are at the margin, and nothing else of it is."""
     for path in CSRC.rglob("*.[ch]"):
