@@ -13,7 +13,7 @@ import zerodrift
 
 project, author, release = "zerodrift", "the zerodrift developers", zerodrift.__version__
 extensions = ["myst_nb", "numpydoc", "sphinx.ext.autodoc", "sphinx.ext.autosummary"]
-exclude_patterns = ["templates"]
+exclude_patterns = ["templates", "generated/extra"]
 templates_path = ["templates"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
 
@@ -38,6 +38,7 @@ html_theme = "pydata_sphinx_theme"
 html_title = "zerodrift"
 html_theme_options = {"show_prev_next": False, "navbar_align": "left", "secondary_sidebar_items": ["page-toc"]}
 html_copy_source = False
+html_extra_path = ["generated/extra"]      # films of the gallery
 
 
 def setup(app: object) -> None:

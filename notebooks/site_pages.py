@@ -1,14 +1,16 @@
-"""Pages of the site that are made from tables of the package: methods, joints and forces, errors, models, reference."""
+"""Pages of the site that are made from tables of the package: methods, joints and forces, errors, gallery, reference."""
 
 from __future__ import annotations
 
+import base64
+import html
 import inspect
 import warnings
 from collections.abc import Iterable
 from pathlib import Path
 
 import zerodrift as zd
-from zerodrift import errors
+from zerodrift import errors, gallery
 from zerodrift._gateway.base import statuses
 from zerodrift.explanations import classes, explanations
 from zerodrift.mechanisms.elements.joints import JOINTS
@@ -23,7 +25,8 @@ def write(folder: Path) -> None:
     folder.mkdir(exist_ok=True)
     pages = {"formulations": methods("Formulations", zd.formulations()), "integrators": methods("Integrators", zd.integrators()),
              "corrections": methods("Corrections", zd.corrections()), "elements": elements(), "errors": messages(),
-             "models": models(), "reference": reference()}
+             "reference": reference(), **dict(films(folder))}
+    (folder / "models").mkdir(exist_ok=True)
     for name, lines in {"front.html": front(), **{f"{page}.md": text for page, text in pages.items()}}.items():
         path, text = folder / name, "\n".join(lines) + "\n"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
@@ -85,16 +88,81 @@ def first_sentence(cls: type) -> str:
     return " ".join(inspect.cleandoc(cls.__doc__ or "").split("\n\n")[0].split()).split("; ")[0].rstrip(".")
 
 
-def models() -> Iterable[str]:
-    """All models with the first lines of their documentation, and their mechanism in words."""
-    yield from ("# Models", "", "Each is a function of `zerodrift.models`, whose arguments are lengths, masses and springs.", "")
-    for name in sorted(each for each in dir(zd.models) if not each.startswith("_") and callable(getattr(zd.models, each))):
-        model = getattr(zd.models, name)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            made = model()
-        first = inspect.cleandoc(model.__doc__ or "").split("\n\n")[0]
-        yield from (f"## {name}", "", first, "", "```text", str(made), "```", "")
+KINDS = {
+    "Linkages": ("four_bar", "hoecken", "chebyshev_lambda", "watt", "peaucellier", "pantograph", "stephenson", "jansen", "klann", "bennett"),
+    "Machines": ("slider_crank", "spatial_slider_crank", "quick_return", "toggle_press", "scissor_lift", "cam_follower", "planetary_gear",
+                 "hookes_joint", "double_cardan", "flyball_governor", "andrews"),
+    "Vehicles": ("quarter_car", "double_wishbone", "bicycle", "whipple_bicycle", "snakeboard"),
+    "Robots": ("delta_robot", "stewart_platform"),
+    "Tops and rolling": ("heavy_top", "gyroscope", "rolling_disc", "coin", "rattleback"),
+    "Many bodies": ("closed_pendulum", "four_bars", "chain"),
+}
+PLAYING = """<style>
+.films { display: grid; grid-template-columns: repeat(auto-fill, minmax(190px, 1fr)); gap: 14px; margin: 0 0 1.5em; }
+.films a { display: block; border: 1px solid var(--pst-color-border); border-radius: 6px; overflow: hidden; text-decoration: none; }
+.films .still { display: block; position: relative; aspect-ratio: 4 / 3; background: #fff; }
+.films .still > * { position: absolute; inset: 0; width: 100%; height: 100%; border: 0; object-fit: contain; pointer-events: none; }
+.films b { display: block; padding: 5px 9px; font-weight: 500; }
+</style>
+<script>
+document.querySelectorAll(".films a").forEach(card => {
+  const play = () => {
+    if (card.querySelector("iframe")) return;
+    const film = document.createElement("iframe");
+    film.src = card.dataset.film;
+    film.title = "";
+    film.tabIndex = -1;
+    film.setAttribute("sandbox", "allow-scripts");
+    card.firstElementChild.append(film);
+  };
+  const stop = () => card.querySelector("iframe")?.remove();
+  card.addEventListener("pointerenter", play); card.addEventListener("focus", play);
+  card.addEventListener("pointerleave", stop); card.addEventListener("blur", stop);
+});
+</script>"""
+
+
+def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
+    """The gallery, and a page for each model; films are files of their own, which are made once for a version of the package."""
+    (folder / "extra" / "films").mkdir(parents=True, exist_ok=True)
+    shown = {each.name: each for each in gallery.exhibits()}
+    for exhibit in shown.values():
+        path = folder / "extra" / "films" / f"{exhibit.name}.html"
+        if not path.exists():
+            film = zd.view(exhibit.run(), path=list(exhibit.path), speed=exhibit.speed)
+            path.with_suffix(".png").write_bytes(base64.b64decode(film._still()))
+            film.save(path)
+        yield f"models/{exhibit.name}", model(exhibit)
+    yield "gallery", [
+        "# Gallery", "", f"{len(shown)} mechanisms; pictures play when pointed at.", "",
+        *(line for kind, names in KINDS.items() for line in (f"## {kind}", "", "```{raw} html", '<div class="films">',
+                                                             *(card(shown[name]) for name in names), "</div>", "```", "")),
+        "```{raw} html", PLAYING, "```", "", "```{toctree}", ":hidden:", "", *(f"models/{name}" for name in shown), "```"]
+
+
+def card(exhibit: gallery.Exhibit) -> str:
+    """A picture of the gallery."""
+    name = exhibit.name
+    return (f'<a href="models/{name}.html" data-film="../films/{name}.html"><span class="still"><img src="../films/{name}.png" '
+            f'alt="{html.escape(exhibit.see)}" loading="lazy"></span><b>{exhibit.title}</b></a>')
+
+
+def model(exhibit: gallery.Exhibit) -> Iterable[str]:
+    """The page of a model: film, lines, the mechanism in words, sources of its numbers, code."""
+    made, name = getattr(zd.models, exhibit.name), exhibit.name
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        words = str(exhibit.made())
+    text = inspect.cleandoc(made.__doc__ or "")
+    shown = f"zd.view(sol, speed={exhibit.speed:g}" + (f", path={list(exhibit.path)}" if exhibit.path else "") + ")"
+    yield from (f"# {exhibit.title}", "", exhibit.see, "", "```{raw} html", f'<iframe src="../../films/{name}.html" '
+                f'title="Film: {html.escape(exhibit.see)}" sandbox="allow-scripts" style="width:100%;height:460px;border:0"></iframe>', "```", "",
+                "```python", "import zerodrift as zd", "", *exhibit.lines[:-1], shown, "```", "", "## The mechanism", "",
+                text.split("\n\n")[0], "", "```text", words, "```", "")
+    if "References\n----------" in text:
+        source = text.split("References\n----------\n")[1].split("\nExamples\n")[0].strip()
+        yield from ("## Source of its numbers", "", source, "")
+    yield from ("## Its code", "", "```python", exhibit.source, "```", "")
 
 
 def reference() -> Iterable[str]:

@@ -35,6 +35,8 @@ class Exhibit(NamedTuple):
         Seconds of motion per second of film.
     options : dict
         What `zerodrift.simulate` takes besides.
+    arguments : tuple
+        Arguments of the model.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Exhibit(NamedTuple):
     path: tuple[str, ...] = ()
     speed: float = 1.0
     options: tuple[tuple[str, Any], ...] = ()
+    arguments: tuple[Any, ...] = ()
 
     @property
     def title(self) -> str:
@@ -56,7 +59,8 @@ class Exhibit(NamedTuple):
         options = "".join(f", {name}={_word(value)}" for name, value in self.options)
         path = f", path={_word(self.path[0] if len(self.path) == 1 else list(self.path))}" if self.path else ""
         speed = f", speed={self.speed:g}" if self.speed != 1 else ""
-        return [f"m = zd.models.{self.name}()", f"sol = zd.simulate(m, {self.span:g}, step={self.step:g}{options})",
+        return [f"m = zd.models.{self.name}({', '.join(map(_word, self.arguments))})",
+                f"sol = zd.simulate(m, {self.span:g}, step={self.step:g}{options})",
                 f"zd.plot.animate(sol{speed}{path})"]
 
     @property
@@ -75,9 +79,13 @@ class Exhibit(NamedTuple):
             kept = kept.replace("\n\n\n\n", "\n\n\n")
         return kept.strip()
 
+    def made(self) -> Any:
+        """The mechanism."""
+        return getattr(models, self.name)(*self.arguments)
+
     def run(self) -> Solution:
         """Its motion."""
-        return simulate(getattr(models, self.name)(), self.span, step=self.step, **dict(self.options))
+        return simulate(self.made(), self.span, step=self.step, **dict(self.options))
 
 
 def _word(value: Any) -> str:
@@ -154,23 +162,46 @@ TABLE = [
     Exhibit("watt",
             "P goes along a lemniscate whose middle is straight to the eye: it guided the pistons of steam engines.",
             1.0, 0.005, ("P",), speed=0.4),
+    Exhibit("bennett", "Four hinges with skew axes turn fully, where a count of constraints leaves no freedom.", 3.0, 0.005),
+    Exhibit("chain", "The chain swings down from one end, and a wave runs along it.", 2.0, 0.002, speed=0.5, arguments=(20,)),
+    Exhibit("coin", "The coin whirs around on its edge, its centre at rest.", 0.3, 2e-4, speed=0.1),
+    Exhibit("delta_robot", "Three arms swing one after the other, and the platform moves without turning.", 2.0, 0.005),
+    Exhibit("double_cardan", "The shaft between the two joints turns unevenly, and the output evenly again.", 1.0, 0.002,
+            speed=0.4),
+    Exhibit("double_wishbone", "The wheel moves up and down nearly upright, held by two arms and a tie rod.", 1.0, 0.001,
+            speed=0.4),
+    Exhibit("flyball_governor", "The balls keep their height at the speed for which they are in equilibrium.", 2.0, 0.002,
+            speed=0.5),
+    Exhibit("gyroscope", "The weight on the axle does not fall: the gimbals precess.", 2.0, 0.002, speed=0.5),
+    Exhibit("heavy_top", "The top precesses about the vertical, and its axle nods.", 2.0, 0.001, ("top.center",), speed=0.5),
+    Exhibit("hookes_joint", "The output runs ahead of the even input twice in each turn, and behind it twice.", 1.0, 0.002,
+            speed=0.4),
+    Exhibit("rattleback", "The stone rattles, stops, and turns back, as it has a way to turn that it prefers.", 6.0, 0.001,
+            speed=2.0),
+    Exhibit("rolling_disc", "The disc rolls on a circle with constant lean.", 2.0, 0.002, speed=0.5),
+    Exhibit("spatial_slider_crank", "A crank turns about the line along which it pushes and pulls the slider.", 1.0, 0.001,
+            speed=0.4),
+    Exhibit("stewart_platform", "Six cylinders change their lengths, and the platform moves in all six freedoms.", 2.0, 0.005),
+    Exhibit("whipple_bicycle", "Pushed over, the riderless bicycle steers into its fall and rides upright again.", 1.2, 0.01,
+            speed=0.4),
 ]
 
 
 def exhibits() -> list[Exhibit]:
-    """Every model of the plane that `zerodrift.models` has, in its order.
+    """Every model of `zerodrift.models`, in its order.
 
     Examples
     --------
-    >>> from zerodrift import gallery, models
-    >>> [each.name for each in gallery.exhibits()] == [name for name in models.__all__ if name not in models.space.__all__]
-    True
+    >>> from zerodrift import gallery
+    >>> len(gallery.exhibits())
+    36
     """
-    return [exhibit(name) for name in _in_the_plane()]
+    return [exhibit(name) for name in _models()]
 
 
-def _in_the_plane() -> list[str]:
-    return [name for name in models.__all__ if name not in models.space.__all__]
+def _models() -> list[str]:
+    """Names of all functions of `zerodrift.models`."""
+    return [name for name in models.__all__ if callable(getattr(models, name))]
 
 
 def exhibit(name: str) -> Exhibit:
@@ -179,7 +210,7 @@ def exhibit(name: str) -> Exhibit:
     Parameters
     ----------
     name : str
-        Name of a planar model in `zerodrift.models`.
+        Name of a model in `zerodrift.models`.
 
     Returns
     -------
@@ -196,7 +227,7 @@ def exhibit(name: str) -> Exhibit:
     >>> gallery.exhibit("watt").path
     ('P',)
     """
-    _check.choice("name", name, _in_the_plane())
+    _check.choice("name", name, _models())
     listed = next((each for each in TABLE if each.name == name), None)
     return listed or by_itself(name, getattr(models, name))
 

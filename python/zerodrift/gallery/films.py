@@ -12,6 +12,7 @@ from PIL import Image
 
 from .. import _check
 from ..plot import animate
+from ..plot.drawing import moments_of
 from ..runs.solution import Solution
 from .exhibits import Exhibit
 
@@ -50,7 +51,7 @@ def film(exhibit: Exhibit, *, frames: int = 16, width: int = 240, height: int = 
     figure = Figure(figsize=(width / DPI, height / DPI), dpi=DPI, layout="constrained")
     canvas = FigureCanvasAgg(figure)
     span = float(solution.t[-1] - solution.t[0])
-    ax = figure.add_subplot()
+    ax = figure.add_subplot(projection="3d" if moments_of(solution, solution.p[:1])[0][0].points.shape[1] == 3 else None)
     moving = animate(solution, fps=frames / span * exhibit.speed, speed=exhibit.speed, ax=ax, path=exhibit.path)
     ax.set_axis_off()           # at this size the mechanism needs the room
     pictures = [_picture(canvas, moving, i) for i in range(frames)]

@@ -76,7 +76,7 @@ const fit = (element, context) => {
 };
 const project = at => {         // (x, y, depth, scale there) on the screen
   if (!space) return [middle[0] + (at[0] - centre[0]) * scale, middle[1] - (at[1] - centre[1]) * scale, 0, scale];
-  const [x, y, z] = sub(at, centre), c = Math.cos(turn), s = Math.sin(turn), ct = Math.cos(tilt), st = Math.sin(tilt);
+  const [x, y0, z0] = sub(at, centre), y = film.upside ? -y0 : y0, z = film.upside ? -z0 : z0, c = Math.cos(turn), s = Math.sin(turn), ct = Math.cos(tilt), st = Math.sin(tilt);
   const right = c * x + s * y, deep = -s * x + c * y, up = ct * z - st * deep, depth = ct * deep + st * z;
   const seen = scale * 3 * reach / (3 * reach + depth);
   return [middle[0] + right * seen, middle[1] - up * seen, depth, seen];
@@ -122,6 +122,13 @@ const dot = (at, radius, face, edge, wide = 1.4) => put([at], ([p]) => {
   pen.arc(p[0], p[1], Math.max(radius * p[3], 1.8), 0, 2 * Math.PI);
   if (face) { pen.fillStyle = face; pen.fill(); }
   if (edge) { pen.strokeStyle = edge; pen.lineWidth = wide; pen.stroke(); }
+  const round = radius * p[3];
+  if (!space || !face || round < 4) return;       // a sphere
+  const shine = pen.createRadialGradient(p[0] - 0.35 * round, p[1] - 0.4 * round, 0, p[0], p[1], round);
+  shine.addColorStop(0, "#fff9");
+  shine.addColorStop(1, "#fff0");
+  pen.fillStyle = shine;
+  pen.fill();
 });
 const bar = (points, wide, tone, edge) => {      // a rod with round ends and an outline; long ones in parts, so that depths are right
   const parts = space ? Math.max(1, Math.min(8, Math.ceil(length(sub(points[1], points[0])) / (0.15 * reach)))) : 1;
@@ -129,9 +136,10 @@ const bar = (points, wide, tone, edge) => {      // a rod with round ends and an
     const ends = space ? [i / parts, (i + 1) / parts].map(s => add(points[0], sub(points[1], points[0]), s)) : points;
     put(ends, seen => {
       const broad = Math.max(wide * seen[0][3], 2);
-      for (const [more, colourOf] of [[2, edge], [0, tone]]) {
+      const shine = space && broad > 5 ? 0.22 * broad : 0;       // of a round rod, lit from above
+      for (const [more, colourOf, up] of [[2, edge, 0], [0, tone, 0], ...(shine ? [[-0.7 * broad, "#fff6", shine]] : [])]) {
         pen.lineCap = space && more ? "butt" : "round";
-        trace(seen);
+        trace(up ? seen.map(([x, y]) => [x, y - up]) : seen);
         pen.strokeStyle = colourOf;
         pen.lineWidth = broad + more;
         pen.stroke();
@@ -223,12 +231,22 @@ const flat = {
   load_symbol: (p, r, size) => arrow(p[0], add(p[0], p[1], 8 * size), tones.grey, 1.4),
   moment: (p, r, size) => turning(p[0], 3.8 * size, r, tones.force),
 };
+/* Faces in space are lit from above, on the viewer's left: as bright as their normal is near to the light, whichever side is seen. */
+const light = unit([-0.35, -0.5, 0.8]);
+const lit = (p, tone) => {
+  const parts = /rgba?\(([^)]*)\)/.exec(tone)?.[1].split(/[ ,]+/).map(Number);
+  if (!parts || parts.length > 3) return tone;
+  const normal = unit(cross(sub(p[1], p[0]), sub(p[Math.min(2, p.length - 1)], p[0])));
+  const share = 0.72 + 0.36 * Math.abs(normal.reduce((sum, x, i) => sum + x * light[i], 0));
+  return `rgb(${parts.map(x => Math.min(255, Math.round(x * share))).join(",")})`;
+};
+const face3 = (p, face, edge, wide) => area(p, lit(p, face), edge, wide);
 const faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
 const solid = {
   bar: (p, r, size, face, edge) => bar(p, 0.9 * size, face, edge),
-  plate: (p, r, size, face, edge) => area(p, face, edge),
-  box: (p, r, size, face, edge) => faces.forEach(each => area(each.map(i => p[i]), face, edge, 0.8)),
-  disc: (p, r, size, face, edge) => area(p, face, edge, 1.6), ring: (p, r, size, face, edge) => line([...p, p[0]], edge, 1.4),
+  plate: (p, r, size, face, edge) => face3(p, face, edge),
+  box: (p, r, size, face, edge) => faces.forEach(each => face3(each.map(i => p[i]), face, edge, 0.8)),
+  disc: (p, r, size, face, edge) => face3(p, face, edge, 1.6), ring: (p, r, size, face, edge) => line([...p, p[0]], edge, 1.4),
   patch: (p, r, size) => area([[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => add(add(p[0], p[1], 2 * a * size), p[2], 2 * b * size)), null, tones.accent),
   rod: (p, r, size, face, edge) => line(p, edge, 1.6), track: (p, r, size) => line(p, tones.grey, 1, [2, 4]),
   spring: (p, r, size) => line(zigzag(p[0], p[1], 0.9 * size, 9), tones.third, 1.6),
@@ -338,7 +356,7 @@ const lines = (element, all, slim, unitOf) => {        // lines over time, with 
     brush.lineWidth = 1.5;
     brush.stroke();
     const here = line.values[Math.round(now)];
-    const text = (film.layers.length > 1 ? line.label + " " : "") + line.name + " " + (slim ? "at most " + number(line.most) : number(here)) + " " + line.unit;
+    const text = (film.layers.length > 1 ? line.label + " " : "") + line.name + " " + (slim ? "\u2264 " + number(line.most) : number(here)) + " " + line.unit;
     brush.fillText(text, word, 11);
     word += brush.measureText(text).width + 16;
   });

@@ -57,7 +57,8 @@ def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) 
     low, high = places.min(axis=0), places.max(axis=0)
     box = every.min(axis=0), every.max(axis=0)
     labelled = list(zip(solutions, labels, strict=True))
-    return {"name": first.system.name, "span": [t0, t1], "samples": count, "speed": speed, "dimension": int(places.shape[1]),
+    return {"name": first.system.name, "upside": _is_upside_down(first),
+            "span": [t0, t1], "samples": count, "speed": speed, "dimension": int(places.shape[1]),
             "low": low.tolist(), "high": high.tolist(), "pin": _pin(layers[0], float((high - low).max() or 1.0)),
             "arrow": arrow, "box": [side.tolist() for side in box], "names": wanted.names,
             "layers": [_packed(layer, box, label) for layer, label in zip(layers, labels, strict=True)],
@@ -72,6 +73,11 @@ def _speed(duration: float) -> float:
     wanted = duration / (SHORTEST if duration < SHORTEST else LONGEST)
     power = 10.0 ** np.floor(np.log10(wanted))
     return float(next(times * power for times in (5, 2, 1) if times * power <= wanted * (1 + 1e-12)))
+
+
+def _is_upside_down(sol: Solution) -> bool:
+    """True if gravity acts along +z, as where z points down."""
+    return float(sol.system.parameters.get("gravity.z", 0.0)) > 0
 
 
 def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:

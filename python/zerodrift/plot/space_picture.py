@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
@@ -23,6 +24,8 @@ from .style import COLOURS
 
 SIZE = 0.04         # of the picture: half the length of a pin
 COILS = 6           # of a spring
+LIGHT = np.array([-0.35, -0.5, 0.8]) / np.linalg.norm([-0.35, -0.5, 0.8])      # direction to the light
+DARKEST, BRIGHTEST = 0.72, 1.08     # shares of a face's colour: edge-on to the light, and towards it
 FACES = np.array([(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)])     # of a box's corners
 MOST_NAMES = 40     # more would hide the picture
 TICKS = 4           # of each axis, at most
@@ -51,6 +54,16 @@ def _box(points: np.ndarray, size: float) -> list[np.ndarray]:
     return list(points[FACES])
 
 
+def _shaded(colour: str, faces: Sequence[np.ndarray]) -> np.ndarray:
+    """Colours (k, 4) of flat faces, by the angle of their normals to the light."""
+    normals = np.array([np.cross(face[1] - face[0], face[2] - face[0]) for face in faces])
+    lengths = np.linalg.norm(normals, axis=1)
+    towards = np.abs(normals @ LIGHT) / np.where(lengths > 0, lengths, 1.0)
+    colours = np.tile(to_rgba(colour), (len(faces), 1))
+    colours[:, :3] = np.minimum(colours[:, :3] * (DARKEST + (BRIGHTEST - DARKEST) * towards)[:, None], 1.0)
+    return colours
+
+
 def _spring(points: np.ndarray, size: float) -> list[np.ndarray]:
     """A coil between two ends."""
     start, end = points
@@ -75,9 +88,9 @@ class Glyph(NamedTuple):
 
 GLYPHS = {
     "bar": Glyph(_as_it_is, {"colors": "#7A8CA0", "linewidths": 4.0}),
-    "plate": Glyph(_as_it_is, {"facecolors": "#7A8CA060", "edgecolors": "#7A8CA0", "linewidths": 1.5}, True),
-    "box": Glyph(_box, {"facecolors": "#7A8CA050", "edgecolors": "#7A8CA0", "linewidths": 0.8}, True),
-    "disc": Glyph(_as_it_is, {"facecolors": "#7A8CA040", "edgecolors": "#40505F", "linewidths": 1.8}, True),
+    "plate": Glyph(_as_it_is, {"facecolors": "#C9D3DE", "edgecolors": "#40505F", "linewidths": 1.5}, True),
+    "box": Glyph(_box, {"facecolors": "#C9D3DE", "edgecolors": "#40505F", "linewidths": 0.8}, True),
+    "disc": Glyph(_as_it_is, {"facecolors": "#C9D3DEE0", "edgecolors": "#40505F", "linewidths": 1.8}, True),
     "ring": Glyph(_as_it_is, {"colors": "#40505F", "linewidths": 1.2}),
     "patch": Glyph(_patch, {"facecolors": "#E69F0030", "edgecolors": "#E69F00", "linewidths": 0.8}, True),
     "rod": Glyph(_as_it_is, {"colors": "#40505F", "linewidths": 1.2}),
@@ -110,6 +123,8 @@ class SpacePicture:
         for axis, a, b in zip("xyz", middle - half, middle + half, strict=True):
             getattr(ax, f"set_{axis}lim")(a, b)
             getattr(ax, f"{axis}axis").set_major_locator(MaxNLocator(TICKS))
+            getattr(ax, f"{axis}axis").set_pane_color((1, 1, 1, 0))
+            getattr(ax, f"{axis}axis").line.set_color("#7A8CA0")
         with_equal_scales(ax)
         for i, path in enumerate(paths):
             ax.plot(*path.T, color=COLOURS[(i + 3) % len(COLOURS)], linewidth=1.2)
@@ -135,6 +150,7 @@ class SpacePicture:
                 artist.set_data_3d(*np.vstack(those).T)
             elif GLYPHS[kind].is_face:
                 artist.set_verts(those)
+                artist.set_facecolor(_shaded(GLYPHS[kind].looks["facecolors"], those))
             else:
                 artist.set_segments(those)
         for shape in self._moments[moment]:

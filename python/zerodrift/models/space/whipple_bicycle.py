@@ -53,7 +53,11 @@ def whipple_bicycle(*, speed: float = 4.6, roll_rate: float = 0.5, steer_rate: f
     fork = m.body("fork", 4.0, [[0.05892, 0, -0.00756], [0, 0.06, 0], [-0.00756, 0, 0.00708]], at=(0.9, 0, -0.7))
     m.revolute("rear axle", frame, rear.point((0, 0, 0)), axis=(0, 1, 0))
     m.revolute("front axle", fork, front.point((0, 0, 0)), axis=(0, 1, 0))
-    m.revolute("steer", frame, fork, at=(1.1, 0, 0), axis=(np.sin(np.pi / 10), 0, np.cos(np.pi / 10)))
+    axis = np.array([np.sin(np.pi / 10), 0.0, np.cos(np.pi / 10)])     # meets the ground at x = 1.1 m
+    m.revolute("steer", frame, fork, at=np.array([1.1, 0.0, 0.0]) - 0.8 * axis, axis=axis)
+    m.point("saddle", frame, (0.25, 0.0, -0.9))
+    for name, side in (("left grip", -1.0), ("right grip", 1.0)):
+        m.point(name, fork, (0.75, 0.25 * side, -0.95))
     m.rolling("rear contact", m.ground, rear, radius=0.3, axle=(0, 1, 0))
     m.rolling("front contact", m.ground, front, radius=0.35, axle=(0, 1, 0))
     m.start({"rear.velocity.x": speed, "frame.angular_velocity.x": roll_rate, "steer.speed": steer_rate})
