@@ -12,7 +12,7 @@ from support import ROOT, environment_of_tests
 PAGES = ROOT / "notebooks"
 
 
-@pytest.mark.parametrize("page", ["index", "how_to"])
+@pytest.mark.parametrize("page", ["index", "how_to", "tried"])
 def test_code_of_pages_runs(page, tmp_path, monkeypatch, capsys):
     matplotlib.use("Agg")
     monkeypatch.chdir(tmp_path)

@@ -88,6 +88,13 @@ def test_the_speed_of_short_and_long_motions(span, speed):
     assert scene_of(zd.view(zd.simulate(zd.systems.pendulum(), span, step=0.05)))["speed"] == pytest.approx(speed)
 
 
+def test_gravity_points_down():
+    """Also where z does, as in Whipple's bicycle."""
+    runs = {name: zd.simulate(getattr(zd.models, name)(), 0.02, step=0.01) for name in ("whipple_bicycle", "gyroscope", "watt")}
+    assert {name: scene_of(zd.view(sol))["upside"] for name, sol in runs.items()} == {
+        "whipple_bicycle": True, "gyroscope": False, "watt": False}
+
+
 def test_a_file_needs_no_other(crank, tmp_path):
     path = zd.view(crank).save(tmp_path / "film")
     assert path.name == "film.html"
@@ -133,7 +140,9 @@ LOOK = """<script>addEventListener("load", () => {
   const begin = at(0), changed = begin !== at(n / 2) && begin === at(0);
   const start = performance.now();
   for (let i = 0; i < n; i++) zerodrift.show(i);
-  document.title = JSON.stringify({changed, cost: (performance.now() - start) / n, errors: window.errors});
+  const press = key => { document.dispatchEvent(new KeyboardEvent("keydown", {key})); return zerodrift.now; };
+  const keys = [press("Home"), press("ArrowRight"), press("PageDown"), press("End")];
+  document.title = JSON.stringify({changed, keys, cost: (performance.now() - start) / n, errors: window.errors});
 });</script>"""
 
 
@@ -149,3 +158,5 @@ def test_films_run_in_a_browser(name, tmp_path):
     found = json.loads(html.unescape(re.search(r"<title>(.*?)</title>", shown)[1]))
     assert found["errors"] == []
     assert found["changed"]
+    last = scene_of(film)["samples"] - 1
+    assert found["keys"] == [0, 1, 11, last]

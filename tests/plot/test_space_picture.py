@@ -179,3 +179,15 @@ def test_names_do_not_cover_each_other(model):
     boxes = [(text.get_text(), text.get_window_extent()) for text in ax.texts if text.get_text()]
     assert len(boxes) > 10
     assert not [(one, other) for i, (one, box) in enumerate(boxes) for other, second in boxes[:i] if box.overlaps(second)]
+
+
+def test_faces_are_lit_by_their_normals():
+    """Opposite faces of a box look the same, others do not; the lightest is the one whose normal is nearest to the light."""
+    from zerodrift.plot.space_picture import FACES, LIGHT, _shaded
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    faces = [corners[list(each)] for each in FACES]
+    tones = _shaded("#808080", faces)[:, 0]
+    assert np.allclose(tones[::2], tones[1::2])
+    assert len(np.unique(tones.round(9))) == 3
+    brightest = faces[int(np.argmax(tones))]
+    assert np.ptp(brightest[:, int(np.argmax(np.abs(LIGHT)))]) == 0
