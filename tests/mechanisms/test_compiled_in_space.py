@@ -25,7 +25,7 @@ SAME = 1e-11        # of the largest value of a measure: some ten steps of other
 def _quickly_compiled():
     """Compile without optimization, as the code is evaluated only a few times."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(generated_code.compiling, "library", functools.partial(shared_library.library, optimized=("-O0",)))
+        patch.setattr(shared_library, "library", functools.partial(shared_library.library, optimized=("-O0",)))
         yield
 
 
