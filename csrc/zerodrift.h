@@ -296,7 +296,7 @@ typedef struct zd_batch {
     double *t_events, *p_events, *v_events; /* (runs, events, events_capacity), (.., nq), (.., nv): the first occurrences */
     int64_t *rows;                  /* (runs,) samples stored */
     int *status;                    /* (runs,) ZD_PAUSED if stopped */
-    int *way;                       /* (runs,) zd_way: how the run was computed; ZD_NOT_BEGUN if its creation failed */
+    int *way;                       /* (runs,) zd_way: how the run was computed; ZD_UNUSUAL if left to the caller */
     zd_statistics *statistics;      /* (runs,) */
     double *kinetic, *energy_error; /* (runs,) J: see zd_run_kinetic() and zd_run_energy_error() */
     /* (runs,), of single runs only: see zd_run_omega_h(); largest |Phi| and |Psi| of the samples, NaN without samples; computing time, s */
