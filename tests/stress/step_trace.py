@@ -17,7 +17,7 @@ from pathlib import Path
 from room_order import height
 from support import ROOT
 
-FLAGS = ("-O0", "-g1", "-std=c11", "-ffp-contract=off", "-fno-pic", "-finstrument-functions")
+FLAGS = ("-O0", "-g1", "-gdwarf-4", "-std=c11", "-ffp-contract=off", "-fno-pic", "-finstrument-functions")
 STEP = 23
 ENTRIES = ("zd_step", "zd_step_loop_take_step", "zd_course_take_step")     # of this version and earlier ones
 EARLIER = {"stepping": "step"}      # names of rooms in earlier versions
