@@ -2,8 +2,9 @@
 
     python tests/stress/mutations.py FOLDER [COUNT]     writes tests/bench/results/mutations.csv; CC="ccache gcc" makes it shorter
 
-Operators of random lines of csrc are changed one at a time (SEED) in a copy of the sources in FOLDER, which is built and tested
-until the first failure, the rooms of the changed file first. A mutation that survives is tested with the whole products
+Operators of random lines of csrc are changed one at a time (SEED) in a copy of the sources below FOLDER, a new one. The
+copy is built and tested until the first failure, the rooms of the changed file first. A test that fails is run without the
+mutation as well, and left out if it fails then, too. A mutation that survives is tested with the whole products
 (ZERODRIFT_PRODUCTS=1). The script exits with the number of mutations that only the products notice. Mutations that nothing
 notices are listed, but not counted: many of them change nothing that can be observed, such as the order of equal candidates.
 """
@@ -71,9 +72,10 @@ def groups_of_tests(file):
     return [sorted(near, key=lambda path: not path.startswith(f"tests/{room}")), [path for path in files if path not in near]]
 
 
-def noticed_by(folder, files, **environment):
+def first_failure(folder, files, left_out, environment):
     """The first test that fails; "" if all pass."""
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-n0", "-p", "no:cacheprovider", "--no-header", *files]
+    command = [sys.executable, "-m", "pytest", "-q", "-x", "-n0", "-p", "no:cacheprovider", "--no-header",
+               *(f"--deselect={test}" for test in left_out), *files]
     try:
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT,
                               env=os.environ | {"PYTHONPATH": str(folder / "python")} | environment)
@@ -85,32 +87,45 @@ def noticed_by(folder, files, **environment):
     return found[1] if found else f"exit status {done.returncode}"
 
 
-def tested(folder, file):
+def noticed_by(folder, files, failing, **environment):
+    """The first test that fails with the mutation only; "" if there is none. `failing` has those that fail without it."""
+    while test := first_failure(folder / "mutated", files, failing, environment):
+        if "::" not in test or not first_failure(folder / "original", [test], (), environment):
+            return test
+        failing.append(test)
+    return ""
+
+
+def tested(folder, file, failing):
     """The test that notices the change with pairs, or else with the products."""
     for files in groups_of_tests(file):
-        if test := noticed_by(folder, files):
+        if test := noticed_by(folder, files, failing):
             return test, ""
     with_pairs = [path for files in groups_of_tests(file) for path in files if THINNED.search((ROOT / path).read_text())]
-    return "", noticed_by(folder, with_pairs, ZERODRIFT_PRODUCTS="1")
+    return "", noticed_by(folder, with_pairs, failing, ZERODRIFT_PRODUCTS="1")
 
 
 def main(folder, count):
     """Draw, test, list."""
-    if not folder.exists():
-        shutil.copytree(ROOT, folder, ignore=KEPT)
+    mutated = folder / "mutated"
+    for copy in (folder / "original", mutated):
+        shutil.copytree(ROOT, copy, ignore=KEPT)
+        if not build(copy):
+            sys.exit("the core does not compile without a mutation")
     drawn = sorted(sites())
     random.Random(SEED).shuffle(drawn)
-    rows = []
+    rows, failing = [], []
     for file, position, operator in drawn:
         if sum(bool(row[3] or row[4]) for row in rows) == count:
             break
-        where, line, change = mutate(folder, file, position, operator)
-        if build(folder):
-            rows.append((where, line, change, *tested(folder, file)))
+        where, line, change = mutate(mutated, file, position, operator)
+        if build(mutated):
+            rows.append((where, line, change, *tested(folder, file, failing)))
             print(*rows[-1], sep=" | ", flush=True)
             with RESULTS.open("w", newline="", encoding="utf-8") as out:
                 csv.writer(out).writerows([HEADER, *rows])
-        shutil.copy(ROOT / file, folder / file)
+        shutil.copy(ROOT / file, mutated / file)
+    print("left out, as they fail without a mutation:", *failing or ["none"])
     return sum(bool(row[4]) for row in rows)
 
 
