@@ -1,5 +1,5 @@
-"""Time that a new user waits, in a new virtual environment with nothing but this package and what it requires: installation, the first
-picture, the README's mechanism, and the first reaction that is plotted, each in a new process.
+"""Time that a new user waits: installation, the first picture, the README's mechanism, and the first reaction that is plotted, each in
+a new process, in a new virtual environment with nothing but this package and what it requires.
 
     python tests/bench/bench_first_minutes.py
 """
@@ -37,7 +37,8 @@ def main():
         rows = [("virtual environment", seconds(sys.executable, "-m", "venv", "env", folder=folder), "s", None)]
         python = Path(folder, "env", "Scripts" if os.name == "nt" else "bin", "python")
         rows.append(("pip install .", seconds(python, "-m", "pip", "install", "-q", ROOT, folder=folder), "s", None))
-        for what, code in (("first picture, of a model", PICTURE), ("the README's mechanism, its run, its picture and its film", example),
+        for what, code in (("first picture, of a model", PICTURE),
+                           ("the README's mechanism, its run, its picture and its film", example),
                            ("the same, with its reactions plotted", example + REACTION)):
             for again in ("", ", again"):
                 rows.append((what + again, seconds(python, "-W", "error", "-c", code, folder=folder), "s", None))
