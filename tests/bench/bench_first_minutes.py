@@ -1,5 +1,5 @@
-"""Time that a new user waits: installation, the first picture, the README's mechanism, and the first reaction that is plotted, each in
-a new process, in a new virtual environment with nothing but this package and what it requires.
+"""Time that a new user waits: installation, first picture, the README's mechanism, and the first reaction that is plotted, each
+in a new process, in a new virtual environment with nothing but this package and what it requires.
 
     python tests/bench/bench_first_minutes.py
 """
