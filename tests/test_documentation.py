@@ -104,3 +104,15 @@ def test_links_of_the_readme_lead_to_files():
     links = re.findall(r"\]\((?!https?:)([^)#]+)\)", README.read_text())
     assert len(links) >= 5
     assert not [link for link in links if not (ROOT / link).is_file()]
+
+
+def test_paths_of_the_architecture_page_exist():
+    """Files and folders that the page names, and the functions that it names beside a file."""
+    page = (ROOT / "notebooks" / "architecture.md").read_text(encoding="utf-8")
+    files = re.findall(r"`((?:csrc|python|tests)/[\w./]+)`", page)
+    assert len(files) > 20
+    assert not [file for file in files if not (ROOT / file).exists()]
+    for file, function in re.findall(r"`((?:csrc|python)/[\w./]+)`, `(\w+)(?:\(\))?`", page):
+        assert re.search(rf"\b{function}\b", (ROOT / file).read_text(encoding="utf-8")), f"{function} in {file}"
+    rooms = set(re.findall(r"`(\w+)/`", page))
+    assert {path.name for path in (ROOT / "csrc").iterdir() if path.is_dir()} - rooms == {"python"}     # which is the binding
