@@ -7,6 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+import site_math
 import site_pages
 
 import zerodrift
@@ -20,6 +21,8 @@ source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-n
 nb_execution_mode = "off"               # stored outputs are shown; the test suite executes the notebooks
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
+myst_update_mathjax = False
+html_math_renderer = "mathml"
 suppress_warnings = ["mystnb.unknown_mime_type"]
 
 autosummary_generate = True
@@ -42,5 +45,7 @@ html_extra_path = ["generated/extra"]      # films of the gallery
 
 
 def setup(app: object) -> None:
-    """Write the generated pages before Sphinx looks for files."""
+    """Write the generated pages before Sphinx looks for files; equations are MathML."""
+    app.add_html_math_renderer("mathml", (site_math.inline, None), (site_math.block, None))
+    app.connect("doctree-read", site_math.offline)
     site_pages.write(Path(__file__).parent / "generated")

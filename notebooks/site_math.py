@@ -1,0 +1,32 @@
+"""Equations of the site as MathML, and films of stored outputs: made when it is built, they need no network and can be read aloud."""
+
+from __future__ import annotations
+
+import re
+
+from docutils import nodes
+from latex2mathml.converter import convert
+
+
+def inline(writer: object, node: nodes.math) -> None:
+    """An equation within a line."""
+    writer.body.append(convert(node.astext()))
+    raise nodes.SkipNode
+
+
+def block(writer: object, node: nodes.math_block) -> None:
+    """An equation of its own, a target of links where it is labelled."""
+    for name in node.get("ids", []):
+        writer.body.append(f'<span id="{name}"></span>')
+    writer.body.append(f'<div>{convert(node.astext(), display="block")}</div>')
+    raise nodes.SkipNode
+
+
+def offline(app: object, doctree: nodes.document) -> None:
+    """Matplotlib's films in stored outputs: icons from the theme instead of another site, and a text alternative."""
+    for each in doctree.findall(nodes.raw):
+        text = re.sub(r'<link rel="stylesheet"\s+href="https://maxcdn[^>]*>', "", each.astext())
+        text = re.sub(r'<img id="_anim_img', '<img alt="film of the motion" id="_anim_img', text)
+        if text != each.astext():
+            each.children = [nodes.Text(text)]
+            each.rawsource = text
