@@ -1,9 +1,10 @@
 """Random starts, plane and space: coordinates that no loop connects with the held one stay. Writes random_starts.md.
 
-OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/random_starts.py [how many]
+OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/random_starts.py [how many [commit]]
 """
 
 import sys
+import time
 import warnings
 from collections import Counter
 from pathlib import Path
@@ -24,7 +25,9 @@ def main():
         word, moved = outcome(seed // 4, in_space, layout)
         counts[f"{'space' if in_space else 'plane'}, {layout} coordinates: {word}"] += 1
         largest = max(largest, moved)
-    lines = [f"# {many} random starts", "", f"Written by `tests/stress/random_starts.py`, zerodrift {zd.__version__}.", "",
+    commit = f", commit {sys.argv[2]}" if len(sys.argv) > 2 else ""
+    lines = [f"# {many} random starts", "", f"Written by `tests/stress/random_starts.py`, zerodrift {zd.__version__}{commit}, "
+             f"{time.strftime('%d %B %Y')}.", "",
              "| start of one joint's coordinate or speed | how many |", "|---|---|",
              *(f"| {word} | {count} |" for word, count in sorted(counts.items())), "",
              f"Largest change of a coordinate or rate that no loop connects with the held one: {largest:.2g}."]
