@@ -28,6 +28,7 @@ static const double SMALL_PIVOTS[] = {0x1p-20, 0x1p-30, 0x1p-40}; /* relative to
 static const double NEGLIGIBLE_ARM = 0x1p-20;               /* arm relative to the mechanism's length: a shorter one counts as zero */
 static const double SATISFIED_BY_VELOCITY = 0x1p-28;        /* residual relative to its terms: the row is satisfied */
 static const double ZERO_VELOCITY = 0x1p-14;                /* velocity relative to those before the projection: zero */
+static const double ZERO_XI = 0x1p-52;                      /* in characteristic scales: a smaller xi is of velocities that are rounding error */
 static const double SATISFIED_BY_ACCELERATION = 0x1p-20;    /* residual relative to the largest term of (6): the row is satisfied */
 
 typedef struct search {
@@ -161,7 +162,7 @@ static int agree(search *self, zd_point *point, const double *v, int *they_do)
     if (status) return status;
     memset(self->x, 0, (size_t)point->system->nv * sizeof *self->x);
     for (int i = 0; i < PROJECTIONS; i++) project(self, point, point->terms.xi);
-    const double largest = zd_max_scaled(zd_constraints(point->system), point->terms.xi, point->inverse_size);
+    const double of_xi = zd_max_scaled(zd_constraints(point->system), point->terms.xi, point->inverse_size), largest = fmax(of_xi, ZERO_XI);
     *they_do = 1;
     for (int k = 0; k < zd_constraints(point->system) && *they_do; k++) {
         const zd_row_of_C row = zd_point_row(point, k);
@@ -171,17 +172,26 @@ static int agree(search *self, zd_point *point, const double *v, int *they_do)
     return ZD_DONE;
 }
 
+/* True if the projected random velocity is more than rounding error: some part of the system can move. */
+static int can_move(const search *self, int n)
+{
+    for (int i = 0; i < n; i++)
+        if (fabs(self->x[i]) > ZERO_VELOCITY * self->unit[i]) return 1;
+    return 0;
+}
+
 /* Classifies the rows set aside, with the velocity at the start and a random one in self->x. */
 static int classify(search *self, zd_point *point)
 {
     const int n = point->system->nv;
     const double speed = 1 + zd_max_scaled(n, point->v, point->inverse_unit);
+    const int has_velocity = can_move(self, n);
     int at_start = 1, at_any = 1;
     if (!(point->system->provides & ZD_XI)) return ZD_DONE;
     memcpy(self->v0, point->v, (size_t)n * sizeof *self->v);
     for (int i = 0; i < n; i++) self->v[i] = self->v0[i] + speed * self->x[i];
     int status = agree(self, point, self->v0, &at_start);
-    if (!status && at_start) status = agree(self, point, self->v, &at_any);
+    if (!status && at_start && has_velocity) status = agree(self, point, self->v, &at_any);
     zd_point_move_velocity(point, self->v0);
     return status ? status : !at_start ? ZD_CONTRADICTION : !at_any ? ZD_BIFURCATION : ZD_DONE;
 }
