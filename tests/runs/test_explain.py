@@ -17,7 +17,7 @@ def failed(error, message, call):
     with pytest.raises(error, match=message) as caught:
         call()
     sol = caught.value.solution
-    assert sol.message == str(caught.value)
+    assert str(caught.value) == f"{sol.message} [zd:{caught.value.code}]"
     assert not sol.success
     assert sol.status < 0
     assert np.isfinite(sol.p).all()
@@ -44,7 +44,7 @@ def test_a_run_that_blows_up_may_return(bar):
     with pytest.raises(zd.Diverged) as caught:
         without(bar)
     assert np.array_equal(sol.p, caught.value.solution.p)
-    assert sol.message == str(caught.value)
+    assert str(caught.value) == f"{sol.message} [zd:diverged]"
     assert (sol.success, sol.status) == (False, caught.value.solution.status)
 
 
@@ -64,7 +64,7 @@ def test_a_failed_run_is_saved_like_others(bar, tmp_path):
 
 def test_an_inconsistent_start(bar):
     message = (r"^the start violates the constraints: max \|Phi\| = 0\.\d+, max \|Psi\| = .* of their sizes \(allowed: 1e-10\), "
-               r"most in row \d 'closure_[xy]'; zd\.assemble finds a consistent start nearby$")
+               r"most in row \d 'closure_[xy]'; zd\.assemble finds a consistent start nearby \[zd:inconsistent-start\]$")
     with pytest.raises(zd.InconsistentStart, match=message):
         zd.simulate(bar, 1, bar.p0 + 0.1, step=0.1)
     with pytest.raises(zd.InconsistentStart, match=r"max \|Phi\| = 0, max \|Psi\| = 0\.\d+ "):
@@ -73,14 +73,14 @@ def test_an_inconsistent_start(bar):
 
 
 def test_a_tolerance_below_what_doubles_reach(bar):
-    message = r"^tol = 1e-17 is below what doubles can reach here: .* near \d.*e-1[67] of its size$"
+    message = r"^tol = 1e-17 is below what doubles can reach here: .* near \d.*e-1[67] of its size \[zd:[a-z-]+\]$"
     with pytest.raises(zd.UnreachableTolerance, match=message):
         zd.simulate(bar, 1, step=0.1, stabilization=zd.Projection(tol=1e-17))
 
 
 def test_a_correction_that_does_not_converge(bar):
     message = (r"^at t = .* \(step \d+ of 160\): the position correction left max .* of its size after 1 iterations, full and "
-               r"shortened \(tolerance 1e-15\), also when it is made in parts$")
+               r"shortened \(tolerance 1e-15\), also when it is made in parts \[zd:correction-failed\]$")
     sol = failed(zd.CorrectionFailed, message,
                  lambda: motion(bar, 8.0, 160, stabilization=zd.Projection(tol=1e-15, max_iterations=1)))
     assert_close(sol.t, 0.05 * np.arange(len(sol.t)), tol.SAME)
@@ -88,11 +88,12 @@ def test_a_correction_that_does_not_converge(bar):
 
 
 def test_a_step_far_too_large(bar):
-    failed(zd.CorrectionFailed, "made in parts$", lambda: zd.simulate(bar, 8.0, step=2.0))
+    failed(zd.CorrectionFailed, r"made in parts \[zd:branch-jump\]$", lambda: zd.simulate(bar, 8.0, step=2.0))
 
 
 def test_an_implicit_step_far_too_large(bar):
-    failed(zd.StepFailed, r"^at t = .*: the equations of the implicit 'trapezoidal' step were not solved; try a smaller step$",
+    failed(zd.StepFailed,
+           r"^at t = .*: the equations of the implicit 'trapezoidal' step were not solved; try a smaller step \[zd:step-failed\]$",
            lambda: zd.simulate(bar, 8.0, step=2.0, integrator="trapezoidal"))
 
 

@@ -196,7 +196,7 @@ def test_a_run_that_is_killed_at_any_time_leaves_what_it_flushed(bar, tmp_path, 
             run.kill()
         samples, sol = np.load(path, mmap_mode="r"), zd.load(path)
         assert len(sol.t) == len(samples)
-        rows = min(len(samples), len(whole.t))
+        rows = min(len(samples), len(whole.t) - 1)      # the last step of the whole run ends at its t1: another size by rounding
         for name in ("t", "p", "v", "multipliers", "kinetic_energy", "iterations"):
             assert samples[name][:rows].tobytes() == getattr(whole, name)[:rows].tobytes() == getattr(sol, name)[:rows].tobytes()
         assert not sol.success
