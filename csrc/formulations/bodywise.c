@@ -8,6 +8,10 @@
  * unique these are the smallest, sum lambda_k^2 / W_k = min, as they are W times a vector in the range of C: with 1 / W_k proportional
  * to C_k M^-1 C_k^T, those of minimum effect, see constraints/rank.c. As such weights may reduce s slowly, if M has a light direction
  * within a block, x is found with weights by its diagonal.
+ *
+ * Near a bifurcation, s decreases slowly along the smallest singular values of C: there W is raised. It is not larger everywhere, as the
+ * solutions of an iteration lose the digits of W. Redundant constraints may have a part of s that no x removes, and which stays: so the
+ * decrease is that of C dx.
  */
 #include "bodywise.h"
 
@@ -21,6 +25,10 @@
 
 enum { MAX_ITERATIONS = 40, MAX_FOR_MULTIPLIERS = 240 };     /* reductions of s by a tenth each: the latter leave BALANCED of it */
 static const double WEIGHT = 0x1p25;            /* weight of a constraint relative to the mass its bodies have along it */
+static const double RAISE = 0x1p8;              /* factor by which it is raised where the iterations converge slowly, */
+static const double MAX_RAISED = 0x1p16;        /* and by which it can be altogether */
+static const double SLOW = 0.25;                /* decrease of C dx in an iteration that is slow */
+static const double CONVERGED = 0x1p-40;        /* C dx relative to the terms of C x, or of x without constraints, with which x has converged */
 static const double BALANCED = 0x1p-36;         /* residual relative to the terms of the equations with which the reactions have converged */
 static const double RESIDUAL_ROUNDING = 4 * 0x1p-52;     /* residual relative to these terms that needs no refinement */
 
@@ -81,14 +89,18 @@ static double effect(const zd_bodywise *self, const zd_row_of_C *row, int has_in
     return sum;
 }
 
-/* The same with the diagonal of M: then W is not much smaller than M in any direction. Massless directions get the largest mass. */
+/* Diagonal entry of M. Massless directions get the largest mass. */
+static double mass_along(const zd_point *point, int i, double mass)
+{
+    const double own = zd_entry_of_M(point, i, i);
+    return own > ZD_LEAST_PIVOT * mass ? own : mass;
+}
+
+/* The same with the diagonal of M: then W is not much smaller than M in any direction. */
 static double effect_by_diagonal(const zd_point *point, const zd_row_of_C *row, double mass)
 {
     double sum = 0;
-    for (int j = 0; j < row->count; j++) {
-        const double own = zd_entry_of_M(point, row->column[j], row->column[j]);
-        sum += row->x[j] * row->x[j] / (own > ZD_LEAST_PIVOT * mass ? own : mass);
-    }
+    for (int j = 0; j < row->count; j++) sum += row->x[j] * row->x[j] / mass_along(point, row->column[j], mass);
     return sum;
 }
 
@@ -114,6 +126,7 @@ int zd_bodywise_factor(zd_bodywise *self, zd_point *point)
     self->point = point;
     self->C = point->terms.C;
     self->is_least_known = 0;
+    self->raised = 1;
     for (int k = 0; k < zd_constraints(point->system); k++) {
         const zd_row_of_C row = zd_point_row(point, k);
         const double square = effect_by_diagonal(point, &row, mass);
@@ -122,6 +135,21 @@ int zd_bodywise_factor(zd_bodywise *self, zd_point *point)
     const int failed = factor(self, self->bodies, self->weight);
     if (failed >= 0) point->failed_index = failed;
     return failed < 0 ? ZD_DONE : ZD_NOT_DEFINITE;
+}
+
+/* Factors with larger weights; returns 0 if there are none, and the factors are as before. */
+static int raise_weights(zd_bodywise *self)
+{
+    const int m = zd_constraints(self->point->system);
+    if (self->raised >= MAX_RAISED) return 0;
+    for (int k = 0; k < m; k++) self->weight[k] *= RAISE;
+    if (factor(self, self->bodies, self->weight) < 0) {
+        self->raised *= RAISE;
+        return 1;
+    }
+    for (int k = 0; k < m; k++) self->weight[k] /= RAISE;
+    (void)factor(self, self->bodies, self->weight);
+    return 0;
 }
 
 /* Factors with the weights of minimum effect, if required; returns 0 if there are no such factors. */
@@ -163,8 +191,8 @@ static double find_unbalanced(zd_bodywise *self, const double *force, const doub
     return worst > 0 ? worst / largest : 0;
 }
 
-/* residual <- rhs - C x. Returns its largest entry relative to the largest of its terms, in the metric W. */
-static double find_residual(zd_bodywise *self, const double *rhs, const double *x)
+/* residual <- rhs - C x. Returns its largest entry relative to the largest of its terms, in the metric W; the square of that: *square. */
+static double find_residual(zd_bodywise *self, const double *rhs, const double *x, double *square)
 {
     double largest = 0, worst = 0;
     for (int k = 0; k < zd_constraints(self->point->system); k++) {
@@ -178,13 +206,16 @@ static double find_residual(zd_bodywise *self, const double *rhs, const double *
         worst = fmax(worst, sum * sum * self->weight[k]);
         largest = fmax(largest, terms * terms * self->weight[k]);
     }
+    *square = largest;
     return worst > 0 ? sqrt(worst / largest) : 0;
 }
 
-/* step <- (M + C^T W C)^-1 (unbalanced + C^T W residual), lambda <- lambda + W (C step - residual); residual NULL: zero */
-static void improve(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *residual)
+/* step <- (M + C^T W C)^-1 (unbalanced + C^T W residual), lambda <- lambda + W (C step - residual); residual NULL: zero. Returns the
+ * square of the largest entry of C step in the metric W. */
+static double improve(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *residual)
 {
     const int m = zd_constraints(self->point->system);
+    double largest = 0;
     for (int k = 0; residual && k < m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
         for (int j = 0; j < row.count; j++) self->unbalanced[row.column[j]] += weight[k] * residual[k] * row.x[j];
@@ -192,8 +223,11 @@ static void improve(zd_bodywise *self, zd_bodies *bodies, const double *weight, 
     zd_bodies_solve(bodies, self->unbalanced, self->step);
     for (int k = 0; k < m; k++) {
         const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        self->lambda[k] += weight[k] * (zd_row_times(&row, self->step) - (residual ? residual[k] : 0));       /* (8) */
+        const double along = zd_row_times(&row, self->step);
+        self->lambda[k] += weight[k] * (along - (residual ? residual[k] : 0));       /* (8) */
+        largest = fmax(largest, weight[k] * along * along);
     }
+    return largest;
 }
 
 /* Multipliers from C^T lambda = force - M x alone, once C x = rhs: they then contain neither W times the rounding of rhs - C x nor its
@@ -206,9 +240,43 @@ static double find_multipliers(zd_bodywise *self, zd_bodies *bodies, const doubl
         left = find_unbalanced(self, force, x);
         if (!(left > RESIDUAL_ROUNDING) || (i > 1 && !(left < 0.9 * before))) break;
         before = left;
-        improve(self, bodies, weight, NULL);
+        (void)improve(self, bodies, weight, NULL);
     }
     return left;
+}
+
+/* Square of the largest acceleration without constraints, in the metric W before it was raised. */
+static double square_without_constraints(const zd_bodywise *self, const double *force)
+{
+    const zd_point *point = self->point;
+    const double mass = largest_mass(point);
+    double square = 0;
+    for (int i = 0; force && i < point->system->nv; i++) square = fmax(square, WEIGHT * force[i] * force[i] / mass_along(point, i, mass));
+    return square;
+}
+
+/* x, from zero, and self->lambda with it. `change`: of C dx in the last iteration, in the metric W before it was raised, squared. Where
+ * nothing can move, x consists of the rounding of accelerations without constraints. The second iteration takes back what W has yielded
+ * to the force in the first: so decreases are those from the third on. */
+static void iterate(zd_bodywise *self, const double *force, const double *rhs, double *x)
+{
+    const int n = self->point->system->nv;
+    double before = INFINITY, change = INFINITY, change_before = INFINITY, square;
+    for (int i = 0; i < MAX_ITERATIONS; i++) {
+        const double left = fmax(find_unbalanced(self, force, x), find_residual(self, rhs, x, &square));
+        if (!(left > RESIDUAL_ROUNDING)) break;
+        const int is_slow = i > 1 && !(left < 0.5 * before);
+        if (is_slow) {
+            const double scale = fmax(square / self->raised, square_without_constraints(self, force));
+            if (!(change > CONVERGED * CONVERGED * scale)) break;
+            const int is_raised = i > 2 && change > SLOW * SLOW * change_before && raise_weights(self);
+            if (i > 2 && !is_raised && !(change < change_before)) break;
+        }
+        before = left;
+        change_before = change;
+        change = improve(self, self->bodies, self->weight, self->residual) / self->raised;
+        for (int j = 0; j < n; j++) x[j] += self->step[j];
+    }
 }
 
 void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs, double *x, double *lambda)
@@ -216,14 +284,7 @@ void zd_bodywise_solve(zd_bodywise *self, const double *force, const double *rhs
     const int n = self->point->system->nv, m = zd_constraints(self->point->system);
     memset(x, 0, (size_t)n * sizeof *x);
     memset(self->lambda, 0, (size_t)m * sizeof *x);
-    double before = INFINITY;
-    for (int i = 0; i < MAX_ITERATIONS; i++) {
-        const double left = fmax(find_unbalanced(self, force, x), find_residual(self, rhs, x));
-        if (!(left > RESIDUAL_ROUNDING) || (i > 1 && !(left < 0.5 * before))) break;
-        before = left;
-        improve(self, self->bodies, self->weight, self->residual);
-        for (int j = 0; j < n; j++) x[j] += self->step[j];
-    }
+    iterate(self, force, rhs, x);
     if (!lambda) return;
     const int is_least = need_least(self) && find_multipliers(self, self->for_least, self->least_weight, force, x) < BALANCED;
     if (!is_least) (void)find_multipliers(self, self->bodies, self->weight, force, x);

@@ -9,6 +9,7 @@ typedef struct zd_bodywise {
     const zd_layout *layout;
     zd_bodies *bodies;      /* M + C^T W C */
     double *weight;         /* (m,): W */
+    double raised;          /* factor by which W was raised at this point, as iterations converged slowly */
     zd_bodies *for_least;   /* the same, weighted for multipliers of minimum effect; NULL if the multipliers are unique, or W serves */
     double *least_weight;   /* (m,) */
     int is_least_known;     /* 1: it has been factored at this point */

@@ -151,6 +151,16 @@ def test_what_is_welded_has_no_joint_coordinates():
     assert np.allclose(sol["bolt.torque"], 2.0 * 9.81 * 0.5, atol=1e-12)     # about the bolt, half a metre from the centre
 
 
+def test_joints_between_what_is_welded_have_no_coordinates_to_move_in():
+    """The planar joint's angle is a coordinate, but has no velocity."""
+    m = zd.Mechanism("bracket", dimension=3)
+    plate = m.body("plate", 2.0, (0.1, 0.1, 0.1), at=(0.5, 0, 0))
+    m.weld("bolt", m.ground, plate, at=(0, 0, 0))
+    m.planar("plane", m.ground, plate, at=(0, 0, 0), normal=(0, 0, 1))
+    with pytest.raises(zd.ZerodriftError, match="mechanism 'bracket' has no joint coordinates to move in"):
+        zd.simulate(m.system("joint"), 0.1, step=0.05)
+
+
 def test_held_values_that_agree_are_accepted():
     m = linkage()
     m.start({"crank.angular_velocity": 1.0})

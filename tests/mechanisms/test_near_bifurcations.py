@@ -7,6 +7,7 @@ import pytest
 
 import zerodrift as zd
 
+G = 9.81
 ANGLE, SPEED = 0.0501, -1.0     # of all cranks where they begin: at 0.05 s they are a ten-thousandth from the line
 
 
@@ -88,3 +89,30 @@ def test_a_mechanism_whose_rows_follow_from_others_moves_as_without_these():
     assert np.abs(one.p - other.p).max() < 1e-12
     assert np.abs(one.v - other.v).max() < 1e-11
     assert np.abs(other.energy_violation).max() < 1e-10
+
+
+def knee(rise):
+    """A load where two rods meet that lie almost in a line, and a chain of 20 links whose first pin is there twice."""
+    m = zd.Mechanism("knee", gravity=(0, -G))
+    end = m.ground.point((0, 0))
+    for i in range(20):
+        link = m.link(f"link{i}", (i, 0), (i + 1, 0), mass=1.0)
+        m.revolute(f"pin{i}", end, link.start)
+        end = link.end
+    m.revolute("pin0 again", m.ground, m["link0"].start)
+    load = m.particle("load", 1.0, at=(1, -3 - rise))
+    m.rod("left", m.ground.point((0, -3)), load)
+    m.rod("right", m.ground.point((2, -3)), load)
+    return m.system("absolute")
+
+
+@pytest.mark.filterwarnings("ignore::zerodrift.AccuracyWarning")       # of a pivot 4 rise^2, where it is below 1e-8
+@pytest.mark.parametrize("rise", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6])
+def test_small_singular_values_cost_no_more_digits_than_their_size(rise, formulation):
+    """The load stands still on rods whose forces follow from their rise; the rounding of their directions is 2^-52 / rise."""
+    sol = zd.simulate(knee(rise), 1e-3, step=5e-4, formulation=formulation)
+    off = 16 * 2.0**-52 / rise
+    assert len(sol.stats["redundant"]) == 2
+    assert np.abs(sol["load.acceleration"]).max() < off * G
+    assert np.abs(sol["load.velocity"]).max() < off * G * 1e-3
+    np.testing.assert_allclose(sol["left.tension"], G / (2 * rise) * np.hypot(1, rise), rtol=off)

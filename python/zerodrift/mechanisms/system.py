@@ -209,7 +209,7 @@ class MechanismSystem(BaseSystem):
 
     def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        if not self.nq:
+        if not self.nv:     # coordinates of joints between welded bodies have no velocities
             raise ZerodriftError(f"mechanism {self.name!r} has no joint coordinates to move in, as all its bodies are welded to "
                                  "the ground; system('absolute') has coordinates, and gives its reactions")
         if p is None and v is None:
