@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import tolerances as tol
 import zerodrift as zd
 
 
@@ -78,6 +79,35 @@ def test_elements_are_found_by_name(m, link, pin):
 def test_numbers_are_checked_where_they_are_given(m, add, error):
     with pytest.raises(ValueError, match=error):
         add(m)
+
+
+@pytest.mark.parametrize(("given", "kind", "error"), [
+    ({"along": (0, 1)}, TypeError, r"force 'f' needs value=, its magnitude in N, whose direction.* such as \(0.0, -10.0\)"),
+    ({"value": 5.0}, TypeError, r"force 'f' needs along=, its direction in the drawing, such as \(0.0, -10.0\), as value="),
+    ({"value": (0, 5.0), "along": (0, 1)}, ValueError, r"value of force 'f' must be a number or a function, not a vector"),
+    ({"value": (0, 5.0, 1.0)}, ValueError, r"value of force 'f' must have shape \(2,\)"),
+    ({"value": (0, 0)}, ValueError, r"value of force 'f' must be a direction"),
+])
+def test_a_force_without_direction_or_magnitude_is_refused_with_what_is_missing(m, given, kind, error):
+    body = m.body("b", 1.0)
+    with pytest.raises(kind, match=error):
+        m.force("f", body, **given)
+    with pytest.raises(TypeError, match="needs value="):
+        m.force("f", body, (0, 1))      # as it is typed first
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_force_given_as_a_vector_is_its_magnitude_along_its_direction(dimension):
+    vector = np.array([3.0, -4.0, 12.0])[:dimension]
+    forces = []
+    for given in ({"value": vector}, {"value": float(np.linalg.norm(vector)), "along": vector / 7}):
+        m = zd.Mechanism("one body", dimension=dimension)
+        body = m.body("b", 1.0, 0.1, angle=0.3) if dimension == 2 else m.body("b", 1.0, np.eye(3))
+        m.force("f", body, **given)
+        system = m.system()
+        forces.append(system.evaluate(system.p0, system.v0).f)
+    np.testing.assert_allclose(forces[0], forces[1], rtol=tol.SAME)
+    np.testing.assert_allclose(forces[0][:dimension], vector, rtol=tol.SAME)
 
 
 @pytest.mark.parametrize("name", ["a.b", "t", "p", "two words"])

@@ -16,6 +16,7 @@ from ..elements.joints import Joint
 from .registry import Elements
 
 FLAT = 1e-6             # sine of the angle below which directions are parallel
+VECTORS = {2: "(0.0, -10.0)", 3: "(0.0, 0.0, -10.0)"}      # examples in messages
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
           "force": ("displacement",)}
 
@@ -225,8 +226,8 @@ class ForceVerbs(Elements):
             frame = np.stack([axis, normal, np.cross(axis, normal)])
         return tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
 
-    def force(self, name: str, point: Point | Body | str, *, along: Any, value: Any, of: Mapping[str, Any] | None = None,
-              frame: Body | str | None = None) -> Force:
+    def force(self, name: str, point: Point | Body | str, along: Any = None, *, value: Any = None,
+              of: Mapping[str, Any] | None = None, frame: Body | str | None = None) -> Force:
         """Let a force act at a point.
 
         Parameters
@@ -235,9 +236,9 @@ class ForceVerbs(Elements):
         point : Point, Body or name
             Of a body without a point, its centre of mass.
         along : array_like (2,) or (3,)
-            Its direction in the drawing; the length of the vector is ignored.
-        value : float, callable or SymPy expression
-            In N, of t, parameters and measures of positions and velocities.
+            Its direction in the drawing; the length of the vector is ignored. Left out where `value` is a vector.
+        value : float, callable, SymPy expression, or array_like (2,) or (3,)
+            In N, of t, parameters and measures of positions and velocities; or a constant force as a vector in the drawing.
         of : dict of str to measure
             Under which names a callable is handed which measures.
         frame : Body or name, optional
@@ -246,6 +247,11 @@ class ForceVerbs(Elements):
         Returns
         -------
         Force
+
+        Raises
+        ------
+        TypeError, ValueError
+            If the magnitude or the direction is missing, or the direction is given twice.
 
         Notes
         -----
@@ -259,9 +265,11 @@ class ForceVerbs(Elements):
         >>> rocket = m.body("rocket", 1.0, 0.1)
         >>> m.force("thrust", rocket, along=(0, 1), value=lambda t: 20.0 * np.exp(-t), frame=rocket)
         <force thrust at rocket>
+        >>> m.force("wind", rocket, value=(0.5, 0.0))
+        <force wind at rocket>
         """
         name = self._new_name(name, "force")
-        along = self._direction(f"along of {name!r}", along)
+        along, value = self._direction_and_magnitude(name, along, value)
         point = self._point("point", point, center=True)
         frame = self.ground if frame is None else self._body("frame", frame)
         self._turning(name, "the frame of", frame)
@@ -269,6 +277,21 @@ class ForceVerbs(Elements):
             raise ValueError(f"force {name!r} acts on the ground, which does not move: point must be of another body")
         law = self._law(f"value of force {name!r}", value, of)
         return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
+
+    def _direction_and_magnitude(self, name: str, along: Any, value: Any) -> tuple[np.ndarray, Any]:
+        """Unit vector of a force in the drawing, (dimension,), and the magnitude along it."""
+        is_vector = isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1
+        if value is None:
+            raise TypeError(f"force {name!r} needs value=, its magnitude in N, whose direction is along=; or value= as a vector, "
+                            f"such as {VECTORS[self.dimension]}")
+        if is_vector and along is not None:
+            raise ValueError(f"value of force {name!r} must be a number or a function, not a vector, where along= is given")
+        if is_vector:
+            return self._direction(f"value of force {name!r}", value), float(np.linalg.norm(value))
+        if along is None:
+            raise TypeError(f"force {name!r} needs along=, its direction in the drawing, such as {VECTORS[self.dimension]}, "
+                            "as value= is its magnitude")
+        return self._direction(f"along of {name!r}", along), value
 
     def torque(self, name: str, body: Body | str, *, value: Any, of: Mapping[str, Any] | None = None,
                against: Body | str | None = None, axis: Any = None, frame: Body | str | None = None) -> Torque:
