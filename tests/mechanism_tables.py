@@ -5,11 +5,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from zerodrift._gateway import Variable
-from zerodrift._gateway.mechanisms import Body, Effort, Gauge, Joint, MechanismCore, Observed, Relation, Tables, joint_kinds
+from zerodrift._gateway.mechanisms import (
+    Body,
+    GeneralizedForce,
+    Joint,
+    MechanismCore,
+    OutputSpec,
+    Quantity,
+    Relation,
+    Tables,
+    joint_kinds,
+)
 from zerodrift.systems.base import BaseSystem
 
 KINDS = joint_kinds()
-TREE = [name for name, kind in KINDS.items() if kind.carrier]
+TREE = [name for name, kind in KINDS.items() if kind.inboard]
 UNITS = {"x": "m", "y": "m", "angle": "rad", "displacement": "m"}
 
 
@@ -40,7 +50,7 @@ def rotation(angle):
 
 def free(tables):
     """The same mechanism in absolute coordinates."""
-    return tables._replace(bodies=[body._replace(carrier=-1) for body in tables.bodies])
+    return tables._replace(bodies=[body._replace(inboard=-1) for body in tables.bodies])
 
 
 def in_absolute_coordinates(system, law=None, **options):
@@ -55,17 +65,17 @@ def in_absolute_coordinates(system, law=None, **options):
 
 
 def joint_measures(joints):
-    return [Observed(f"{j}.{what}", unit, f"joint {what}", j) for j in range(len(joints))
+    return [OutputSpec(f"{j}.{what}", unit, f"joint {what}", j) for j in range(len(joints))
             for what, unit in (("force", "N"), ("torque", "N m"))]
 
 
-def pose_gauges(bodies):
-    """Three gauges of each body: x, y and angle of its mass centre."""
-    return [Gauge(which, 0, b) for b in range(1, len(bodies) + 1) for which in ("x", "y", "angle")]
+def pose_quantities(bodies):
+    """Three marker quantities of each body: x, y and angle of its mass centre."""
+    return [Quantity(which, 0, b) for b in range(1, len(bodies) + 1) for which in ("x", "y", "angle")]
 
 
 def pose_measures(bodies):
-    return [Observed(f"accelerations{b}", "", "accelerations", 3 * b, 3) for b in range(len(bodies))]
+    return [OutputSpec(f"accelerations{b}", "", "accelerations", 3 * b, 3) for b in range(len(bodies))]
 
 
 # ---- random mechanisms ----
@@ -130,31 +140,32 @@ def random_tree(rng, bodies, names=TREE, particles=True):
 
 
 def random_springs(rng, table, damped=True):
-    """Springs along gauges of all kinds between random bodies, with dampers and a force if `damped`: gauges, efforts."""
-    gauges, efforts = [], []
+    """Marker quantities of all kinds between random bodies, and a spring along each, with dampers and a force if `damped`."""
+    quantities, forces = [], []
     solid = [0, *(b for b, body in enumerate(table, 1) if not body.is_particle)]
     for which in ("x", "y", "angle", "along", "across", "distance"):
         first, second = rng.choice(solid, 2)
         angle = rng.uniform(0, 6)
-        gauges.append(Gauge(which, int(first), int(second), tuple(rng.uniform(2, 3, 2)), tuple(rng.uniform(-1, 1, 2)),
+        quantities.append(Quantity(which, int(first), int(second), tuple(rng.uniform(2, 3, 2)), tuple(rng.uniform(-1, 1, 2)),
                             (np.cos(angle), np.sin(angle)), rng.uniform(-1, 1)))
-        efforts.append(Effort("spring", len(gauges) - 1, rng.uniform(1, 5), damped * rng.uniform(0, 1)))
+        forces.append(GeneralizedForce("spring", len(quantities) - 1, rng.uniform(1, 5), damped * rng.uniform(0, 1)))
     if not damped:
-        return gauges, efforts
-    gauges.append(Gauge("glide", int(rng.choice(solid)), int(rng.choice(solid[1:] or [0])), axis=(0.6, 0.8), point2=(0.3, -0.2)))
-    efforts.append(Effort("constant", len(gauges) - 1, value=rng.uniform(-5, 5)))
-    return gauges, efforts
+        return quantities, forces
+    first, second = int(rng.choice(solid)), int(rng.choice(solid[1:] or [0]))
+    quantities.append(Quantity("glide", first, second, axis=(0.6, 0.8), point2=(0.3, -0.2)))
+    forces.append(GeneralizedForce("constant", len(quantities) - 1, value=rng.uniform(-5, 5)))
+    return quantities, forces
 
 
 def random_mechanism(seed, bodies=5, loops=0, damped=True, names=TREE):
     """A system at a start that satisfies it, with measures of all joints and accelerations of all bodies."""
     rng = np.random.default_rng(seed)
     table, joints, drawing = random_tree(rng, bodies, names)
-    gauges = pose_gauges(table)
+    quantities = pose_quantities(table)
     solid = [0, *(b for b, body in enumerate(table, 1) if not body.is_particle)]
-    more, efforts = random_springs(rng, table, damped)
-    efforts = [effort._replace(gauge=effort.gauge + len(gauges)) for effort in efforts]
-    gauges += more
+    more, forces = random_springs(rng, table, damped)
+    forces = [force._replace(quantity=force.quantity + len(quantities)) for force in forces]
+    quantities += more
     for _ in range(loops if len(solid) > 2 else 0):
         first, second = rng.choice(solid, 2, replace=False)
         if second == 0:
@@ -162,7 +173,7 @@ def random_mechanism(seed, bodies=5, loops=0, damped=True, names=TREE):
         name = str(rng.choice(["revolute", "rod", "slot", "rolling", "prismatic"]))
         joints.append(drawing.joint(name, int(first), int(second), rng.uniform(-1, 1, 2), rng))
     measures = joint_measures(joints) + pose_measures(table)
-    tables = Tables(table, joints, gauges, (), efforts, measures, tuple(rng.uniform(-9, 9, 2)))
+    tables = Tables(table, joints, quantities, (), forces, measures, tuple(rng.uniform(-9, 9, 2)))
     system = Tabled(tables)
     system.p0, _ = system._core.state(np.array(drawing.poses[1:]))
     v = rng.normal(size=system.nv)
@@ -177,4 +188,4 @@ def determined(system):
     return C is None or (len(C) < system.nv and np.linalg.svd(C)[1].min() > 0.02)
 
 
-__all__ = ["Body", "Effort", "Gauge", "Joint", "Observed", "Relation", "Tables"]
+__all__ = ["Body", "GeneralizedForce", "Joint", "OutputSpec", "Quantity", "Relation", "Tables"]

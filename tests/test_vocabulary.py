@@ -19,7 +19,7 @@ REFUSED = (
     r"\b(is|are|was|were|be|been) told",
     r"(?<!there )\b(is|are|was|were) no\b(?! (longer|more|less|slower|faster|larger|smaller|later))",
     r"\bbut for\b", r"\bfollows? from others", "chosen steps", "steps are chosen", r"\bsaved rows?\b", r"\blight parts?\b",
-    "lengths win", "need no word", r"\b(is|are|was|were) asked\b", r"\bglances?\b", "lookout", r"\bblame",
+    "lengths win", "need no word", r"\b(is|are|was|were) asked\b", r"\bglances?\b", "lookout", r"\bblame", r"\bgauges?\b",
 )
 OPENING = re.compile(r"(What|Whether|Where|How|Those|Of)\b(?! freedom)", re.IGNORECASE)
 

@@ -5,7 +5,18 @@ import pytest
 
 import tolerances as tol
 import zerodrift as zd
-from mechanism_tables import Body, Effort, Gauge, Joint, Observed, Relation, Tabled, Tables, in_absolute_coordinates, kind
+from mechanism_tables import (
+    Body,
+    GeneralizedForce,
+    Joint,
+    OutputSpec,
+    Quantity,
+    Relation,
+    Tabled,
+    Tables,
+    in_absolute_coordinates,
+    kind,
+)
 from support import assert_close
 
 COORDINATES = pytest.mark.parametrize("absolute", [False, True], ids=["joint", "absolute"])
@@ -31,14 +42,15 @@ LENGTHS, MASSES = (0.3, 1.0, 0.6), (1.5, 5.0, 3.0)
 
 
 def four_bar(p, v, drive=None, *, absolute=False):
-    bodies = [Body(m, m * length**2 / 12, carrier=i) for i, (m, length) in enumerate(zip(MASSES, LENGTHS, strict=True))]
+    bodies = [Body(m, m * length**2 / 12, inboard=i) for i, (m, length) in enumerate(zip(MASSES, LENGTHS, strict=True))]
     ends = [(0.0, 0.0), *((length / 2, 0.0) for length in LENGTHS[:2]), (1.0, 0.0)]
     joints = [Joint(kind("revolute"), i, i + 1, ends[i], (-LENGTHS[i] / 2, 0.0)) for i in range(3)]
     joints.append(Joint(kind("revolute"), 0, 3, ends[3], (LENGTHS[2] / 2, 0.0)))
-    measures = [Observed("D.force", "N", "joint force", 3), Observed("A.torque", "N m", "joint torque", 0)]
+    measures = [OutputSpec("D.force", "N", "joint force", 3), OutputSpec("A.torque", "N m", "joint torque", 0)]
     relations = [] if drive is None else [Relation([0], law=0, joint=0)]
-    measures += [Observed("drive.torque", "N m", "drive", 0), Observed("drive.power", "W", "drive power", 0)][:2 * len(relations)]
-    tables = Tables(bodies, joints, [Gauge("angle", 0, 1)], relations, (), measures, (0.0, -9.81))
+    measures += [OutputSpec("drive.torque", "N m", "drive", 0),
+                 OutputSpec("drive.power", "W", "drive power", 0)][:2 * len(relations)]
+    tables = Tables(bodies, joints, [Quantity("angle", 0, 1)], relations, (), measures, (0.0, -9.81))
     system = Tabled(tables, p, v, drive)
     return in_absolute_coordinates(system, drive) if absolute else system
 
@@ -92,7 +104,7 @@ def test_four_bar_with_a_driven_crank(absolute):
 def test_pendulum_on_a_rod(absolute):
     built_in = zd.systems.pendulum(length=0.7, mass=1.3, angle=1.0, rate=0.5)
     tables = Tables([Body(1.3, is_particle=True)], [Joint(kind("rod"), 0, 1, length=0.7)], gravity=(0.0, -9.81),
-                    measures=[Observed("rod.tension", "N", "joint tension", 0)])
+                    measures=[OutputSpec("rod.tension", "N", "joint tension", 0)])
     system = started(tables, [[*built_in.p0, 0]], [[*built_in.v0, 0]], absolute=absolute)
     one, other = (zd.simulate(each, 0.5, step=1e-3, save_every=250) for each in (built_in, system))
     assert_close(other.p, one.p, tol.CONVERGED, scale=1)
@@ -103,12 +115,12 @@ def test_pendulum_on_a_rod(absolute):
 def test_slider_crank_with_spring_damper_and_force(absolute):
     """A crank without mass but with inertia, a rod with its mass at the slider, which is a point in a slot."""
     built_in = zd.systems.slider_crank(crank_rate=1.0)
-    bodies = [Body(0.0, 1.0, carrier=0), Body(1.0, 2.0, carrier=1)]
+    bodies = [Body(0.0, 1.0, inboard=0), Body(1.0, 2.0, inboard=1)]
     joints = [Joint(kind("revolute"), 0, 1), Joint(kind("revolute"), 1, 2, (0.5, 0.0), (-1.0, 0.0)), Joint(kind("slot"), 0, 2)]
-    gauges = [Gauge("distance", 1, 2, (0.25, 0.0), (-0.5, 0.0), zero=1.0), Gauge("glide", 0, 2, point2=(1.0, 0.0))]
-    efforts = [Effort("spring", 0, 1.0, 1.0), Effort("constant", 1, value=1.0)]
+    quantities = [Quantity("distance", 1, 2, (0.25, 0.0), (-0.5, 0.0), zero=1.0), Quantity("glide", 0, 2, point2=(1.0, 0.0))]
+    forces = [GeneralizedForce("spring", 0, 1.0, 1.0), GeneralizedForce("constant", 1, value=1.0)]
     (crank, x, rod), (crank_dot, x_dot, rod_dot) = built_in.p0, built_in.v0
-    system = started(Tables(bodies, joints, gauges, (), efforts), [[0, 0, crank], [x, 0, rod]],
+    system = started(Tables(bodies, joints, quantities, (), forces), [[0, 0, crank], [x, 0, rod]],
                      [[0, 0, crank_dot], [x_dot, 0, rod_dot]], absolute=absolute)
     options = {"formulation": "augmented"} if absolute else {}      # its mass matrix is singular: the crank has no mass
     one = zd.simulate(built_in, 2.0, step=1e-3, save_every=500)
@@ -122,7 +134,7 @@ def test_knife_edge_on_a_slope():
     built_in = zd.systems.knife_edge(speed=0.4)
     weight = 9.81 * np.sin(built_in.parameters["incline"])
     tables = Tables([Body(1.25, 0.13)], [Joint(kind("knife_edge"), 1, 1)], gravity=(weight, 0.0),
-                    measures=[Observed("edge.force", "N", "joint force", 0)])
+                    measures=[OutputSpec("edge.force", "N", "joint force", 0)])
     system = Tabled(tables, built_in.p0, built_in.v0)
     one, other = (zd.simulate(each, 1.0, step=1e-3, save_every=250) for each in (built_in, system))
     assert_close(other.p, one.p, tol.CONVERGED, scale=1)

@@ -7,9 +7,9 @@ import tolerances as tol
 import zerodrift as zd
 from mechanism_tables import (
     Body,
-    Effort,
-    Gauge,
+    GeneralizedForce,
     Joint,
+    Quantity,
     Relation,
     Tabled,
     Tables,
@@ -63,8 +63,8 @@ def test_the_order_of_bodies_does_not_matter():
     tables = system._core.tables
     turned = {b: len(tables.bodies) + 1 - b if b else 0 for b in range(len(tables.bodies) + 1)}
     joints = [joint._replace(first=turned[joint.first], second=turned[joint.second]) for joint in tables.joints]
-    gauges = [gauge._replace(first=turned[gauge.first], second=turned[gauge.second]) for gauge in tables.gauges]
-    other = type(system)(tables._replace(bodies=tables.bodies[::-1], joints=joints, gauges=gauges))
+    quantities = [each._replace(first=turned[each.first], second=turned[each.second]) for each in tables.quantities]
+    other = type(system)(tables._replace(bodies=tables.bodies[::-1], joints=joints, quantities=quantities))
     poses, rates = system._core.poses(system.p0, system.v0)
     p, v = other._core.state(poses[::-1].copy(), rates[::-1].copy())
     there, here = zd.acceleration(system, system.p0, system.v0), zd.acceleration(other, p, v)
@@ -76,9 +76,9 @@ def test_the_order_of_bodies_does_not_matter():
 def test_sliders_that_start_at_zero_have_the_size_of_their_mechanism():
     """Their coordinates are rounding there, and no row has a lever: lengths are compared to those of the drawing."""
     joints = [Joint(kind("prismatic"), 0, 1), Joint(kind("prismatic"), 0, 2, (1.0, 0.0))]
-    gauges = [Gauge("along", 0, 1), Gauge("along", 0, 2, (1.0, 0.0))]
-    tables = Tables([Body(1.0, 1.0, carrier=0), Body(1.0, 1.0, carrier=1)], joints, gauges, [Relation([0, 1], [1.0, -1.0])],
-                    [Effort("constant", 0, value=1.0)])
+    quantities = [Quantity("along", 0, 1), Quantity("along", 0, 2, (1.0, 0.0))]
+    tables = Tables([Body(1.0, 1.0, inboard=0), Body(1.0, 1.0, inboard=1)], joints, quantities, [Relation([0, 1], [1.0, -1.0])],
+                    [GeneralizedForce("constant", 0, value=1.0)])
     system = Tabled(tables, np.array([1e-16, 0.9e-16]), np.zeros(2))
     assert zd.simulate(system, 0.1, step=0.01).p[-1] == pytest.approx(0.1**2 / 4, rel=tol.CONVERGED)
 
@@ -88,12 +88,12 @@ def test_absolute_coordinates_declare_bodies_and_joints():
     joints = [Joint(kind("revolute"), 0, 1), Joint(kind("slot"), 2, 1), Joint(kind("rod"), 2, 3, length=1.0),
               Joint(kind("knife_edge"), 1, 1)]
     bodies = [Body(2.0, 3.0), Body(1.0, 1.0), Body(4.0, is_particle=True)]
-    tables = Tables(bodies, joints, [Gauge("angle", 0, 1), Gauge("x", 0, 0)], [Relation([0])])
+    tables = Tables(bodies, joints, [Quantity("angle", 0, 1), Quantity("x", 0, 0)], [Relation([0])])
     structure = Tabled(tables)._core.c.structure
     assert [structure.velocities[b] for b in range(structure.blocks)] == [3, 3, 2]
     groups = [(structure.rows[g], [structure.block[i] for i in range(structure.first[g], structure.first[g + 1])])
               for g in range(structure.groups)]
     assert groups == [(2, [0]), (1, [0, 1]), (1, [1, 2]), (1, [0]), (1, [0])]
     assert np.array_equal(np.diag(Tabled(tables).evaluate(np.ones(8), np.ones(8)).M), [2, 2, 3, 1, 1, 1, 4, 4])
-    assert not Tabled(tables._replace(bodies=[bodies[0]._replace(carrier=0), *bodies[1:]]))._core.c.structure
+    assert not Tabled(tables._replace(bodies=[bodies[0]._replace(inboard=0), *bodies[1:]]))._core.c.structure
     assert not Tabled(tables._replace(relations=[Relation([1])]))._core.c.structure

@@ -104,7 +104,7 @@ def test_its_numbers_can_be_changed():
     system = m.system("absolute")
     assert system.parameters["F.stiffness.across"] == 2
     stiffer = system.with_parameters({"F.stiffness.across": 20.0})
-    assert [effort.stiffness for effort in stiffer._tables.efforts] == [1, 20, 5]
+    assert [force.stiffness for force in stiffer._tables.forces] == [1, 20, 5]
 
 
 IN_SPACE = {        # on the points P and Q, by hand and by the entry's own method

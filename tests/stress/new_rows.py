@@ -298,7 +298,7 @@ PARALLEL = r"""
 const zd_plane_joint_kind zd_parallel = {
     .card = {"parallel", "Keeps the angle between two bodies, and lets them move apart.", "(3), (5)", 0, 0, 0},
     .rows = 1,
-    .row = {{.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},
+    .row = {{.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
 };
 """
 
@@ -309,8 +309,8 @@ OFFSET_SLIDER = r"""
 const zd_plane_joint_kind zd_offset_slider = {
     .card = {"offset_slider", "Slides a body along an axis that runs beside a point of the other.", "(3), (5)", 0, 0, 0},
     .rows = 2,
-    .row = {{.gauge = ZD_GAUGE_ACROSS, .zero = ZD_ZERO_LENGTH}, {.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},
-    .coordinate = "displacement", .gauge = ZD_GAUGE_ALONG, .zero = ZD_ZERO_ALONG,
+    .row = {{.quantity = ZD_PLANE_ACROSS, .zero = ZD_ZERO_LENGTH}, {.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
+    .coordinate = "displacement", .quantity = ZD_PLANE_ALONG, .zero = ZD_ZERO_ALONG,
     .takes_axis = 1, .takes_length = 1,
 };
 """
@@ -321,10 +321,10 @@ SOFT_GUIDE = r"""
 
 const zd_plane_element_kind zd_soft_guide = {
     .card = {"soft_guide", "Spring with a damper across a line of the first body.", "(2), (28)", 0, 0, 0},
-    .gauges = 1,
-    .gauge = {ZD_GAUGE_ACROSS}, .zero = {ZD_ZERO_ACROSS},
+    .quantities = 1,
+    .quantity = {ZD_PLANE_ACROSS}, .zero = {ZD_ZERO_ACROSS},
     .is_spring = 1,
-    .effort = "force", .sign = 1,
+    .measure = "force", .sign = 1,
 };
 """
 
@@ -334,10 +334,10 @@ SOFT_PLANE = r"""
 
 const zd_plane_element_kind zd_soft_plane = {
     .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
-    .gauges = 1,
-    .gauge = {ZD_GAUGE_ALONG}, .zero = {ZD_ZERO_ALONG},
+    .quantities = 1,
+    .quantity = {ZD_PLANE_ALONG}, .zero = {ZD_ZERO_ALONG},
     .is_spring = 1,
-    .effort = "force", .sign = 1,
+    .measure = "force", .sign = 1,
 };
 """
 

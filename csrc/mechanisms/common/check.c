@@ -17,7 +17,7 @@ int zd_complain(zd_complaint to, const char *format, ...)
 /* Elements with the numbers of joints and marker quantities that they may refer to. */
 typedef struct tables {
     const zd_elements *elements;
-    int joints, gauges;
+    int joints, quantities;
 } tables;
 
 static int terms_are_right(const tables *of, int first, int terms, int law, int joint)
@@ -25,7 +25,7 @@ static int terms_are_right(const tables *of, int first, int terms, int law, int 
     const zd_elements *elements = of->elements;
     if (first < 0 || terms < 0 || first + terms > elements->terms || law < -1 || (law >= 0 && !elements->law)) return 0;
     for (int i = first; i < first + terms; i++)
-        if (!zd_is_in(elements->term[i].gauge, of->gauges)) return 0;
+        if (!zd_is_in(elements->term[i].quantity, of->quantities)) return 0;
     return joint == -1 || zd_is_in(joint, of->joints);
 }
 
@@ -33,32 +33,32 @@ static int relation_is_right(const tables *of, int i, zd_complaint to)
 {
     const zd_relation *row = of->elements->relation + i;
     return (row->terms > 0 && terms_are_right(of, row->first, row->terms, row->law, row->joint)) ||
-           zd_complain(to, "relation %d: its gauges, user function and joint must exist", i);
+           zd_complain(to, "relation %d: its marker quantities, user function and joint must exist", i);
 }
 
-static int effort_is_right(const tables *of, int i, zd_complaint to)
+static int force_is_right(const tables *of, int i, zd_complaint to)
 {
-    const zd_effort *effort = of->elements->effort + i;
-    const int needs_law = effort->kind == ZD_EFFORT_LAW;
-    return (zd_is_in(effort->kind, ZD_EFFORT_LAW + 1) && zd_is_in(effort->gauge, of->gauges) && needs_law == (effort->law >= 0) &&
-            terms_are_right(of, effort->first, effort->terms, effort->law, effort->joint)) ||
-           zd_complain(to, "effort %d: its kind, gauges, user function and joint must exist", i);
+    const zd_generalized_force *force = of->elements->force + i;
+    const int needs_law = force->kind == ZD_FORCE_LAW;
+    return (zd_is_in(force->kind, ZD_FORCE_LAW + 1) && zd_is_in(force->quantity, of->quantities) && needs_law == (force->law >= 0) &&
+            terms_are_right(of, force->first, force->terms, force->law, force->joint)) ||
+           zd_complain(to, "generalized force %d: its kind, marker quantities, user function and joint must exist", i);
 }
 
 /* Number of entries that the index of a measure of this kind selects from. */
-static int count_of(const tables *of, int quantity)
+static int count_of(const tables *of, int kind)
 {
-    switch (quantity) {
+    switch (kind) {
     case ZD_VALUES:
     case ZD_RATES:
-    case ZD_ACCELERATIONS: return of->gauges;
+    case ZD_ACCELERATIONS: return of->quantities;
     case ZD_JOINT_FORCE:
     case ZD_JOINT_TORQUE:
     case ZD_JOINT_TENSION: return of->joints;
-    case ZD_EFFORT_VALUE:
-    case ZD_EFFORT_POWER:
-    case ZD_EFFORT_FORCE:
-    case ZD_EFFORT_TORQUE: return of->elements->efforts;
+    case ZD_FORCE_VALUE:
+    case ZD_FORCE_POWER:
+    case ZD_FORCE_SUM:
+    case ZD_TORQUE_SUM: return of->elements->forces;
     case ZD_DRIVE_VALUE:
     case ZD_DRIVE_POWER: return of->elements->relations;
     default: return 0;
@@ -68,20 +68,20 @@ static int count_of(const tables *of, int quantity)
 static int measure_is_right(const tables *of, int i, zd_complaint to)
 {
     const zd_output_spec *measure = of->elements->measure + i;
-    const int quantity = measure->quantity, count = count_of(of, quantity), index = measure->index;
-    const int size = quantity <= ZD_ACCELERATIONS || quantity >= ZD_EFFORT_FORCE ? measure->size : 1;
-    const int terms = quantity == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : 1;
+    const int kind = measure->kind, count = count_of(of, kind), index = measure->index;
+    const int size = kind <= ZD_ACCELERATIONS || kind >= ZD_FORCE_SUM ? measure->size : 1;
+    const int terms = kind == ZD_DRIVE_VALUE && zd_is_in(index, count) ? of->elements->relation[index].terms : 1;
     return (size > 0 && zd_is_in(index, count) && index + size <= count && zd_is_in(measure->term, terms)) ||
            zd_complain(to, "measure %s: the entries that it measures must exist", measure->name);
 }
 
-int zd_elements_are_right(const zd_elements *elements, int joints, int gauges, zd_complaint to)
+int zd_elements_are_right(const zd_elements *elements, int joints, int quantities, zd_complaint to)
 {
-    const tables of = {elements, joints, gauges};
+    const tables of = {elements, joints, quantities};
     const struct {
         int count;
         int (*is_right)(const tables *, int, zd_complaint);
-    } all[] = {{elements->relations, relation_is_right}, {elements->efforts, effort_is_right}, {elements->measures, measure_is_right}};
+    } all[] = {{elements->relations, relation_is_right}, {elements->forces, force_is_right}, {elements->measures, measure_is_right}};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         for (int i = 0; i < all[k].count; i++)
             if (!all[k].is_right(&of, i, to)) return 0;
@@ -105,23 +105,23 @@ int zd_bodies_are_right(const char *entry, int index, int first, int second, int
            zd_complain(to, "%s %d: its bodies must be from 0 to %d, not %d and %d", entry, index, bodies, first, second);
 }
 
-int zd_carrier_exists(int body, int carrier, int joints, zd_complaint to)
+int zd_inboard_exists(int body, int inboard, int joints, zd_complaint to)
 {
-    return zd_is_in(carrier, joints) ||
-           zd_complain(to, "body %d: its inboard joint must be at least -1 and below %d, not %d", body, joints, carrier);
+    return zd_is_in(inboard, joints) ||
+           zd_complain(to, "body %d: its inboard joint must be at least -1 and below %d, not %d", body, joints, inboard);
 }
 
-int zd_carrier_connects(int body, int carrier, int first, int second, zd_complaint to)
+int zd_inboard_connects(int body, int inboard, int first, int second, zd_complaint to)
 {
-    return body == first || body == second || zd_complain(to, "body %d: its inboard joint %d must connect it", body, carrier);
+    return body == first || body == second || zd_complain(to, "body %d: its inboard joint %d must connect it", body, inboard);
 }
 
 int zd_mechanism_is_right(const void *of, int bodies, int arrays, const zd_checked *checked, const zd_elements *elements, int joints,
-                          int gauges, zd_complaint to)
+                          int quantities, zd_complaint to)
 {
     if (bodies < 1) return zd_complain(to, "a mechanism must have at least one body");
     for (int k = 0; k < arrays; k++)
         for (int i = 0; i < checked[k].count; i++)
             if (!checked[k].is_right(of, i, to)) return 0;
-    return zd_elements_are_right(elements, joints, gauges, to);
+    return zd_elements_are_right(elements, joints, quantities, to);
 }

@@ -1,21 +1,21 @@
-/* Elements of mechanisms, common to plane and space: constraint rows, generalized forces and measures, all in terms of gauges, with or
- * without user functions.
+/* Elements of mechanisms, common to plane and space: constraint rows, generalized forces and measures, all in terms of
+ * marker quantities, with or without user functions.
  *
- * A gauge is a marker quantity: a distance, an angle or a velocity between markers on one or two bodies. The rooms of plane and space
- * define their kinds; here a gauge is an index in the mechanism's table of them.
+ * A marker quantity is a distance, an angle, a displacement along an axis or a velocity between markers on one or two bodies. The rooms of
+ * plane and space define their kinds; here a marker quantity is an index in the mechanism's table of them.
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
 #ifndef ZD_COMMON_ELEMENTS_H
 #define ZD_COMMON_ELEMENTS_H
 
-/* Input of a relation or an effort: a gauge times a coefficient. */
-typedef struct zd_gauge_term {
-    int gauge;
+/* Input of a relation or a generalized force: a marker quantity times a coefficient. */
+typedef struct zd_quantity_term {
+    int quantity;
     double coefficient;         /* factor of the marker quantity in a relation without a user function; otherwise ignored */
-} zd_gauge_term;
+} zd_quantity_term;
 
-/* Driving, coupling or user constraint, one row of C: a drive, a gear, a cam, a nonholonomic constraint. With x_i its gauges:
+/* Driving, coupling or user constraint, one row of C: a drive, a gear, a cam, a nonholonomic constraint. With x_i its marker quantities:
  *
  *     without a user function:  sum_i coefficient_i x_i - constant - slope t = 0
  *     with a user function:     g(t, x) = 0, or nonholonomic a_i(t, x) xdot_i + a_0(t, x) = 0 */
@@ -24,57 +24,58 @@ typedef struct zd_relation {
     int nonholonomic;
     int law;                    /* index of its user function; -1: none */
     double constant, slope;
-    int joint;                  /* the joint that it drives, whose reaction includes its force; -1: none. Its first gauge is then
+    int joint;                  /* the joint that it drives, whose reaction includes its force; -1: none. Its first marker quantity is then
                                  * that of the joint's coordinate, with coefficient 1. */
 } zd_relation;
 
-enum zd_effort_kind {
-    ZD_EFFORT_SPRING,           /* -stiffness x - damping xdot */
-    ZD_EFFORT_CONSTANT,         /* value */
-    ZD_EFFORT_LAW               /* user function of t, and of x and xdot of its terms */
+enum zd_force_kind {
+    ZD_FORCE_SPRING,           /* -stiffness x - damping xdot */
+    ZD_FORCE_CONSTANT,         /* value */
+    ZD_FORCE_LAW               /* user function of t, and of x and xdot of its terms */
 };
 
-/* Generalized force along a gauge: it acts on the second body, and its opposite on the first. */
-typedef struct zd_effort {
-    int kind;                   /* enum zd_effort_kind */
-    int gauge;
+/* Generalized force along a marker quantity: it acts on the second body, and its opposite on the first. */
+typedef struct zd_generalized_force {
+    int kind;                   /* enum zd_force_kind */
+    int quantity;
     double stiffness, damping;  /* N/m, N s/m; N m/rad, N m s/rad */
     double value;               /* N; N m */
     int law;
     int first, terms;           /* inputs of the user function: first entry in the table of terms, and their number */
     int joint;                  /* the joint whose reaction includes it, as its damping or drive; -1: none */
-} zd_effort;
+} zd_generalized_force;
 
 /* Kinds of measures. Those of accelerations need vdot and the multipliers. Forces and torques have two or three components and one or
  * three, in global axes. */
-enum zd_quantity {
+enum zd_output_kind {
     ZD_VALUES,                  /* values of `size` marker quantities from `index` on; depends on positions */
     ZD_RATES,                   /* their rates; depends on velocities */
     ZD_ACCELERATIONS,           /* their second derivatives; depends on accelerations */
     ZD_JOINT_FORCE,             /* N: force of the first body on the second at the joint's point */
     ZD_JOINT_TORQUE,            /* N m */
     ZD_JOINT_TENSION,           /* N: force of the first row of joint `index`, positive in tension */
-    ZD_EFFORT_VALUE,            /* value of effort `index`; evaluated with the accelerations, although it does not depend on them */
-    ZD_EFFORT_POWER,            /* W: power of effort `index`, positive if it adds energy */
+    ZD_FORCE_VALUE,            /* value of generalized force `index`; evaluated with the accelerations, although it does not depend on them */
+    ZD_FORCE_POWER,            /* W: power of generalized force `index`, positive if it adds energy */
     ZD_DRIVE_VALUE,             /* N or N m: force of relation `index` along the marker quantity of its term `term`, positive where it
                                  * drives the value up */
     ZD_DRIVE_POWER,
-    ZD_EFFORT_FORCE,            /* N: sum of the forces of `size` efforts from `index` on, on their second body */
-    ZD_EFFORT_TORQUE            /* N m: sum of their moments about that body's mass centre, in space */
+    ZD_FORCE_SUM,            /* N: sum of the forces of `size` generalized forces from `index` on, on their second body */
+    ZD_TORQUE_SUM            /* N m: sum of their moments about that body's mass centre, in space */
 };
 
 typedef struct zd_output_spec {
     const char *name, *unit;
-    int quantity;               /* enum zd_quantity */
+    int kind;                   /* enum zd_output_kind */
     int index;
-    int size;                   /* number of marker quantities (values, rates, accelerations) or of efforts (effort forces and torques) */
+    int size;                   /* number of marker quantities (values, rates, accelerations) or of generalized forces (sums of
+                                 * them) */
     double scale;               /* factor of the measured value: -1 for tensions of springs */
     int term;                   /* term of the relation, for drive values; otherwise 0 */
 } zd_output_spec;
 
-/* User function, computed outside the core; k is the number of its terms. For an effort it writes out[0] alone. For a holonomic relation:
- * g, dg/dx_i (k), dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one: 0, a_i (k), a_0, and da_i/dt xdot_i + da_0/dt.
- * Returns ZD_DONE, or ZD_CALLBACK if it failed. */
+/* User function, computed outside the core; k is the number of its terms. For a generalized force it writes out[0] alone. For a holonomic
+ * relation: g, dg/dx_i (k), dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one: 0, a_i (k), a_0, and da_i/dt xdot_i +
+ * da_0/dt. Returns ZD_DONE, or ZD_CALLBACK if it failed. */
 typedef int zd_law(void *owner, int law, double t, const double *x, const double *xdot, double *out);
 
 /* Compiled user function, with its own parameters `numbers`. */
@@ -86,10 +87,10 @@ typedef struct zd_compiled_law {
 } zd_compiled_law;
 
 typedef struct zd_elements {
-    int terms, relations, efforts, measures;
-    const zd_gauge_term *term;
+    int terms, relations, forces, measures;
+    const zd_quantity_term *term;
     const zd_relation *relation;
-    const zd_effort *effort;
+    const zd_generalized_force *force;
     const zd_output_spec *measure;
     zd_law *law;                /* NULL: there is none */
     void *owner;                /* first argument of `law` */

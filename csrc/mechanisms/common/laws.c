@@ -1,4 +1,4 @@
-/* Values of user functions, and of rows and efforts without one, from the gauges at one state. */
+/* Values of user functions, and of rows and generalized forces without one, from the marker quantities at one state. */
 #include <math.h>
 
 #include "laws.h"
@@ -23,9 +23,9 @@ static int has_said(const zd_compiled_law *compiled, const zd_readings *at, doub
 static int ask(const zd_planned_elements *elements, const zd_readings *at, int law, int first, int terms, double t, int count)
 {
     for (int i = 0; i < terms; i++) {
-        const int gauge = elements->term[first + i].gauge;
-        at->x[i] = zd_value_of(at, gauge);
-        at->xdot[i] = zd_rate_of(at, gauge);
+        const int quantity = elements->term[first + i].quantity;
+        at->x[i] = zd_value_of(at, quantity);
+        at->xdot[i] = zd_rate_of(at, quantity);
     }
     if (elements->compiled && has_said(elements->compiled + law, at, t, count)) return ZD_DONE;
     return elements->law(elements->owner, law, t, at->x, at->xdot, at->out) ? ZD_CALLBACK : ZD_DONE;
@@ -49,31 +49,32 @@ int zd_combine(const zd_planned_elements *elements, const zd_readings *at, const
     return status;
 }
 
-int zd_effort_say(const zd_planned_elements *elements, const zd_readings *at, const zd_effort *effort, double t, double *value, double *rate)
+int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at, const zd_generalized_force *force, double t,
+                      double *value, double *rate)
 {
-    const double speed = rate || effort->damping != 0 ? zd_rate_of(at, effort->gauge) : 0;
+    const double speed = rate || force->damping != 0 ? zd_rate_of(at, force->quantity) : 0;
     int status = ZD_DONE;
     if (rate) *rate = speed;
-    *value = effort->value;
-    if (effort->kind == ZD_EFFORT_LAW) {
-        status = ask(elements, at, effort->law, effort->first, effort->terms, t, 1);
+    *value = force->value;
+    if (force->kind == ZD_FORCE_LAW) {
+        status = ask(elements, at, force->law, force->first, force->terms, t, 1);
         *value = at->out[0];
-    } else if (effort->kind == ZD_EFFORT_SPRING) {
-        *value = -effort->stiffness * zd_value_of(at, effort->gauge) - effort->damping * speed;
+    } else if (force->kind == ZD_FORCE_SPRING) {
+        *value = -force->stiffness * zd_value_of(at, force->quantity) - force->damping * speed;
     }
     return status;
 }
 
-int zd_efforts_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power)
+int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power)
 {
     *power = 0;
-    for (const zd_effort *effort = elements->effort; effort < elements->effort + elements->efforts; effort++) {
+    for (const zd_generalized_force *force = elements->force; force < elements->force + elements->forces; force++) {
         double value, rate;
-        if (effort->kind == ZD_EFFORT_SPRING) {
-            if (effort->damping == 0) continue;
-            rate = zd_rate_of(at, effort->gauge);
-            value = -effort->damping * rate;
-        } else if (zd_effort_say(elements, at, effort, t, &value, &rate)) {
+        if (force->kind == ZD_FORCE_SPRING) {
+            if (force->damping == 0) continue;
+            rate = zd_rate_of(at, force->quantity);
+            value = -force->damping * rate;
+        } else if (zd_force_evaluate(elements, at, force, t, &value, &rate)) {
             return ZD_CALLBACK;
         }
         *power += value * rate;
@@ -83,10 +84,10 @@ int zd_efforts_power(const zd_planned_elements *elements, const zd_readings *at,
 
 double zd_springs_potential(const zd_planned_elements *elements, const zd_readings *at, double V)
 {
-    for (const zd_effort *effort = elements->effort; effort < elements->effort + elements->efforts; effort++) {
-        if (effort->kind != ZD_EFFORT_SPRING || effort->stiffness == 0) continue;
-        const double x = zd_value_of(at, effort->gauge);
-        V += 0.5 * effort->stiffness * x * x;
+    for (const zd_generalized_force *force = elements->force; force < elements->force + elements->forces; force++) {
+        if (force->kind != ZD_FORCE_SPRING || force->stiffness == 0) continue;
+        const double x = zd_value_of(at, force->quantity);
+        V += 0.5 * force->stiffness * x * x;
     }
     return V;
 }

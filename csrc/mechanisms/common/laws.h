@@ -15,10 +15,10 @@ typedef struct zd_combined {
 
 /* These return ZD_DONE or ZD_CALLBACK. */
 int zd_combine(const zd_planned_elements *elements, const zd_readings *at, const zd_relation *row, double t, zd_combined *all);
-/* value <- the generalized force; rate <- the rate of its gauge, NULL: not wanted. */
-int zd_effort_say(const zd_planned_elements *elements, const zd_readings *at, const zd_effort *effort, double t, double *value, double *rate);
-int zd_efforts_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power);     /* power of all efforts, for
-                                                                                                                * (28) */
+/* value <- the generalized force; rate <- the rate of its marker quantity, NULL: not wanted. */
+int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at, const zd_generalized_force *force, double t,
+                      double *value, double *rate);
+int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power);     /* sum over all, for (28) */
 /* Potential energy: V of gravity plus the energy stored in springs. */
 double zd_springs_potential(const zd_planned_elements *elements, const zd_readings *at, double V);
 

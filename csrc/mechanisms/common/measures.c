@@ -1,4 +1,4 @@
-/* Measures are gauges with their first and second derivatives, reactions of joints, and forces of springs and drives. */
+/* Measures are marker quantities with their first and second derivatives, reactions of joints, and forces of springs and drives. */
 #include "measures.h"
 
 #include <math.h>
@@ -12,27 +12,28 @@ static void place_and_move(const zd_measuring *self, const zd_output_spec *measu
     if (!out->is_same_state) *self->is_placed = *self->is_moving = 0;
     if (*self->is_placed == 0) self->numerics->place(of->mechanism, of->frame, at->p);
     *self->is_placed = 1;
-    if (*self->is_moving != 0 || (measure->quantity == ZD_VALUES && !out->rate && !out->bias)) return;
+    if (*self->is_moving != 0 || (measure->kind == ZD_VALUES && !out->rate && !out->bias)) return;
     self->numerics->move(of->mechanism, of->frame, at->v);
     *self->is_moving = 1;
 }
 
-/* Component i of a measure that is a gauge or one of its first two derivatives. */
-static void measure_gauge(const zd_measuring *self, const zd_output_spec *measure, int i, const zd_measured_state *at, const zd_measured *out)
+/* Component i of a measure that is a marker quantity or one of its first two derivatives. */
+static void measure_quantity(const zd_measuring *self, const zd_output_spec *measure, int i, const zd_measured_state *at,
+                             const zd_measured *out)
 {
     const zd_readings *of = &self->readings;
-    const int gauge = measure->index + i, is_value = measure->quantity == ZD_VALUES, is_acceleration = measure->quantity == ZD_ACCELERATIONS;
+    const int quantity = measure->index + i, is_value = measure->kind == ZD_VALUES, is_acceleration = measure->kind == ZD_ACCELERATIONS;
     const double s = measure->scale;
-    const double rate = !is_value || out->rate ? zd_rate_of(of, gauge) : 0;
-    const double bias = is_acceleration || out->bias ? self->numerics->bias(of->mechanism, of->frame, gauge) : 0;
+    const double rate = !is_value || out->rate ? zd_rate_of(of, quantity) : 0;
+    const double bias = is_acceleration || out->bias ? self->numerics->bias(of->mechanism, of->frame, quantity) : 0;
     if (is_acceleration) {
-        self->numerics->write_row(of->mechanism, of->frame, gauge, s, self->row);
+        self->numerics->write_row(of->mechanism, of->frame, quantity, s, self->row);
         if (out->value) out->value[i] = s * bias + zd_dot(self->nv, self->row, at->vdot);
         return;
     }
-    if (out->value) out->value[i] = s * (is_value ? zd_value_of(of, gauge) : rate);
+    if (out->value) out->value[i] = s * (is_value ? zd_value_of(of, quantity) : rate);
     if (out->rate && is_value) out->rate[i] = s * rate;
-    if (out->row) self->numerics->write_row(of->mechanism, of->frame, gauge, s, out->row + i * self->nv);
+    if (out->row) self->numerics->write_row(of->mechanism, of->frame, quantity, s, out->row + i * self->nv);
     if (out->bias) out->bias[i] = s * bias;
 }
 
@@ -55,18 +56,18 @@ static int measure_tension(const zd_measuring *self, int joint, const zd_measure
     return status;
 }
 
-/* Sum of the forces or torques of `size` efforts from measure->index on, on their second body. */
-static int measure_efforts(const zd_measuring *self, const zd_output_spec *measure, double t, double *value)
+/* Sum of the forces or torques of `size` generalized forces from measure->index on, on their second body. */
+static int measure_forces(const zd_measuring *self, const zd_output_spec *measure, double t, double *value)
 {
     const zd_readings *of = &self->readings;
-    const int is_force = measure->quantity == ZD_EFFORT_FORCE, n = is_force ? self->numerics->forces : self->numerics->torques;
+    const int is_force = measure->kind == ZD_FORCE_SUM, n = is_force ? self->numerics->forces : self->numerics->torques;
     int status = ZD_DONE;
     for (int k = 0; k < n; k++) value[k] = 0;
     for (int i = measure->index; i < measure->index + measure->size && !status; i++) {
-        double effort = 0, wrench[ZD_WRENCH_SIZE];
-        status = zd_effort_say(self->elements, of, self->elements->effort + i, t, &effort, NULL);
-        self->numerics->unit_wrench(of->mechanism, of->frame, self->elements->effort[i].gauge, wrench);
-        for (int k = 0; k < n; k++) value[k] += effort * wrench[is_force ? k : ZD_WRENCH_FORCE + k];
+        double force = 0, wrench[ZD_WRENCH_SIZE];
+        status = zd_force_evaluate(self->elements, of, self->elements->force + i, t, &force, NULL);
+        self->numerics->unit_wrench(of->mechanism, of->frame, self->elements->force[i].quantity, wrench);
+        for (int k = 0; k < n; k++) value[k] += force * wrench[is_force ? k : ZD_WRENCH_FORCE + k];
     }
     return status;
 }
@@ -74,7 +75,7 @@ static int measure_efforts(const zd_measuring *self, const zd_output_spec *measu
 static int measure_reaction(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *value)
 {
     const zd_readings *of = &self->readings;
-    const int is_torque = measure->quantity == ZD_JOINT_TORQUE, n = is_torque ? self->numerics->torques : self->numerics->forces;
+    const int is_torque = measure->kind == ZD_JOINT_TORQUE, n = is_torque ? self->numerics->torques : self->numerics->forces;
     double wrench[ZD_WRENCH_SIZE];
     const int status = self->numerics->reaction(of->mechanism, of->frame, measure->index, at, wrench);
     for (int k = 0; k < n; k++) value[k] = wrench[is_torque ? ZD_WRENCH_FORCE + k : k];
@@ -83,12 +84,12 @@ static int measure_reaction(const zd_measuring *self, const zd_output_spec *meas
 
 static int measure_force(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *value)
 {
-    switch (measure->quantity) {
+    switch (measure->kind) {
     case ZD_JOINT_TENSION: return measure_tension(self, measure->index, at, value);
-    case ZD_EFFORT_VALUE:
-    case ZD_EFFORT_POWER: return zd_output_effort(self->elements, &self->readings, measure, at->t, value);
-    case ZD_EFFORT_FORCE:
-    case ZD_EFFORT_TORQUE: return measure_efforts(self, measure, at->t, value);
+    case ZD_FORCE_VALUE:
+    case ZD_FORCE_POWER: return zd_output_force(self->elements, &self->readings, measure, at->t, value);
+    case ZD_FORCE_SUM:
+    case ZD_TORQUE_SUM: return measure_forces(self, measure, at->t, value);
     case ZD_DRIVE_VALUE:
     case ZD_DRIVE_POWER: return zd_output_drive(self->elements, &self->readings, measure, at->t, at->lambda, value);
     default: return measure_reaction(self, measure, at, value);
@@ -100,8 +101,8 @@ int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measure
     const zd_output_spec *output = self->elements->output + measure;
     if (!zd_output_is_available(self->elements, output, at->vdot, at->lambda)) return ZD_BAD_ARGUMENT;
     place_and_move(self, output, at, out);
-    if (output->quantity <= ZD_ACCELERATIONS) {
-        for (int i = 0; i < output->size; i++) measure_gauge(self, output, i, at, out);
+    if (output->kind <= ZD_ACCELERATIONS) {
+        for (int i = 0; i < output->size; i++) measure_quantity(self, output, i, at, out);
         return ZD_DONE;
     }
     if (!out->value) return ZD_DONE;

@@ -16,9 +16,9 @@ typedef struct zd_measure_numerics {
     int forces, torques;        /* components of a force and of a torque */
     void (*place)(const void *mechanism, const void *frame, const double *p);
     void (*move)(const void *mechanism, const void *frame, const double *v);
-    double (*bias)(const void *mechanism, const void *frame, int gauge);     /* second derivative of a gauge at vdot = 0 */
-    void (*write_row)(const void *mechanism, const void *frame, int gauge, double scale, double *row);      /* (nv,) */
-    void (*unit_wrench)(const void *mechanism, const void *frame, int gauge, double *wrench);   /* unit force on the second body */
+    double (*bias)(const void *mechanism, const void *frame, int quantity);     /* second derivative of a marker quantity at vdot = 0 */
+    void (*write_row)(const void *mechanism, const void *frame, int quantity, double scale, double *row);      /* (nv,) */
+    void (*unit_wrench)(const void *mechanism, const void *frame, int quantity, double *wrench);   /* unit force on the second body */
     /* Wrench of a joint on its second body, and the vector between its points. Returns ZD_DONE or ZD_CALLBACK. */
     int (*reaction)(const void *mechanism, const void *frame, int joint, const zd_measured_state *at, double *wrench);
     void (*apart)(const void *mechanism, const void *frame, int joint, double *vector);

@@ -1,23 +1,23 @@
-/* With the sign of (2), M vdot + d = f - C^T lambda, a row acts along its gauges with -lambda times its factors. */
+/* With the sign of (2), M vdot + d = f - C^T lambda, a row acts along its marker quantities with -lambda times its factors. */
 #include "output_spec.h"
 
 int zd_output_size(const zd_output_spec *measure, int of_forces, int of_torques)
 {
-    switch (measure->quantity) {
+    switch (measure->kind) {
     case ZD_VALUES:
     case ZD_RATES:
     case ZD_ACCELERATIONS: return measure->size;
     case ZD_JOINT_FORCE:
-    case ZD_EFFORT_FORCE: return of_forces;
+    case ZD_FORCE_SUM: return of_forces;
     case ZD_JOINT_TORQUE:
-    case ZD_EFFORT_TORQUE: return of_torques;
+    case ZD_TORQUE_SUM: return of_torques;
     default: return 1;
     }
 }
 
 static enum zd_depends depends_on(const zd_output_spec *measure)
 {
-    return measure->quantity == ZD_VALUES ? ZD_OF_POSITIONS : measure->quantity == ZD_RATES ? ZD_OF_VELOCITIES : ZD_OF_ACCELERATIONS;
+    return measure->kind == ZD_VALUES ? ZD_OF_POSITIONS : measure->kind == ZD_RATES ? ZD_OF_VELOCITIES : ZD_OF_ACCELERATIONS;
 }
 
 void zd_output_list(const zd_planned_elements *elements, int count, int of_forces, int of_torques, zd_measure *measure)
@@ -30,40 +30,40 @@ void zd_output_list(const zd_planned_elements *elements, int count, int of_force
 
 int zd_output_is_available(const zd_planned_elements *elements, const zd_output_spec *measure, const double *vdot, const double *lambda)
 {
-    switch (measure->quantity) {
+    switch (measure->kind) {
     case ZD_VALUES:
     case ZD_RATES:
-    case ZD_EFFORT_VALUE:
-    case ZD_EFFORT_POWER:
-    case ZD_EFFORT_FORCE:
-    case ZD_EFFORT_TORQUE: return 1;
+    case ZD_FORCE_VALUE:
+    case ZD_FORCE_POWER:
+    case ZD_FORCE_SUM:
+    case ZD_TORQUE_SUM: return 1;
     case ZD_ACCELERATIONS: return vdot != NULL;
     default: return vdot && (lambda || elements->m == 0);
     }
 }
 
-int zd_output_effort(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, double *value)
+int zd_output_force(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, double *value)
 {
     double rate;
-    const int status = zd_effort_say(elements, at, elements->effort + measure->index, t, value, &rate);
-    if (measure->quantity == ZD_EFFORT_POWER) *value *= rate;
+    const int status = zd_force_evaluate(elements, at, elements->force + measure->index, t, value, &rate);
+    if (measure->kind == ZD_FORCE_POWER) *value *= rate;
     return status;
 }
 
-int zd_drive_effort(const zd_planned_elements *elements, const zd_readings *at, int relation, int term, double t, const double *lambda,
-                    double *effort)
+int zd_drive_force(const zd_planned_elements *elements, const zd_readings *at, int relation, int term, double t, const double *lambda,
+                    double *force)
 {
     zd_combined all;
     const int row = elements->row_of_relation[relation], status = zd_combine(elements, at, elements->row + row, t, &all);
-    *effort = status ? 0 : -lambda[row] * all.factors[term];
+    *force = status ? 0 : -lambda[row] * all.factors[term];
     return status;
 }
 
 int zd_output_drive(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, const double *lambda,
                       double *value)
 {
-    const int status = zd_drive_effort(elements, at, measure->index, measure->term, t, lambda, value);
+    const int status = zd_drive_force(elements, at, measure->index, measure->term, t, lambda, value);
     const zd_relation *row = elements->row + elements->row_of_relation[measure->index];
-    if (measure->quantity == ZD_DRIVE_POWER) *value *= zd_rate_of(at, elements->term[row->first].gauge);
+    if (measure->kind == ZD_DRIVE_POWER) *value *= zd_rate_of(at, elements->term[row->first].quantity);
     return status;
 }

@@ -10,11 +10,11 @@ int zd_output_size(const zd_output_spec *measure, int of_forces, int of_torques)
 void zd_output_list(const zd_planned_elements *elements, int count, int of_forces, int of_torques, zd_measure *measure);
 /* True if the measure can be evaluated: vdot and the multipliers (either may be NULL) are given where it needs them. */
 int zd_output_is_available(const zd_planned_elements *elements, const zd_output_spec *measure, const double *vdot, const double *lambda);
-/* value <- a measure of an effort: its value, or its power. */
-int zd_output_effort(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, double *value);
-/* effort <- constraint force of a relation along the gauge of one of its terms, positive where it drives the gauge up. */
-int zd_drive_effort(const zd_planned_elements *elements, const zd_readings *at, int relation, int term, double t, const double *lambda,
-                    double *effort);
+/* value <- a measure of a generalized force: its value, or its power. */
+int zd_output_force(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, double *value);
+/* force <- constraint force of a relation along the marker quantity of one of its terms, positive where it drives that quantity up. */
+int zd_drive_force(const zd_planned_elements *elements, const zd_readings *at, int relation, int term, double t, const double *lambda,
+                    double *force);
 /* value <- a measure of a relation: this force, or its power. */
 int zd_output_drive(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, const double *lambda,
                     double *value);

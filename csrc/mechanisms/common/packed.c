@@ -51,7 +51,7 @@ static int rows_of_group(const zd_planned_elements *elements, int row)
 
 typedef struct ends {
     zd_bodies_of *of;
-    const void *gauges;
+    const void *quantities;
 } ends;
 
 /* The blocks of the group of rows from `row` on. */
@@ -61,7 +61,7 @@ static void touch_all(zd_packed *self, const zd_planned_elements *elements, ends
     for (const zd_relation *one = elements->row + row; one < elements->row + row + count; one++)
         for (int i = one->first; i < one->first + one->terms; i++) {
             int body[2];
-            bodies.of(bodies.gauges, elements->term[i].gauge, body);
+            bodies.of(bodies.quantities, elements->term[i].quantity, body);
             touch(self, first, end, body[0]);
             touch(self, first, end, body[1]);
         }
@@ -75,7 +75,7 @@ static void place_rows(zd_packed *self, const zd_planned_elements *elements, end
         const zd_relation *one = elements->row + k;
         for (int i = one->first; i < one->first + one->terms; i++) {
             int body[2];
-            bodies.of(bodies.gauges, elements->term[i].gauge, body);
+            bodies.of(bodies.quantities, elements->term[i].quantity, body);
             self->near[i] = offset_of(self, first, body[0]);
             self->far[i] = offset_of(self, first, body[1]);
         }
@@ -84,9 +84,9 @@ static void place_rows(zd_packed *self, const zd_planned_elements *elements, end
     }
 }
 
-int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *gauges)
+int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *quantities)
 {
-    const ends those = {bodies_of, gauges};
+    const ends those = {bodies_of, quantities};
     for (int b = 0; b < bodies; b++) self->mass[b] = ZD_CONSTANT | ZD_DIAGONAL;
     self->first[0] = self->size_of_C = 0;
     self->structure = (zd_structure){

@@ -13,12 +13,12 @@ typedef struct zd_packed {
     int *coordinates, *velocities, *mass, *rows, *first, *block;    /* arrays of `structure` */
 } zd_packed;
 
-/* body <- the first and the second body of a gauge; 0 is the ground. */
-typedef void zd_bodies_of(const void *gauges, int gauge, int body[2]);
+/* body <- the first and the second body of a marker quantity; 0 is the ground. */
+typedef void zd_bodies_of(const void *quantities, int quantity, int body[2]);
 
 /* Memory for so many bodies, rows and terms of rows. */
 void zd_packed_take(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms);
 /* Fills in the structure; `coordinates` and `velocities` must be set. Returns -1, or the first row that has no entries, which is an error. */
-int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *gauges);
+int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *quantities);
 
 #endif

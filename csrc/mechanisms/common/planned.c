@@ -11,7 +11,7 @@ void zd_elements_take(zd_element_parts *to, zd_arena *arena, const zd_elements *
     TAKE(row, rows);
     TAKE(owner_of_row, rows);
     TAKE(row_of_relation, (size_t)elements->relations);
-    TAKE(effort, (size_t)elements->efforts);
+    TAKE(force, (size_t)elements->forces);
     TAKE(output, (size_t)elements->measures);
     TAKE(measure, (size_t)elements->measures);
 #undef TAKE
@@ -19,15 +19,15 @@ void zd_elements_take(zd_element_parts *to, zd_arena *arena, const zd_elements *
 
 void zd_elements_copy(const zd_elements *elements, zd_element_parts *to)
 {
-    for (int i = 0; i < elements->efforts; i++) to->effort[i] = elements->effort[i];
+    for (int i = 0; i < elements->forces; i++) to->force[i] = elements->force[i];
     for (int i = 0; i < elements->measures; i++) to->output[i] = elements->measure[i];
-    for (int i = 0; i < elements->terms; i++) zd_elements_add_term(to, elements->term[i].gauge, elements->term[i].coefficient);
+    for (int i = 0; i < elements->terms; i++) zd_elements_add_term(to, elements->term[i].quantity, elements->term[i].coefficient);
 }
 
-void zd_elements_add_term(zd_element_parts *to, int gauge, double coefficient)
+void zd_elements_add_term(zd_element_parts *to, int quantity, double coefficient)
 {
     to->coefficient[to->terms] = coefficient;
-    to->term[to->terms++] = (zd_gauge_term){gauge, coefficient};
+    to->term[to->terms++] = (zd_quantity_term){quantity, coefficient};
 }
 
 void zd_elements_add_row(zd_element_parts *to, zd_relation row, zd_row_owner owner)
@@ -58,22 +58,22 @@ static int longest_of(const zd_elements *elements)
     int longest = 2;        /* the row of a joint that rolls or advances */
     for (int i = 0; i < elements->relations; i++)
         if (elements->relation[i].terms > longest) longest = elements->relation[i].terms;
-    for (int i = 0; i < elements->efforts; i++)
-        if (elements->effort[i].terms > longest) longest = elements->effort[i].terms;
+    for (int i = 0; i < elements->forces; i++)
+        if (elements->force[i].terms > longest) longest = elements->force[i].terms;
     return longest;
 }
 
 static int forces_know_velocity(const zd_elements *elements)
 {
-    for (int i = 0; i < elements->efforts; i++)
-        if (elements->effort[i].damping != 0 || elements->effort[i].kind == ZD_EFFORT_LAW) return 1;
+    for (int i = 0; i < elements->forces; i++)
+        if (elements->force[i].damping != 0 || elements->force[i].kind == ZD_FORCE_LAW) return 1;
     return 0;
 }
 
 static int forces_have_power(const zd_elements *elements)
 {
-    for (int i = 0; i < elements->efforts; i++)
-        if (elements->effort[i].damping != 0 || elements->effort[i].kind != ZD_EFFORT_SPRING) return 1;
+    for (int i = 0; i < elements->forces; i++)
+        if (elements->force[i].damping != 0 || elements->force[i].kind != ZD_FORCE_SPRING) return 1;
     return 0;
 }
 
@@ -98,9 +98,9 @@ static int knows_time(const zd_elements *elements)
 zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_element_parts *from, int mh)
 {
     return (zd_planned_elements){
-        .relations = elements->relations, .efforts = elements->efforts, .mh = mh, .m = from->rows, .longest = longest_of(elements),
+        .relations = elements->relations, .forces = elements->forces, .mh = mh, .m = from->rows, .longest = longest_of(elements),
         .term = from->term, .coefficient = from->coefficient, .row = from->row, .owner_of_row = from->owner_of_row,
-        .row_of_relation = from->row_of_relation, .effort = from->effort, .output = from->output,
+        .row_of_relation = from->row_of_relation, .force = from->force, .output = from->output,
         .law = elements->law, .owner = elements->owner, .has_velocity_forces = forces_know_velocity(elements),
     };
 }

@@ -1,4 +1,4 @@
-/* Elements in their planned form: rows of joints and relations in the order of C, efforts and measures. */
+/* Elements in their planned form: rows of joints and relations in the order of C, generalized forces and measures. */
 #ifndef ZD_COMMON_PLANNED_H
 #define ZD_COMMON_PLANNED_H
 
@@ -7,28 +7,28 @@
 #include "elements.h"
 
 typedef struct zd_planned_elements {
-    int relations, efforts, mh, m, longest;     /* `longest`: maximum number of terms of a row or effort */
-    const zd_gauge_term *term;
+    int relations, forces, mh, m, longest;     /* `longest`: maximum number of terms of a row or generalized force */
+    const zd_quantity_term *term;
     const double *coefficient;      /* coefficients of the terms, contiguous */
     const zd_relation *row;         /* (m,) rows of joints and relations, holonomic ones first */
     const zd_row_owner *owner_of_row;   /* (m,) */
     const int *row_of_relation;     /* (relations,) */
-    const zd_effort *effort;
+    const zd_generalized_force *force;
     const zd_output_spec *output;
     zd_law *law;
     void *owner;
     const zd_compiled_law *compiled;    /* by index of the user function: compiled ones, used instead of `law`. NULL: there are none */
-    int has_velocity_forces;        /* 1 if an effort depends on velocities, so that rates must be computed for the forces */
+    int has_velocity_forces;        /* 1 if a generalized force depends on velocities, so that rates must be computed for the forces */
 } zd_planned_elements;
 
 /* Arrays that are filled while the rows are planned, and constant afterwards. */
 typedef struct zd_element_parts {
-    zd_gauge_term *term;
+    zd_quantity_term *term;
     double *coefficient;
     zd_relation *row;
     zd_row_owner *owner_of_row;
     int *row_of_relation;
-    zd_effort *effort;
+    zd_generalized_force *force;
     zd_output_spec *output;
     zd_measure *measure;
     int terms, rows;                /* numbers so far */
@@ -36,9 +36,9 @@ typedef struct zd_element_parts {
 
 /* Allocates memory for the given elements, and for the terms and rows of joints in addition. */
 void zd_elements_take(zd_element_parts *to, zd_arena *arena, const zd_elements *elements, size_t terms, size_t rows);
-/* Copies terms, efforts and measures; rows are added individually. */
+/* Copies terms, generalized forces and measures; rows are added individually. */
 void zd_elements_copy(const zd_elements *elements, zd_element_parts *to);
-void zd_elements_add_term(zd_element_parts *to, int gauge, double coefficient);
+void zd_elements_add_term(zd_element_parts *to, int quantity, double coefficient);
 void zd_elements_add_row(zd_element_parts *to, zd_relation row, zd_row_owner owner);
 /* Adds the row of a joint whose terms are the last ones, from `first` on. */
 void zd_elements_add_joint_row(zd_element_parts *to, int first, int nonholonomic, int joint, int component);
@@ -46,7 +46,7 @@ void zd_elements_add_joint_row(zd_element_parts *to, int first, int nonholonomic
 void zd_elements_add_relations(const zd_elements *elements, int nonholonomic, zd_element_parts *to);
 /* Planned form, after all rows were added; the first `mh` are holonomic. */
 zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_element_parts *from, int mh);
-/* Bit mask of the terms of (2), (3), (5) and (6) that rows and efforts provide. */
+/* Bit mask of the terms of (2), (3), (5) and (6) that rows and generalized forces provide. */
 int zd_elements_terms(const zd_elements *elements, const zd_planned_elements *planned);
 
 #endif

@@ -17,13 +17,13 @@ typedef struct parts {
     zd_plane_link *link;
     zd_plane_joint *joint;
     zd_plane_planned_joint *planned;
-    zd_plane_gauge *gauge;
+    zd_plane_quantity *quantity;
     zd_plane_coordinate_owner *coordinate;
     int *lengths;
     zd_packing *packing;
     zd_hinged hinged;
     zd_element_parts elements;
-    int gauges, angles;     /* so many are there by now */
+    int quantities, angles;     /* so many are there by now */
 } parts;
 
 /* ---- memory ---- */
@@ -31,7 +31,7 @@ typedef struct parts {
 static int has_tree(const zd_plane_tables *tables)
 {
     for (int i = 0; i < tables->bodies; i++)
-        if (tables->body[i].carrier >= 0) return 1;
+        if (tables->body[i].inboard >= 0) return 1;
     return 0;
 }
 
@@ -39,18 +39,18 @@ static int has_tree(const zd_plane_tables *tables)
 static size_t most_rows(const zd_plane_tables *tables)
 {
     int joints = tables->joints;
-    for (int i = 0; i < tables->bodies; i++) joints -= tables->body[i].carrier >= 0;
+    for (int i = 0; i < tables->bodies; i++) joints -= tables->body[i].inboard >= 0;
     return (size_t)(joints > 0 ? joints : 0) * ZD_JOINT_ROWS + (size_t)tables->elements.relations;
 }
 
-/* Maximum number of lines: gauges of rows that are not of revolute joints, which have x and y of the same points. */
+/* Maximum number of lines: marker quantities of rows that are not of revolute joints, which have x and y of the same points. */
 static size_t most_lines(const zd_plane_tables *tables)
 {
     size_t lines = (size_t)tables->elements.terms;
     for (int j = 0; j < tables->joints; j++) {
         const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(tables->joint[j].kind);
         for (const zd_plane_joint_row *row = kind->row; row < kind->row + kind->rows; row++)
-            lines += (size_t)((row->gauge != ZD_GAUGE_X && row->gauge != ZD_GAUGE_Y) + (row->rolls != 0));
+            lines += (size_t)((row->quantity != ZD_PLANE_X && row->quantity != ZD_PLANE_Y) + (row->rolls != 0));
     }
     return has_tree(tables) ? 0 : lines;
 }
@@ -65,7 +65,7 @@ static void take_parts(const zd_plane_tables *tables, zd_arena *arena, parts *to
     TAKE(angle, bodies);
     TAKE(joint, joints);
     TAKE(planned, joints);
-    TAKE(gauge, (size_t)tables->gauges + extra);
+    TAKE(quantity, (size_t)tables->quantities + extra);
     TAKE(coordinate, 3 * bodies);
     TAKE(lengths, 6 * bodies);
     TAKE(packing, 1);
@@ -82,9 +82,9 @@ static void take_parts(const zd_plane_tables *tables, zd_arena *arena, parts *to
 
 static int inner_of(const zd_plane_tables *tables, int body)
 {
-    int carrier = tables->body[body - 1].carrier;
-    if (carrier < 0) return 0;
-    const zd_plane_joint *joint = tables->joint + carrier;
+    int inboard = tables->body[body - 1].inboard;
+    if (inboard < 0) return 0;
+    const zd_plane_joint *joint = tables->joint + inboard;
     return joint->first == body ? joint->second : joint->first;
 }
 
@@ -112,12 +112,12 @@ static zd_plane_link hang_on(const zd_plane_joint *joint, const zd_plane_body *b
     double angle = is_second ? joint->angle : -joint->angle, sign = is_second ? 1 : -1;
     double cosine = zd_cos(angle), sine = zd_sin(angle);
     zd_plane_link link = {
-        .hang = body->is_particle ? ZD_HANGS_PINNED : hang[kind->carrier],
+        .hang = body->is_particle ? ZD_HANGS_PINNED : hang[kind->inboard],
         .near = vector_of(is_second ? joint->point1 : joint->point2),
         .far = zd_times(-1, vector_of(is_second ? joint->point2 : joint->point1)),
         .angle = angle, .cosine = cosine, .sine = sine,
     };
-    if (kind->carrier != ZD_SLIDES) return link;
+    if (kind->inboard != ZD_SLIDES) return link;
     zd_vector axis = zd_times(sign, vector_of(joint->axis));
     link.axis = is_second ? axis : zd_rotated(cosine, sine, axis);
     link.along = joint->along;
@@ -146,7 +146,7 @@ static int plan_tree(const zd_plane_tables *tables, parts *to)
     for (int body = 1; body <= tables->bodies; body++) {
         const zd_plane_body *given = tables->body + body - 1;
         zd_plane_link link = {.hang = given->is_particle ? ZD_HANGS_FREE_POINT : ZD_HANGS_FREE};
-        if (given->carrier >= 0) link = hang_on(tables->joint + given->carrier, given, tables->joint[given->carrier].second == body);
+        if (given->inboard >= 0) link = hang_on(tables->joint + given->inboard, given, tables->joint[given->inboard].second == body);
         link.inner = to->number[inner_of(tables, body)];
         link.coordinate = coordinates;
         link.mass = link.carried = given->mass;
@@ -165,7 +165,7 @@ static int plan_tree(const zd_plane_tables *tables, parts *to)
     return coordinates;
 }
 
-/* ---- joints, gauges, relations ---- */
+/* ---- joints, marker quantities, relations ---- */
 
 static void plan_joints(const zd_plane_tables *tables, parts *to)
 {
@@ -175,21 +175,21 @@ static void plan_joints(const zd_plane_tables *tables, parts *to)
         to->joint[i].second = to->number[tables->joint[i].second];
     }
     for (int body = 1; body <= tables->bodies; body++) {
-        int carrier = tables->body[body - 1].carrier;
-        if (carrier < 0) continue;
-        to->planned[carrier].carried = to->number[body];
-        to->planned[carrier].sign = tables->joint[carrier].second == body ? 1 : -1;
+        int inboard = tables->body[body - 1].inboard;
+        if (inboard < 0) continue;
+        to->planned[inboard].carried = to->number[body];
+        to->planned[inboard].sign = tables->joint[inboard].second == body ? 1 : -1;
     }
 }
 
-static void copy_gauges(const zd_plane_tables *tables, parts *to)
+static void copy_quantities(const zd_plane_tables *tables, parts *to)
 {
-    for (int i = 0; i < tables->gauges; i++) {
-        to->gauge[i] = tables->gauge[i];
-        to->gauge[i].first = to->number[tables->gauge[i].first];
-        to->gauge[i].second = to->number[tables->gauge[i].second];
+    for (int i = 0; i < tables->quantities; i++) {
+        to->quantity[i] = tables->quantity[i];
+        to->quantity[i].first = to->number[tables->quantity[i].first];
+        to->quantity[i].second = to->number[tables->quantity[i].second];
     }
-    to->gauges = tables->gauges;
+    to->quantities = tables->quantities;
 }
 
 static double zero_of(const zd_plane_joint *joint, enum zd_zero zero)
@@ -205,10 +205,10 @@ static double zero_of(const zd_plane_joint *joint, enum zd_zero zero)
 
 static void add_term(const zd_plane_joint *joint, int kind, enum zd_zero zero, double coefficient, parts *to)
 {
-    to->gauge[to->gauges] = (zd_plane_gauge){
+    to->quantity[to->quantities] = (zd_plane_quantity){
         kind, joint->first, joint->second, {joint->point1[0], joint->point1[1]}, {joint->point2[0], joint->point2[1]},
         {joint->axis[0], joint->axis[1]}, zero_of(joint, zero)};
-    zd_elements_add_term(&to->elements, to->gauges++, coefficient);
+    zd_elements_add_term(&to->elements, to->quantities++, coefficient);
 }
 
 /* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
@@ -221,8 +221,8 @@ static void plan_rows(const zd_plane_tables *tables, int nonholonomic, parts *to
             const zd_plane_joint_row *row = kind->row + i;
             if (row->nonholonomic != nonholonomic) continue;
             const int first = to->elements.terms;
-            add_term(to->joint + j, (int)row->gauge, row->zero, 1, to);
-            if (row->rolls) add_term(to->joint + j, ZD_GAUGE_ANGLE, ZD_ZERO_ANGLE, to->joint[j].length, to);
+            add_term(to->joint + j, (int)row->quantity, row->zero, 1, to);
+            if (row->rolls) add_term(to->joint + j, ZD_PLANE_ANGLE, ZD_ZERO_ANGLE, to->joint[j].length, to);
             to->planned[j].rows[to->planned[j].row_count++] = to->elements.rows;
             zd_elements_add_joint_row(&to->elements, first, nonholonomic, j, i);
         }
@@ -237,7 +237,7 @@ static int terms_of(const zd_plane_tables *tables, const zd_plane *self, int is_
     const int has_gravity = self->gravity.x != 0 || self->gravity.y != 0;
     int terms = ZD_M | ZD_POTENTIAL | zd_elements_terms(&tables->elements, &self->elements);
     if (is_tree) terms |= ZD_BIAS;
-    if (has_gravity || self->elements.efforts) terms |= ZD_FORCE;
+    if (has_gravity || self->elements.forces) terms |= ZD_FORCE;
     return terms;
 }
 
@@ -266,7 +266,7 @@ static void plan(const zd_plane_tables *tables, parts *all, zd_plane *self)
 {
     int coordinates = plan_tree(tables, all);
     plan_joints(tables, all);
-    copy_gauges(tables, all);
+    copy_quantities(tables, all);
     zd_elements_copy(&tables->elements, &all->elements);
     plan_rows(tables, 0, all);
     const int mh = all->elements.rows;
@@ -275,14 +275,14 @@ static void plan(const zd_plane_tables *tables, parts *all, zd_plane *self)
         .gravity = {tables->gravity[0], tables->gravity[1]},
         .tree = {tables->bodies, coordinates, all->link, all->angles, all->angle},
         .joints = tables->joints, .elements = zd_elements_plan(&tables->elements, &all->elements, mh),
-        .number = all->number, .joint = all->joint, .planned = all->planned, .gauge = all->gauge,
+        .number = all->number, .joint = all->joint, .planned = all->planned, .quantity = all->quantity,
         .coordinate = all->coordinate,
     };
     self->measures.count = tables->elements.measures;
     if (!has_tree(tables) && zd_packing_plan(all->packing, self)) self->packing = all->packing;
     self->revolutes = self->packing ? self->packing->revolutes.count : 0;
     self->lines = self->packing ? self->packing->lines.count : 0;
-    zd_hinged_plan(&all->hinged, &self->tree, &self->elements, self->gauge);
+    zd_hinged_plan(&all->hinged, &self->tree, &self->elements, self->quantity);
     self->hinged = all->hinged;
     make_system(tables, all, coordinates, self);
 }
@@ -291,7 +291,7 @@ zd_plane *zd_plane_create(const zd_plane_tables *tables, char *message, int mess
 {
     if (!zd_plane_tables_are_right(tables, message, message_size)) return NULL;
     zd_arena arena = {NULL, 0};
-    parts all = {.gauges = 0};
+    parts all = {.quantities = 0};
     zd_take(&arena, sizeof(zd_plane));
     take_parts(tables, &arena, &all);
     arena = (zd_arena){zd_allocate(arena.used), 0};
@@ -332,6 +332,6 @@ void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_compiled_law
 
 zd_plane_plan zd_plane_planned(const zd_plane *mechanism)
 {
-    return (zd_plane_plan){mechanism->tree.link, mechanism->gauge, mechanism->elements.term, mechanism->elements.row,
-                           mechanism->elements.effort};
+    return (zd_plane_plan){mechanism->tree.link, mechanism->quantity, mechanism->elements.term, mechanism->elements.row,
+                           mechanism->elements.force};
 }

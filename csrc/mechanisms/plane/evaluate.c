@@ -1,7 +1,7 @@
 /* The equations of motion (2), (3), (5), (6) of a mechanism, from its tables. */
 #include "evaluate.h"
 
-#include "efforts.h"
+#include "forces.h"
 #include "rows.h"
 #include "structure.h"
 
@@ -17,7 +17,7 @@ static void write_bias(const zd_plane *self, const zd_plane_frame *frame, double
 
 static int write_force(const zd_plane *self, const zd_plane_frame *frame, double t, double *f)
 {
-    int status = zd_plane_efforts_apply(self, frame, t);
+    int status = zd_plane_forces_apply(self, frame, t);
     zd_plane_tree_gather(&self->tree, frame->pose, frame->wrench, f);
     return status;
 }
@@ -28,7 +28,7 @@ static void clear(const zd_plane *self, int want, const zd_terms *out)
     size_t nv = (size_t)self->tree.nv, size_of_C = self->packing ? (size_t)self->packing->packed.size_of_C : (size_t)self->elements.m * nv;
     if ((want & ZD_M) && !self->packing) memset(out->M, 0, nv * nv * sizeof *out->M);
     if (want & ZD_BIAS) memset(out->d, 0, nv * sizeof *out->d);
-    if ((want & ZD_FORCE) && (self->elements.efforts || !self->packing)) memset(out->f, 0, nv * sizeof *out->f);
+    if ((want & ZD_FORCE) && (self->elements.forces || !self->packing)) memset(out->f, 0, nv * sizeof *out->f);
     if ((want & ZD_C) && !(self->packing && self->packing->revolutes.are_all)) memset(out->C, 0, size_of_C * sizeof *out->C);
 }
 
@@ -46,13 +46,13 @@ static void write_packed_mass(const zd_plane_tree *tree, double *M)
 static int terms_of_bodies(const zd_plane *self, int want)
 {
     if (self->packing) {
-        const int known = ZD_M | (self->packing->is_whole ? ROWS : 0) | (self->elements.efforts ? 0 : ZD_FORCE);
+        const int known = ZD_M | (self->packing->is_whole ? ROWS : 0) | (self->elements.forces ? 0 : ZD_FORCE);
         return want & ~known & (ROWS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     }
     int left = want & (ROWS | ZD_M | ZD_BIAS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     if (!self->hinged.is_whole) return left;
     if (2 * self->hinged.closures == self->elements.m) left &= ~ROWS;
-    return left & ~(ZD_M | ZD_BIAS | (self->elements.efforts ? 0 : ZD_FORCE));
+    return left & ~(ZD_M | ZD_BIAS | (self->elements.forces ? 0 : ZD_FORCE));
 }
 
 /* Bodies are placed once for each (t, p), when first a term needs it. */
@@ -70,7 +70,7 @@ static void write_hinged(const zd_plane *self, const zd_plane_frame *frame, int 
     const zd_hinged *hinged = &self->hinged;
     if (want & ZD_M) zd_hinged_mass(hinged, &self->tree, frame->sines, out->M);
     if (want & ZD_BIAS) zd_hinged_bias(hinged, &self->tree, frame->sines, v, out->d);
-    if ((want & ZD_FORCE) && !self->elements.efforts) zd_hinged_weight(hinged, &self->tree, frame->sines, self->gravity, out->f);
+    if ((want & ZD_FORCE) && !self->elements.forces) zd_hinged_weight(hinged, &self->tree, frame->sines, self->gravity, out->f);
     if (want & ROWS) zd_hinged_close(hinged, &self->tree, frame->sines, v, want, out);
 }
 
@@ -80,7 +80,7 @@ static void write_packed(const zd_plane *self, const zd_plane_frame *frame, int 
 {
     if (want & ZD_MOVED) zd_revolute_joints_turn(&self->packing->revolutes, self, frame);
     if (want & ZD_M) write_packed_mass(&self->tree, out->M);
-    if ((want & ZD_FORCE) && !self->elements.efforts) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
+    if ((want & ZD_FORCE) && !self->elements.forces) memcpy(out->f, self->packing->weight, (size_t)self->tree.nv * sizeof *out->f);
     zd_revolute_joints_write(&self->packing->revolutes, self, frame, want, p, v, out);
     zd_lines_write(&self->packing->lines, &self->packing->revolutes, self, frame, want, t, p, v, out);
 }

@@ -1,5 +1,5 @@
 /* Layout of the scratch memory of a planar mechanism. */
-#include "gauge.h"
+#include "marker_quantity.h"
 #include "plan.h"
 
 /* Offset of the next `count` structures of `bytes` each. */
@@ -59,19 +59,19 @@ zd_plane_frame zd_plane_frame_of(const zd_plane *mechanism, double *scratch)
     };
 }
 
-static double value_of(const void *mechanism, const void *frame, int gauge)
+static double value_of(const void *mechanism, const void *frame, int quantity)
 {
     const zd_plane *self = mechanism;
     const zd_plane_frame *at = frame;
-    return zd_plane_gauge_read(self->gauge + gauge, at->pose).value;
+    return zd_plane_quantity_read(self->quantity + quantity, at->pose).value;
 }
 
-static double rate_of(const void *mechanism, const void *frame, int gauge)
+static double rate_of(const void *mechanism, const void *frame, int quantity)
 {
     const zd_plane *self = mechanism;
     const zd_plane_frame *at = frame;
     double bias;
-    return zd_plane_gauge_rate(self->gauge + gauge, at->pose, at->twist, &bias);
+    return zd_plane_quantity_rate(self->quantity + quantity, at->pose, at->twist, &bias);
 }
 
 zd_readings zd_plane_frame_readings(const zd_plane *mechanism, const zd_plane_frame *frame)

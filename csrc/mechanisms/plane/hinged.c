@@ -128,19 +128,20 @@ static int is_plain(const zd_relation *row, const double *coefficient)
     return row->terms == 1 && row->law < 0 && !row->nonholonomic && row->slope == 0 && coefficient[row->first] == 1;
 }
 
-static int have_same_points(const zd_plane_gauge *a, const zd_plane_gauge *b)
+static int have_same_points(const zd_plane_quantity *a, const zd_plane_quantity *b)
 {
     return a->first == b->first && a->second == b->second && a->point1[0] == b->point1[0] && a->point1[1] == b->point1[1]
            && a->point2[0] == b->point2[0] && a->point2[1] == b->point2[1];
 }
 
-static void plan_closures(zd_hinged *self, const zd_plane_tree *tree, const zd_planned_elements *elements, const zd_plane_gauge *gauge)
+static void plan_closures(zd_hinged *self, const zd_plane_tree *tree, const zd_planned_elements *elements, const zd_plane_quantity *quantity)
 {
     const zd_relation *row = elements->row;
     for (int i = 0; i + 1 < elements->mh; i++) {
         if (!is_plain(row + i, elements->coefficient) || !is_plain(row + i + 1, elements->coefficient)) continue;
-        const zd_plane_gauge *x = gauge + elements->term[row[i].first].gauge, *y = gauge + elements->term[row[i + 1].first].gauge;
-        if (x->kind != ZD_GAUGE_X || y->kind != ZD_GAUGE_Y || !have_same_points(x, y)) continue;
+        const zd_plane_quantity *x = quantity + elements->term[row[i].first].quantity;
+        const zd_plane_quantity *y = quantity + elements->term[row[i + 1].first].quantity;
+        if (x->kind != ZD_PLANE_X || y->kind != ZD_PLANE_Y || !have_same_points(x, y)) continue;
         zd_closure *to = self->closure + self->closures++;
         *to = (zd_closure){.row = i, .first = self->arms, .constant = {-x->zero - row[i].constant, -y->zero - row[i + 1].constant}};
         add_point(self, tree, x->second, x->point2, 1, to);
@@ -151,13 +152,13 @@ static void plan_closures(zd_hinged *self, const zd_plane_tree *tree, const zd_p
     }
 }
 
-void zd_hinged_plan(zd_hinged *self, const zd_plane_tree *tree, const zd_planned_elements *elements, const zd_plane_gauge *gauge)
+void zd_hinged_plan(zd_hinged *self, const zd_plane_tree *tree, const zd_planned_elements *elements, const zd_plane_quantity *quantity)
 {
     self->is_whole = is_hinged(tree);
     if (!self->is_whole) return;
     number_angles(self, tree);
     plan_mass(self, tree);
-    plan_closures(self, tree, elements, gauge);
+    plan_closures(self, tree, elements, quantity);
 }
 
 /* ---- terms ---- */

@@ -1,5 +1,5 @@
 /* The size of what is drawn: how far apart points of the ground are, twice how far those of bodies are from their mass centres, and lengths
- * of joints and gauges. Coordinates alone do not tell it, as a slider may start at 0. */
+ * of joints and marker quantities. Coordinates alone do not tell it, as a slider may start at 0. */
 #include "length.h"
 
 #include "../../linalg/roots.h"
@@ -28,11 +28,11 @@ double zd_plane_tables_length(const zd_plane_tables *tables)
         extend(&all, joint->second, joint->point2);
         all.largest = fmax(all.largest, fmax(fabs(joint->length), fmax(fabs(joint->along), fabs(joint->across))));
     }
-    for (const zd_plane_gauge *gauge = tables->gauge; gauge < tables->gauge + tables->gauges; gauge++) {
-        if (gauge->kind < ZD_GAUGE_ALONG) continue;     /* vectors of position gauges begin at the global origin, which may be far away */
-        extend(&all, gauge->first, gauge->point1);
-        extend(&all, gauge->second, gauge->point2);
-        all.largest = fmax(all.largest, fabs(gauge->zero));
+    for (const zd_plane_quantity *quantity = tables->quantity; quantity < tables->quantity + tables->quantities; quantity++) {
+        if (quantity->kind < ZD_PLANE_ALONG) continue;     /* position vectors begin at the global origin, which may be far away */
+        extend(&all, quantity->first, quantity->point1);
+        extend(&all, quantity->second, quantity->point2);
+        all.largest = fmax(all.largest, fabs(quantity->zero));
     }
     if (all.high.x >= all.low.x) all.largest = fmax(all.largest, zd_hypotenuse(all.high.x - all.low.x, all.high.y - all.low.y));
     return all.largest > 0 ? all.largest : 1;

@@ -1,27 +1,29 @@
-/* With u and w the ways from the mass centres of both bodies to their points, d = x2 + w - x1 - u, and e the line's direction, a gauge has
+/* With u and w the ways from the mass centres of both bodies to their points, d = x2 + w - x1 - u, and e the line's direction, a marker
+ * quantity has
  *
  *     a value e . d,      the row [-e  -(u + d) x e | e  w x e],      and for (6)  e . dddot + 2 edot . ddot + eddot . d
  *
  * where e turns with the first body; u in the place of u + d where it does not, and of a distance |d| with e = d / |d|. What is read off the
- * second body alone does nothing to the first. Angles are constant rows. See gauge.c for the same in any tree. */
+ * second body alone does nothing to the first. Angles are constant rows. See marker_quantity.c for the same in any tree. */
 #include "lines.h"
 
-static int turns_along(int kind) { return kind == ZD_GAUGE_ALONG || kind == ZD_GAUGE_ACROSS; }
-static int is_of_second_alone(int kind) { return kind == ZD_GAUGE_GLIDE || kind == ZD_GAUGE_SKID; }
+static int turns_along(int kind) { return kind == ZD_PLANE_ALONG || kind == ZD_PLANE_ACROSS; }
+static int is_of_second_alone(int kind) { return kind == ZD_PLANE_GLIDE || kind == ZD_PLANE_SKID; }
 
 static int has_angle(const zd_plane *mechanism, int body) { return mechanism->tree.link[body].hang == ZD_HANGS_FREE; }
 
 zd_line zd_line_of(const zd_plane *mechanism, int row, int term, int C, int near, int far)
 {
-    const zd_plane_gauge *gauge = mechanism->gauge + mechanism->elements.term[term].gauge;
-    const zd_vector axis = {gauge->axis[0], gauge->axis[1]};
-    const int is_normal = gauge->kind == ZD_GAUGE_ACROSS || gauge->kind == ZD_GAUGE_SKID,
-        has_near = near >= 0 && !is_of_second_alone(gauge->kind);
+    const zd_plane_quantity *quantity = mechanism->quantity + mechanism->elements.term[term].quantity;
+    const zd_vector axis = {quantity->axis[0], quantity->axis[1]};
+    const int is_normal = quantity->kind == ZD_PLANE_ACROSS || quantity->kind == ZD_PLANE_SKID,
+        has_near = near >= 0 && !is_of_second_alone(quantity->kind);
     return (zd_line){
-        gauge->kind, row, term == mechanism->elements.row[row].first, gauge->first, gauge->second, has_near ? C + near : -1,
+        quantity->kind, row, term == mechanism->elements.row[row].first, quantity->first, quantity->second, has_near ? C + near : -1,
             far >= 0 ? C + far : -1,
-        has_angle(mechanism, gauge->first), has_angle(mechanism, gauge->second), {gauge->point1[0], gauge->point1[1]},
-        {gauge->point2[0], gauge->point2[1]}, is_normal ? zd_turned(1, axis) : axis, gauge->zero, mechanism->elements.coefficient[term]};
+        has_angle(mechanism, quantity->first), has_angle(mechanism, quantity->second), {quantity->point1[0], quantity->point1[1]},
+        {quantity->point2[0], quantity->point2[1]}, is_normal ? zd_turned(1, axis) : axis, quantity->zero,
+        mechanism->elements.coefficient[term]};
 }
 
 /* ---- what is known from positions ---- */
@@ -41,9 +43,9 @@ ZD_INLINE sight look(const zd_line *line, const zd_plane_frame *frame, const dou
 static zd_vector direction_of(const zd_line *line, zd_vector axis, zd_vector apart, double length)
 {
     switch (line->kind) {
-    case ZD_GAUGE_X: return (zd_vector){1, 0};
-    case ZD_GAUGE_Y: return (zd_vector){0, 1};
-    case ZD_GAUGE_DISTANCE: return zd_times(1 / length, apart);
+    case ZD_PLANE_X: return (zd_vector){1, 0};
+    case ZD_PLANE_Y: return (zd_vector){0, 1};
+    case ZD_PLANE_DISTANCE: return zd_times(1 / length, apart);
     default: return zd_rotated(axis.x, axis.y, line->axis);
     }
 }
@@ -52,15 +54,15 @@ static zd_vector direction_of(const zd_line *line, zd_vector axis, zd_vector apa
 static zd_plane_pull pull_of(const zd_line *line, const zd_plane_frame *frame, const double *p, double *value)
 {
     const double c = line->coefficient;
-    if (line->kind == ZD_GAUGE_ANGLE) {
+    if (line->kind == ZD_PLANE_ANGLE) {
         *value = c * (zd_of_body(p, line->second)[2] - zd_of_body(p, line->first)[2] - line->zero);
         return (zd_plane_pull){{0, 0}, -c, c};
     }
     const sight at = look(line, frame, p);
-    const double length = line->kind == ZD_GAUGE_DISTANCE ? sqrt(zd_inner(at.apart, at.apart)) : 0;
+    const double length = line->kind == ZD_PLANE_DISTANCE ? sqrt(zd_inner(at.apart, at.apart)) : 0;
     const zd_vector e = zd_times(c, direction_of(line, frame->axis[line->first], at.apart, length));
     const zd_vector on_first = turns_along(line->kind) ? zd_plus(at.u, at.apart) : at.u;
-    *value = (line->kind == ZD_GAUGE_DISTANCE ? c * length : zd_inner(e, at.apart)) - c * line->zero;       /* (3) */
+    *value = (line->kind == ZD_PLANE_DISTANCE ? c * length : zd_inner(e, at.apart)) - c * line->zero;       /* (3) */
     return (zd_plane_pull){e, -zd_cross(on_first, e), zd_cross(at.w, e)};                                          /* (5) */
 }
 
@@ -106,7 +108,7 @@ static double bias_of(const zd_line *line, const zd_plane_frame *frame, zd_vecto
     change = zd_plus(change, zd_times(turn1 * turn1, at.u));
     const double bias = zd_inner(e, change);
     if (turns_along(line->kind)) return bias + 2 * zd_inner(edot, speed) - turn1 * turn1 * zd_inner(e, at.apart);
-    if (line->kind != ZD_GAUGE_DISTANCE) return bias;
+    if (line->kind != ZD_PLANE_DISTANCE) return bias;
     const double square = zd_inner(at.apart, at.apart), across = zd_cross(at.apart, speed);
     return bias + line->coefficient * across * across / (square * sqrt(square));
 }
@@ -115,7 +117,7 @@ static void write_xi(const zd_lines *self, const zd_plane_frame *frame, const do
 {
     for (int k = 0; k < self->count; k++) {
         const zd_line *line = self->line + k;
-        if (line->kind != ZD_GAUGE_ANGLE) xi[line->row] -= bias_of(line, frame, frame->pull[k].along, p, v);    /* (6) */
+        if (line->kind != ZD_PLANE_ANGLE) xi[line->row] -= bias_of(line, frame, frame->pull[k].along, p, v);    /* (6) */
     }
 }
 

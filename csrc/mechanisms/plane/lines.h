@@ -6,8 +6,8 @@
 
 #include "revolute_joints.h"
 
-typedef struct zd_line {    /* a gauge of a row */
-    int kind, row;          /* enum zd_plane_gauge_kind; the row of C */
+typedef struct zd_line {    /* a marker quantity of a row */
+    int kind, row;          /* enum zd_plane_quantity_kind; the row of C */
     int is_first;           /* 1 if it is the first line of its row */
     int first, second;      /* bodies */
     int near, far;          /* offsets of the bodies' entries in C; -1: none */

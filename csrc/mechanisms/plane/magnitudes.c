@@ -9,7 +9,7 @@
 
 #include "../common/laws.h"
 #include "../../linalg/roots.h"
-#include "gauge.h"
+#include "marker_quantity.h"
 #include "plan.h"
 
 static double distance_of(const zd_plane_pose *pose, const double *point)
@@ -17,11 +17,11 @@ static double distance_of(const zd_plane_pose *pose, const double *point)
     return zd_hypotenuse(pose->at.x, pose->at.y) + zd_hypotenuse(point[0], point[1]);
 }
 
-static void add(const zd_plane *self, const zd_plane_frame *frame, int gauge, double factor, double *magnitude)
+static void add(const zd_plane *self, const zd_plane_frame *frame, int quantity, double factor, double *magnitude)
 {
-    const zd_plane_gauge *of = self->gauge + gauge;
+    const zd_plane_quantity *of = self->quantity + quantity;
     const double size = fabs(factor);
-    if (of->kind == ZD_GAUGE_ANGLE) {
+    if (of->kind == ZD_PLANE_ANGLE) {
         magnitude[1] += size;
         return;
     }
@@ -44,7 +44,7 @@ int zd_plane_magnitudes(const void *data, double t, const double *p, const doubl
         const int status = zd_combine(&self->elements, &readings, row, t, &all);
         if (status) return status;
         magnitude[0] = magnitude[1] = 0;
-        for (int k = 0; k < row->terms; k++) add(self, &frame, self->elements.term[row->first + k].gauge, all.factors[k], magnitude);
+        for (int k = 0; k < row->terms; k++) add(self, &frame, self->elements.term[row->first + k].quantity, all.factors[k], magnitude);
     }
     return ZD_DONE;
 }

@@ -2,7 +2,7 @@
 #include "measures.h"
 
 #include "../common/measures.h"
-#include "gauge.h"
+#include "marker_quantity.h"
 #include "reactions.h"
 
 static void place(const void *mechanism, const void *frame, const double *p)
@@ -20,12 +20,12 @@ static void move(const void *mechanism, const void *frame, const double *v)
     zd_plane_tree_move(&self->tree, at->pose, v, at->twist);
 }
 
-static double bias_of(const void *mechanism, const void *frame, int gauge)
+static double bias_of(const void *mechanism, const void *frame, int quantity)
 {
     const zd_plane *self = mechanism;
     const zd_plane_frame *at = frame;
     double bias;
-    zd_plane_gauge_rate(self->gauge + gauge, at->pose, at->twist, &bias);
+    zd_plane_quantity_rate(self->quantity + quantity, at->pose, at->twist, &bias);
     return bias;
 }
 
@@ -33,11 +33,11 @@ static void write_row(const void *mechanism, const void *frame, int index, doubl
 {
     const zd_plane *self = mechanism;
     const zd_plane_frame *at = frame;
-    const zd_plane_gauge *gauge = self->gauge + index;
-    const zd_plane_reading reading = zd_plane_gauge_read(gauge, at->pose);
+    const zd_plane_quantity *quantity = self->quantity + index;
+    const zd_plane_reading reading = zd_plane_quantity_read(quantity, at->pose);
     memset(row, 0, (size_t)self->tree.nv * sizeof *row);
-    zd_plane_tree_inward(&self->tree, at->pose, gauge->first, scale, reading.first, row);
-    zd_plane_tree_inward(&self->tree, at->pose, gauge->second, scale, reading.second, row);
+    zd_plane_tree_inward(&self->tree, at->pose, quantity->first, scale, reading.first, row);
+    zd_plane_tree_inward(&self->tree, at->pose, quantity->second, scale, reading.second, row);
 }
 
 static void write_wrench(zd_plane_wrench from, double *to)
@@ -45,11 +45,11 @@ static void write_wrench(zd_plane_wrench from, double *to)
     to[0] = from.force.x, to[1] = from.force.y, to[ZD_WRENCH_FORCE] = from.torque;
 }
 
-static void unit_wrench(const void *mechanism, const void *frame, int gauge, double *wrench)
+static void unit_wrench(const void *mechanism, const void *frame, int quantity, double *wrench)
 {
     const zd_plane *self = mechanism;
     const zd_plane_frame *at = frame;
-    write_wrench(zd_plane_gauge_read(self->gauge + gauge, at->pose).second, wrench);
+    write_wrench(zd_plane_quantity_read(self->quantity + quantity, at->pose).second, wrench);
 }
 
 static int reaction_of(const void *mechanism, const void *frame, int joint, const zd_measured_state *at, double *wrench)
@@ -98,13 +98,13 @@ void zd_plane_components(const zd_plane *self, const double *p, const double *v,
     zd_plane_tree_move(&self->tree, frame.pose, v, frame.twist);
     for (int i = 0; i < count; i++) {
         const zd_output_spec *measure = self->elements.output + which[2 * i];
-        const zd_plane_gauge *gauge = self->gauge + measure->index + which[2 * i + 1];
-        const zd_plane_reading reading = zd_plane_gauge_read(gauge, frame.pose);
+        const zd_plane_quantity *quantity = self->quantity + measure->index + which[2 * i + 1];
+        const zd_plane_reading reading = zd_plane_quantity_read(quantity, frame.pose);
         double bias;
-        const double rate = zd_plane_gauge_rate(gauge, frame.pose, frame.twist, &bias);
-        value[i] = measure->scale * (measure->quantity == ZD_RATES ? rate : reading.value);
-        at[2 * i] = act_on_body(self, gauge->first, measure->scale, reading.first, row + 6 * i);
-        at[2 * i + 1] = act_on_body(self, gauge->second, measure->scale, reading.second, row + 6 * i + 3);
+        const double rate = zd_plane_quantity_rate(quantity, frame.pose, frame.twist, &bias);
+        value[i] = measure->scale * (measure->kind == ZD_RATES ? rate : reading.value);
+        at[2 * i] = act_on_body(self, quantity->first, measure->scale, reading.first, row + 6 * i);
+        at[2 * i + 1] = act_on_body(self, quantity->second, measure->scale, reading.second, row + 6 * i + 3);
     }
 }
 

@@ -1,4 +1,5 @@
-/* Planned form of a planar mechanism: bodies renumbered so that parents come before children, joints converted to rows of gauges. */
+/* Planned form of a planar mechanism: bodies renumbered so that parents come before children, joints converted to rows of marker quantities.
+ * */
 #ifndef ZD_PLANE_PLAN_H
 #define ZD_PLANE_PLAN_H
 
@@ -32,7 +33,7 @@ struct zd_plane {
     const int *number;              /* (bodies + 1,): of each body as given, in the tree */
     const zd_plane_joint *joint;
     const zd_plane_planned_joint *planned;    /* (joints,) */
-    const zd_plane_gauge *gauge;          /* the given marker quantities, then those of the joints' rows */
+    const zd_plane_quantity *quantity;          /* the given marker quantities, then those of the joints' rows */
     const zd_plane_coordinate_owner *coordinate;      /* (nq,) */
     zd_hinged hinged;             /* used if all bodies turn about revolute joints and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */

@@ -4,8 +4,8 @@
 #include "reactions.h"
 
 #include "../common/output_spec.h"
-#include "efforts.h"
-#include "gauge.h"
+#include "forces.h"
+#include "marker_quantity.h"
 #include "rows.h"
 
 /* The joint's point of the second body; where a wheel rolls, the contact. */
@@ -29,7 +29,7 @@ static zd_plane_wrench about(zd_plane_wrench what, const zd_plane_pose *body, zd
 static int write_needs(const zd_plane *self, const zd_plane_frame *frame, double t, const double *vdot, const double *lambda)
 {
     const zd_readings at = zd_plane_frame_readings(self, frame);
-    int status = zd_plane_efforts_apply(self, frame, t);
+    int status = zd_plane_forces_apply(self, frame, t);
     if (status) return status;
     for (int i = 0; i < self->elements.m; i++) {
         zd_combined all;
@@ -63,11 +63,11 @@ static int of_tree(const zd_plane *self, const zd_plane_frame *frame, int joint,
     return ZD_DONE;
 }
 
-/* to += scale times what a unit force along a gauge is for its second body, about the point. */
-static void add_gauge(const zd_plane *self, const zd_plane_frame *frame, int index, zd_vector point, double scale, zd_plane_wrench *to)
+/* to += scale times what a unit force along a marker quantity is for its second body, about the point. */
+static void add_quantity(const zd_plane *self, const zd_plane_frame *frame, int index, zd_vector point, double scale, zd_plane_wrench *to)
 {
-    const zd_plane_gauge *gauge = self->gauge + index;
-    zd_plane_add_wrench(to, scale, about(zd_plane_gauge_read(gauge, frame->pose).second, frame->pose + gauge->second, point));
+    const zd_plane_quantity *quantity = self->quantity + index;
+    zd_plane_add_wrench(to, scale, about(zd_plane_quantity_read(quantity, frame->pose).second, frame->pose + quantity->second, point));
 }
 
 static void of_rows(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, const double *lambda, zd_plane_wrench *to)
@@ -75,28 +75,28 @@ static void of_rows(const zd_plane *self, const zd_plane_frame *frame, int joint
     for (int k = 0; k < self->planned[joint].row_count; k++) {
         const zd_relation *row = self->elements.row + self->planned[joint].rows[k];
         for (int i = 0; i < row->terms; i++) {
-            const zd_gauge_term *term = self->elements.term + row->first + i;
-            add_gauge(self, frame, term->gauge, point, -lambda[row - self->elements.row] * term->coefficient, to);
+            const zd_quantity_term *term = self->elements.term + row->first + i;
+            add_quantity(self, frame, term->quantity, point, -lambda[row - self->elements.row] * term->coefficient, to);
         }
     }
 }
 
-/* Motors of the joint, by rows and by efforts, and its damping */
+/* Motors of the joint, by rows and by generalized forces, and its damping */
 static int of_drives(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, double t, const double *lambda,
                      zd_plane_wrench *to)
 {
     const zd_readings at = zd_plane_frame_readings(self, frame);
     double value;
-    for (int i = 0; i < self->elements.efforts; i++) {
-        if (self->elements.effort[i].joint != joint) continue;
-        if (zd_effort_say(&self->elements, &at, self->elements.effort + i, t, &value, NULL)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->elements.effort[i].gauge, point, value, to);
+    for (int i = 0; i < self->elements.forces; i++) {
+        if (self->elements.force[i].joint != joint) continue;
+        if (zd_force_evaluate(&self->elements, &at, self->elements.force + i, t, &value, NULL)) return ZD_CALLBACK;
+        add_quantity(self, frame, self->elements.force[i].quantity, point, value, to);
     }
     for (int i = 0; i < self->elements.relations; i++) {
         const zd_relation *row = self->elements.row + self->elements.row_of_relation[i];
         if (row->joint != joint) continue;
-        if (zd_drive_effort(&self->elements, &at, i, 0, t, lambda, &value)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->elements.term[row->first].gauge, point, value, to);
+        if (zd_drive_force(&self->elements, &at, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        add_quantity(self, frame, self->elements.term[row->first].quantity, point, value, to);
     }
     return ZD_DONE;
 }

@@ -2,15 +2,15 @@
  *
  *     Phi = x2 + w - x1 - u,      C = [-I  -k x u | I  k x w],      xi = omega2^2 w - omega1^2 u.         (3), (5), (6)
  *
- * Gauges along x and y are the same constraints individually, but rotate both points twice. Vectors over the coordinates have three entries
- * for each body and for the ground, whose entries are zero, so that no branch depends on the bodies of a joint. */
+ * Marker quantities along x and y are the same constraints individually, but rotate both points twice. Vectors over the coordinates have
+ * three entries for each body and for the ground, whose entries are zero, so that no branch depends on the bodies of a joint. */
 #include "revolute_joints.h"
 
 static int is_plain(const zd_plane *mechanism, const zd_relation *row, int kind)
 {
-    const zd_gauge_term *term = mechanism->elements.term + row->first;
+    const zd_quantity_term *term = mechanism->elements.term + row->first;
     return row->law < 0 && !row->nonholonomic && row->terms == 1 && row->constant == 0 && row->slope == 0 && term->coefficient == 1
-        && mechanism->gauge[term->gauge].kind == kind;
+        && mechanism->quantity[term->quantity].kind == kind;
 }
 
 static int are_alike(const double *a, const double *b) { return a[0] == b[0] && a[1] == b[1]; }
@@ -19,9 +19,9 @@ int zd_is_revolute_joint_at(const zd_plane *mechanism, int row)
 {
     if (row + 1 >= mechanism->elements.mh) return 0;
     const zd_relation *x = mechanism->elements.row + row, *y = x + 1;
-    if (!is_plain(mechanism, x, ZD_GAUGE_X) || !is_plain(mechanism, y, ZD_GAUGE_Y)) return 0;
-    const zd_plane_gauge *a = mechanism->gauge + mechanism->elements.term[x->first].gauge,
-        *b = mechanism->gauge + mechanism->elements.term[y->first].gauge;
+    if (!is_plain(mechanism, x, ZD_PLANE_X) || !is_plain(mechanism, y, ZD_PLANE_Y)) return 0;
+    const zd_plane_quantity *a = mechanism->quantity + mechanism->elements.term[x->first].quantity,
+        *b = mechanism->quantity + mechanism->elements.term[y->first].quantity;
     return a->first == b->first && a->second == b->second && are_alike(a->point1, b->point1) && are_alike(a->point2, b->point2);
 }
 

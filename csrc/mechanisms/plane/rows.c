@@ -1,17 +1,17 @@
-/* A row is a combination of gauges: g(t, x) = 0 of (3), or a_i(t, x) xdot_i + a_0(t, x) = 0 of (5). */
+/* A row is a combination of marker quantities: g(t, x) = 0 of (3), or a_i(t, x) xdot_i + a_0(t, x) = 0 of (5). */
 #include "rows.h"
 
 #include "../common/laws.h"
-#include "gauge.h"
+#include "marker_quantity.h"
 #include "structure.h"
 
 void zd_plane_row_act(const zd_plane *self, const zd_plane_frame *frame, const zd_relation *row, const double *factors, double scale)
 {
     for (int i = 0; i < row->terms; i++) {
-        const zd_plane_gauge *gauge = self->gauge + self->elements.term[row->first + i].gauge;
-        zd_plane_reading reading = zd_plane_gauge_read(gauge, frame->pose);
-        zd_plane_add_wrench(frame->wrench + gauge->first, scale * factors[i], reading.first);
-        zd_plane_add_wrench(frame->wrench + gauge->second, scale * factors[i], reading.second);
+        const zd_plane_quantity *quantity = self->quantity + self->elements.term[row->first + i].quantity;
+        zd_plane_reading reading = zd_plane_quantity_read(quantity, frame->pose);
+        zd_plane_add_wrench(frame->wrench + quantity->first, scale * factors[i], reading.first);
+        zd_plane_add_wrench(frame->wrench + quantity->second, scale * factors[i], reading.second);
     }
 }
 
@@ -23,23 +23,23 @@ static void add_packed(const zd_plane *self, int body, int at, double scale, zd_
 
 static void add_to_row(const zd_plane *self, const zd_plane_frame *frame, int term, double scale, const zd_plane_reading *reading, double *to)
 {
-    const zd_plane_gauge *gauge = self->gauge + self->elements.term[term].gauge;
+    const zd_plane_quantity *quantity = self->quantity + self->elements.term[term].quantity;
     if (self->packing) {
-        add_packed(self, gauge->first, self->packing->packed.near[term], scale, reading->first, to);
-        add_packed(self, gauge->second, self->packing->packed.far[term], scale, reading->second, to);
+        add_packed(self, quantity->first, self->packing->packed.near[term], scale, reading->first, to);
+        add_packed(self, quantity->second, self->packing->packed.far[term], scale, reading->second, to);
     } else {
-        zd_plane_tree_inward(&self->tree, frame->pose, gauge->first, scale, reading->first, to);
-        zd_plane_tree_inward(&self->tree, frame->pose, gauge->second, scale, reading->second, to);
+        zd_plane_tree_inward(&self->tree, frame->pose, quantity->first, scale, reading->first, to);
+        zd_plane_tree_inward(&self->tree, frame->pose, quantity->second, scale, reading->second, to);
     }
 }
 
-/* Returns the sum of factors x, and adds that of factors times the gauges' rows to `to` unless that is NULL. */
+/* Returns the sum of factors x, and adds that of factors times the marker quantities' rows to `to` unless that is NULL. */
 static double add_readings(const zd_plane *self, const zd_plane_frame *frame, const zd_relation *row, const double *factors, double *to)
 {
     double sum = 0;
     for (int i = 0; i < row->terms; i++) {
-        const zd_plane_gauge *gauge = self->gauge + self->elements.term[row->first + i].gauge;
-        zd_plane_reading reading = zd_plane_gauge_read(gauge, frame->pose);
+        const zd_plane_quantity *quantity = self->quantity + self->elements.term[row->first + i].quantity;
+        zd_plane_reading reading = zd_plane_quantity_read(quantity, frame->pose);
         sum += factors[i] * reading.value;
         if (to) add_to_row(self, frame, row->first + i, factors[i], &reading, to);
     }
@@ -50,7 +50,7 @@ static double sum_of_biases(const zd_plane *self, const zd_plane_frame *frame, c
 {
     double sum = 0, bias;
     for (int i = 0; i < row->terms; i++) {
-        zd_plane_gauge_rate(self->gauge + self->elements.term[row->first + i].gauge, frame->pose, frame->twist, &bias);
+        zd_plane_quantity_rate(self->quantity + self->elements.term[row->first + i].quantity, frame->pose, frame->twist, &bias);
         sum += factors[i] * bias;
     }
     return sum;

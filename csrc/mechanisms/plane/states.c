@@ -1,5 +1,5 @@
 /* Between poses of bodies and coordinates. */
-#include "gauge.h"
+#include "marker_quantity.h"
 #include "plan.h"
 
 void zd_plane_poses(const zd_plane *mechanism, const double *p, const double *v, double *poses, double *rates, double *scratch)
@@ -50,12 +50,12 @@ static double slide(const zd_plane *mechanism, const double *poses, const double
         if (mechanism->number[body] == joint->second) second = body;
     }
     const zd_plane_pose pose[] = {given_pose(poses, first), given_pose(poses, second)};
-    const zd_plane_gauge gauge = {ZD_GAUGE_ALONG, 0, 1, {joint->point1[0], joint->point1[1]}, {joint->point2[0], joint->point2[1]},
+    const zd_plane_quantity quantity = {ZD_PLANE_ALONG, 0, 1, {joint->point1[0], joint->point1[1]}, {joint->point2[0], joint->point2[1]},
                             {joint->axis[0], joint->axis[1]}, joint->along};
-    if (!rates) return zd_plane_gauge_read(&gauge, pose).value;
+    if (!rates) return zd_plane_quantity_read(&quantity, pose).value;
     const zd_plane_twist twist[] = {given_twist(rates, first), given_twist(rates, second)};
     double bias;
-    return zd_plane_gauge_rate(&gauge, pose, twist, &bias);
+    return zd_plane_quantity_rate(&quantity, pose, twist, &bias);
 }
 
 void zd_plane_state(const zd_plane *mechanism, const double *poses, const double *rates, double *p, double *v)

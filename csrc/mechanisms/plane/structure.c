@@ -32,8 +32,8 @@ static void plan_revolute_joints(zd_packing *self, const zd_plane *mechanism)
     for (int row = 0; row < mechanism->elements.m; row++) {
         if (!zd_is_revolute_joint_at(mechanism, row)) continue;
         const int term = mechanism->elements.row[row].first, next = mechanism->elements.row[row + 1].first;
-        const zd_plane_gauge *x = mechanism->gauge + mechanism->elements.term[term].gauge,
-            *y = mechanism->gauge + mechanism->elements.term[next].gauge;
+        const zd_plane_quantity *x = mechanism->quantity + mechanism->elements.term[term].quantity,
+            *y = mechanism->quantity + mechanism->elements.term[next].quantity;
         revolutes->between[revolutes->count] = (zd_revolute_bodies){x->first, x->second, row};
         revolutes->points[revolutes->count] = (zd_points){{x->point1[0], x->point1[1]}, {x->point2[0], x->point2[1]}};
         revolutes->joint[revolutes->count++] = (zd_revolute_joint){
@@ -84,7 +84,7 @@ static void plan_pinned(zd_packing *self, const zd_plane *mechanism)
 {
     const zd_revolute_joints *revolutes = &self->revolutes;
     const int bodies = mechanism->tree.bodies;
-    int is_all = revolutes->are_all && revolutes->count && !mechanism->elements.efforts;
+    int is_all = revolutes->are_all && revolutes->count && !mechanism->elements.forces;
     for (int b = 1; b <= bodies; b++) is_all &= has_mass(mechanism, b);
     if (!is_all) return;
     double *numbers = self->numbers;
@@ -106,11 +106,11 @@ static void plan_pinned(zd_packing *self, const zd_plane *mechanism)
     self->pinned = (zd_pinned){bodies, revolutes->count, self->at, self->pin_first, self->pin_second, self->numbers};
 }
 
-static void write_bodies_of(const void *gauges, int gauge, int body[2])
+static void write_bodies_of(const void *quantities, int quantity, int body[2])
 {
-    const zd_plane_gauge *of = gauges;
-    body[0] = of[gauge].first;
-    body[1] = of[gauge].second;
+    const zd_plane_quantity *of = quantities;
+    body[0] = of[quantity].first;
+    body[1] = of[quantity].second;
 }
 
 int zd_packing_plan(zd_packing *self, const zd_plane *mechanism)
@@ -118,7 +118,7 @@ int zd_packing_plan(zd_packing *self, const zd_plane *mechanism)
     const int bodies = mechanism->tree.bodies;
     for (int b = 0; b < bodies; b++)
         self->packed.coordinates[b] = self->packed.velocities[b] = mechanism->tree.link[b + 1].hang == ZD_HANGS_FREE ? 3 : 2;
-    if (zd_packed_plan(&self->packed, &mechanism->elements, bodies, write_bodies_of, mechanism->gauge) >= 0) return 0;
+    if (zd_packed_plan(&self->packed, &mechanism->elements, bodies, write_bodies_of, mechanism->quantity) >= 0) return 0;
     plan_revolute_joints(self, mechanism);
     plan_lines(self, mechanism);
     plan_weight(self, mechanism);

@@ -17,7 +17,7 @@
 typedef struct zd_plane_body {
     double mass, inertia;       /* kg, kg m^2 about the mass centre */
     int is_particle;            /* has no angle */
-    int carrier;                /* its inboard joint; -1: it is free */
+    int inboard;                /* its inboard joint; -1: it is free */
 } zd_plane_body;
 
 typedef struct zd_plane_joint {
@@ -30,20 +30,20 @@ typedef struct zd_plane_joint {
     double length;              /* m: of a rod; the radius of a rolling wheel */
 } zd_plane_joint;
 
-typedef struct zd_plane_gauge {
-    int kind;                   /* enum zd_plane_gauge_kind */
+typedef struct zd_plane_quantity {
+    int kind;                   /* enum zd_plane_quantity_kind */
     int first, second;          /* bodies */
     double point1[2], point2[2];
     double axis[2];             /* unit vector in the first body's axes */
     double zero;                /* m or rad: subtracted from the value */
-} zd_plane_gauge;
+} zd_plane_quantity;
 
 typedef struct zd_plane_tables {
     double gravity[2];          /* m/s^2 */
-    int bodies, joints, gauges;
+    int bodies, joints, quantities;
     const zd_plane_body *body;        /* (bodies,) from number 1 on */
     const zd_plane_joint *joint;
-    const zd_plane_gauge *gauge;
+    const zd_plane_quantity *quantity;
     zd_elements elements;
 } zd_plane_tables;
 
@@ -79,14 +79,14 @@ typedef struct zd_target {
     int stays;
 } zd_target;
 
-/* Planned form of all joints and elements: links of a tree, rows, and efforts along marker quantities. Bodies are numbered as in the tree,
- * parents before children. */
+/* Planned form of all joints and elements: links of a tree, rows, and generalized forces along marker quantities. Bodies are numbered as in
+ * the tree, parents before children. */
 typedef struct zd_plane_plan {
     const zd_plane_link *link;        /* (bodies + 1,) the first one, of the ground, unused */
-    const zd_plane_gauge *gauge;
-    const zd_gauge_term *term;
+    const zd_plane_quantity *quantity;
+    const zd_quantity_term *term;
     const zd_relation *row;     /* (m,) holonomic ones first */
-    const zd_effort *effort;    /* (efforts,) */
+    const zd_generalized_force *force;    /* (generalized forces,) */
 } zd_plane_plan;
 
 zd_plane_plan zd_plane_planned(const zd_plane *mechanism);

@@ -14,10 +14,10 @@ static zd_plane_tables tables_of(const zd_plane_tables *first, const double *gra
     tables.gravity[1] = gravity[2 * run + 1];
     tables.body += run * tables.bodies;
     tables.joint += run * tables.joints;
-    tables.gauge += run * tables.gauges;
+    tables.quantity += run * tables.quantities;
     tables.elements.term += run * tables.elements.terms;
     tables.elements.relation += run * tables.elements.relations;
-    tables.elements.effort += run * tables.elements.efforts;
+    tables.elements.force += run * tables.elements.forces;
     return tables;
 }
 

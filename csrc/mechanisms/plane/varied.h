@@ -7,8 +7,8 @@
 
 #include "tables.h"
 
-/* Tables of the first of so many mechanisms; entries of each that are bodies, joints, gauges, terms, relations and efforts follow those of
- * the one before. There are no laws. */
+/* Tables of the first of so many mechanisms; entries of each that are bodies, joints, marker quantities, terms, relations and generalized
+ * forces follow those of the one before. There are no laws. */
 typedef struct zd_varied {
     zd_plane_tables moving;           /* in the coordinates that it moves in, with all of its measures */
     zd_plane_tables drawn;            /* in absolute coordinates, with the measures that the start holds */

@@ -1,4 +1,4 @@
-/* Checks of bodies, joints and gauges in space; elements are checked in ../common/check.c. */
+/* Checks of bodies, joints and marker quantities in space; elements are checked in ../common/check.c. */
 #include "check.h"
 
 #include <stddef.h>
@@ -14,21 +14,21 @@ static int swings(const zd_space_joint_kind *kind, int freedom)
     return kind->freedoms && kind->freedom[freedom].kind == ZD_SPACE_SWINGS;
 }
 
-static int carrier_is_right(const zd_space_tables *tables, int i, zd_complaint to)
+static int inboard_is_right(const zd_space_tables *tables, int i, zd_complaint to)
 {
-    const int carrier = tables->body[i].carrier, body = i + 1;
-    if (carrier == -1) return 1;
-    if (!zd_carrier_exists(body, carrier, tables->joints, to)) return 0;
-    const zd_space_joint *joint = tables->joint + carrier;
+    const int inboard = tables->body[i].inboard, body = i + 1;
+    if (inboard == -1) return 1;
+    if (!zd_inboard_exists(body, inboard, tables->joints, to)) return 0;
+    const zd_space_joint *joint = tables->joint + inboard;
     const zd_space_joint_kind *kind = zd_space_joint_kind_of(joint->kind);
-    if (!zd_carrier_connects(body, carrier, joint->first, joint->second, to)) return 0;
-    if (!kind->carries)
-        return zd_complain(to, "body %d: its inboard joint %d must be of a kind for trees, not a %s", body, carrier, kind->card.name);
+    if (!zd_inboard_connects(body, inboard, joint->first, joint->second, to)) return 0;
+    if (!kind->is_inboard)
+        return zd_complain(to, "body %d: its inboard joint %d must be of a kind for trees, not a %s", body, inboard, kind->card.name);
     if ((is_particle(tables, joint->first) && !swings(kind, 0)) || (is_particle(tables, joint->second) && !swings(kind, kind->freedoms - 1)))
-        return zd_complain(to, "body %d: its inboard joint %d must not be a %s, as a particle has no axes", body, carrier, kind->card.name);
+        return zd_complain(to, "body %d: its inboard joint %d must not be a %s, as a particle has no axes", body, inboard, kind->card.name);
     for (int other = 0; other < i; other++)
-        if (tables->body[other].carrier == carrier)
-            return zd_complain(to, "joint %d must be the inboard joint of one body, not of bodies %d and %d", carrier, other + 1, body);
+        if (tables->body[other].inboard == inboard)
+            return zd_complain(to, "joint %d must be the inboard joint of one body, not of bodies %d and %d", inboard, other + 1, body);
     return 1;
 }
 
@@ -39,7 +39,7 @@ static int body_is_right(const void *all, int i, zd_complaint to)
     if (!zd_mass_is_right(i + 1, body->mass, to)) return 0;
     for (int k = 0; k < 3; k++)
         if (!zd_inertia_is_right(i + 1, body->inertia[k], body->is_particle, to)) return 0;
-    return carrier_is_right(tables, i, to);
+    return inboard_is_right(tables, i, to);
 }
 
 /* A particle has no axes: its point is its place. */
@@ -67,24 +67,25 @@ static int angles_of(const zd_space_tables *tables)
     return angles;
 }
 
-static int gauge_is_right(const void *all, int i, zd_complaint to)
+static int quantity_is_right(const void *all, int i, zd_complaint to)
 {
     const zd_space_tables *tables = all;
-    const zd_space_gauge *gauge = tables->gauge + i;
-    if (!zd_is_in(gauge->kind, ZD_SPACE_GAUGES))
-        return zd_complain(to, "gauge %d: its kind must be from 0 to %d, not %d", i, ZD_SPACE_GAUGES - 1, gauge->kind);
-    if (!zd_bodies_are_right("gauge", i, gauge->first, gauge->second, tables->bodies, to)) return 0;
-    if (gauge->counted && (gauge->kind != ZD_SPACE_ANGLE || !zd_is_in(gauge->counted - 1, angles_of(tables))))
-        return zd_complain(to, "gauge %d: it must count the turns of an angle of a joint, not of angle %d", i, gauge->counted - 1);
-    return (suits_particle(tables, gauge->first, gauge->point1) && suits_particle(tables, gauge->second, gauge->point2)) ||
-           zd_complain(to, "gauge %d: its point on a particle must be the mass centre", i);
+    const zd_space_quantity *quantity = tables->quantity + i;
+    if (!zd_is_in(quantity->kind, ZD_SPACE_QUANTITIES))
+        return zd_complain(to, "marker quantity %d: its kind must be from 0 to %d, not %d", i, ZD_SPACE_QUANTITIES - 1, quantity->kind);
+    if (!zd_bodies_are_right("marker quantity", i, quantity->first, quantity->second, tables->bodies, to)) return 0;
+    if (quantity->counted && (quantity->kind != ZD_SPACE_ANGLE || !zd_is_in(quantity->counted - 1, angles_of(tables))))
+        return zd_complain(to, "marker quantity %d: it must count the turns of an angle of a joint, not of angle %d", i,
+                           quantity->counted - 1);
+    return (suits_particle(tables, quantity->first, quantity->point1) && suits_particle(tables, quantity->second, quantity->point2)) ||
+           zd_complain(to, "marker quantity %d: its point on a particle must be the mass centre", i);
 }
 
 int zd_space_tables_are_right(const zd_space_tables *tables, char *message, int message_size)
 {
     const zd_complaint to = {message, message_size};
     const zd_checked all[] = {     /* joints before the bodies whose inboard joints they are */
-        {tables->joints, joint_is_right}, {tables->bodies, body_is_right}, {tables->gauges, gauge_is_right}};
+        {tables->joints, joint_is_right}, {tables->bodies, body_is_right}, {tables->quantities, quantity_is_right}};
     const int arrays = sizeof all / sizeof all[0];
-    return zd_mechanism_is_right(tables, tables->bodies, arrays, all, &tables->elements, tables->joints, tables->gauges, to);
+    return zd_mechanism_is_right(tables, tables->bodies, arrays, all, &tables->elements, tables->joints, tables->quantities, to);
 }

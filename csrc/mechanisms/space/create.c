@@ -1,4 +1,4 @@
-/* From tables to a mechanism in space: joints become rows of gauges. */
+/* From tables to a mechanism in space: joints become rows of marker quantities. */
 #include <stdio.h>
 
 #include "check.h"
@@ -15,14 +15,14 @@ typedef struct parts {
     zd_space_planned_body *body;
     zd_space_joint *joint;
     zd_space_planned_joint *planned;
-    zd_space_gauge *gauge;
+    zd_space_quantity *quantity;
     zd_element_parts elements;
     int *lengths, *quaternion;
     zd_packed packed;
     zd_point_joints point_joints;
     zd_unwrapped_angles unwrapped;
     double *weight;
-    int gauges, quaternions, nq, nv;       /* so many are there by now */
+    int quantities, quaternions, nq, nv;       /* so many are there by now */
 } parts;
 
 static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
@@ -34,7 +34,7 @@ static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to
     TAKE(body, bodies + 1);
     TAKE(joint, joints);
     TAKE(planned, joints);
-    TAKE(gauge, (size_t)tables->gauges + extra);
+    TAKE(quantity, (size_t)tables->quantities + extra);
     TAKE(lengths, (ZD_BODY_COORDINATES + ZD_BODY_VELOCITIES) * bodies + ZD_SPACE_COORDINATES * joints);
     TAKE(quaternion, bodies);
     TAKE(weight, ZD_BODY_VELOCITIES * bodies);
@@ -68,7 +68,7 @@ static void plan_bodies(const zd_space_tables *tables, parts *to)
         }
 }
 
-/* ---- joints, gauges, relations ---- */
+/* ---- joints, marker quantities, relations ---- */
 
 static void copy(const zd_space_tables *tables, parts *to)
 {
@@ -77,20 +77,20 @@ static void copy(const zd_space_tables *tables, parts *to)
         to->planned[i].angles = angles;
     }
     for (int body = 1; body <= tables->bodies; body++) {
-        const int carrier = tables->body[body - 1].carrier;
-        if (carrier < 0) continue;
-        to->planned[carrier].carried = body;
-        to->planned[carrier].sign = tables->joint[carrier].second == body ? 1 : -1;
+        const int inboard = tables->body[body - 1].inboard;
+        if (inboard < 0) continue;
+        to->planned[inboard].carried = body;
+        to->planned[inboard].sign = tables->joint[inboard].second == body ? 1 : -1;
     }
-    for (int i = 0; i < tables->gauges; i++) to->gauge[i] = tables->gauge[i];
+    for (int i = 0; i < tables->quantities; i++) to->quantity[i] = tables->quantity[i];
     zd_elements_copy(&tables->elements, &to->elements);
-    to->gauges = tables->gauges;
+    to->quantities = tables->quantities;
 }
 
-static void add_term(parts *to, zd_space_gauge gauge, double coefficient)
+static void add_term(parts *to, zd_space_quantity quantity, double coefficient)
 {
-    to->gauge[to->gauges] = gauge;
-    zd_elements_add_term(&to->elements, to->gauges++, coefficient);
+    to->quantity[to->quantities] = quantity;
+    zd_elements_add_term(&to->elements, to->quantities++, coefficient);
 }
 
 /* A row that advances does so with the joint's angle, its first coordinate. */
@@ -99,8 +99,8 @@ static void add_joint_row(parts *to, int j, int component)
     const zd_space_joint *joint = to->joint + j;
     const zd_space_row *row = zd_space_joint_kind_of(joint->kind)->row + component;
     const int first = to->elements.terms;
-    add_term(to, zd_space_picked_gauge(joint, &row->pick), 1);
-    if (row->advances) add_term(to, zd_space_coordinate_gauge(joint, 0, to->planned[j].angles), -joint->length);
+    add_term(to, zd_space_picked_quantity(joint, &row->pick), 1);
+    if (row->advances) add_term(to, zd_space_coordinate_quantity(joint, 0, to->planned[j].angles), -joint->length);
     to->planned[j].rows[to->planned[j].row_count++] = to->elements.rows;
     zd_elements_add_joint_row(&to->elements, first, row->nonholonomic, j, component);
 }
@@ -154,11 +154,11 @@ static void make_system(const zd_space_tables *tables, const parts *from)
     self->measures = zd_space_measures(self, from->elements.measure);
 }
 
-static void write_bodies_of(const void *gauges, int gauge, int body[2])
+static void write_bodies_of(const void *quantities, int quantity, int body[2])
 {
-    const zd_space_gauge *of = gauges;
-    body[0] = of[gauge].first;
-    body[1] = of[gauge].second;
+    const zd_space_quantity *of = quantities;
+    body[0] = of[quantity].first;
+    body[1] = of[quantity].second;
 }
 
 /* Returns -1, or a row that touches the ground alone. */
@@ -173,7 +173,7 @@ static int plan(const zd_space_tables *tables, parts *all)
     *self = (zd_space){
         .gravity = zd_vector3_of(tables->gravity),
         .bodies = tables->bodies, .joints = tables->joints, .elements = zd_elements_plan(&tables->elements, &all->elements, mh),
-        .body = all->body, .joint = all->joint, .planned = all->planned, .gauge = all->gauge,
+        .body = all->body, .joint = all->joint, .planned = all->planned, .quantity = all->quantity,
         .weight = all->weight, .unwrapped = all->unwrapped,
     };
     for (int b = 0; b < tables->bodies; b++) {
@@ -181,7 +181,7 @@ static int plan(const zd_space_tables *tables, parts *all)
         all->packed.coordinates[b] = turns ? ZD_BODY_COORDINATES : ZD_POINT_COORDINATES;
         all->packed.velocities[b] = turns ? ZD_BODY_VELOCITIES : ZD_POINT_COORDINATES;
     }
-    const int alone = zd_packed_plan(&all->packed, &self->elements, tables->bodies, write_bodies_of, all->gauge);
+    const int alone = zd_packed_plan(&all->packed, &self->elements, tables->bodies, write_bodies_of, all->quantity);
     self->packed = all->packed;
     zd_point_joints_plan(&all->point_joints, self);
     self->point_joints = all->point_joints;
@@ -193,7 +193,7 @@ zd_space *zd_space_create(const zd_space_tables *tables, char *message, int mess
 {
     if (!zd_space_tables_are_right(tables, message, message_size)) return NULL;
     zd_arena arena = {NULL, 0};
-    parts all = {.gauges = 0};
+    parts all = {.quantities = 0};
     take_parts(tables, &arena, &all);
     arena = (zd_arena){zd_allocate(arena.used), 0};
     if (!arena.base) {
@@ -237,5 +237,5 @@ void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *co
 
 zd_space_plan zd_space_planned(const zd_space *space)
 {
-    return (zd_space_plan){space->gauge, space->elements.term, space->elements.row, space->elements.effort};
+    return (zd_space_plan){space->quantity, space->elements.term, space->elements.row, space->elements.force};
 }

@@ -1,7 +1,7 @@
 /* The equations of motion (1), (2), (3), (5), (6) of a mechanism in space, from its tables. */
 #include "evaluate.h"
 
-#include "efforts.h"
+#include "forces.h"
 #include "rows.h"
 #include "point_joints.h"
 
@@ -9,11 +9,11 @@ enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 
 static int write_force(const zd_space *self, const zd_space_frame *frame, double t, double *f)
 {
-    if (!self->elements.efforts) {
+    if (!self->elements.forces) {
         memcpy(f, self->weight, (size_t)self->system.nv * sizeof *f);
         return ZD_DONE;
     }
-    const int status = zd_space_efforts_apply(self, frame, t);
+    const int status = zd_space_forces_apply(self, frame, t);
     zd_bodies_gather(self->bodies, self->body, frame->pose, frame->wrench, f);
     return status;
 }

@@ -1,5 +1,5 @@
 /* The scratch of a mechanism in space, laid out once for its size and once for its parts. */
-#include "gauge.h"
+#include "marker_quantity.h"
 #include "plan.h"
 #include "unwrapped_angles.h"
 
@@ -59,18 +59,18 @@ void zd_space_frame_move(const zd_space *space, const zd_space_frame *frame, con
     else zd_bodies_move(space->bodies, space->body, frame->pose, v, frame->twist);
 }
 
-static double value_of(const void *mechanism, const void *frame, int gauge)
+static double value_of(const void *mechanism, const void *frame, int quantity)
 {
     const zd_space *self = mechanism;
     const zd_space_frame *at = frame;
-    return zd_space_gauge_value(self->gauge + gauge, at->pose, at->angle);
+    return zd_space_quantity_value(self->quantity + quantity, at->pose, at->angle);
 }
 
-static double rate_of(const void *mechanism, const void *frame, int gauge)
+static double rate_of(const void *mechanism, const void *frame, int quantity)
 {
     const zd_space *self = mechanism;
     const zd_space_frame *at = frame;
-    return zd_space_gauge_rate(self->gauge + gauge, at->pose, at->twist);
+    return zd_space_quantity_rate(self->quantity + quantity, at->pose, at->twist);
 }
 
 zd_readings zd_space_frame_readings(const zd_space *space, const zd_space_frame *frame)

@@ -2,35 +2,35 @@
 #include "measures.h"
 
 #include "../common/measures.h"
-#include "gauge.h"
+#include "marker_quantity.h"
 #include "reactions.h"
 
 static void place(const void *mechanism, const void *frame, const double *p) { zd_space_frame_place(mechanism, frame, p); }
 
 static void move(const void *mechanism, const void *frame, const double *v) { zd_space_frame_move(mechanism, frame, v); }
 
-static double bias_of(const void *mechanism, const void *frame, int gauge)
+static double bias_of(const void *mechanism, const void *frame, int quantity)
 {
     const zd_space *self = mechanism;
     const zd_space_frame *at = frame;
-    return zd_space_gauge_bias_with(self->gauge + gauge, at->pose, at->twist, at->bias);
+    return zd_space_quantity_bias_with(self->quantity + quantity, at->pose, at->twist, at->bias);
 }
 
 static void write_row(const void *mechanism, const void *frame, int index, double scale, double *row)
 {
     const zd_space *self = mechanism;
     const zd_space_frame *at = frame;
-    const zd_space_gauge *gauge = self->gauge + index;
-    const zd_space_reading reading = zd_space_gauge_read(gauge, at->pose);
+    const zd_space_quantity *quantity = self->quantity + index;
+    const zd_space_reading reading = zd_space_quantity_read(quantity, at->pose);
     memset(row, 0, (size_t)self->system.nv * sizeof *row);
     if (self->carrying.act) {
-        self->carrying.act(self, at, gauge, scale, &reading, row);
+        self->carrying.act(self, at, quantity, scale, &reading, row);
         return;
     }
     const struct {
         int body;
         zd_space_wrench wrench;
-    } sides[] = {{gauge->first, reading.first}, {gauge->second, reading.second}};
+    } sides[] = {{quantity->first, reading.first}, {quantity->second, reading.second}};
     for (int i = 0; i < 2; i++) {
         const int body = sides[i].body;
         if (body) zd_body_act(self->body + body, at->pose + body, scale, sides[i].wrench, row + self->body[body].v);
@@ -48,11 +48,11 @@ static void write_wrench(zd_space_wrench from, double *to)
     write_vector(from.torque, to + ZD_WRENCH_FORCE);
 }
 
-static void unit_wrench(const void *mechanism, const void *frame, int gauge, double *wrench)
+static void unit_wrench(const void *mechanism, const void *frame, int quantity, double *wrench)
 {
     const zd_space *self = mechanism;
     const zd_space_frame *at = frame;
-    write_wrench(zd_space_gauge_read(self->gauge + gauge, at->pose).second, wrench);
+    write_wrench(zd_space_quantity_read(self->quantity + quantity, at->pose).second, wrench);
 }
 
 static int reaction_of(const void *mechanism, const void *frame, int joint, const zd_measured_state *at, double *wrench)
@@ -101,13 +101,13 @@ void zd_space_components(const zd_space *self, const double *p, const double *v,
     zd_space_frame_move(self, &frame, v);
     for (int i = 0; i < count; i++, row += 2 * ZD_BODY_VELOCITIES, at += 2) {
         const zd_output_spec *measure = self->elements.output + which[2 * i];
-        const zd_space_gauge *gauge = self->gauge + measure->index + which[2 * i + 1];
-        const zd_space_reading reading = zd_space_gauge_read(gauge, frame.pose);
-        const int is_rate = measure->quantity == ZD_RATES;
-        value[i] = measure->scale * (is_rate ? zd_space_gauge_rate(gauge, frame.pose, frame.twist)
-                                             : zd_space_gauge_value(gauge, frame.pose, frame.angle));
-        at[0] = act_on_body(self, &frame, gauge->first, measure->scale, reading.first, row);
-        at[1] = act_on_body(self, &frame, gauge->second, measure->scale, reading.second, row + ZD_BODY_VELOCITIES);
+        const zd_space_quantity *quantity = self->quantity + measure->index + which[2 * i + 1];
+        const zd_space_reading reading = zd_space_quantity_read(quantity, frame.pose);
+        const int is_rate = measure->kind == ZD_RATES;
+        value[i] = measure->scale * (is_rate ? zd_space_quantity_rate(quantity, frame.pose, frame.twist)
+                                             : zd_space_quantity_value(quantity, frame.pose, frame.angle));
+        at[0] = act_on_body(self, &frame, quantity->first, measure->scale, reading.first, row);
+        at[1] = act_on_body(self, &frame, quantity->second, measure->scale, reading.second, row + ZD_BODY_VELOCITIES);
     }
 }
 

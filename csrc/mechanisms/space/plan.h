@@ -1,10 +1,10 @@
-/* Planned form of a spatial mechanism: joints converted to rows of gauges, and the storage of their entries. */
+/* Planned form of a spatial mechanism: joints converted to rows of marker quantities, and the storage of their entries. */
 #ifndef ZD_SPACE_PLAN_H
 #define ZD_SPACE_PLAN_H
 
 #include "../common/packed.h"
 #include "../common/readings.h"
-#include "gauge.h"
+#include "marker_quantity.h"
 #include "point_joint_tables.h"
 #include "tables.h"
 
@@ -22,8 +22,8 @@ struct zd_space_frame;
 typedef struct zd_carrying {
     void (*place)(const zd_space *self, const struct zd_space_frame *frame, const double *p);
     void (*move)(const zd_space *self, const struct zd_space_frame *frame, const double *v);     /* and frame->bias */
-    /* row (nv,) += scale times the generalized force of a unit force along a gauge */
-    void (*act)(const zd_space *self, const struct zd_space_frame *frame, const zd_space_gauge *gauge, double scale,
+    /* row (nv,) += scale times the generalized force of a unit force along a marker quantity */
+    void (*act)(const zd_space *self, const struct zd_space_frame *frame, const zd_space_quantity *quantity, double scale,
                 const zd_space_reading *reading,
                 double *row);
     /* reaction += wrench of an inboard joint on its second body, about a point. Returns ZD_DONE or ZD_CALLBACK. */
@@ -36,8 +36,8 @@ typedef struct zd_carrying {
 /* Angles of joints that count turns: see unwrapped_angles.h. */
 typedef struct zd_unwrapped_angles {
     int count;
-    zd_space_gauge *angle;          /* (count,) gauge of each angle */
-    zd_vector3 *axis;               /* (count,) in the axes of the gauge's first body */
+    zd_space_quantity *angle;          /* (count,) marker quantity of each angle */
+    zd_vector3 *axis;               /* (count,) in the axes of the marker quantity's first body */
     int *joint, *place;             /* (count,) its joint, and its index in p */
 } zd_unwrapped_angles;
 
@@ -49,7 +49,7 @@ struct zd_space {
     const zd_space_planned_body *body;           /* (bodies + 1,) the first one, of the ground, unused */
     const zd_space_joint *joint;
     const zd_space_planned_joint *planned;   /* (joints,) */
-    const zd_space_gauge *gauge;    /* the given marker quantities, then those of the joints' rows */
+    const zd_space_quantity *quantity;    /* the given marker quantities, then those of the joints' rows */
     zd_packed packed;
     const double *weight;           /* (nv,) of the bodies, as generalized force */
     zd_point_joints point_joints;

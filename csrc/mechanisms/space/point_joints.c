@@ -21,8 +21,8 @@ void zd_point_joints_take(zd_point_joints *self, zd_arena *arena, size_t bodies,
 
 /* ---- search ---- */
 
-static const zd_space_gauge *gauge_of_row(const zd_space *space,
-                                          int row) { return space->gauge + space->elements.term[space->elements.row[row].first].gauge; }
+static const zd_space_quantity *quantity_of_row(const zd_space *space,
+                                          int row) { return space->quantity + space->elements.term[space->elements.row[row].first].quantity; }
 
 static int is_of_joint(const zd_space *space, int row, int joint)
 {
@@ -39,7 +39,7 @@ static int count_rows(const zd_space *space, int row)
     if (rows < ZD_POINT_ROWS || rows > ZD_POINT_JOINT_ROWS) return 0;
     for (int k = 0; k < rows; k++) {
         const int kind = k < ZD_POINT_ROWS ? ZD_SPACE_X + k : ZD_SPACE_COSINE;
-        if (gauge_of_row(space, row + k)->kind != kind) return 0;
+        if (quantity_of_row(space, row + k)->kind != kind) return 0;
     }
     return rows;
 }
@@ -60,7 +60,7 @@ static void list_ends(zd_point_joints *self, int bodies)
 
 static void add_socket(zd_point_joints *self, const zd_space *space, int row, int rows)
 {
-    const zd_space_gauge *point = gauge_of_row(space, row);
+    const zd_space_quantity *point = quantity_of_row(space, row);
     const int term = space->elements.row[row].first, k = self->count++;
     self->joint[k] = (zd_point_joint){point->first, point->second, rows, row, self->turns};
     self->points[k] = (zd_point_joint_points){zd_vector3_of(point->point1), zd_vector3_of(point->point2)};
@@ -69,9 +69,9 @@ static void add_socket(zd_point_joints *self, const zd_space *space, int row, in
         .near = space->packed.near[term], .far = space->packed.far[term],
         .near_turns = space->body[point->first].turns, .far_turns = space->body[point->second].turns};
     for (int i = 0; i < rows - ZD_POINT_ROWS; i++) {
-        const zd_space_gauge *gauge = gauge_of_row(space, row + ZD_POINT_ROWS + i);
-        self->directions[k].a[i] = zd_vector3_of(gauge->a);
-        self->directions[k].b[i] = zd_vector3_of(gauge->b);
+        const zd_space_quantity *quantity = quantity_of_row(space, row + ZD_POINT_ROWS + i);
+        self->directions[k].a[i] = zd_vector3_of(quantity->a);
+        self->directions[k].b[i] = zd_vector3_of(quantity->b);
     }
     self->turns += 2 * 3 * rows;
     self->rows = k == 0 || self->rows == rows ? rows : 0;

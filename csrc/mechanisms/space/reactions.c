@@ -3,7 +3,7 @@
 #include "reactions.h"
 
 #include "../common/output_spec.h"
-#include "gauge.h"
+#include "marker_quantity.h"
 
 typedef struct place {
     int body;               /* the joint's second */
@@ -16,17 +16,17 @@ static place place_of(const zd_space *self, const zd_space_frame *frame, int joi
     const zd_space_joint *of = self->joint + joint;
     if (zd_space_joint_kind_of(of->kind)->rolls) {
         const zd_relation *row = self->elements.row + self->planned[joint].rows[0];
-        return (place){of->second, zd_space_contact(self->gauge + self->elements.term[row->first].gauge, frame->pose)};
+        return (place){of->second, zd_space_contact(self->quantity + self->elements.term[row->first].quantity, frame->pose)};
     }
     return (place){of->second, zd_space_point_of(frame->pose + of->second, of->point2)};
 }
 
-/* to += scale times what a unit force along a gauge is for a joint's second body, about the joint's point. */
-static void add_gauge(const zd_space *self, const zd_space_frame *frame, int index, place at, double scale, zd_space_wrench *to)
+/* to += scale times what a unit force along a marker quantity is for a joint's second body, about the joint's point. */
+static void add_quantity(const zd_space *self, const zd_space_frame *frame, int index, place at, double scale, zd_space_wrench *to)
 {
-    const zd_space_gauge *gauge = self->gauge + index;
-    const zd_space_reading reading = zd_space_gauge_read(gauge, frame->pose);
-    zd_space_wrench what = gauge->second == at.body ? reading.second : reading.first;
+    const zd_space_quantity *quantity = self->quantity + index;
+    const zd_space_reading reading = zd_space_quantity_read(quantity, frame->pose);
+    zd_space_wrench what = quantity->second == at.body ? reading.second : reading.first;
     what.torque = zd_plus3(what.torque, zd_cross3(zd_minus3(frame->pose[at.body].at, at.point), what.force));
     zd_space_add_wrench(to, scale, what);
 }
@@ -37,26 +37,26 @@ static void of_rows(const zd_space *self, const zd_space_frame *frame, int joint
         const int index = self->planned[joint].rows[k];
         const zd_relation *row = self->elements.row + index;
         for (int i = row->first; i < row->first + row->terms; i++)
-            add_gauge(self, frame, self->elements.term[i].gauge, at, -lambda[index] * self->elements.coefficient[i], to);
+            add_quantity(self, frame, self->elements.term[i].quantity, at, -lambda[index] * self->elements.coefficient[i], to);
     }
 }
 
-/* Motors of the joint, by rows and by efforts, and its damping */
+/* Motors of the joint, by rows and by generalized forces, and its damping */
 static int of_drives(const zd_space *self, const zd_space_frame *frame, int joint, place at, double t, const double *lambda,
                      zd_space_wrench *to)
 {
     const zd_readings readings = zd_space_frame_readings(self, frame);
     double value;
-    for (int i = 0; i < self->elements.efforts; i++) {
-        if (self->elements.effort[i].joint != joint) continue;
-        if (zd_effort_say(&self->elements, &readings, self->elements.effort + i, t, &value, NULL)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->elements.effort[i].gauge, at, value, to);
+    for (int i = 0; i < self->elements.forces; i++) {
+        if (self->elements.force[i].joint != joint) continue;
+        if (zd_force_evaluate(&self->elements, &readings, self->elements.force + i, t, &value, NULL)) return ZD_CALLBACK;
+        add_quantity(self, frame, self->elements.force[i].quantity, at, value, to);
     }
     for (int i = 0; i < self->elements.relations; i++) {
         const zd_relation *row = self->elements.row + self->elements.row_of_relation[i];
         if (row->joint != joint) continue;
-        if (zd_drive_effort(&self->elements, &readings, i, 0, t, lambda, &value)) return ZD_CALLBACK;
-        add_gauge(self, frame, self->elements.term[row->first].gauge, at, value, to);
+        if (zd_drive_force(&self->elements, &readings, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        add_quantity(self, frame, self->elements.term[row->first].quantity, at, value, to);
     }
     return ZD_DONE;
 }

@@ -1,33 +1,33 @@
-/* A row is a combination of gauges, as in the plane: g(t, x) = 0 of (3), or a_i(t, x) xdot_i + a_0(t, x) = 0 of (5). */
+/* A row is a combination of marker quantities, as in the plane: g(t, x) = 0 of (3), or a_i(t, x) xdot_i + a_0(t, x) = 0 of (5). */
 #include "rows.h"
 
 #include "../common/laws.h"
-#include "gauge.h"
+#include "marker_quantity.h"
 
-static const zd_space_gauge *gauge_of(const zd_space *self, const zd_relation *row, int i)
+static const zd_space_quantity *quantity_of(const zd_space *self, const zd_relation *row, int i)
 {
-    return self->gauge + self->elements.term[row->first + i].gauge;
+    return self->quantity + self->elements.term[row->first + i].quantity;
 }
 
 static void add_to_row(const zd_space *self, const zd_space_frame *frame, int term, double scale, const zd_space_reading *reading, double *to)
 {
-    const zd_space_gauge *gauge = self->gauge + self->elements.term[term].gauge;
-    const int first = gauge->first, second = gauge->second;
+    const zd_space_quantity *quantity = self->quantity + self->elements.term[term].quantity;
+    const int first = quantity->first, second = quantity->second;
     if (self->carrying.act) {
-        self->carrying.act(self, frame, gauge, scale, reading, to);
+        self->carrying.act(self, frame, quantity, scale, reading, to);
         return;
     }
     if (first) zd_body_act(self->body + first, frame->pose + first, scale, reading->first, to + self->packed.near[term]);
     if (second) zd_body_act(self->body + second, frame->pose + second, scale, reading->second, to + self->packed.far[term]);
 }
 
-/* Returns the sum of factors x, and adds that of factors times the gauges' rows to `to` unless that is NULL. */
+/* Returns the sum of factors x, and adds that of factors times the marker quantities' rows to `to` unless that is NULL. */
 static double add_readings(const zd_space *self, const zd_space_frame *frame, const zd_relation *row, const double *factors, double *to)
 {
     double sum = 0;
     for (int i = 0; i < row->terms; i++) {
-        const zd_space_reading reading = zd_space_gauge_read(gauge_of(self, row, i), frame->pose);
-        sum += factors[i] * zd_space_gauge_counted(gauge_of(self, row, i), reading.value, frame->angle);
+        const zd_space_reading reading = zd_space_quantity_read(quantity_of(self, row, i), frame->pose);
+        sum += factors[i] * zd_space_quantity_counted(quantity_of(self, row, i), reading.value, frame->angle);
         if (to) add_to_row(self, frame, row->first + i, factors[i], &reading, to);
     }
     return sum;
@@ -37,7 +37,7 @@ static double sum_of_biases(const zd_space *self, const zd_space_frame *frame, c
 {
     double sum = 0;
     for (int i = 0; i < row->terms; i++)
-        sum += factors[i] * zd_space_gauge_bias_with(gauge_of(self, row, i), frame->pose, frame->twist, frame->bias);
+        sum += factors[i] * zd_space_quantity_bias_with(quantity_of(self, row, i), frame->pose, frame->twist, frame->bias);
     return sum;
 }
 

@@ -5,8 +5,8 @@
  * and its angular velocity in body axes. These are its principal axes, so that M is constant and diagonal. A particle has a position and a
  * velocity only. Body 0 is the ground; given bodies are numbered from 1. The coordinates of bodies are followed by the joint angles, in the
  * order of joints, which count turns: unwrapped_angles.h. All points are in the axes of their body and from its mass centre (on the ground:
- * in global axes, from the global origin). Relations, efforts, measures and user functions are of gauges in space; forces and torques have
- * three components.
+ * in global axes, from the global origin). Relations, generalized forces, measures and user functions are of marker quantities in space;
+ * forces and torques have three components.
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
@@ -20,7 +20,7 @@ typedef struct zd_space_body {
     double mass;                /* kg */
     double inertia[3];          /* kg m^2, about its own axes through the mass centre */
     int is_particle;            /* has no orientation */
-    int carrier;                /* its inboard joint; -1: it is free */
+    int inboard;                /* its inboard joint; -1: it is free */
 } zd_space_body;
 
 typedef struct zd_space_joint {
@@ -33,22 +33,22 @@ typedef struct zd_space_joint {
     double length;              /* m of a rod; m/rad of a screw */
 } zd_space_joint;
 
-typedef struct zd_space_gauge {
-    int kind;                   /* enum zd_space_gauge_kind */
+typedef struct zd_space_quantity {
+    int kind;                   /* enum zd_space_quantity_kind */
     int first, second;          /* bodies */
     double point1[3], point2[3];
-    double a[3], o[3], b[3];    /* unit vectors in the axes of their body: see enum zd_space_gauge_kind */
+    double a[3], o[3], b[3];    /* unit vectors in the axes of their body: see enum zd_space_quantity_kind */
     double shape[3][3];         /* m^2: of an ellipsoid x^T shape^-1 x = 1 about Q, in the second body's axes */
     double zero;                /* m or rad: subtracted from the value */
     int counted;                /* 1 + index of the joint angle, for an angle that counts turns; otherwise 0 */
-} zd_space_gauge;
+} zd_space_quantity;
 
 typedef struct zd_space_tables {
     double gravity[3];          /* m/s^2 */
-    int bodies, joints, gauges;
+    int bodies, joints, quantities;
     const zd_space_body *body;  /* (bodies,) from number 1 on */
     const zd_space_joint *joint;
-    const zd_space_gauge *gauge;
+    const zd_space_quantity *quantity;
     zd_elements elements;
 } zd_space_tables;
 
@@ -63,8 +63,8 @@ const zd_system *zd_space_system(const zd_space *space);
 const zd_row_owner *zd_space_rows(const zd_space *space);       /* (m,) */
 /* Number of joint angles; place (angles,) <- the index of each in p. NULL: not wanted. */
 int zd_space_angles(const zd_space *space, int *place);
-/* Gauge of a coordinate of a joint, which its kind must have; `angles` is the number of angles of the joints before it. */
-zd_space_gauge zd_space_coordinate_gauge(const zd_space_joint *joint, int coordinate, int angles);
+/* Marker quantity of a coordinate of a joint, which its kind must have; `angles` is the number of angles of the joints before it. */
+zd_space_quantity zd_space_coordinate_quantity(const zd_space_joint *joint, int coordinate, int angles);
 /* As zd_plane_components(); row (count, 2, 6). */
 void zd_space_components(const zd_space *space, const double *p, const double *v, int count, const int *which, double *value, int *at,
                          double *row, double *scratch);
@@ -73,12 +73,12 @@ void zd_space_components(const zd_space *space, const double *p, const double *v
 int zd_space_data_size(void);
 void zd_space_with(const zd_space *space, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data);
 
-/* Planned form of all joints outside the tree and of all elements: rows, and efforts along marker quantities. */
+/* Planned form of all joints outside the tree and of all elements: rows, and generalized forces along marker quantities. */
 typedef struct zd_space_plan {
-    const zd_space_gauge *gauge;
-    const zd_gauge_term *term;
+    const zd_space_quantity *quantity;
+    const zd_quantity_term *term;
     const zd_relation *row;         /* (m,) holonomic ones first */
-    const zd_effort *effort;        /* (efforts,) */
+    const zd_generalized_force *force;        /* (generalized forces,) */
 } zd_space_plan;
 
 zd_space_plan zd_space_planned(const zd_space *space);

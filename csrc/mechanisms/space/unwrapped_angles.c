@@ -1,4 +1,4 @@
-/* With a, o and b as in enum zd_space_gauge_kind, and a x o, the axis, a direction of the first body,
+/* With a, o and b as in enum zd_space_quantity_kind, and a x o, the axis, a direction of the first body,
  *
  *     angle' = (a x o) . (omega2 - omega1)
  *
@@ -7,13 +7,13 @@
  */
 #include "unwrapped_angles.h"
 
-#include "gauge.h"
+#include "marker_quantity.h"
 
 int zd_unwrapped_angles_of(const zd_space_joint *joint)
 {
     const zd_space_coordinate *coordinate = zd_space_joint_kind_of(joint->kind)->coordinate;
     int turns = 0;
-    for (int i = 0; i < ZD_SPACE_COORDINATES && coordinate[i].name; i++) turns += coordinate[i].pick.gauge == ZD_SPACE_ANGLE;
+    for (int i = 0; i < ZD_SPACE_COORDINATES && coordinate[i].name; i++) turns += coordinate[i].pick.quantity == ZD_SPACE_ANGLE;
     return turns;
 }
 
@@ -30,12 +30,12 @@ void zd_unwrapped_angles_plan(zd_unwrapped_angles *self, int joints, const zd_sp
     for (int j = 0; j < joints; j++) {
         const int before = self->count;
         for (int i = 0, angles = zd_unwrapped_angles_of(joint + j); i < ZD_SPACE_COORDINATES && self->count < before + angles; i++) {
-            const zd_space_gauge gauge = zd_space_coordinate_gauge(joint + j, i, before);
-            if (!gauge.counted) continue;
-            self->axis[self->count] = zd_cross3(zd_vector3_of(gauge.a), zd_vector3_of(gauge.o));
+            const zd_space_quantity quantity = zd_space_coordinate_quantity(joint + j, i, before);
+            if (!quantity.counted) continue;
+            self->axis[self->count] = zd_cross3(zd_vector3_of(quantity.a), zd_vector3_of(quantity.o));
             self->joint[self->count] = j;
             self->place[self->count] = at + self->count;
-            self->angle[self->count++] = gauge;
+            self->angle[self->count++] = quantity;
         }
     }
 }
@@ -55,7 +55,7 @@ static zd_vector3 spin_of(const zd_space *space, const zd_space_frame *frame, in
 void zd_unwrapped_angles_rate(const zd_space *space, const zd_space_frame *frame, const double *x, double *pdot)
 {
     for (int k = 0; k < space->unwrapped.count; k++) {
-        const zd_space_gauge *angle = space->unwrapped.angle + k;
+        const zd_space_quantity *angle = space->unwrapped.angle + k;
         const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->unwrapped.axis[k]);
         pdot[space->unwrapped.place[k]] = zd_inner3(axis, zd_minus3(spin_of(space, frame, angle->second, x),
                                                                     spin_of(space, frame, angle->first, x)));
@@ -75,7 +75,7 @@ void zd_space_follow(const void *data, double *p)
 {
     const zd_space *self = data;
     for (int k = 0; k < self->unwrapped.count; k++) {
-        const zd_space_gauge *angle = self->unwrapped.angle + k;
+        const zd_space_quantity *angle = self->unwrapped.angle + k;
         const zd_vector3 b = turned(self, angle->first, p, -1, turned(self, angle->second, p, 1, zd_vector3_of(angle->b)));
         double *follower = p + self->unwrapped.place[k];
         *follower = zd_with_turns(atan2(zd_inner3(zd_vector3_of(angle->o), b), zd_inner3(zd_vector3_of(angle->a), b)), *follower);

@@ -89,8 +89,8 @@ static void plan_links(const zd_space_tables *tables, parts *to)
         const zd_space_body *given = tables->body + body - 1;
         zd_space_link *link = to->link + body;
         *link = (zd_space_link){.is_free = 1, .turns = !given->is_particle};
-        if (given->carrier >= 0)
-            *link = hang_on(tables->joint + given->carrier, tables->joint[given->carrier].second == body, !given->is_particle);
+        if (given->inboard >= 0)
+            *link = hang_on(tables->joint + given->inboard, tables->joint[given->inboard].second == body, !given->is_particle);
         link->p = p;
         link->v = v;
         if (link->is_free) number_free(link, to);

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "../space/efforts.h"
+#include "../space/forces.h"
 #include "../space/rows.h"
 #include "inertia.h"
 #include "inward.h"
@@ -21,7 +21,7 @@ static int is_moving(const zd_space *self, int want)
 
 static int write_force(const zd_space *self, const zd_space_frame *frame, double t, double *f)
 {
-    const int status = zd_space_efforts_apply(self, frame, t);
+    const int status = zd_space_forces_apply(self, frame, t);
     zd_space_tree_gather(self, frame, f);
     return status;
 }

@@ -32,14 +32,14 @@ static void step_inward(const zd_space_tree *tree, const zd_space_frame *frame, 
     on->body = link->inner;
 }
 
-void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const zd_space_gauge *gauge, double scale,
+void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const zd_space_quantity *quantity, double scale,
                        const zd_space_reading *reading,
                   double *row)
 {
     const zd_space_tree *tree = zd_space_tree_of(space);
-    const int is_mutual = zd_space_gauge_is_mutual(gauge);
-    const int first = is_mutual ? gauge->first : 0;
-    carried one = {first, reading->first, first, 1}, other = {gauge->second, reading->second, gauge->second, 1};
+    const int is_mutual = zd_space_quantity_is_mutual(quantity);
+    const int first = is_mutual ? quantity->first : 0;
+    carried one = {first, reading->first, first, 1}, other = {quantity->second, reading->second, quantity->second, 1};
     while (one.body != other.body) step_inward(tree, frame, scale, tree->link[one.body].depth > tree->link[other.body].depth ? &one : &other,
                                                row);
     if (one.is_whole && other.is_whole) return;

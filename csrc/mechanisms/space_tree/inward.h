@@ -4,9 +4,9 @@
 
 #include "links.h"
 
-/* row (nv,) += scale times the generalized force of a unit force along a gauge. It is exactly zero for common ancestors of both bodies,
- * unless the force acts on one body alone, or a particle between them transmits no torque. */
-void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const zd_space_gauge *gauge, double scale,
+/* row (nv,) += scale times the generalized force of a unit force along a marker quantity. It is exactly zero for common ancestors of both
+ * bodies, unless the force acts on one body alone, or a particle between them transmits no torque. */
+void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const zd_space_quantity *quantity, double scale,
                        const zd_space_reading *reading,
                   double *row);
 /* to (nv,) <- generalized forces of the wrenches on all bodies, frame->wrench, which is overwritten. */

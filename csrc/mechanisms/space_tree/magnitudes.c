@@ -2,16 +2,16 @@
 #include "magnitudes.h"
 
 #include "../common/laws.h"
-#include "../space/gauge.h"
+#include "../space/marker_quantity.h"
 #include "../space/plan.h"
 
 static double norm(zd_vector3 a) { return sqrt(zd_inner3(a, a)); }
 
 static double distance_of(const zd_space_pose *pose, const double *point) { return norm(pose->at) + norm(zd_vector3_of(point)); }
 
-static void add(const zd_space *self, const zd_space_frame *frame, int gauge, double factor, double *magnitude)
+static void add(const zd_space *self, const zd_space_frame *frame, int quantity, double factor, double *magnitude)
 {
-    const zd_space_gauge *of = self->gauge + gauge;
+    const zd_space_quantity *of = self->quantity + quantity;
     const double size = fabs(factor);
     if (of->kind == ZD_SPACE_COSINE || of->kind == ZD_SPACE_ANGLE) {
         magnitude[1] += size;
@@ -35,7 +35,7 @@ int zd_space_tree_magnitudes(const void *data, double t, const double *p, const 
         const int status = zd_combine(&self->elements, &readings, row, t, &all);
         if (status) return status;
         magnitude[0] = magnitude[1] = 0;
-        for (int k = 0; k < row->terms; k++) add(self, &frame, self->elements.term[row->first + k].gauge, all.factors[k], magnitude);
+        for (int k = 0; k < row->terms; k++) add(self, &frame, self->elements.term[row->first + k].quantity, all.factors[k], magnitude);
     }
     return ZD_DONE;
 }

@@ -2,8 +2,8 @@
 #include "reactions.h"
 
 #include "../common/laws.h"
-#include "../space/efforts.h"
-#include "../space/gauge.h"
+#include "../space/forces.h"
+#include "../space/marker_quantity.h"
 #include "inertia.h"
 #include "inward.h"
 #include "motion.h"
@@ -12,10 +12,10 @@
 static void add_row(const zd_space *space, const zd_space_frame *frame, const zd_relation *row, const double *factors, double scale)
 {
     for (int i = 0; i < row->terms; i++) {
-        const zd_space_gauge *gauge = space->gauge + space->elements.term[row->first + i].gauge;
-        const zd_space_reading reading = zd_space_gauge_read(gauge, frame->pose);
-        zd_space_add_wrench(frame->wrench + gauge->first, scale * factors[i], reading.first);
-        zd_space_add_wrench(frame->wrench + gauge->second, scale * factors[i], reading.second);
+        const zd_space_quantity *quantity = space->quantity + space->elements.term[row->first + i].quantity;
+        const zd_space_reading reading = zd_space_quantity_read(quantity, frame->pose);
+        zd_space_add_wrench(frame->wrench + quantity->first, scale * factors[i], reading.first);
+        zd_space_add_wrench(frame->wrench + quantity->second, scale * factors[i], reading.second);
     }
 }
 
@@ -23,7 +23,7 @@ static void add_row(const zd_space *space, const zd_space_frame *frame, const zd
 static int write_needs(const zd_space *space, const zd_space_frame *frame, double t, const double *vdot, const double *lambda)
 {
     const zd_readings readings = zd_space_frame_readings(space, frame);
-    if (zd_space_efforts_apply(space, frame, t)) return ZD_CALLBACK;
+    if (zd_space_forces_apply(space, frame, t)) return ZD_CALLBACK;
     for (int i = 0; i < space->elements.m; i++) {
         zd_combined all;
         if (zd_combine(&space->elements, &readings, space->elements.row + i, t, &all)) return ZD_CALLBACK;

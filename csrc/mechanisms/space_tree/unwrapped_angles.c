@@ -2,7 +2,7 @@
  * multiple of 2 pi. */
 #include "unwrapped_angles.h"
 
-#include "../space/gauge.h"
+#include "../space/marker_quantity.h"
 #include "inward.h"
 #include "motion.h"
 
@@ -12,7 +12,7 @@ static int follows(const zd_space *space, int k) { return !space->planned[space-
 void zd_space_tree_write_rates(const zd_space *space, const zd_space_frame *frame, double *A)
 {
     for (int k = 0; k < space->unwrapped.count; k++) {
-        const zd_space_gauge *angle = space->unwrapped.angle + k;
+        const zd_space_quantity *angle = space->unwrapped.angle + k;
         if (!follows(space, k)) continue;
         const zd_vector3 axis = zd_rotated3(&frame->pose[angle->first].turned, space->unwrapped.axis[k]);
         const zd_space_reading rate = {.first = {.torque = zd_times3(-1, axis)}, .second = {.torque = axis}};
@@ -25,7 +25,7 @@ void zd_space_tree_follow(const void *data, double *p)
     const zd_space *space = data;
     const zd_space_tree *tree = zd_space_tree_of(space);
     for (int k = 0; k < space->unwrapped.count; k++) {
-        const zd_space_gauge *angle = space->unwrapped.angle + k;
+        const zd_space_quantity *angle = space->unwrapped.angle + k;
         if (!follows(space, k)) continue;
         const zd_rotation first = zd_space_tree_attitude(tree, angle->first, p), second = zd_space_tree_attitude(tree, angle->second, p);
         const zd_vector3 b = zd_rotated3(&second, zd_vector3_of(angle->b));

@@ -10,7 +10,7 @@ from .._core import ffi
 from .base import Variable
 
 
-class RowNames:
+class ConstraintNames:
     """Names of the constraints of a system, read from the system while it exists."""
 
     def __init__(self) -> None:

@@ -7,18 +7,18 @@ from typing import Any, NamedTuple
 
 from .._core import ffi, lib
 
-EFFORTS = {"spring": lib.ZD_EFFORT_SPRING, "constant": lib.ZD_EFFORT_CONSTANT, "law": lib.ZD_EFFORT_LAW}
-QUANTITIES = {
+FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW}
+OUTPUT_KINDS = {
     "values": lib.ZD_VALUES, "rates": lib.ZD_RATES, "accelerations": lib.ZD_ACCELERATIONS, "joint force": lib.ZD_JOINT_FORCE,
-    "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "effort": lib.ZD_EFFORT_VALUE,
-    "effort power": lib.ZD_EFFORT_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
-    "effort force": lib.ZD_EFFORT_FORCE, "effort torque": lib.ZD_EFFORT_TORQUE}
+    "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
+    "force power": lib.ZD_FORCE_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
+    "force sum": lib.ZD_FORCE_SUM, "torque sum": lib.ZD_TORQUE_SUM}
 
 
 class Relation(NamedTuple):
-    """A row of `zd_relation`: sum of coefficients times gauges - constant - slope t = 0, or by a law."""
+    """A row of `zd_relation`: sum of coefficients times marker quantities - constant - slope t = 0, or by a law."""
 
-    gauges: Sequence[int]
+    quantities: Sequence[int]
     coefficients: Sequence[float] = ()      # without a law
     constant: float = 0.0
     slope: float = 0.0
@@ -27,29 +27,29 @@ class Relation(NamedTuple):
     joint: int = -1             # to whose force and torque it contributes as its drive
 
 
-class Effort(NamedTuple):
-    """A row of `zd_effort`; `kind` is a key of EFFORTS."""
+class GeneralizedForce(NamedTuple):
+    """A row of `zd_generalized_force`; `kind` is a key of FORCE_KINDS."""
 
     kind: str
-    gauge: int
+    quantity: int
     stiffness: float = 0.0
     damping: float = 0.0
     value: float = 0.0
     law: int = -1
-    inputs: Sequence[int] = ()  # gauges that the law depends on
+    inputs: Sequence[int] = ()  # marker quantities that the law depends on
     joint: int = -1             # to whose force and torque it contributes
 
 
-class Observed(NamedTuple):
-    """A row of `zd_output_spec`: a measure by its name; `quantity` is a key of QUANTITIES."""
+class OutputSpec(NamedTuple):
+    """A row of `zd_output_spec`: a measure by its name; `kind` is a key of OUTPUT_KINDS."""
 
     name: str
     unit: str
-    quantity: str
-    index: int                  # of the first gauge, the joint, effort or relation
-    size: int = 1               # of values, rates, accelerations; of an effort force, of how many efforts
+    kind: str
+    index: int                  # of the first marker quantity, the joint, generalized force or relation
+    size: int = 1               # number of marker quantities, or of generalized forces in a sum
     scale: float = 1.0
-    term: int = 0               # of drives: along which of the relation's gauges
+    term: int = 0               # of drives: along which of the relation's marker quantities
 
 
 class Row(NamedTuple):
@@ -68,28 +68,28 @@ def rows_of(rows: Any, m: int) -> tuple[Row, ...]:
 
 def law_sizes(tables: Any) -> dict[int, tuple[int, int]]:
     """Number of marker quantities that each user function takes, and number of values that it returns, by its index."""
-    sizes = {effort.law: (len(effort.inputs), 1) for effort in tables.efforts if effort.law >= 0}
-    return sizes | {row.law: (len(row.gauges), len(row.gauges) + 3) for row in tables.relations if row.law >= 0}
+    sizes = {force.law: (len(force.inputs), 1) for force in tables.forces if force.law >= 0}
+    return sizes | {row.law: (len(row.quantities), len(row.quantities) + 3) for row in tables.relations if row.law >= 0}
 
 
 def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
     """Fields of a `zd_elements`, and the words that must live as long as the objects made from it."""
     terms: list[tuple[int, float]] = []
-    relations, efforts = [], []
+    relations, forces = [], []
     for row in tables.relations:
-        relations.append((len(terms), len(row.gauges), row.nonholonomic, row.law, row.constant, row.slope, row.joint))
-        terms += zip(row.gauges, row.coefficients or [1.0] * len(row.gauges), strict=True)
-    for effort in tables.efforts:
-        efforts.append((EFFORTS[effort.kind], effort.gauge, effort.stiffness, effort.damping, effort.value, effort.law,
-                        len(terms), len(effort.inputs), effort.joint))
-        terms += ((gauge, 1.0) for gauge in effort.inputs)
+        relations.append((len(terms), len(row.quantities), row.nonholonomic, row.law, row.constant, row.slope, row.joint))
+        terms += zip(row.quantities, row.coefficients or [1.0] * len(row.quantities), strict=True)
+    for force in tables.forces:
+        forces.append((FORCE_KINDS[force.kind], force.quantity, force.stiffness, force.damping, force.value, force.law,
+                        len(terms), len(force.inputs), force.joint))
+        terms += ((quantity, 1.0) for quantity in force.inputs)
     units = {unit: ffi.new("char[]", unit.encode()) for unit in {row.unit for row in tables.measures}}
     names = [ffi.new("char[]", row.name.encode()) for row in tables.measures]
-    measures = [(name, units[row.unit], QUANTITIES[row.quantity], *row[3:])
+    measures = [(name, units[row.unit], OUTPUT_KINDS[row.kind], *row[3:])
                 for name, row in zip(names, tables.measures, strict=True)]
     elements = {
-        "terms": len(terms), "relations": len(relations), "efforts": len(efforts), "measures": len(measures),
-        "term": ffi.new("zd_gauge_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
-        "effort": ffi.new("zd_effort[]", efforts), "measure": ffi.new("zd_output_spec[]", measures),
+        "terms": len(terms), "relations": len(relations), "forces": len(forces), "measures": len(measures),
+        "term": ffi.new("zd_quantity_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
+        "force": ffi.new("zd_generalized_force[]", forces), "measure": ffi.new("zd_output_spec[]", measures),
         "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time}
     return elements, (names, units)

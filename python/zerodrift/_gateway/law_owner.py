@@ -21,7 +21,7 @@ class LawOwner:
         self._law, self._sizes = law, sizes
 
     def evaluate(self, law: int, t: float, x: Any, xdot: Any, out: Any) -> int:
-        """The function that the core calls: `sizes` says how many gauges go in and how many numbers come out."""
+        """The function that the core calls: `sizes` says how many marker quantities go in and how many numbers come out."""
         try:
             k, size = self._sizes[law]
             values = np.asarray(self._law(law, t, np.array(ffi.unpack(x, k)), np.array(ffi.unpack(xdot, k))), dtype=float)

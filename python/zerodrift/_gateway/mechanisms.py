@@ -11,15 +11,15 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, Card, card_of, doubles, text
-from .element_tables import Effort, Observed, Relation, Row, law_sizes, rows_of, written_elements
+from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, compiled_table
 from .measures import Components, components, given
 from .systems import CoreSystem
 
-GAUGES = {"x": lib.ZD_GAUGE_X, "y": lib.ZD_GAUGE_Y, "angle": lib.ZD_GAUGE_ANGLE, "along": lib.ZD_GAUGE_ALONG,
-          "across": lib.ZD_GAUGE_ACROSS, "distance": lib.ZD_GAUGE_DISTANCE, "glide": lib.ZD_GAUGE_GLIDE,
-          "skid": lib.ZD_GAUGE_SKID}
-CARRIERS = {lib.ZD_CARRIES_NOTHING: None, lib.ZD_TURNS: "turns", lib.ZD_SLIDES: "slides", lib.ZD_FIXED: "fixed"}
+QUANTITY_KINDS = {"x": lib.ZD_PLANE_X, "y": lib.ZD_PLANE_Y, "angle": lib.ZD_PLANE_ANGLE, "along": lib.ZD_PLANE_ALONG,
+                  "across": lib.ZD_PLANE_ACROSS, "distance": lib.ZD_PLANE_DISTANCE, "glide": lib.ZD_PLANE_GLIDE,
+                  "skid": lib.ZD_PLANE_SKID}
+INBOARD_TYPES = {lib.ZD_NOT_INBOARD: None, lib.ZD_TURNS: "turns", lib.ZD_SLIDES: "slides", lib.ZD_FIXED: "fixed"}
 ZEROS = {lib.ZD_ZERO_NONE: None, lib.ZD_ZERO_ALONG: "along", lib.ZD_ZERO_ACROSS: "across", lib.ZD_ZERO_ANGLE: "angle",
          lib.ZD_ZERO_LENGTH: "length"}
 COORDINATES = {lib.ZD_COORDINATE_X: "x", lib.ZD_COORDINATE_Y: "y", lib.ZD_COORDINATE_ANGLE: "angle",
@@ -27,9 +27,9 @@ COORDINATES = {lib.ZD_COORDINATE_X: "x", lib.ZD_COORDINATE_Y: "y", lib.ZD_COORDI
 
 
 class JointRow(NamedTuple):
-    """A row of a kind of joint: the gauge that is held at zero, and which number of the joint is taken from its reading."""
+    """A row of a kind of joint: a marker quantity held at zero, and the number of the joint that is its offset."""
 
-    gauge: str
+    quantity: str
     zero: str | None
     rolls: bool
     nonholonomic: bool
@@ -40,10 +40,10 @@ class JointKind(NamedTuple):
 
     number: int
     card: Card
-    carrier: str | None
+    inboard: str | None
     rows: tuple[JointRow, ...]
     coordinate: str | None      # "angle" or "displacement"
-    gauge: str | None           # the kind of that gauge
+    quantity: str | None        # the kind of that marker quantity
     zero: str | None
     takes_axis: bool
     takes_length: bool
@@ -52,13 +52,13 @@ class JointKind(NamedTuple):
 
 
 class ElementKind(NamedTuple):
-    """A kind of force element: its gauges with their zeros, and its scalar measure."""
+    """A kind of force element: its marker quantities with their zeros, and its scalar measure."""
 
     number: int
     card: Card
-    gauges: tuple[tuple[str, str | None], ...]
+    quantities: tuple[tuple[str, str | None], ...]
     is_spring: bool
-    effort: str | None
+    measure: str | None
     sign: int
 
 
@@ -68,7 +68,7 @@ class Body(NamedTuple):
     mass: float
     inertia: float = 0.0
     is_particle: bool = False
-    carrier: int = -1           # the joint of the tree that carries it; -1: it is free
+    inboard: int = -1           # the joint of the tree that carries it; -1: it is free
 
 
 class Joint(NamedTuple):
@@ -86,8 +86,8 @@ class Joint(NamedTuple):
     length: float = 0.0         # of a rod; radius of a rolling wheel
 
 
-class Gauge(NamedTuple):
-    """A row of `zd_plane_gauge`; `kind` is a key of GAUGES."""
+class Quantity(NamedTuple):
+    """A row of `zd_plane_quantity`; `kind` is a key of QUANTITY_KINDS."""
 
     kind: str
     first: int
@@ -103,10 +103,10 @@ class Tables(NamedTuple):
 
     bodies: Sequence[Body]
     joints: Sequence[Joint] = ()
-    gauges: Sequence[Gauge] = ()
+    quantities: Sequence[Quantity] = ()
     relations: Sequence[Relation] = ()
-    efforts: Sequence[Effort] = ()
-    measures: Sequence[Observed] = ()
+    forces: Sequence[GeneralizedForce] = ()
+    measures: Sequence[OutputSpec] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
 
 
@@ -119,20 +119,20 @@ class Coordinate(NamedTuple):
 
 def _joint_kind(number: int) -> JointKind:
     c = lib.zd_plane_joint_kind_of(number)
-    names = {value: name for name, value in GAUGES.items()}
-    rows = tuple(JointRow(names[row.gauge], ZEROS[row.zero], bool(row.rolls), bool(row.nonholonomic))
+    names = {value: name for name, value in QUANTITY_KINDS.items()}
+    rows = tuple(JointRow(names[row.quantity], ZEROS[row.zero], bool(row.rolls), bool(row.nonholonomic))
                  for row in (c.row[i] for i in range(c.rows)))
     coordinate = text(c.coordinate) if c.coordinate else None
-    return JointKind(number, card_of(c.card), CARRIERS[c.carrier], rows, coordinate, names[c.gauge] if coordinate else None,
-                     ZEROS[c.zero] if coordinate else None, bool(c.takes_axis), bool(c.takes_length), bool(c.at_contact),
-                     text(c.tension) if c.tension else None)
+    return JointKind(number, card_of(c.card), INBOARD_TYPES[c.inboard], rows, coordinate,
+                     names[c.quantity] if coordinate else None, ZEROS[c.zero] if coordinate else None,
+                     bool(c.takes_axis), bool(c.takes_length), bool(c.at_contact), text(c.tension) if c.tension else None)
 
 
 def _element_kind(number: int) -> ElementKind:
     c = lib.zd_plane_element_kind_of(number)
-    names = {value: name for name, value in GAUGES.items()}
-    gauges = tuple((names[c.gauge[i]], ZEROS[c.zero[i]]) for i in range(c.gauges))
-    return ElementKind(number, card_of(c.card), gauges, bool(c.is_spring), text(c.effort) if c.effort else None, c.sign)
+    names = {value: name for name, value in QUANTITY_KINDS.items()}
+    quantities = tuple((names[c.quantity[i]], ZEROS[c.zero[i]]) for i in range(c.quantities))
+    return ElementKind(number, card_of(c.card), quantities, bool(c.is_spring), text(c.measure) if c.measure else None, c.sign)
 
 
 def joint_kinds() -> dict[str, JointKind]:
@@ -152,14 +152,15 @@ class MechanismCore(CoreSystem):
     ----------
     tables : Tables
     law : callable, optional
-        ``law(number, t, x, xdot)`` gives, for an effort, (1,): its value; for a relation with k gauges (k + 3,): g, dg/dx_i,
-        dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and da_i/dt xdot_i + da_0/dt.
+        ``law(number, t, x, xdot)`` gives, for a generalized force, (1,): its value; for a relation with k marker quantities
+        (k + 3,): g, dg/dx_i, dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and
+        da_i/dt xdot_i + da_0/dt.
     laws_know_time : bool
-        Whether a law depends on t but through positions and velocities.
+        True if a law depends on t explicitly, not only through positions and velocities.
 
     Attributes
     ----------
-    measures : tuple of Observed
+    measures : tuple of OutputSpec
 
     Raises
     ------
@@ -264,7 +265,7 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, 
 def written_tables(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
     """Fields of a `zd_plane_tables`, and the words that must live as long as the objects made from it."""
     bodies, joints = ffi.new("zd_plane_body[]", list(tables.bodies)), ffi.new("zd_plane_joint[]", list(tables.joints))
-    gauges = ffi.new("zd_plane_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
+    quantities = ffi.new("zd_plane_quantity[]", [(QUANTITY_KINDS[kind], *others) for kind, *others in tables.quantities])
     elements, words = written_elements(tables, has_laws, laws_know_time)
-    return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
-            "body": bodies, "joint": joints, "gauge": gauges, "elements": elements}, words
+    return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "quantities": len(quantities),
+            "body": bodies, "joint": joints, "quantity": quantities, "elements": elements}, words

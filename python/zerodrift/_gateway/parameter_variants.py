@@ -78,8 +78,8 @@ class Varied:
         """Fields of a `zd_plane_tables`: the entries of all mechanisms, one after the other."""
         written, words = written_tables(_first(tables), False, False)
         self._kept((written, words))
-        changes = {"body": _fields(tables.bodies), "joint": _fields(tables.joints), "gauge": _fields(tables.gauges),
-                   "term": _coefficients(tables), "relation": _fields(tables.relations), "effort": _fields(tables.efforts)}
+        changes = {"body": _fields(tables.bodies), "joint": _fields(tables.joints), "quantity": _fields(tables.quantities),
+                   "term": _coefficients(tables), "relation": _fields(tables.relations), "force": _fields(tables.forces)}
         for name, found in changes.items():
             place = written if name in written else written["elements"]
             place[name] = self._repeated(place[name], count, list(found))
@@ -118,7 +118,7 @@ def _first(tables: Tables) -> Tables:
     def one(row: Any) -> Any:
         return type(row)(*([_single(each) for each in field] if isinstance(field, list) else _single(field) for field in row))
     return tables._replace(gravity=_single(tuple(tables.gravity)), **{
-        name: [one(row) for row in getattr(tables, name)] for name in ("bodies", "joints", "gauges", "relations", "efforts")})
+        name: [one(row) for row in getattr(tables, name)] for name in ("bodies", "joints", "quantities", "relations", "forces")})
 
 
 def _fields(rows: Sequence[Any]) -> Iterator[tuple[int, str, int, Any]]:
@@ -137,4 +137,4 @@ def _coefficients(tables: Tables) -> Iterator[tuple[int, str, int, Any]]:
         for i, each in enumerate(row.coefficients or ()):
             if _is_column(each):
                 yield first + i, "coefficient", 0, each
-        first += len(row.gauges)
+        first += len(row.quantities)

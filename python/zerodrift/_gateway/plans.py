@@ -9,13 +9,13 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from .._core import ffi, lib
-from .element_tables import EFFORTS, Effort, Relation
-from .mechanisms import GAUGES, Gauge, MechanismCore
+from .element_tables import FORCE_KINDS, GeneralizedForce, Relation
+from .mechanisms import QUANTITY_KINDS, MechanismCore, Quantity
 
 FREE, FREE_POINT, TURNING = lib.ZD_HANGS_FREE, lib.ZD_HANGS_FREE_POINT, lib.ZD_HANGS_TURNING
 SLIDING, FIXED, PINNED = lib.ZD_HANGS_SLIDING, lib.ZD_HANGS_FIXED, lib.ZD_HANGS_PINNED
-KINDS = {value: name for name, value in GAUGES.items()}
-EFFORT_KINDS = {value: name for name, value in EFFORTS.items()}
+NAMES_OF_QUANTITIES = {value: name for name, value in QUANTITY_KINDS.items()}
+NAMES_OF_FORCES = {value: name for name, value in FORCE_KINDS.items()}
 
 
 class Link(NamedTuple):
@@ -36,12 +36,12 @@ class Link(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """A `zd_plane_plan`; bodies have the tree's numbers, the first link is that of body 1, and all gauges are used."""
+    """A `zd_plane_plan`; bodies have the tree's numbers, the first link is that of body 1, and all marker quantities are used."""
 
     links: tuple[Link, ...]
-    gauges: tuple[Gauge, ...]
-    rows: tuple[Relation, ...]          # holonomic ones first; their gauges are numbers in `gauges`
-    efforts: tuple[Effort, ...]
+    quantities: tuple[Quantity, ...]
+    rows: tuple[Relation, ...]          # holonomic ones first; their marker quantities are numbers in `quantities`
+    forces: tuple[GeneralizedForce, ...]
     gravity: tuple[Any, Any]
 
 
@@ -49,9 +49,9 @@ def plan_of(core: MechanismCore) -> Plan:
     """The plan of a mechanism."""
     c = lib.zd_plane_planned(core._mechanism)
     links = tuple(_link(c.link[i]) for i in range(1, len(core.tables.bodies) + 1))
-    used: dict[int, int] = {}       # by their numbers in the core's table, as measures have gauges of their own there
-    rows, efforts = rows_of_plan(c, core.m, used), efforts_of(c, len(core.tables.efforts), used)
-    return Plan(links, tuple(_gauge(c.gauge[i]) for i in used), rows, efforts, core.tables.gravity)
+    used: dict[int, int] = {}       # by their numbers in the core's table, as measures have marker quantities of their own there
+    rows, forces = rows_of_plan(c, core.m, used), forces_of(c, len(core.tables.forces), used)
+    return Plan(links, tuple(_quantity(c.quantity[i]) for i in used), rows, forces, core.tables.gravity)
 
 
 def _pair(vector: Any) -> tuple[float, float]:
@@ -63,32 +63,32 @@ def _link(c: Any) -> Link:
                 c.cosine, c.sine, c.mass, c.inertia)
 
 
-def _gauge(c: Any) -> Gauge:
-    return Gauge(KINDS[c.kind], c.first, c.second, tuple(c.point1), tuple(c.point2), tuple(c.axis), c.zero)
+def _quantity(c: Any) -> Quantity:
+    return Quantity(NAMES_OF_QUANTITIES[c.kind], c.first, c.second, tuple(c.point1), tuple(c.point2), tuple(c.axis), c.zero)
 
 
 def _terms(c: Any, of: Any, used: dict[int, int]) -> tuple[list[int], list[float]]:
-    """The gauges of a row or effort, and its coefficients."""
+    """The marker quantities of a row or generalized force, and its coefficients."""
     terms = [c.term[i] for i in range(of.first, of.first + of.terms)]
-    return [used.setdefault(term.gauge, len(used)) for term in terms], [term.coefficient for term in terms]
+    return [used.setdefault(term.quantity, len(used)) for term in terms], [term.coefficient for term in terms]
 
 
 def rows_of_plan(c: Any, count: int, used: dict[int, int]) -> tuple[Relation, ...]:
-    """The rows of C; `used` gets the gauges that they have, by the core's numbers."""
+    """The rows of C; `used` gets the marker quantities that they have, by the core's numbers."""
     return tuple(_row(c, c.row[i], used) for i in range(count))
 
 
-def efforts_of(c: Any, count: int, used: dict[int, int]) -> tuple[Effort, ...]:
-    """The efforts, likewise."""
-    return tuple(_effort(c, c.effort[i], used) for i in range(count))
+def forces_of(c: Any, count: int, used: dict[int, int]) -> tuple[GeneralizedForce, ...]:
+    """The generalized forces, likewise."""
+    return tuple(_generalized_force(c, c.force[i], used) for i in range(count))
 
 
 def _row(c: Any, row: Any, used: dict[int, int]) -> Relation:
-    gauges, coefficients = _terms(c, row, used)
-    return Relation(gauges, coefficients, row.constant, row.slope, bool(row.nonholonomic), row.law)
+    quantities, coefficients = _terms(c, row, used)
+    return Relation(quantities, coefficients, row.constant, row.slope, bool(row.nonholonomic), row.law)
 
 
-def _effort(c: Any, effort: Any, used: dict[int, int]) -> Effort:
-    along = used.setdefault(effort.gauge, len(used))
-    inputs, _ = _terms(c, effort, used)
-    return Effort(EFFORT_KINDS[effort.kind], along, effort.stiffness, effort.damping, effort.value, effort.law, inputs)
+def _generalized_force(c: Any, force: Any, used: dict[int, int]) -> GeneralizedForce:
+    along = used.setdefault(force.quantity, len(used))
+    inputs, _ = _terms(c, force, used)
+    return GeneralizedForce(NAMES_OF_FORCES[force.kind], along, force.stiffness, force.damping, force.value, force.law, inputs)

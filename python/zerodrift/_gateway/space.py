@@ -12,17 +12,17 @@ import numpy as np
 from .._core import ffi, lib
 from .._rotations import product, turn, turn_between
 from .base import MESSAGE_SIZE, Card, card_of, doubles, text
-from .element_tables import Effort, Observed, Relation, Row, law_sizes, rows_of, written_elements
+from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, compiled_table
 from .measures import Components, components
 from .mechanisms import Coordinate
 from .systems import CoreSystem
 
-GAUGES = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
-          "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE, "distance": lib.ZD_SPACE_DISTANCE,
-          "clearance": lib.ZD_SPACE_CLEARANCE, "slip": lib.ZD_SPACE_SLIP,
-          "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN}
-NAMES = {value: name for name, value in GAUGES.items()}
+QUANTITY_KINDS = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
+                  "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE, "distance": lib.ZD_SPACE_DISTANCE,
+                  "clearance": lib.ZD_SPACE_CLEARANCE, "slip": lib.ZD_SPACE_SLIP,
+                  "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN}
+NAMES = {value: name for name, value in QUANTITY_KINDS.items()}
 FREEDOMS = {lib.ZD_SPACE_SLIDES: "slides", lib.ZD_SPACE_TURNS: "turns", lib.ZD_SPACE_ADVANCES: "advances",
             lib.ZD_SPACE_SWINGS: "swings"}
 BODY, PARTICLE = (7, 6), (3, 3)     # coordinates and velocities
@@ -43,14 +43,14 @@ class Freedom(NamedTuple):
 
 
 class JointKind(NamedTuple):
-    """A kind of joint in space; see `zd_space_joint_kind`. Each row is the gauge that is held, with which directions of the
-    frames of both bodies it is read.
+    """A kind of joint in space; see `zd_space_joint_kind`. Each row is a marker quantity that is held, with the
+    indices of the directions of both bodies' frames.
     """
 
     number: int
     card: Card
     rows: tuple[tuple[str, int, int], ...]
-    coordinates: tuple[tuple[str, str], ...]    # by name, with the kind of the gauge
+    coordinates: tuple[tuple[str, str], ...]    # by name, with the kind of the marker quantity
     axes: int
     takes_length: bool
     tension: str | None
@@ -63,7 +63,7 @@ class Body(NamedTuple):
     mass: float
     inertia: Vector = NONE      # about its principal axes, which are those of the core
     is_particle: bool = False
-    carrier: int = -1           # the joint of the tree that carries it; -1: it is free
+    inboard: int = -1           # the joint of the tree that carries it; -1: it is free
 
 
 class Joint(NamedTuple):
@@ -81,8 +81,8 @@ class Joint(NamedTuple):
     length: float = 0.0         # of a rod; of a screw m for each rad
 
 
-class Gauge(NamedTuple):
-    """A row of `zd_space_gauge`; `kind` is a key of GAUGES."""
+class Quantity(NamedTuple):
+    """A row of `zd_space_quantity`; `kind` is a key of QUANTITY_KINDS."""
 
     kind: str
     first: int
@@ -102,23 +102,23 @@ class Tables(NamedTuple):
 
     bodies: Sequence[Body]
     joints: Sequence[Joint] = ()
-    gauges: Sequence[Gauge] = ()
+    quantities: Sequence[Quantity] = ()
     relations: Sequence[Relation] = ()
-    efforts: Sequence[Effort] = ()
-    measures: Sequence[Observed] = ()
+    forces: Sequence[GeneralizedForce] = ()
+    measures: Sequence[OutputSpec] = ()
     gravity: Vector = NONE
 
 
 def _joint_kind(number: int) -> JointKind:
     c = lib.zd_space_joint_kind_of(number)
-    rows = tuple((NAMES[row.pick.gauge], row.pick.of_first, row.pick.of_second) for row in (c.row[i] for i in range(c.rows)))
-    coordinates = tuple((text(each.name), NAMES[each.pick.gauge]) for each in c.coordinate if each.name)
+    rows = tuple((NAMES[row.pick.quantity], row.pick.of_first, row.pick.of_second) for row in (c.row[i] for i in range(c.rows)))
+    coordinates = tuple((text(each.name), NAMES[each.pick.quantity]) for each in c.coordinate if each.name)
     tension = text(c.tension) if c.tension else None
     freedoms = tuple(Freedom(FREEDOMS[each.kind], text(each.name) if each.name else None, each.direction,
                              each.zero == lib.ZD_SPACE_ZERO_ALONG)
                      for each in (c.freedom[i] for i in range(c.freedoms)))
     return JointKind(number, card_of(c.card), rows, coordinates, c.axes, bool(c.takes_length), tension,
-                     freedoms if c.carries else None)
+                     freedoms if c.is_inboard else None)
 
 
 def joint_kinds() -> dict[str, JointKind]:
@@ -126,11 +126,11 @@ def joint_kinds() -> dict[str, JointKind]:
     return {kind.card.name: kind for kind in map(_joint_kind, range(lib.zd_space_joint_kinds()))}
 
 
-def coordinate_gauge(joint: Joint, coordinate: int, angles: int) -> Gauge:
-    """The gauge that reads a coordinate of a joint; the joints before it have so many angles."""
-    c = lib.zd_space_coordinate_gauge(ffi.new("zd_space_joint *", joint), coordinate, angles)
+def coordinate_quantity(joint: Joint, coordinate: int, angles: int) -> Quantity:
+    """The marker quantity that reads a coordinate of a joint; the joints before it have so many angles."""
+    c = lib.zd_space_coordinate_quantity(ffi.new("zd_space_joint *", joint), coordinate, angles)
     vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
-    return Gauge(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
+    return Quantity(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
 
 
 class SpaceCore(CoreSystem):
@@ -146,7 +146,7 @@ class SpaceCore(CoreSystem):
 
     Attributes
     ----------
-    measures : tuple of Observed
+    measures : tuple of OutputSpec
 
     Raises
     ------
@@ -263,11 +263,11 @@ class SpaceCore(CoreSystem):
 def _create(tables: Tables, has_laws: bool, laws_know_time: bool, made_by: Any) -> tuple[Any, Any]:
     """The core's mechanism, and words that have to live as long."""
     bodies, joints = ffi.new("zd_space_body[]", list(tables.bodies)), ffi.new("zd_space_joint[]", list(tables.joints))
-    gauges = ffi.new("zd_space_gauge[]", [(GAUGES[gauge.kind], *gauge[1:]) for gauge in tables.gauges])
+    quantities = ffi.new("zd_space_quantity[]", [(QUANTITY_KINDS[kind], *others) for kind, *others in tables.quantities])
     elements, words = written_elements(tables, has_laws, laws_know_time)
     c = ffi.new("zd_space_tables *", {
-        "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "gauges": len(gauges),
-        "body": bodies, "joint": joints, "gauge": gauges, "elements": elements})
+        "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "quantities": len(quantities),
+        "body": bodies, "joint": joints, "quantity": quantities, "elements": elements})
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = made_by(c, message, MESSAGE_SIZE)
     if not mechanism:

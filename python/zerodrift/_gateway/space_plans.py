@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._core import lib
-from .element_tables import Effort, Relation
-from .plans import efforts_of, rows_of_plan
-from .space import NAMES, Freedom, Gauge, Joint, SpaceCore, coordinate_gauge, joint_kinds
+from .element_tables import GeneralizedForce, Relation
+from .plans import forces_of, rows_of_plan
+from .space import NAMES, Freedom, Joint, Quantity, SpaceCore, coordinate_quantity, joint_kinds
 
 COORDINATES, VELOCITIES = {"swings": 4}, {"swings": 3}      # of a freedom; of all others one each
 
@@ -49,20 +49,20 @@ class Link(NamedTuple):
 
 
 class Angle(NamedTuple):
-    """An angle of a joint: what reads it, the axis in the axes of that gauge's first body, and which entry of p it is."""
+    """Angle of a joint: its marker quantity, the axis in the axes of that quantity's first body, and its index in p."""
 
-    gauge: Gauge
+    quantity: Quantity
     axis: Any
     place: int
 
 
 class SpacePlan(NamedTuple):
-    """Links are by bodies, from number 1 on, and all gauges are used."""
+    """Links are by bodies, from number 1 on, and all marker quantities are used."""
 
     links: tuple[Link, ...]
-    gauges: tuple[Gauge, ...]
-    rows: tuple[Relation, ...]          # holonomic ones first; their gauges are numbers in `gauges`
-    efforts: tuple[Effort, ...]
+    quantities: tuple[Quantity, ...]
+    rows: tuple[Relation, ...]          # holonomic ones first; their marker quantities are numbers in `quantities`
+    forces: tuple[GeneralizedForce, ...]
     angles: tuple[Angle, ...]
     followers: int                      # how many of the last entries of p follow the others
     gravity: Any
@@ -72,26 +72,26 @@ class SpacePlan(NamedTuple):
 def plan_of(core: SpaceCore) -> SpacePlan:
     """The plan of a mechanism."""
     c, tables = lib.zd_space_planned(core._mechanism), core.tables
-    used: dict[int, int] = {}       # by their numbers in the core's table, as measures have gauges of their own there
-    rows, efforts = rows_of_plan(c, core.m, used), efforts_of(c, len(tables.efforts), used)
-    return SpacePlan(_links(core), tuple(_gauge(c.gauge[i]) for i in used), rows, efforts, _angles(core), core.c.followers,
+    used: dict[int, int] = {}       # by their numbers in the core's table, as measures have marker quantities of their own there
+    rows, forces = rows_of_plan(c, core.m, used), forces_of(c, len(tables.forces), used)
+    return SpacePlan(_links(core), tuple(_quantity(c.quantity[i]) for i in used), rows, forces, _angles(core), core.c.followers,
                      tuple(tables.gravity), bool(core.provides & lib.ZD_A))
 
 
-def _gauge(c: Any) -> Gauge:
+def _quantity(c: Any) -> Quantity:
     vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
-    return Gauge(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
+    return Quantity(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
 
 
 def _links(core: SpaceCore) -> tuple[Link, ...]:
     links, p, v, kinds = [], 0, 0, {kind.number: kind for kind in joint_kinds().values()}
     for number, body in enumerate(core.tables.bodies, 1):
         turns, place = not body.is_particle, (p, v, body.mass, tuple(body.inertia))
-        if body.carrier < 0:
+        if body.inboard < 0:
             links.append(Link(0, turns, *place, None, None, None, None, None))
             p, v = p + (7 if turns else 3), v + (6 if turns else 3)
             continue
-        joint = core.tables.joints[body.carrier]
+        joint = core.tables.joints[body.inboard]
         ways = _ways(joint, [each for each in kinds[joint.kind].freedoms if turns or each.kind != "swings"], p, v)
         ends = [(joint.first, joint.point1, joint.frame1), (joint.second, joint.point2, joint.frame2)]
         if joint.second != number:
@@ -117,6 +117,6 @@ def _angles(core: SpaceCore) -> tuple[Angle, ...]:
         before = len(angles)
         for i, (_, kind) in enumerate(kinds[joint.kind].coordinates):
             if kind == "angle":
-                gauge = coordinate_gauge(joint, i, before)
-                angles.append(Angle(gauge, tuple(np.cross(gauge.a, gauge.o).tolist()), int(core._angle_at[len(angles)])))
+                quantity = coordinate_quantity(joint, i, before)
+                angles.append(Angle(quantity, tuple(np.cross(quantity.a, quantity.o).tolist()), int(core._angle_at[len(angles)])))
     return tuple(angles)

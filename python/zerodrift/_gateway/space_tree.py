@@ -23,11 +23,11 @@ class SpaceTreeCore(SpaceCore):
         velocity in the drawing's axes, and the angular velocity in the body's own.
         """
         count, scratch = len(self.tables.bodies), np.zeros(max(1, lib.zd_space_system(self._mechanism).scratch))
-        told, twists = np.zeros((count, POSE)), None if v is None else np.zeros((count, TWIST))
-        lib.zd_space_tree_poses(self._mechanism, doubles(p, self.nq), given(v, self.nv), given(told, told.size),
+        frames, twists = np.zeros((count, POSE)), None if v is None else np.zeros((count, TWIST))
+        lib.zd_space_tree_poses(self._mechanism, doubles(p, self.nq), given(v, self.nv), given(frames, frames.size),
                                 given(twists, count * TWIST), doubles(scratch, scratch.size, writable=True))
-        R = told[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1)        # the core returns axes one after another; they are columns
-        poses = np.array([[*each[:3], *quaternion_of(turned)] for each, turned in zip(told, R, strict=True)]).reshape(-1, 7)
+        R = frames[:, 3:].reshape(-1, 3, 3).transpose(0, 2, 1)        # the core returns axes one after another; they are columns
+        poses = np.array([[*each[:3], *quaternion_of(turned)] for each, turned in zip(frames, R, strict=True)]).reshape(-1, 7)
         if twists is not None:
             twists[:, 3:] = np.einsum("kji,kj->ki", R, twists[:, 3:])
         return poses, twists
@@ -38,11 +38,11 @@ class SpaceTreeCore(SpaceCore):
         tree forbid is not looked at.
         """
         R, p, v = rotation_of(poses[:, 3:]), np.zeros(self.nq), np.zeros(self.nv)
-        told = np.ascontiguousarray(np.hstack([poses[:, :3], R.transpose(0, 2, 1).reshape(-1, 9)]))
+        frames = np.ascontiguousarray(np.hstack([poses[:, :3], R.transpose(0, 2, 1).reshape(-1, 9)]))
         twists = None
         if rates is not None:
             twists = np.hstack([rates[:, :3], np.einsum("kij,kj->ki", R, rates[:, 3:])])
-        lib.zd_space_tree_state(self._mechanism, doubles(told, told.size), given(twists, len(told) * TWIST),
+        lib.zd_space_tree_state(self._mechanism, doubles(frames, frames.size), given(twists, len(frames) * TWIST),
                                 doubles(p, p.size, writable=True), doubles(v, v.size, writable=True))
         if angles is not None:
             p[self._angle_at] += 2 * np.pi * np.round((angles - p[self._angle_at]) / (2 * np.pi))

@@ -8,7 +8,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
-from .constraint_names import RowNames
+from .constraint_names import ConstraintNames
 from .measures import Measuring
 from .packed_layout import PACKED, Packing
 
@@ -72,13 +72,13 @@ class CoreSystem(Measuring):
         self.quaternions = tuple(system.quaternion[i] for i in range(system.quaternions))
 
     error: BaseException | None = None      # what a system written in Python raised
-    row_names: RowNames | None = None
+    row_names: ConstraintNames | None = None
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
 
     def name_rows(self, system: Any) -> None:
         """Has the core tell of rows of C by the names that they have in a system whose core this is."""
         if self.row_names is None:
-            names = self.__dict__.setdefault("row_names", RowNames())       # one, whichever thread comes first
+            names = self.__dict__.setdefault("row_names", ConstraintNames())       # one, whichever thread comes first
             self.c.name_row, self.c.names = lib.zd_name_row_in_python, names.handle
         self.row_names.take_from(system)
 

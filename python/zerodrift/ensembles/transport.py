@@ -109,8 +109,8 @@ def is_found(what: Any, but: tuple[str, ...] = MAIN) -> bool:
 def _is_by_value(module: str) -> bool:
     """True if the user has registered that module, or a package containing it, with cloudpickle to be sent by value."""
     cloudpickle = sys.modules.get("cloudpickle")
-    told = cloudpickle.list_registry_pickle_by_value() if cloudpickle else ()
-    return any(module == each or module.startswith(f"{each}.") for each in told)
+    registered = cloudpickle.list_registry_pickle_by_value() if cloudpickle else ()
+    return any(module == each or module.startswith(f"{each}.") for each in registered)
 
 
 def _cloudpickle() -> ModuleType | None:

@@ -13,7 +13,7 @@ from .._gateway import Variable
 from .._gateway import is_length as is_length_of
 from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError, sentence
-from ..symbolics.compile.closed_form_library import NO_COMPILER, DirectFunctions
+from ..symbolics.compile.closed_form_library import NO_COMPILER, ClosedFormFunctions
 from ..systems.base import BaseSystem
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
@@ -62,7 +62,7 @@ class MechanismSystem(BaseSystem):
     """
 
     def __init__(self, drawing: Drawing, layout: str | None, changed: dict[str, float], compiled: bool = False,
-                 direct: tuple[str, DirectFunctions] | None = None) -> None:
+                 direct: tuple[str, ClosedFormFunctions] | None = None) -> None:
         self._drawing, self._changed, self.name = drawing, changed, drawing.name
         self._numbers = Numbers(changed)
         self._tables = tables_of(drawing, self._numbers, in_tree=layout != "absolute")
@@ -143,7 +143,7 @@ class MechanismSystem(BaseSystem):
         return Written(self._interpreted, self._started_tables.laws, self._tables.parameters, self.name)
 
     @functools.cached_property
-    def _direct(self) -> tuple[str, DirectFunctions]:
+    def _direct(self) -> tuple[str, ClosedFormFunctions]:
         """Closed-form functions and the name of their code; elimination orders are those of the system that this one was made
         from by changing numbers.
         """
@@ -304,9 +304,9 @@ class MechanismSystem(BaseSystem):
         """Advice for a singular start, or None."""
         if isinstance(self._tables, SpaceTables) and "follow" in sentence(error):
             tables, assembly, p = self._start.closed(0.0)
-            told = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
-            if told:
-                return told
+            reason = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
+            if reason:
+                return reason
         return advice.at_start(sentence(error), self._start, self.constraints)
 
     def _why_locked(self) -> str | None:
@@ -318,9 +318,9 @@ class MechanismSystem(BaseSystem):
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
         """Known cause of a failure at p: a motor at a dead centre; in space a disc lying flat, or shafts at a right angle."""
         if isinstance(self._tables, SpaceTables):
-            told = space_advice.on_failure(self._started_tables, self._interpreted, t, p)
-            if told:
-                return told
+            reason = space_advice.on_failure(self._started_tables, self._interpreted, t, p)
+            if reason:
+                return reason
         return advice.dead_centre(self._started_tables, self._interpreted, t, p)
 
 
@@ -330,7 +330,7 @@ def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Vari
     for coordinate in core.coordinates:
         body = tables.parts[coordinate.body - 1]
         if coordinate.kind == "displacement":
-            joint = tables.joints[tables.carrier[coordinate.body - 1]]
+            joint = tables.joints[tables.inboard[coordinate.body - 1]]
             found.append((Variable(f"{joint.name}.displacement", "m"), Variable(f"{joint.name}.speed", "m/s")))
         elif coordinate.kind == "angle":
             found.append((Variable(f"{body.name}.angle", "rad"), Variable(f"{body.name}.angular_velocity", "rad/s")))

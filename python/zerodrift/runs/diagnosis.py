@@ -89,8 +89,8 @@ def _small_pivot(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
 
 def _locked(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     system, stats = solution.system, solution.stats
-    if stats["redundant"] and stats["rank"] == system.nv and (told := system._why_locked()):
-        yield LockedWarning, told
+    if stats["redundant"] and stats["rank"] == system.nv and (message := system._why_locked()):
+        yield LockedWarning, message
 
 
 def instability(stats: Mapping[str, Any], integrator: Any) -> Iterator[str]:

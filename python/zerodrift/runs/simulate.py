@@ -224,8 +224,8 @@ def simulate(
     p0, v0 = system._state_or_start(p0, v0, t=span[0])
     path = None if save_to is None else recording.file_of_samples().checked(save_to)
     watcher = _gateway.Watcher(core, watched, system._watching.core) if watched is not None else None
-    if told := system._what_it_costs(plan.steps):
-        warnings.warn(told, CostWarning, stacklevel=2)
+    if costs := system._what_it_costs(plan.steps):
+        warnings.warn(costs, CostWarning, stacklevel=2)
     with recording.locked(path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
         more = recorded.core if recorded else None
         run = _created(system, core, plan.options, p0, v0, watcher, more)

@@ -21,7 +21,7 @@ from ..systems.structure import Structure, checked
 from ..systems.variables import quaternion_places, with_units
 from . import rounding_factors
 from .compile import compilers, shared_library
-from .compile.closed_form_library import DIRECT, NO_COMPILER, DirectFunctions
+from .compile.closed_form_library import DIRECT, NO_COMPILER, ClosedFormFunctions
 from .compile.series_library import JacobianFunctions, SeriesFunctions
 from .graph.smoothness import is_plain_program
 
@@ -68,7 +68,7 @@ class SymbolicSystem(BaseSystem):
 
     def __init__(self, code: Code, parameters: Mapping[str, float], units: Sequence[str] | None = None, p0: Any = None,
                  v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None,
-                 quaternions: Sequence[int | str] = (), direct: DirectFunctions | None = None) -> None:
+                 quaternions: Sequence[int | str] = (), direct: ClosedFormFunctions | None = None) -> None:
         self._code, self.name, self.parameters, self._units = code, name, dict(parameters), units
         self._places = quaternion_places(quaternions, code.coordinates, "A" in code.provides)
         self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides,
@@ -78,7 +78,7 @@ class SymbolicSystem(BaseSystem):
         self._set_start(p0, v0)
         self._values = np.array([_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
         is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
-        self._direct = direct or DirectFunctions(
+        self._direct = direct or ClosedFormFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
         self._series = SeriesFunctions(code.program, code.sizes)
         self._jacobian = JacobianFunctions(code.program, code.sizes)
@@ -152,7 +152,7 @@ class SymbolicSystem(BaseSystem):
     def _has_plain_laws(self) -> bool:
         return is_plain_program(self._code.program)
 
-    def _functions(self, embeds: bool) -> DirectFunctions:
+    def _functions(self, embeds: bool) -> ClosedFormFunctions:
         return self._direct.embedding if embeds else self._direct
 
     def _core_in_lanes(self, vector: str, embeds: bool) -> _gateway.CoreSystem:
@@ -161,7 +161,7 @@ class SymbolicSystem(BaseSystem):
         library = None if embeds or core is self._core else self._direct.library_in_lanes(vector)
         return core if library is None else core.with_lanes(_gateway.address_of(library, DIRECT), library)
 
-    def _with_direct_data(self, library: ctypes.CDLL, functions: DirectFunctions) -> np.ndarray:
+    def _with_direct_data(self, library: ctypes.CDLL, functions: ClosedFormFunctions) -> np.ndarray:
         """The same with the constants of the direct functions behind them."""
         data = np.concatenate([self._data(), np.zeros(functions.constants)])
         library.zd_symbolic_direct_constants(ctypes.c_void_p(data.ctypes.data))
@@ -245,7 +245,7 @@ class SymbolicSystem(BaseSystem):
 
 
 def _restored(code: Code, parameters: dict[str, float], units: Any, p0: Any, v0: Any, name: str, places: tuple[int, ...],
-              direct: DirectFunctions) -> SymbolicSystem:
+              direct: ClosedFormFunctions) -> SymbolicSystem:
     return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, direct=direct)
 
 

@@ -82,7 +82,7 @@ class Motion:
         read = checked_reading(what, name, None, self._drawing.elements)
         if read.is_rate:
             raise ValueError(f"{what} must be a measure of positions, and {name!r} is one of velocities")
-        if len(read.gauges) != 1:
+        if len(read.quantities) != 1:
             raise ValueError(f"{what} must be a scalar, and {name!r} has components: {name}.x and {name}.y")
 
     def _held(self, hold: Any) -> dict[str, float | None]:

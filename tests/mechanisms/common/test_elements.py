@@ -5,7 +5,7 @@ import pytest
 
 from zerodrift._gateway import mechanisms as plane
 from zerodrift._gateway import space
-from zerodrift._gateway.element_tables import Effort, Observed, Relation
+from zerodrift._gateway.element_tables import GeneralizedForce, OutputSpec, Relation
 
 BODIES = {plane: plane.Body(1.5, 1.0), space: space.Body(1.5, (1.0, 1.0, 1.0))}
 CORES = {plane: plane.MechanismCore, space: space.SpaceCore}
@@ -18,13 +18,13 @@ def room(request):
 
 
 def core(room, law=None, know_time=True, **tables):
-    """One body, and gauges of its place."""
-    gauges = [room.Gauge(axis, 0, 1) for axis in AXES[room]]
-    return CORES[room](room.Tables([BODIES[room]], gauges=gauges, **tables), law, laws_know_time=know_time)
+    """One body, and marker quantities of its place."""
+    quantities = [room.Quantity(axis, 0, 1) for axis in AXES[room]]
+    return CORES[room](room.Tables([BODIES[room]], quantities=quantities, **tables), law, laws_know_time=know_time)
 
 
 def measure(quantity, index, size=1, term=0):
-    return {"measures": [Observed("it", "", quantity, index, size, term=term)]}
+    return {"measures": [OutputSpec("it", "", quantity, index, size, term=term)]}
 
 
 def law(number, t, x, xdot):
@@ -33,29 +33,30 @@ def law(number, t, x, xdot):
 
 @pytest.mark.parametrize("relation", [Relation([3]), Relation([-1]), Relation([]), Relation([0], law=0), Relation([0], joint=0)])
 def test_relations_are_of_what_there_is(room, relation):
-    with pytest.raises(ValueError, match="relation 0: its gauges, user function and joint must exist"):
+    with pytest.raises(ValueError, match="relation 0: its marker quantities, user function and joint must exist"):
         core(room, relations=[relation])
 
 
-@pytest.mark.parametrize("effort", [Effort("spring", 3), Effort("law", 0), Effort("constant", 0, law=0),
-                                    Effort("spring", 0, joint=0), Effort("law", 0, law=0, inputs=[3])])
-def test_efforts_are_of_what_there_is(room, effort):
-    with pytest.raises(ValueError, match="effort 0: its kind, gauges, user function and joint must exist"):
-        core(room, law, efforts=[effort])
+@pytest.mark.parametrize("force", [
+    GeneralizedForce("spring", 3), GeneralizedForce("law", 0), GeneralizedForce("constant", 0, law=0),
+    GeneralizedForce("spring", 0, joint=0), GeneralizedForce("law", 0, law=0, inputs=[3])])
+def test_generalized_forces_are_of_what_there_is(room, force):
+    with pytest.raises(ValueError, match="generalized force 0: its kind, marker quantities, user function and joint must exist"):
+        core(room, law, forces=[force])
 
 
 @pytest.mark.parametrize("wrong", [
     measure("values", 3), measure("values", 0, 4), measure("rates", 0, 0), *(measure(f"joint {what}", 0)
                                                                             for what in ("force", "torque", "tension")),
-    *(measure(quantity, 1) for quantity in ("effort", "effort power", "effort force", "drive", "drive power")),
-    measure("effort force", 0, 2), measure("drive", 0, term=1)])
+    *(measure(quantity, 1) for quantity in ("force value", "force power", "force sum", "drive", "drive power")),
+    measure("force sum", 0, 2), measure("drive", 0, term=1)])
 def test_measures_are_of_what_there_is(room, wrong):
     with pytest.raises(ValueError, match="measure it: the entries that it measures must exist"):
-        core(room, efforts=[Effort("constant", 0)], relations=[Relation([0])], **wrong)
+        core(room, forces=[GeneralizedForce("constant", 0)], relations=[Relation([0])], **wrong)
 
 
 def test_a_quantity_that_there_is_not(room, monkeypatch):
-    monkeypatch.setitem(room.written_elements.__globals__["QUANTITIES"], "none", 99)
+    monkeypatch.setitem(room.written_elements.__globals__["OUTPUT_KINDS"], "none", 99)
     with pytest.raises(ValueError, match="measure it: the entries that it measures must exist"):
         core(room, **measure("none", 0))
 
@@ -66,9 +67,9 @@ def test_a_quantity_that_there_is_not(room, monkeypatch):
     ({"relations": [Relation([0], slope=1.0)]}, True, False, False),
     ({"relations": [Relation([0], constant=1.0, nonholonomic=True)]}, True, False, True),
     ({"relations": [Relation([0], law=0)]}, True, False, False),
-    ({"efforts": [Effort("spring", 0, 1.0)]}, False, False, True),
-    ({"efforts": [Effort("spring", 0, 1.0, 1.0)]}, False, True, True),
-    ({"efforts": [Effort("constant", 0, value=1.0)]}, False, True, True),
+    ({"forces": [GeneralizedForce("spring", 0, 1.0)]}, False, False, True),
+    ({"forces": [GeneralizedForce("spring", 0, 1.0, 1.0)]}, False, True, True),
+    ({"forces": [GeneralizedForce("constant", 0, value=1.0)]}, False, True, True),
 ])
 def test_which_terms_there_are(room, tables, Phi_t, power, timeless):
     made = core(room, law if any(row.law >= 0 for row in tables.get("relations", ())) else None, **tables)
@@ -90,7 +91,8 @@ def test_the_longest_law_has_room(room):
         calls.append((number, list(x), list(xdot)))
         return [sum(x)]
 
-    made = core(room, law, efforts=[Effort("law", 0, law=0, inputs=[0, 1]), Effort("law", 1, law=1, inputs=[1, 0] * 3)]).for_run()
+    forces = [GeneralizedForce("law", 0, law=0, inputs=[0, 1]), GeneralizedForce("law", 1, law=1, inputs=[1, 0] * 3)]
+    made = core(room, law, forces=forces).for_run()
     p, v = made.origin, np.zeros(made.nv)
     p[:2], v[:2] = (0.3, 0.4), (1.0, 2.0)
     terms = made.evaluate(0.0, p, v)
@@ -100,11 +102,11 @@ def test_the_longest_law_has_room(room):
     assert (1, [0.4, 0.3] * 3, [2.0, 1.0] * 3) in calls
 
 
-def test_the_force_of_several_efforts(room):
+def test_the_sum_of_several_forces(room):
     """Springs along all axes: what they do to the body is what acts on it, and minus the gradient of what they store."""
     axes = len(AXES[room])
-    springs = [Effort("spring", i, 2.0 + i) for i in range(axes)]
-    made = core(room, efforts=springs, **measure("effort force", 0, axes))
+    springs = [GeneralizedForce("spring", i, 2.0 + i) for i in range(axes)]
+    made = core(room, forces=springs, **measure("force sum", 0, axes))
     p, v = made.origin, np.zeros(made.nv)
     p[:axes] = [0.3, -0.2, 0.5][:axes]
     force = made.measure_at(0, 0.0, p, v)["value"]

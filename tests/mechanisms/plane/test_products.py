@@ -1,11 +1,11 @@
-"""Equations of free bodies against their terms written out: chains of each kind of joint, and rows of several gauges."""
+"""Equations of free bodies against their terms written out: chains of each kind of joint, rows of several marker quantities."""
 
 import numpy as np
 import pytest
 
 import zerodrift as zd
 from large_mechanisms import four_bars
-from mechanism_tables import KINDS, Body, Gauge, Joint, Relation, Tabled, Tables
+from mechanism_tables import KINDS, Body, Joint, Quantity, Relation, Tabled, Tables
 from support import assert_close
 
 NEAR = 1e-11        # rounding, times the condition of some five bodies
@@ -57,17 +57,17 @@ def test_pins_beside_others():
     assert_solved(system, rng.normal(size=system.nq), rng.normal(size=system.nv))
 
 
-def test_rows_of_several_gauges():
-    """Gears, a rack, a pulley, and a row of velocities: between up to four bodies, or two gauges of the same two."""
+def test_rows_of_several_quantities():
+    """Gears, a rack, a pulley, and a row of velocities: between up to four bodies, or two marker quantities of the same two."""
     rng = np.random.default_rng(4)
     point = rng.normal(size=(4, 2)).tolist()
-    gauges = [Gauge("angle", 1, 2), Gauge("angle", 3, 4), Gauge("along", 2, 3, point[0], point[1], (0.6, 0.8)),
-              Gauge("distance", 1, 4, point[2], point[3]), Gauge("distance", 0, 5, point[1], point[0]),
-              Gauge("skid", 4, 5, axis=(0.8, 0.6)), Gauge("across", 3, 2, point[1], point[2], (0.6, -0.8)),
-              Gauge("y", 0, 1, point[0], point[3])]
+    quantities = [Quantity("angle", 1, 2), Quantity("angle", 3, 4), Quantity("along", 2, 3, point[0], point[1], (0.6, 0.8)),
+              Quantity("distance", 1, 4, point[2], point[3]), Quantity("distance", 0, 5, point[1], point[0]),
+              Quantity("skid", 4, 5, axis=(0.8, 0.6)), Quantity("across", 3, 2, point[1], point[2], (0.6, -0.8)),
+              Quantity("y", 0, 1, point[0], point[3])]
     relations = [Relation([0, 1], [1.0, -2.5]), Relation([0, 2], [0.3, 1.0], 0.2, 0.1), Relation([3, 4], [1.0, 2.0]),
                  Relation([5, 1], [1.0, 0.4], 0.2, 0.3, nonholonomic=True), Relation([6, 2], [2.0, 1.0]), Relation([7], [3.0])]
-    assert_solved(*drawn(rng, (), gauges=gauges, relations=relations))
+    assert_solved(*drawn(rng, (), quantities=quantities, relations=relations))
 
 
 def test_what_is_written_out_goes_without():

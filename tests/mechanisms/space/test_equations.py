@@ -6,37 +6,38 @@ from scipy.spatial.transform import Rotation
 
 from space_tables import KINDS, exactly_moved, random_frame, random_state, shape_of, unit
 from support import assert_close
-from zerodrift._gateway.mechanisms import Effort, Observed, Relation
-from zerodrift._gateway.space import GAUGES, Body, Gauge, Joint, SpaceCore, Tables
+from zerodrift._gateway.mechanisms import GeneralizedForce, OutputSpec, Relation
+from zerodrift._gateway.space import QUANTITY_KINDS, Body, Joint, Quantity, SpaceCore, Tables
 
 H = 1e-5            # s: of central differences, whose error is some H^2 and round-off over H
 NEAR = 3e-8         # that error, of terms of order one to ten
 SPEEDS = ("slip", "glide", "spin", "turn")
 
 
-def gauges(rng):
+def quantities(rng):
     made = []
-    for kind in GAUGES:
+    for kind in QUANTITY_KINDS:
         a, o, _ = random_frame(rng)
         shape = shape_of(random_frame(rng), (0.4, 0.7, 0.2))
-        made.append(Gauge(kind, 1, 2, *rng.normal(size=(2, 3)).tolist(), a, o, unit(rng), shape, 0.1))
+        made.append(Quantity(kind, 1, 2, *rng.normal(size=(2, 3)).tolist(), a, o, unit(rng), shape, 0.1))
     return made
 
 
 def everything(rng):
-    """Three bodies with a joint of each kind between any two of them, relations, efforts, and each gauge as a measure."""
+    """Three bodies, a joint of each kind between any two of them, relations, forces, and each marker quantity as a measure."""
     bodies = [Body(rng.uniform(1, 2), tuple(rng.uniform(1, 1.5, 3))) for _ in range(3)]
     joints = [Joint(kind.number, *ends, *rng.normal(size=(2, 3)).tolist(), random_frame(rng), random_frame(rng), (0.3, 0.5, 0.8),
                     0.3, 0.2)
               for kind in KINDS.values() for ends in ((0, 1), (1, 2), (3, 2))]
-    place = {kind: i for i, kind in enumerate(GAUGES)}
-    efforts = [Effort("spring", place["distance"], 3.0, 0.2), Effort("spring", place["along"], 2.0),
-               *(Effort("constant", place[kind], value=value) for kind, value in zip(SPEEDS, (1.2, 2.0, -1.5, 0.7), strict=True))]
+    place = {kind: i for i, kind in enumerate(QUANTITY_KINDS)}
+    forces = [GeneralizedForce("spring", place["distance"], 3.0, 0.2), GeneralizedForce("spring", place["along"], 2.0),
+               *(GeneralizedForce("constant", place[kind], value=value)
+                 for kind, value in zip(SPEEDS, (1.2, 2.0, -1.5, 0.7), strict=True))]
     relations = [Relation([place["angle"], place["along"]], [0.3, 1.0], 0.1, 0.2),
                  Relation([place["turn"], place["glide"]], [1.0, 0.5], 0.3, nonholonomic=True)]
-    measures = [Observed(f"{kind} {quantity}", "", quantity, i) for i, kind in enumerate(GAUGES)
+    measures = [OutputSpec(f"{kind} {quantity}", "", quantity, i) for i, kind in enumerate(QUANTITY_KINDS)
                 for quantity in ("values", "rates")]
-    return SpaceCore(Tables(bodies, joints, gauges(rng), relations, efforts, measures, (0.3, -0.2, -9.81)))
+    return SpaceCore(Tables(bodies, joints, quantities(rng), relations, forces, measures, (0.3, -0.2, -9.81)))
 
 
 def derivative(function, core, p, v):
@@ -102,8 +103,8 @@ def test_mass_and_bias_are_those_of_euler(case):
     assert_close(np.diag(terms["M"]), np.concatenate([[body.mass] * 3 + list(body.inertia) for body in core.tables.bodies]), 0.0)
 
 
-@pytest.mark.parametrize("kind", GAUGES)
-def test_gauges(case, kind):
+@pytest.mark.parametrize("kind", QUANTITY_KINDS)
+def test_quantities(case, kind):
     core, p, v = case
     index = {measure.name: i for i, measure in enumerate(core.measures)}
     value, rate = (core.measure_at(index[f"{kind} {quantity}"], 0.0, p, v) for quantity in ("values", "rates"))
@@ -122,7 +123,7 @@ def test_components_are_read_without_zeros(case):
     which = [(i, j) for i, measure in enumerate(core.measures) if core.measure_depends(i) != "accelerations"
              for j in range(measure.size)]
     found = core.components(p, v, which)
-    assert len(which) >= 2 * len(GAUGES) - len(SPEEDS)
+    assert len(which) >= 2 * len(QUANTITY_KINDS) - len(SPEEDS)
     for (i, j), value, ends, parts in zip(which, *found, strict=True):
         expected, row = core.measure_at(i, 0.0, p, v), np.zeros(core.nv)
         for at, part in zip(ends, parts, strict=True):
@@ -132,22 +133,22 @@ def test_components_are_read_without_zeros(case):
         assert_close(row, expected["row"][j], 1e-15, scale=1.0)
 
 
-def test_gauges_say_what_they_are(case):
+def test_quantities_say_what_they_are(case):
     """From poses alone, by other means."""
     core, p, v = case
     poses, _ = core.poses(p)
     R = [Rotation.identity(), *(Rotation.from_quat(q, scalar_first=True) for q in poses[:, 3:])]
     at = [np.zeros(3), *poses[:, :3]]
-    for i, gauge in enumerate(core.tables.gauges):
-        P = at[gauge.first] + R[gauge.first].apply(gauge.point1)
-        Q = at[gauge.second] + R[gauge.second].apply(gauge.point2)
-        a, o, b = R[gauge.first].apply(gauge.a), R[gauge.first].apply(gauge.o), R[gauge.second].apply(gauge.b)
-        own = R[gauge.second].inv().apply(o)
+    for i, quantity in enumerate(core.tables.quantities):
+        P = at[quantity.first] + R[quantity.first].apply(quantity.point1)
+        Q = at[quantity.second] + R[quantity.second].apply(quantity.point2)
+        a, o, b = R[quantity.first].apply(quantity.a), R[quantity.first].apply(quantity.o), R[quantity.second].apply(quantity.b)
+        own = R[quantity.second].inv().apply(o)
         expected = {"x": (Q - P)[0], "y": (Q - P)[1], "z": (Q - P)[2], "along": a @ (Q - P), "cosine": a @ b,
                     "angle": np.arctan2(o @ b, a @ b), "distance": np.linalg.norm(Q - P),
-                    "clearance": o @ (Q - P) - np.sqrt(own @ gauge.shape @ own)}.get(gauge.kind)
+                    "clearance": o @ (Q - P) - np.sqrt(own @ quantity.shape @ own)}.get(quantity.kind)
         if expected is not None:
-            assert_close(core.measure_at(2 * i, 0.0, p, v)["value"][0] + gauge.zero, expected, 1e-13, scale=1.0)
+            assert_close(core.measure_at(2 * i, 0.0, p, v)["value"][0] + quantity.zero, expected, 1e-13, scale=1.0)
 
 
 def test_particles_have_places_alone():
@@ -172,18 +173,19 @@ def test_particles_have_places_alone():
     ({"joints": [Joint(0, 1, 1)]}, "joint 0: its bodies must differ, and both are 1"),
     ({"bodies": [Body(1.0, is_particle=True)], "joints": [Joint(KINDS["spherical"].number, 0, 1, point2=(1.0, 0, 0))]},
      "joint 0: its point on a particle must be the mass centre"),
-    ({"gauges": [Gauge("x", 0, 2)]}, "gauge 0: its bodies must be from 0 to 1, not 0 and 2"),
-    ({"bodies": [Body(1.0, is_particle=True)], "gauges": [Gauge("x", 0, 1, point2=(1.0, 0, 0))]},
-     "gauge 0: its point on a particle must be the mass centre"),
-    ({"gauges": [Gauge("angle", 0, 1, counted=1)]}, "gauge 0: it must count the turns of an angle of a joint, not of angle 0"),
-    ({"gauges": [Gauge("x", 0, 0)], "relations": [Relation([0], [1.0])]}, "row 0: it must depend on a body, not"),
+    ({"quantities": [Quantity("x", 0, 2)]}, "marker quantity 0: its bodies must be from 0 to 1, not 0 and 2"),
+    ({"bodies": [Body(1.0, is_particle=True)], "quantities": [Quantity("x", 0, 1, point2=(1.0, 0, 0))]},
+     "marker quantity 0: its point on a particle must be the mass centre"),
+    ({"quantities": [Quantity("angle", 0, 1, counted=1)]},
+     "marker quantity 0: it must count the turns of an angle of a joint, not of angle 0"),
+    ({"quantities": [Quantity("x", 0, 0)], "relations": [Relation([0], [1.0])]}, "row 0: it must depend on a body, not"),
 ])
 def test_tables_that_contradict_themselves(change, message):
     with pytest.raises(ValueError, match=message):
         SpaceCore(Tables(**{"bodies": [Body(1.0, (1.0, 1.0, 1.0))]} | change))
 
 
-def test_a_kind_of_gauge_that_there_is_not(monkeypatch):
-    monkeypatch.setitem(GAUGES, "none", 99)
-    with pytest.raises(ValueError, match=r"gauge 0: its kind must be from 0 to \d+, not 99"):
-        SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))], gauges=[Gauge("none", 0, 1)]))
+def test_a_kind_of_quantity_that_there_is_not(monkeypatch):
+    monkeypatch.setitem(QUANTITY_KINDS, "none", 99)
+    with pytest.raises(ValueError, match=r"marker quantity 0: its kind must be from 0 to \d+, not 99"):
+        SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))], quantities=[Quantity("none", 0, 1)]))

@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 from space_tables import KINDS, random_frame, unit
 from support import assert_close
 from zerodrift._gateway.base import doubles
-from zerodrift._gateway.mechanisms import Effort, Relation
-from zerodrift._gateway.space import Body, Gauge, Joint, SpaceCore, Tables
+from zerodrift._gateway.mechanisms import GeneralizedForce, Relation
+from zerodrift._gateway.space import Body, Joint, Quantity, SpaceCore, Tables
 from zerodrift._gateway.space_tree import SpaceTreeCore
 from zerodrift._rotations import rotation_of, turn_between
 
@@ -19,8 +19,8 @@ NEAR = 3e-8         # that error, of terms of order one to ten
 EXACT = 1e-12       # round-off of some hundred operations on numbers of order one
 
 
-def body(rng, carrier=-1, is_particle=False):
-    return Body(rng.uniform(1, 2), (0.0, 0.0, 0.0) if is_particle else tuple(rng.uniform(1, 1.5, 3)), is_particle, carrier)
+def body(rng, inboard=-1, is_particle=False):
+    return Body(rng.uniform(1, 2), (0.0, 0.0, 0.0) if is_particle else tuple(rng.uniform(1, 1.5, 3)), is_particle, inboard)
 
 
 def joint(rng, kind, first, second, particle=0):
@@ -32,10 +32,10 @@ def with_forces(rng, bodies, joints):
     """Tables with a spring, a force, a row that holds a distance, and a nonholonomic one, between the last body and others."""
     last, point = len(bodies), (0.0, 0.0, 0.0) if bodies[-1].is_particle else tuple(rng.normal(size=3))
     own = {"point2": point, "a": unit(rng), "b": unit(rng)}
-    gauges = [Gauge("distance", 0, last, **own), Gauge("glide", 0, last, **own), Gauge("distance", 1, last, **own)]
-    efforts = [Effort("spring", 0, 3.0, 0.2), Effort("constant", 1, value=1.5)]
+    quantities = [Quantity("distance", 0, last, **own), Quantity("glide", 0, last, **own), Quantity("distance", 1, last, **own)]
+    forces = [GeneralizedForce("spring", 0, 3.0, 0.2), GeneralizedForce("constant", 1, value=1.5)]
     relations = [Relation([0], [1.0], 0.3), Relation([1, 2], [1.0, 0.5], 0.3, nonholonomic=True)]
-    return Tables(bodies, joints, gauges, relations, efforts, (), (0.3, -0.2, -9.81))
+    return Tables(bodies, joints, quantities, relations, forces, (), (0.3, -0.2, -9.81))
 
 
 def chain(rng, kind, is_second):
@@ -64,7 +64,7 @@ class Both:
     def __init__(self, tables, seed):
         rng = np.random.default_rng(seed)
         self.tree = SpaceTreeCore(tables)
-        self.free = SpaceCore(tables._replace(bodies=[each._replace(carrier=-1) for each in tables.bodies]))
+        self.free = SpaceCore(tables._replace(bodies=[each._replace(inboard=-1) for each in tables.bodies]))
         self.p, self.v = rng.normal(size=self.tree.nq), rng.normal(size=self.tree.nv)
         for i in range(self.tree.c.quaternions):
             at = self.tree.c.quaternion[i]

@@ -8,7 +8,7 @@ const zd_plane_element_kind zd_plane_force = {
         .summary = "Force at a point along a direction that stays fixed, or turns with a body.",
         .equations = "(2), (28)",
     },
-    .gauges = 1,
-    .gauge = {ZD_GAUGE_GLIDE}, .zero = {ZD_ZERO_NONE},
-    .effort = "force", .sign = 1,
+    .quantities = 1,
+    .quantity = {ZD_PLANE_GLIDE}, .zero = {ZD_ZERO_NONE},
+    .measure = "force", .sign = 1,
 };

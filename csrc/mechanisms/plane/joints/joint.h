@@ -1,8 +1,9 @@
 /* Kinds of joints and force elements of planar mechanisms.
  *
- * A gauge is a marker quantity of one or two bodies, such as a distance or an angle. Joints, drives and forces are stated in gauges: a
- * constraint sets a combination of gauges to zero, a force acts along a gauge. The rate of a gauge is linear in the twists of its bodies;
- * the three coefficients (x, y, turn) for a body are also the force and the torque about its mass centre of a unit force along the gauge.
+ * A marker quantity belongs to one or two bodies, such as a distance or an angle. Joints, drives and forces are stated in marker quantities:
+ * a constraint sets a combination of marker quantities to zero, a force acts along a marker quantity. The rate of a marker quantity is linear
+ * in the twists of its bodies; the three coefficients (x, y, turn) for a body are also the force and the torque about its mass centre of a
+ * unit force along the marker quantity.
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
@@ -11,26 +12,26 @@
 
 #include "../../../include/zerodrift/system.h"
 
-/* With P the gauge's point on the first body, Q that on the second, e its axis, which turns with the first body, and n = e turned
+/* With P the marker quantity's point on the first body, Q that on the second, e its axis, which turns with the first body, and n = e turned
  * by a quarter turn counter-clockwise. */
-enum zd_plane_gauge_kind {
-    ZD_GAUGE_X,             /* m: x of Q - P */
-    ZD_GAUGE_Y,             /* m: y of Q - P */
-    ZD_GAUGE_ANGLE,         /* rad: angle of the second body minus that of the first */
-    ZD_GAUGE_ALONG,         /* m: e . (Q - P) */
-    ZD_GAUGE_ACROSS,        /* m: n . (Q - P) */
-    ZD_GAUGE_DISTANCE,      /* m: |Q - P| */
-    ZD_GAUGE_GLIDE,         /* m: no value, only a rate, the velocity of Q along e. No force on the first body. */
-    ZD_GAUGE_SKID,          /* m: the same along n */
-    ZD_GAUGE_KINDS
+enum zd_plane_quantity_kind {
+    ZD_PLANE_X,             /* m: x of Q - P */
+    ZD_PLANE_Y,             /* m: y of Q - P */
+    ZD_PLANE_ANGLE,         /* rad: angle of the second body minus that of the first */
+    ZD_PLANE_ALONG,         /* m: e . (Q - P) */
+    ZD_PLANE_ACROSS,        /* m: n . (Q - P) */
+    ZD_PLANE_DISTANCE,      /* m: |Q - P| */
+    ZD_PLANE_GLIDE,         /* m: no value, only a rate, the velocity of Q along e. No force on the first body. */
+    ZD_PLANE_SKID,          /* m: the same along n */
+    ZD_PLANE_QUANTITIES
 };
 
-/* Offset of a joint that is subtracted from a gauge's value, so that it is zero in the joint's zero position. */
+/* Offset of a joint that is subtracted from a marker quantity's value, so that it is zero in the joint's zero position. */
 enum zd_zero { ZD_ZERO_NONE, ZD_ZERO_ALONG, ZD_ZERO_ACROSS, ZD_ZERO_ANGLE, ZD_ZERO_LENGTH };
 
 /* Inboard joint types: how a joint connects a body to its parent in joint coordinates. */
-enum zd_carrier {
-    ZD_CARRIES_NOTHING,     /* never an inboard joint: it is constraint rows in joint coordinates, too */
+enum zd_inboard {
+    ZD_NOT_INBOARD,         /* never an inboard joint: it is constraint rows in joint coordinates, too */
     ZD_TURNS,               /* the coordinate is the outer body's angle from the ground's x axis */
     ZD_SLIDES,              /* the coordinate is the displacement along an axis */
     ZD_FIXED                /* no coordinate */
@@ -39,7 +40,7 @@ enum zd_carrier {
 enum { ZD_JOINT_ROWS = 3 };
 
 typedef struct zd_plane_joint_row {
-    enum zd_plane_gauge_kind gauge;
+    enum zd_plane_quantity_kind quantity;
     enum zd_zero zero;
     int rolls;              /* 1 if `length` times the relative angle of the second body is added, as for rolling */
     int nonholonomic;
@@ -48,11 +49,11 @@ typedef struct zd_plane_joint_row {
 /* A kind of joint: an entry of the table of joints. */
 typedef struct zd_plane_joint_kind {
     zd_card card;
-    enum zd_carrier carrier;
+    enum zd_inboard inboard;
     int rows;
     zd_plane_joint_row row[ZD_JOINT_ROWS];    /* the holonomic ones first */
-    const char *coordinate;             /* name of the gauge along which drives, springs and damping act; NULL: none */
-    enum zd_plane_gauge_kind gauge;           /* its kind */
+    const char *coordinate;             /* name of the marker quantity along which drives, springs and damping act; NULL: none */
+    enum zd_plane_quantity_kind quantity;           /* its kind */
     enum zd_zero zero;
     int takes_axis, takes_length;       /* 1 if the user gives an axis, a length */
     int at_contact;                     /* 1 if its force acts at the contact, `length` below the second body's point against n; 0: at that
@@ -63,16 +64,16 @@ typedef struct zd_plane_joint_kind {
 int zd_plane_joint_kinds(void);
 const zd_plane_joint_kind *zd_plane_joint_kind_of(int row);     /* NULL: out of range */
 
-/* A kind of force element: an entry of the table of elements. It is one generalized force along each of its gauges. */
-enum { ZD_ELEMENT_GAUGES = 3 };
+/* A kind of force element: an entry of the table of elements. It is one generalized force along each of its marker quantities. */
+enum { ZD_ELEMENT_QUANTITIES = 3 };
 
 typedef struct zd_plane_element_kind {
     zd_card card;
-    int gauges;
-    enum zd_plane_gauge_kind gauge[ZD_ELEMENT_GAUGES];
-    enum zd_zero zero[ZD_ELEMENT_GAUGES];
+    int quantities;
+    enum zd_plane_quantity_kind quantity[ZD_ELEMENT_QUANTITIES];
+    enum zd_zero zero[ZD_ELEMENT_QUANTITIES];
     int is_spring;                      /* 1: -stiffness value - damping rate; 0: a given force */
-    const char *effort;                 /* name of its scalar measure, "force" or "torque"; NULL: none */
+    const char *measure;               /* name of its scalar measure, "force" or "torque"; NULL: none */
     int sign;                           /* sign of that measure: -1 if it is positive in tension, otherwise 1 */
 } zd_plane_element_kind;
 

@@ -8,6 +8,6 @@ const zd_plane_joint_kind zd_plane_knife_edge = {
         .equations = "(5)",
     },
     .rows = 1,
-    .row = {{.gauge = ZD_GAUGE_SKID, .nonholonomic = 1}},
+    .row = {{.quantity = ZD_PLANE_SKID, .nonholonomic = 1}},
     .takes_axis = 1,
 };

@@ -3,9 +3,9 @@
 
 const zd_plane_joint_kind zd_plane_prismatic = {
     .card = {.name = "prismatic", .summary = "Slides one body along an axis that turns with the other.", .equations = "(3), (5)"},
-    .carrier = ZD_SLIDES,
+    .inboard = ZD_SLIDES,
     .rows = 2,
-    .row = {{.gauge = ZD_GAUGE_ACROSS, .zero = ZD_ZERO_ACROSS}, {.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},
-    .coordinate = "displacement", .gauge = ZD_GAUGE_ALONG, .zero = ZD_ZERO_ALONG,
+    .row = {{.quantity = ZD_PLANE_ACROSS, .zero = ZD_ZERO_ACROSS}, {.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
+    .coordinate = "displacement", .quantity = ZD_PLANE_ALONG, .zero = ZD_ZERO_ALONG,
     .takes_axis = 1,
 };

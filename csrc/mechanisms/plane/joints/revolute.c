@@ -7,8 +7,8 @@ const zd_plane_joint_kind zd_plane_revolute = {
         .summary = "Turns one body about a point of the other; a particle is held at that point.",
         .equations = "(3), (5)",
     },
-    .carrier = ZD_TURNS,
+    .inboard = ZD_TURNS,
     .rows = 2,
-    .row = {{.gauge = ZD_GAUGE_X}, {.gauge = ZD_GAUGE_Y}},
-    .coordinate = "angle", .gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE,
+    .row = {{.quantity = ZD_PLANE_X}, {.quantity = ZD_PLANE_Y}},
+    .coordinate = "angle", .quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE,
 };

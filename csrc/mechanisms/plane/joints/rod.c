@@ -8,7 +8,7 @@ const zd_plane_joint_kind zd_plane_rod = {
         .equations = "(3), (5)",
     },
     .rows = 1,
-    .row = {{.gauge = ZD_GAUGE_DISTANCE, .zero = ZD_ZERO_LENGTH}},
+    .row = {{.quantity = ZD_PLANE_DISTANCE, .zero = ZD_ZERO_LENGTH}},
     .takes_length = 1,
     .tension = "tension",
 };

@@ -6,10 +6,10 @@ const zd_plane_joint_kind zd_plane_rolling = {
     .card = {.name = "rolling", .summary = "Rolls a wheel along a line of the first body without slip.", .equations = "(3), (5)"},
     .rows = 2,
     .row = {
-        {.gauge = ZD_GAUGE_ACROSS, .zero = ZD_ZERO_LENGTH},
-        {.gauge = ZD_GAUGE_ALONG, .zero = ZD_ZERO_ALONG, .rolls = 1},
+        {.quantity = ZD_PLANE_ACROSS, .zero = ZD_ZERO_LENGTH},
+        {.quantity = ZD_PLANE_ALONG, .zero = ZD_ZERO_ALONG, .rolls = 1},
     },
-    .coordinate = "displacement", .gauge = ZD_GAUGE_ALONG, .zero = ZD_ZERO_ALONG,
+    .coordinate = "displacement", .quantity = ZD_PLANE_ALONG, .zero = ZD_ZERO_ALONG,
     .takes_axis = 1, .takes_length = 1,
     .at_contact = 1,
 };

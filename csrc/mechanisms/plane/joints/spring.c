@@ -3,8 +3,8 @@
 
 const zd_plane_element_kind zd_plane_spring = {
     .card = {.name = "spring", .summary = "Spring with a damper between two points.", .equations = "(2), (28)"},
-    .gauges = 1,
-    .gauge = {ZD_GAUGE_DISTANCE}, .zero = {ZD_ZERO_LENGTH},
+    .quantities = 1,
+    .quantity = {ZD_PLANE_DISTANCE}, .zero = {ZD_ZERO_LENGTH},
     .is_spring = 1,
-    .effort = "force", .sign = -1,
+    .measure = "force", .sign = -1,
 };

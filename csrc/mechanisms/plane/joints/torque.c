@@ -3,7 +3,7 @@
 
 const zd_plane_element_kind zd_plane_torque = {
     .card = {.name = "torque", .summary = "Torque on a body, and against another.", .equations = "(2), (28)"},
-    .gauges = 1,
-    .gauge = {ZD_GAUGE_ANGLE}, .zero = {ZD_ZERO_NONE},
-    .effort = "torque", .sign = 1,
+    .quantities = 1,
+    .quantity = {ZD_PLANE_ANGLE}, .zero = {ZD_ZERO_NONE},
+    .measure = "torque", .sign = 1,
 };

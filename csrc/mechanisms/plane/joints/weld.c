@@ -3,7 +3,7 @@
 
 const zd_plane_joint_kind zd_plane_weld = {
     .card = {.name = "weld", .summary = "Fixes one body to the other.", .equations = "(3), (5)"},
-    .carrier = ZD_FIXED,
+    .inboard = ZD_FIXED,
     .rows = 3,
-    .row = {{.gauge = ZD_GAUGE_X}, {.gauge = ZD_GAUGE_Y}, {.gauge = ZD_GAUGE_ANGLE, .zero = ZD_ZERO_ANGLE}},
+    .row = {{.quantity = ZD_PLANE_X}, {.quantity = ZD_PLANE_Y}, {.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
 };

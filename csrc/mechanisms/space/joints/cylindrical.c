@@ -7,5 +7,5 @@ const zd_space_joint_kind zd_space_cylindrical = {
     .row = {POINT_ON_AXIS, PARALLEL_AXES},
     .coordinate = {ANGLE_ABOUT_AXIS, DISPLACEMENT_ALONG_AXIS},
     .axes = 1,
-    .carries = 1, .freedoms = 2, .freedom = {SLIDES_ALONG_AXIS, TURNS_ABOUT(A, "angle")},
+    .is_inboard = 1, .freedoms = 2, .freedom = {SLIDES_ALONG_AXIS, TURNS_ABOUT(A, "angle")},
 };

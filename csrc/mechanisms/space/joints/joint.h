@@ -1,8 +1,9 @@
-/* Kinds of joints of spatial mechanisms: each is a short table of primitive gauges.
+/* Kinds of joints of spatial mechanisms: each is a short table of primitive marker quantities.
  *
- * A gauge is a marker quantity of one or two bodies, as in the plane (../../plane/joints/joint.h): a row sets a sum of gauges to zero, a
- * force acts along one. Its rate is linear in the twists of its bodies; the coefficients for a body are also the force and the torque of
- * a unit force along the gauge. So value, row and bias of each primitive are derived once, in ../gauge.c, and a joint is data.
+ * A marker quantity belongs to one or two bodies, as in the plane (../../plane/joints/joint.h): a row sets a sum of marker quantities to
+ * zero, a force acts along one. Its rate is linear in the twists of its bodies; the coefficients for a body are also the force and the torque
+ * of a unit force along the marker quantity. So value, row and bias of each primitive are derived once, in ../marker_quantity.c, and a joint
+ * is data.
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
@@ -11,9 +12,9 @@
 
 #include "../../../include/zerodrift/system.h"
 
-/* With P the gauge's point on the first body, Q that on the second, a a direction that turns with the first, and b one that turns with the
- * second. Speeds have no value, only a rate. */
-enum zd_space_gauge_kind {
+/* With P the marker quantity's point on the first body, Q that on the second, a a direction that turns with the first, and b one that turns
+ * with the second. Speeds have no value, only a rate. */
+enum zd_space_quantity_kind {
     ZD_SPACE_X,             /* m: x of Q - P */
     ZD_SPACE_Y,             /* m: y of Q - P */
     ZD_SPACE_Z,             /* m: z of Q - P */
@@ -26,10 +27,10 @@ enum zd_space_gauge_kind {
     ZD_SPACE_GLIDE,         /* m/s: a . velocity of Q. No force on the first body. */
     ZD_SPACE_SPIN,          /* rad/s: a . angular velocity of the second. No force on the first body. */
     ZD_SPACE_TURN,          /* rad/s: a . (angular velocity of the second minus that of the first) */
-    ZD_SPACE_GAUGES
+    ZD_SPACE_QUANTITIES
 };
 
-/* Offset of a joint that is subtracted from a gauge's value. */
+/* Offset of a joint that is subtracted from a marker quantity's value. */
 enum zd_space_zero { ZD_SPACE_ZERO_NONE, ZD_SPACE_ZERO_ALONG, ZD_SPACE_ZERO_LENGTH };
 
 /* Directions of a joint's frame. Each body has one; they coincide in the joint's zero position. */
@@ -38,12 +39,12 @@ enum { ZD_SPACE_AXIS, ZD_SPACE_NORMAL, ZD_SPACE_THIRD, ZD_SPACE_AXES };     /* r
 enum { ZD_SPACE_ROWS = 6, ZD_SPACE_COORDINATES = 2, ZD_SPACE_FREEDOMS = 3 };
 
 typedef struct zd_space_pick {
-    enum zd_space_gauge_kind gauge;
+    enum zd_space_quantity_kind quantity;
     int of_first, of_second;    /* directions of the frames for a and b; o of an angle is the direction after a, cyclically */
     enum zd_space_zero zero;
     /* 1 if a is a direction of the joint's second body and b one of its first; o is then the direction before a */
     int is_swapped;
-    int is_own;                 /* 1 if a is a direction of the joint's second body, and both bodies of the gauge are that body */
+    int is_own;                 /* 1 if a is a direction of the joint's second body, and both bodies of the marker quantity are that body */
 } zd_space_pick;
 
 typedef struct zd_space_row {
@@ -82,7 +83,7 @@ typedef struct zd_space_joint_kind {
     int rolls;                  /* 1 if it is a contact at C, where its force acts; o of its marker quantities is the axis */
     int takes_length;           /* 1 if the user gives `length`: m of a rod, m/rad of a screw */
     const char *tension;        /* name of the scalar measure of its first row's force, positive in tension; NULL: none */
-    int carries;                /* 1 if it can be an inboard joint; otherwise it is constraint rows in all coordinates */
+    int is_inboard;             /* 1 if it can be an inboard joint; otherwise it is constraint rows in all coordinates */
     int freedoms;
     zd_space_freedom freedom[ZD_SPACE_FREEDOMS];
 } zd_space_joint_kind;

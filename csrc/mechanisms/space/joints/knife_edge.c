@@ -8,5 +8,5 @@ const zd_space_joint_kind zd_space_knife_edge = {
         .equations = "(5)",
     },
     .rows = 1,
-    .row = {{.pick = {.gauge = ZD_SPACE_GLIDE, .of_first = N, .is_own = 1}, .nonholonomic = 1}},
+    .row = {{.pick = {.quantity = ZD_SPACE_GLIDE, .of_first = N, .is_own = 1}, .nonholonomic = 1}},
 };

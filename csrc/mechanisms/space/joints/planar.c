@@ -8,6 +8,6 @@ const zd_space_joint_kind zd_space_planar = {
     .row = {POINT_IN_PLANE(A), PARALLEL_AXES},
     .coordinate = {ANGLE_ABOUT_AXIS},
     .axes = 1,
-    .carries = 1, .freedoms = 3,
+    .is_inboard = 1, .freedoms = 3,
     .freedom = {SLIDES_ALONG(N, "along normal"), SLIDES_ALONG(T, "along third"), TURNS_ABOUT(A, "angle")},
 };

@@ -7,5 +7,5 @@ const zd_space_joint_kind zd_space_prismatic = {
     .row = {POINT_ON_AXIS, SAME_ORIENTATION},
     .coordinate = {DISPLACEMENT_ALONG_AXIS},
     .axes = 1,
-    .carries = 1, .freedoms = 1, .freedom = {SLIDES_ALONG_AXIS},
+    .is_inboard = 1, .freedoms = 1, .freedom = {SLIDES_ALONG_AXIS},
 };

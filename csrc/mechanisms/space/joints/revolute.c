@@ -7,5 +7,5 @@ const zd_space_joint_kind zd_space_revolute = {
     .row = {POINT_ON_POINT, PARALLEL_AXES},
     .coordinate = {ANGLE_ABOUT_AXIS},
     .axes = 1,
-    .carries = 1, .freedoms = 1, .freedom = {TURNS_ABOUT(A, "angle")},
+    .is_inboard = 1, .freedoms = 1, .freedom = {TURNS_ABOUT(A, "angle")},
 };

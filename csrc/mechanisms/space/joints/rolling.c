@@ -10,9 +10,9 @@ const zd_space_joint_kind zd_space_rolling = {
     },
     .rows = 3,
     .row = {
-        {.pick = {.gauge = ZD_SPACE_CLEARANCE, .of_first = A}},
-        {.pick = {.gauge = ZD_SPACE_SLIP, .of_first = N}, .nonholonomic = 1},
-        {.pick = {.gauge = ZD_SPACE_SLIP, .of_first = T}, .nonholonomic = 1},
+        {.pick = {.quantity = ZD_SPACE_CLEARANCE, .of_first = A}},
+        {.pick = {.quantity = ZD_SPACE_SLIP, .of_first = N}, .nonholonomic = 1},
+        {.pick = {.quantity = ZD_SPACE_SLIP, .of_first = T}, .nonholonomic = 1},
     },
     .rolls = 1,
 };

@@ -7,5 +7,5 @@ const zd_space_joint_kind zd_space_slot = {
     .row = {POINT_ON_AXIS},
     .coordinate = {DISPLACEMENT_ALONG_AXIS},
     .axes = 1,
-    .carries = 1, .freedoms = 2, .freedom = {SLIDES_ALONG_AXIS, SWINGS},
+    .is_inboard = 1, .freedoms = 2, .freedom = {SLIDES_ALONG_AXIS, SWINGS},
 };

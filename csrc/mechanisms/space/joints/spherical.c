@@ -6,5 +6,5 @@ const zd_space_joint_kind zd_space_spherical = {
              .equations = "(3), (5)"},
     .rows = 3,
     .row = {POINT_ON_POINT},
-    .carries = 1, .freedoms = 1, .freedom = {SWINGS},
+    .is_inboard = 1, .freedoms = 1, .freedom = {SWINGS},
 };

@@ -8,9 +8,9 @@ const zd_space_joint_kind zd_space_universal = {
     .rows = 4,
     .row = {POINT_ON_POINT, PERPENDICULAR(A, N)},
     .coordinate = {
-        {"angle1", {.gauge = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}},
-        {"angle2", {.gauge = ZD_SPACE_ANGLE, .of_first = A, .of_second = A, .is_swapped = 1}},
+        {"angle1", {.quantity = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}},
+        {"angle2", {.quantity = ZD_SPACE_ANGLE, .of_first = A, .of_second = A, .is_swapped = 1}},
     },
     .axes = 2,
-    .carries = 1, .freedoms = 2, .freedom = {TURNS_ABOUT(A, "angle1"), TURNS_ABOUT(N, "angle2")},
+    .is_inboard = 1, .freedoms = 2, .freedom = {TURNS_ABOUT(A, "angle1"), TURNS_ABOUT(N, "angle2")},
 };

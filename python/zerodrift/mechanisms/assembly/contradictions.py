@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import InconsistentStart
 
-MOST_TOLD = 8           # largest number of names in a sentence
+MOST_LISTED = 8           # largest number of names in a sentence
 ANGLES = "angle", "angle1", "angle2"
 
 
@@ -22,14 +22,14 @@ def contradiction(left: np.ndarray, size: np.ndarray, names: Sequence[str], rows
     worst = [int(i) for i in np.argsort(-np.abs(left)) if abs(left[i]) > least]
     moved = list(dict.fromkeys(names[i] for i in worst if names[i]))
     if len(moved) > 1:
-        told, off = _told(moved, " and "), np.abs(left * size).max()
-        return InconsistentStart(f"start: the velocities of {told} contradict each other, by {off:.3g}")
+        velocities, off = _listed(moved, " and "), np.abs(left * size).max()
+        return InconsistentStart(f"start: the velocities of {velocities} contradict each other, by {off:.3g}")
     row = max((i for i, name in enumerate(names) if name), key=lambda i: abs(left[i]))
     off = left @ left / abs(left[row]) * size[row] if row in worst else 0.0      # of this row, where all others are met
-    told = f"; it is off by {off:.3g}" if off else ""
-    joints = _told(sorted({rows[i] for i in worst if not names[i]}), ", ")
+    residual = f"; it is off by {off:.3g}" if off else ""
+    joints = _listed(sorted({rows[i] for i in worst if not names[i]}), ", ")
     blocking = f"the joints {joints} do" if joints else "the mechanism does"
-    return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow in this pose{told}. "
+    return InconsistentStart(f"start: {names[row]!r} asks for a velocity that {blocking} not allow in this pose{residual}. "
                              "At a dead centre, start a little aside, or drive another joint")
 
 
@@ -41,7 +41,7 @@ def unit_of(name: str) -> str:
     return "rad" if quantity[-1] in ANGLES else "m"
 
 
-def _told(names: Sequence[str], between: str) -> str:
+def _listed(names: Sequence[str], between: str) -> str:
     """List of names, shortened after the first few."""
-    others = [f"{len(names) - MOST_TOLD} others"] if len(names) > MOST_TOLD else []
-    return between.join([*map(repr, names[:MOST_TOLD]), *others])
+    others = [f"{len(names) - MOST_LISTED} others"] if len(names) > MOST_LISTED else []
+    return between.join([*map(repr, names[:MOST_LISTED]), *others])

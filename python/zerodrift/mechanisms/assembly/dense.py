@@ -334,11 +334,11 @@ class Assembly:
             return CorrectionFailed("joints")
         worst = [int(i) for i in np.argsort(-size) if size[i] > 1e-3 * size.max()]
         apart = np.abs(residual) * self._size[len(held)]
-        told = ", ".join(f"{names[i]!r} by {apart[i]:.3g} {unit_of(names[i])}".rstrip() for i in worst[:4])
+        residuals = ", ".join(f"{names[i]!r} by {apart[i]:.3g} {unit_of(names[i])}".rstrip() for i in worst[:4])
         turns = [target for target in held if unit_of(target.name) == "rad" and abs(target.value) > 2 * np.pi]
         hint = f". Angles are in rad: {turns[0].value:g} degrees are {np.radians(turns[0].value):.4g}" if turns else ""
         return InconsistentStart(f"what the start holds and what is driven cannot be met together; nearest to it there are left: "
-                                 f"{told}{hint}")
+                                 f"{residuals}{hint}")
 
     # ---- velocities ----
 

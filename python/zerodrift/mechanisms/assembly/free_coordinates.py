@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.element_tables import Observed
-from ..._gateway.space import Gauge
+from ..._gateway.element_tables import OutputSpec
+from ..._gateway.space import Quantity
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor
@@ -82,8 +82,8 @@ class _Coordinates:
     """Joint coordinates of a mechanism, and the groups that move together."""
 
     def __init__(self, drawing: Drawing, tables: Tables) -> None:
-        self.drawing, self.tables, self.carrier = drawing, tables, tables.tree(with_cut=True)
-        self.reach = Reach(self.carrier, [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints])
+        self.drawing, self.tables, self.inboard = drawing, tables, tables.tree(with_cut=True)
+        self.reach = Reach(self.inboard, [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints])
         self.coordinates = list(self._all())
 
     def unforced(self, forced: Forced) -> list[Coordinate]:
@@ -112,11 +112,11 @@ class _Coordinates:
         return self._way_of_element(self.drawing.elements[name.partition(".")[0]])
 
     def _all(self) -> Iterator[Coordinate]:
-        for number, (body, carrier) in enumerate(zip(self.tables.parts, self.carrier, strict=True), 1):
-            if carrier < 0:
+        for number, (body, inboard) in enumerate(zip(self.tables.parts, self.inboard, strict=True), 1):
+            if inboard < 0:
                 yield from _of_free(number, body, self.drawing.dimension)
             else:
-                yield from _of_joint(number, body, self.tables.joints[carrier])
+                yield from _of_joint(number, body, self.tables.joints[inboard])
 
 
 def _of_free(number: int, body: Body, dimension: int) -> Iterator[Coordinate]:
@@ -146,19 +146,19 @@ def bodies_of(element: Any) -> tuple[Body, ...]:
     return element.bodies if isinstance(element, Joint) else (element.first.body, element.second.body)
 
 
-def swings(tables: Tables, coordinates: Iterable[Coordinate], first: int) -> tuple[list[Gauge], list[Observed]]:
+def swings(tables: Tables, coordinates: Iterable[Coordinate], first: int) -> tuple[list[Quantity], list[OutputSpec]]:
     """Marker quantities, numbered from `first`, and measures of the rotations of spherical joints."""
-    gauges: list[Gauge] = []
-    observed: list[Observed] = []
+    quantities: list[Quantity] = []
+    observed: list[OutputSpec] = []
     for each in coordinates:
         if each.joint is None:
             continue
         bodies = [tables.number[body.name] for body in each.joint.bodies]
-        cosines = [Gauge("cosine", *bodies, a=tuple(a), b=tuple(b)) for a in np.eye(3) for b in np.eye(3)]
+        cosines = [Quantity("cosine", *bodies, a=tuple(a), b=tuple(b)) for a in np.eye(3) for b in np.eye(3)]
         for name, unit, quantity in ((each.position, "", "values"), (each.rate, "1/s", "rates")):
-            observed.append(Observed(name, unit, quantity, first + len(gauges), len(cosines)))
-        gauges += cosines
-    return gauges, observed
+            observed.append(OutputSpec(name, unit, quantity, first + len(quantities), len(cosines)))
+        quantities += cosines
+    return quantities, observed
 
 
 def _is_of(name: str, coordinate: Coordinate) -> bool:

@@ -22,16 +22,16 @@ class Reach:
         Of each joint the numbers of its bodies; 0 is the ground.
     """
 
-    def __init__(self, carrier: Sequence[int], ends: Sequence[tuple[int, int]]) -> None:
-        self.carrier, self.ends = carrier, ends
-        self.free = {body for body, joint in enumerate(carrier, 1) if joint < 0}
+    def __init__(self, inboard: Sequence[int], ends: Sequence[tuple[int, int]]) -> None:
+        self.inboard, self.ends = inboard, ends
+        self.free = {body for body, joint in enumerate(inboard, 1) if joint < 0}
         self._parent: dict[int, tuple[int, int]] = {}       # by body: the next one towards the root, and the edge
         self._connecting: list[int] = []
         self._grow()
 
     def _grow(self) -> None:
         """Build the forest: joints of the tree, and other joints that connect bodies which the tree does not connect."""
-        root = [0, *range(1, len(self.carrier) + 1)]
+        root = [0, *range(1, len(self.inboard) + 1)]
 
         def found(body: int) -> int:
             while root[body] != body:
@@ -40,7 +40,7 @@ class Reach:
             return body
 
         neighbours: dict[int, list[tuple[int, int]]] = defaultdict(list)
-        edge_of = {joint: body for body, joint in enumerate(self.carrier, 1) if joint >= 0}
+        edge_of = {joint: body for body, joint in enumerate(self.inboard, 1) if joint >= 0}
         self.closing: list[int] = []
         for joint in sorted(range(len(self.ends)), key=lambda joint: joint not in edge_of):
             one, other = self.ends[joint]
@@ -57,7 +57,7 @@ class Reach:
     def _direct(self, neighbours: dict[int, list[tuple[int, int]]]) -> None:
         """Point each body towards the root of its forest: the ground, if it is connected with it."""
         seen: set[int] = set()
-        for start in range(len(self.carrier) + 1):
+        for start in range(len(self.inboard) + 1):
             left = [] if start in seen else [start]
             seen.add(start)
             while left:
@@ -88,7 +88,7 @@ class Reach:
         way = set()
         while body:
             way.add(body)
-            joint = self.carrier[body - 1]
+            joint = self.inboard[body - 1]
             body = 0 if joint < 0 else sum(self.ends[joint]) - body
         return way
 

@@ -27,10 +27,10 @@ def on_failure(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray) ->
     """Known cause near the state in which a run has failed, or None."""
     R = _rotations(core, p)
     for joint in tables.joints:
-        told = _of_disc(tables, joint, R) if isinstance(joint, SpaceRolling) else (
+        advice = _of_disc(tables, joint, R) if isinstance(joint, SpaceRolling) else (
             _of_shafts(tables, joint, R) if joint.kind == "universal" else None)
-        if told:
-            return f"near t = {t:g} {told}"
+        if advice:
+            return f"near t = {t:g} {advice}"
     return None
 
 
@@ -69,32 +69,32 @@ def _shafts(tables: SpaceTables, joint: SpaceJoint, R: Sequence[np.ndarray]) -> 
 def at_right_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[str]:
     """Sentences on universal joints whose shafts are, and stay, at a right angle."""
     R = _rotations(core, p)
-    told = [_of_shafts(tables, joint, R, PARALLEL) for joint in _with_shafts(tables)]
-    return [each for each in told if each]
+    advice = [_of_shafts(tables, joint, R, PARALLEL) for joint in _with_shafts(tables)]
+    return [each for each in advice if each]
 
 
 def flat_crosses(tables: SpaceTables, core: SpaceCore, p: np.ndarray) -> list[str]:
     """Sentence on each universal joint whose cross lies in the plane of both shafts, where its arms stay perpendicular."""
-    R, told = _rotations(core, p), []
+    R, advice = _rotations(core, p), []
     for joint in _with_shafts(tables):
         axes, names = _shafts(tables, joint, R)
         row = tables.joint_rows[tables.joint_number[joint.name]]
         across = np.cross(R[row.first] @ row.frame1[0], R[row.second] @ row.frame2[1])
         if all(90 - _between(across, axis) <= PARALLEL for axis in axes):
-            told.append(f"the cross of universal joint {joint.name!r} lies in the plane of its shafts, the axes of "
+            advice.append(f"the cross of universal joint {joint.name!r} lies in the plane of its shafts, the axes of "
                         f"{names[0]!r} and {names[1]!r}")
-    return told
+    return advice
 
 
 def of_angles(tables: SpaceTables, core: SpaceCore, p: np.ndarray, names: Sequence[str]) -> str:
     """Sentence on universal joints whose angles cannot be met: the angle that bearings keep between the shafts; or ""."""
-    R, told = _rotations(core, p), []
+    R, advice = _rotations(core, p), []
     for joint in _with_shafts(tables):
         if {f"{joint.name}.angle1", f"{joint.name}.angle2"} & set(names):
             axes, bearings = _shafts(tables, joint, R)
-            told.append(f"; the shafts of universal joint {joint.name!r} stay {_between(*axes):.4g} degrees apart in "
+            advice.append(f"; the shafts of universal joint {joint.name!r} stay {_between(*axes):.4g} degrees apart in "
                         f"{bearings[0]!r} and {bearings[1]!r}, which limits its angles")
-    return "".join(told)
+    return "".join(advice)
 
 
 def _with_shafts(tables: SpaceTables) -> list[SpaceJoint]:

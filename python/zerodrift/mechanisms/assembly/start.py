@@ -115,9 +115,9 @@ class Starting:
         """Assembly at a time, without the drives of the coordinates in `speeds`, which it measures instead."""
         staying = [each for rates in (False, True) for each in self._unforced(tables)[rates]]
         measured = [*self.drawing.held, *self.drawing.wished, *speeds, *names_of(staying)]
-        gauges, observed = read(tables, measured)
-        more, of_swings = swings(tables, dict.fromkeys(staying), len(gauges))
-        core = tables.core([*gauges, *more], [*observed, *of_swings]) if measured else tables.core()
+        quantities, observed = read(tables, measured)
+        more, of_swings = swings(tables, dict.fromkeys(staying), len(quantities))
+        core = tables.core([*quantities, *more], [*observed, *of_swings]) if measured else tables.core()
         names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index] for row in core.rows]
         motors = {motor.name for motor in self.drawing.of(Motor) if _is_constant_speed(motor)} if speeds else set()
         left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
@@ -192,12 +192,12 @@ class Starting:
         Phi = core.evaluate(assembly.t, p, np.zeros(core.nv))["Phi"]
         open_by: dict[int, float] = {}
         for row, value in zip(core.rows, Phi, strict=False):
-            if row.owner == "joint" and tables.joints[row.index].row.rows[row.component].gauge != "angle":
+            if row.owner == "joint" and tables.joints[row.index].row.rows[row.component].quantity != "angle":
                 open_by[row.index] = float(np.hypot(open_by.get(row.index, 0.0), value))
         ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
         joint = max(open_by, key=lambda each: open_by[each])
-        told, _ = _around(tables, *loop(tables.carrier, ends, joint))
-        return (f"{told}, cannot close: it stays open by "
+        description, _ = _around(tables, *loop(tables.inboard, ends, joint))
+        return (f"{description}, cannot close: it stays open by "
                 f"{open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw it nearer")
 
     def _left_open(self, assembly: Assembly, p: np.ndarray) -> str:
@@ -209,9 +209,9 @@ class Starting:
             if row.owner == "joint":
                 open_by[name] = max(open_by.get(name, 0.0), abs(float(value)))
         worst = sorted(open_by, key=lambda name: -open_by[name])[:3]
-        told = ", ".join(f"{name!r} by {open_by[name]:.3g}" for name in worst)
-        return (f"the joints cannot all close: nearest to it there stay open {told} (m, or rad); look at the lengths, or draw it "
-                "nearer")
+        description = ", ".join(f"{name!r} by {open_by[name]:.3g}" for name in worst)
+        return (f"the joints cannot all close: nearest to it there stay open {description} (m, or rad); look at the lengths, "
+                "or draw it nearer")
 
     def _loop_in_words(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> str:
         """Loop of something held or driven; in space, shafts that keep the angles of a universal joint."""
@@ -222,11 +222,11 @@ class Starting:
         owners += [motor.joint for motor in self.drawing.of(Motor)]
         meant = {body.name for owner in owners for body in bodies_of(owner)}
         ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
-        cuts = set(range(len(ends))) - set(tables.carrier)
+        cuts = set(range(len(ends))) - set(tables.inboard)
         for joint in sorted(cut for cut in cuts if not tables.joints[cut].is_of_one_body):
-            told, bodies = _around(tables, *loop(tables.carrier, ends, joint))
+            description, bodies = _around(tables, *loop(tables.inboard, ends, joint))
             if meant & bodies - {"ground"}:
-                return f"; in {told}"
+                return f"; in {description}"
         return ""
 
     def _check_mass(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from ..._gateway.element_tables import Observed
+from ..._gateway.element_tables import OutputSpec
 from ..._gateway.mechanisms import MechanismCore
 from ..._gateway.parameter_variants import Held, Varied
 from ..elements.columns import Column, Varies, spread
@@ -44,12 +44,12 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
         if starts_are_known and drives:
             return None
         places, rates = unforced(drawing, tables)
-        gauges, observed = read(absolute, [*drawing.held, *names_of([*places, *rates])])
+        quantities, observed = read(absolute, [*drawing.held, *names_of([*places, *rates])])
         index = {row.name: i for i, row in enumerate(observed)}
         staying = [*_staying(places, observed, index, is_rate=False), *_staying(rates, observed, index, is_rate=True)]
         held = [*_held(drawing, index), *staying]
         poses, length = _drawn(tables, count), spread(size_of(drawing, numbers), count)
-        moving, drawn = tables.written(*read(tables)), absolute.written(gauges, observed)
+        moving, drawn = tables.written(*read(tables)), absolute.written(quantities, observed)
     except Varies:
         return None
     has_its_measures = [row[1:] for row in moving.measures] == [row[1:] for row in core.measures]
@@ -72,7 +72,7 @@ def _held(drawing: Drawing, index: Mapping[str, int]) -> list[Held]:
     return held
 
 
-def _staying(coordinates: Sequence[Coordinate], observed: Sequence[Observed], index: Mapping[str, int], *,
+def _staying(coordinates: Sequence[Coordinate], observed: Sequence[OutputSpec], index: Mapping[str, int], *,
              is_rate: bool) -> Iterator[Held]:
     """Targets that keep coordinates as drawn, or at rest."""
     for each in coordinates:

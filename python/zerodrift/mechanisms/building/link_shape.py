@@ -42,7 +42,7 @@ class Shape:
     Raises
     ------
     ValueError
-        If points are drawn in one place, lengths make no triangle or contradict each other, or a side is not told.
+        If points are drawn in one place, lengths make no triangle or contradict each other, or a side is not given.
     """
 
     def __init__(self, link: str, names: Sequence[str], drawn: Mapping[str, np.ndarray], lengths: Lengths) -> None:

@@ -110,8 +110,8 @@ def _law(m: Any, law: Law) -> dict[str, Any]:
     bound = {name: _measure(m, measure) for name, measure in law._bound.items()}
     if law.expression is None:
         return {"value": law._function, "of": bound}
-    told = {symbol: type(symbol)(bound[str(symbol)]) for symbol in law.expression.free_symbols if "." in str(symbol)}
-    return {"value": law.expression.subs(told), "of": {name: measure for name, measure in bound.items() if "." not in name}}
+    symbols = {symbol: type(symbol)(bound[str(symbol)]) for symbol in law.expression.free_symbols if "." in str(symbol)}
+    return {"value": law.expression.subs(symbols), "of": {name: measure for name, measure in bound.items() if "." not in name}}
 
 
 def _start(drawing: Drawing, given: Mapping[str, Any]) -> dict[str, Any]:

@@ -157,7 +157,7 @@ class Elements:
         for measure in law.measures:
             self._check_measured(what, measure)
             read = reading(measure, self._elements)
-            if read is None or len(read.gauges) != 1:
+            if read is None or len(read.quantities) != 1:
                 raise ValueError(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is none")
             if read.is_rate and positions:
                 raise ValueError(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity")

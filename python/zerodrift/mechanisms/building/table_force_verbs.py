@@ -55,7 +55,7 @@ def taken(force: type[MadeForce]) -> dict[str, Any]:
     axis = {"axis": NEEDED} if force.has("along", "across", "glide", "skid") else {}
     if not force.row.is_spring:
         return {**axis, "value": NEEDED, "of": None}
-    length = {"length": None} if any(zero == "length" for _, zero in force.row.gauges) else {}
+    length = {"length": None} if any(zero == "length" for _, zero in force.row.quantities) else {}
     return {**axis, "stiffness": NEEDED, "damping": 0.0, **length}
 
 
@@ -94,12 +94,12 @@ def _each(quantity: str, name: str, force: type[MadeForce], given: Any) -> dict[
 
 def _documentation(force: type[MadeForce]) -> str:
     """Docstring in the style of the handwritten ones."""
-    card, several = force.row.card, len(force.row.gauges) > 1
+    card, several = force.row.card, len(force.row.quantities) > 1
     words = {"vector": "(2,) or (3,)" if force.is_in_space() else "(2,)",
              "unstressed": "" if "length" in taken(force) else " It is unstressed as drawn.",
-             **{f"rotary_{quantity}": f", along angles in {unit}" * force.has("angle") for quantity, unit in ROTARY.items()},
-             "size": f" or array_like ({len(force.row.gauges)},)" if several else "",
-             "each": f"; for each of {', '.join(gauge for gauge, _ in force.row.gauges)}" if several else ""}
+             **{f"rotary_{name}": f", along angles in {unit}" * force.has("angle") for name, unit in ROTARY.items()},
+             "size": f" or array_like ({len(force.row.quantities)},)" if several else "",
+             "each": f"; for each of {', '.join(quantity for quantity, _ in force.row.quantities)}" if several else ""}
     lines = [card.summary, "", *wrapped(card.description), "Parameters", "----------"]
     sides = POINTS if force.is_between_points() else {**SIDES, "at": AT}
     for name, (kind, text) in {"name": ("str", ""), **sides, **{word: TAKEN[word] for word in taken(force)}}.items():

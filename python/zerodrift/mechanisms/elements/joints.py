@@ -47,7 +47,7 @@ class Joint(Fixed):
             return
         cls.row = JOINTS[cls.kind]
         cls.coordinate = cls.row.coordinate
-        cls.is_of_one_body = all(each.gauge in ("glide", "skid") for each in cls.row.rows)
+        cls.is_of_one_body = all(each.quantity in ("glide", "skid") for each in cls.row.rows)
         said = {"takes": _taken(cls.row), **{name: scalar(name, doc) for name, doc in _measures(cls.row).items()},
                 **({name: vector(name, doc) for name, doc in PLACE.items()} if is_hinge(cls.row) else {}),
                 **({"transmission_angle": scalar("transmission_angle", TRANSMISSION)} if is_hinge(cls.row) else {})}
@@ -120,7 +120,7 @@ class Joint(Fixed):
 def _taken(row: JointKind) -> tuple[str, ...]:
     """Arguments of the method that adds such a joint, besides the two sides."""
     words = {"axis": row.takes_axis, "length": row.takes_length, "damping": row.coordinate,
-             "cut": row.carrier is not None}
+             "cut": row.inboard is not None}
     return tuple(word for word, is_taken in words.items() if is_taken)
 
 
@@ -149,12 +149,12 @@ TRANSMISSION = "The angle between the lines of its two links, in rad, where ther
 
 def is_hinge(row: JointKind) -> bool:
     """True if the joint holds one point of both bodies together and leaves their rotation free."""
-    return {each.gauge for each in row.rows} == {"x", "y"}
+    return {each.quantity for each in row.rows} == {"x", "y"}
 
 
 def holds_angle(row: JointKind) -> bool:
     """True if the joint constrains the relative angle."""
-    return any(each.gauge == "angle" for each in row.rows)
+    return any(each.quantity == "angle" for each in row.rows)
 
 
 def is_slider(row: JointKind) -> bool:
@@ -164,12 +164,12 @@ def is_slider(row: JointKind) -> bool:
 
 def holds_distance(row: Any) -> bool:
     """True if the joint, in the plane or in space, constrains the distance of two points and nothing else."""
-    return all(gauge == "distance" for gauge, *_ in row.rows)
+    return all(quantity == "distance" for quantity, *_ in row.rows)
 
 
 def draws_length(row: Any) -> bool:
     """True if the length of the joint, in the plane or in space, defaults to the drawn distance."""
-    return row.takes_length and any(gauge == "distance" for gauge, *_ in row.rows)
+    return row.takes_length and any(quantity == "distance" for quantity, *_ in row.rows)
 
 
 class Revolute(Joint):

@@ -42,7 +42,7 @@ class SpaceJoint(Joint):
         """Sets class attributes from the entry of the core's table."""
         cls.row = JOINTS[cls.kind]
         cls.coordinates = tuple(name for name, _ in cls.row.coordinates)
-        cls.angles = tuple(name for name, gauge in cls.row.coordinates if gauge == "angle")
+        cls.angles = tuple(name for name, quantity in cls.row.coordinates if quantity == "angle")
         cls.coordinate = cls.coordinates[0] if len(cls.coordinates) == 1 else None
         for name, doc in _measures(cls.row).items():
             setattr(cls, name, scalar(name, doc))
@@ -82,12 +82,12 @@ class SpaceJoint(Joint):
 
     def row_named(self, component: int) -> Variable:
         """Name and unit of a constraint of the joint: displacement along an axis of the drawing or joint, or rotation."""
-        gauge, first, second = self.row.rows[component]
+        quantity, first, second = self.row.rows[component]
         if len(self.row.rows) == 1:
             return Variable(self.name, "m")
-        if gauge == "cosine":
+        if quantity == "cosine":
             return Variable(f"{self.name}.about {DIRECTIONS[3 - first - second]}", "rad")
-        return Variable(f"{self.name}.{gauge}" if gauge in AXES else f"{self.name}.along {DIRECTIONS[first]}", "m")
+        return Variable(f"{self.name}.{quantity}" if quantity in AXES else f"{self.name}.along {DIRECTIONS[first]}", "m")
 
     def axis_as_drawn(self) -> np.ndarray:
         """Axis (3,) in the drawing, of length one."""
@@ -108,8 +108,8 @@ def acceleration_of(speed: str) -> str:
 def _measures(row: JointKind) -> dict[str, str]:
     """Scalar measures of a joint, and their documentation."""
     found = {}
-    for name, gauge in row.coordinates:
-        found[name] = ("How far the second's point has moved along the axis since the drawing, in m." if gauge == "along" else
+    for name, quantity in row.coordinates:
+        found[name] = ("How far the second's point has moved along the axis since the drawing, in m." if quantity == "along" else
                        "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
     for speed, name in speeds(row).items():
         unit = "m" if dict(row.coordinates)[name] == "along" else "rad"
@@ -122,22 +122,22 @@ def _measures(row: JointKind) -> dict[str, str]:
 
 def has_torque(row: JointKind) -> bool:
     """True if the joint transmits a moment, by its constraints or by a motor or damper."""
-    return any(gauge == "cosine" for gauge, _, _ in row.rows)
+    return any(quantity == "cosine" for quantity, _, _ in row.rows)
 
 
 def is_at_point(row: JointKind) -> bool:
     """True if the joint holds one point of both bodies together."""
-    return {"x", "y", "z"} <= {gauge for gauge, _, _ in row.rows}
+    return {"x", "y", "z"} <= {quantity for quantity, _, _ in row.rows}
 
 
 def is_on_plane(row: JointKind) -> bool:
     """True if the joint holds the second point on a plane of the first body, whose normal is the joint's axis."""
-    return {direction for gauge, direction, _ in row.rows if gauge == "along"} == {DIRECTIONS.index("axis")}
+    return {direction for quantity, direction, _ in row.rows if quantity == "along"} == {DIRECTIONS.index("axis")}
 
 
 def is_blade(row: JointKind) -> bool:
     """True if the joint holds a velocity across a direction of the second body."""
-    return any(gauge == "glide" for gauge, _, _ in row.rows)
+    return any(quantity == "glide" for quantity, _, _ in row.rows)
 
 
 def advances(row: JointKind) -> bool:

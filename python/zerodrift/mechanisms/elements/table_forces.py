@@ -17,7 +17,7 @@ from .user_functions import Law
 ELEMENTS = element_kinds()
 WRITTEN = "spring", "torsion_spring", "bushing", "force", "torque"      # kinds with a class in `forces.py`
 IN_BOTH = {"distance", "along", "glide"}       # marker quantities that the plane and space have, with one axis
-EFFORTS = {"force": "The force along its gauge, in N", "torque": "The moment along its gauge, in N m"}
+EFFORTS = {"force": "The force along its marker quantity, in N", "torque": "The moment along its marker quantity, in N m"}
 
 
 class MadeForce(Fixed):
@@ -28,7 +28,7 @@ class MadeForce(Fixed):
     name : str
     first, second : Point
     values : dict of str to float
-        Of springs: stiffness and damping of each gauge; ``length``, where it is given.
+        Of springs: stiffness and damping of each marker quantity; ``length``, where it is given.
     law : Law or None
         The value of others.
     """
@@ -38,9 +38,9 @@ class MadeForce(Fixed):
 
     def __init_subclass__(cls) -> None:
         cls.row = ELEMENTS[cls.kind]
-        if cls.row.effort:
-            sign = "positive where it pulls" if cls.row.sign < 0 else "positive where it drives the gauge up"
-            setattr(cls, cls.row.effort, scalar(cls.row.effort, f"{EFFORTS[cls.row.effort]}, {sign}."))
+        if cls.row.measure:
+            sign = "positive where it pulls" if cls.row.sign < 0 else "positive where it drives the marker quantity up"
+            setattr(cls, cls.row.measure, scalar(cls.row.measure, f"{EFFORTS[cls.row.measure]}, {sign}."))
 
     def __init__(self, name: str, first: Point, second: Point, axis: np.ndarray | None, values: dict[str, float],
                  law: Law | None) -> None:
@@ -61,23 +61,23 @@ class MadeForce(Fixed):
     @classmethod
     def is_in_space(cls) -> bool:
         """True if the element exists in space, too: its marker quantities need no second direction."""
-        return {gauge for gauge, _ in cls.row.gauges} <= IN_BOTH
+        return {quantity for quantity, _ in cls.row.quantities} <= IN_BOTH
 
     @classmethod
     def is_between_points(cls) -> bool:
         """True if the element acts along the distance of two points, so that its sides are points."""
-        return {gauge for gauge, _ in cls.row.gauges} == {"distance"}
+        return {quantity for quantity, _ in cls.row.quantities} == {"distance"}
 
     @classmethod
-    def has(cls, *gauges: str) -> bool:
+    def has(cls, *quantities: str) -> bool:
         """True if the element has a marker quantity of one of these kinds."""
-        return any(gauge in gauges for gauge, _ in cls.row.gauges)
+        return any(quantity in quantities for quantity, _ in cls.row.quantities)
 
     @classmethod
-    def paths(cls, quantity: str) -> tuple[str, ...]:
-        """Path of a quantity for each marker quantity, with its name if there are several."""
-        several = len(cls.row.gauges) > 1
-        return tuple(f"{quantity}.{gauge}" if several else quantity for gauge, _ in cls.row.gauges)
+    def paths(cls, parameter: str) -> tuple[str, ...]:
+        """Path of a parameter for each marker quantity, with its name if there are several."""
+        several = len(cls.row.quantities) > 1
+        return tuple(f"{parameter}.{quantity}" if several else parameter for quantity, _ in cls.row.quantities)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters, by the quantity in their paths ``name.quantity``."""

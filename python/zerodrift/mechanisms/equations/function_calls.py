@@ -31,7 +31,7 @@ class Call:
         return leaves.holonomic(node)
 
 
-class Effort(Call):
+class ForceLaw(Call):
     """Generalized force: a force or torque."""
 
     def __call__(self, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:

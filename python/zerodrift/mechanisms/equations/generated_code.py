@@ -29,7 +29,7 @@ from ..._gateway.space import SpaceCore
 from ...errors import NoCompilerWarning
 from ...symbolics.compile import cache as kept
 from ...symbolics.compile import compilers, shared_library
-from ...symbolics.compile.closed_form_library import DIRECT, DirectFunctions
+from ...symbolics.compile.closed_form_library import DIRECT, ClosedFormFunctions
 from ...symbolics.compile.series_library import JacobianFunctions
 from ...symbolics.graph.plain_functions import Plain
 from . import nodes, space_nodes
@@ -131,7 +131,7 @@ class Written:
         knows_time = any(operation.code == "leaf" and operation.arguments[0] == "t" for operation in lowering.operations)
         return Code(list(terms), not knows_time, constants, scratch, c_source, closed_form.as_json(lowering, outputs))
 
-    def _compiled(self, direct: DirectFunctions | None, vector: str = "baseline",
+    def _compiled(self, direct: ClosedFormFunctions | None, vector: str = "baseline",
                   jacobian: Any = None) -> MechanismCore | SpaceCore:
         """System with compiled functions."""
         code = self._code
@@ -154,12 +154,12 @@ class Written:
         library = self._jacobian.library(vector) if self.is_compiled else None
         return self._compiled(None, vector, library) if library else self.core
 
-    def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> DirectFunctions:
+    def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> ClosedFormFunctions:
         """Closed-form functions, with elimination orders for these numbers and the start p0."""
-        return DirectFunctions(self._code.program, self._sizes, self._values, p0, is_length,
+        return ClosedFormFunctions(self._code.program, self._sizes, self._values, p0, is_length,
                                len(self._values) + self._code.constants, OF_DIRECT)
 
-    def with_direct(self, direct: DirectFunctions, vector: str) -> MechanismCore | SpaceCore:
+    def with_direct(self, direct: ClosedFormFunctions, vector: str) -> MechanismCore | SpaceCore:
         """The same with closed-form functions for a vector unit, if it has them."""
         return self._compiled(direct, vector) if self.is_compiled and direct.library(vector) else self.core
 

@@ -18,9 +18,9 @@ RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed"
 
 
 class Reading(NamedTuple):
-    """Measure of positions, or its rate: `gauges` are the names of its marker quantities, one for each component."""
+    """Measure of positions, or its rate: `quantities` are the names of its marker quantities, one for each component."""
 
-    gauges: tuple[str, ...]
+    quantities: tuple[str, ...]
     is_rate: bool
 
 
@@ -95,8 +95,8 @@ def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any
         known = readable(owner) if owner is not None else []
         said = f"; of {owner.name!r} these can be given: {_closest_first(name, known)}" if known else ""
         raise ValueError(f"{what} names {name!r}, and there is no such measure of positions or velocities{said}")
-    if value is not None and len(read.gauges) != np.size(value):
-        raise ValueError(f"{what}[{name!r}] must have {len(read.gauges)} components, not {np.size(value)}")
+    if value is not None and len(read.quantities) != np.size(value):
+        raise ValueError(f"{what}[{name!r}] must have {len(read.quantities)} components, not {np.size(value)}")
     return read
 
 

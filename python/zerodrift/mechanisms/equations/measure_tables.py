@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.element_tables import Observed
-from ..._gateway.mechanisms import Gauge, MechanismCore
+from ..._gateway.element_tables import OutputSpec
+from ..._gateway.mechanisms import MechanismCore, Quantity
 from ..._rotations import angles_of, quaternions_of
 from ...systems.measure_values import Watching
 from ..elements.bodies import Body, Link, Point
@@ -32,7 +32,7 @@ class Position(NamedTuple):
     unit: str
     rate: str | None
     second_rate: str | None
-    gauges: Callable[[], tuple[Gauge, ...]]
+    quantities: Callable[[], tuple[Quantity, ...]]
 
 
 def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismCore:
@@ -40,24 +40,25 @@ def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismC
     return tables.core(*read(tables, only))
 
 
-def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Gauge], list[Observed]]:
+def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Quantity], list[OutputSpec]]:
     """Marker quantities of the tables and of these measures, and the measures."""
-    gauges, observed = list(tables.gauges), []
+    quantities, observed = list(tables.quantities), []
     wanted = None if only is None else {*only, *(name.rpartition(".")[0] for name in only)}
     for position in _positions(tables, wanted):
         if wanted is not None and position.name not in wanted and position.rate not in wanted:
             continue
-        reads = position.gauges()
+        reads = position.quantities()
         if position.name:
-            observed.append(Observed(position.name, position.unit, "values", len(gauges), len(reads)))
+            observed.append(OutputSpec(position.name, position.unit, "values", len(quantities), len(reads)))
         if position.rate:
-            observed.append(Observed(position.rate, f"{position.unit}/s", "rates", len(gauges), len(reads)))
+            observed.append(OutputSpec(position.rate, f"{position.unit}/s", "rates", len(quantities), len(reads)))
         if position.second_rate and wanted is None:
-            observed.append(Observed(position.second_rate, f"{position.unit}/s^2", "accelerations", len(gauges), len(reads)))
-        gauges += reads
+            observed.append(
+                OutputSpec(position.second_rate, f"{position.unit}/s^2", "accelerations", len(quantities), len(reads)))
+        quantities += reads
     if wanted is None:
         observed += [*_of_joints(tables), *tables.observed]
-    return gauges, observed
+    return quantities, observed
 
 
 def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Position]:
@@ -73,7 +74,7 @@ def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Posit
             continue
         yield _place(tables, body.name, body)
         if body.turns:
-            angle = partial(tables.angle_gauge, body)
+            angle = partial(tables.angle_quantity, body)
             yield Position(f"{body.name}.angle", "rad", f"{body.name}.angular_velocity", f"{body.name}.angular_acceleration",
                            lambda angle=angle: (angle(),))
             for point in (*((body.start, body.end) if isinstance(body, Link) else ()), body.center):
@@ -84,11 +85,11 @@ def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Posit
         if has_coordinate(joint):
             unit = "rad" if joint.coordinate == "angle" else "m"
             yield Position(f"{joint.name}.{joint.coordinate}", unit, f"{joint.name}.speed", f"{joint.name}.acceleration",
-                           lambda i=i: (tables.coordinate_gauge(i),))
+                           lambda i=i: (tables.coordinate_quantity(i),))
         between = f"{joint.name}.transmission_angle"
         if (wanted is None or between in wanted) and transmission.has_one(joint, tables.joints_by_body):
             yield Position(between, "rad", None, None,
-                           lambda joint=joint: (tables.transmission_gauge(joint),))
+                           lambda joint=joint: (tables.transmission_quantity(joint),))
         if is_hinge(joint.row):     # without a second rate: its name is that of the angle's acceleration
             yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
     yield from _lengths(tables)
@@ -101,9 +102,9 @@ def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
             continue
         yield _place(tables, body.name, body)
         if body.turns:
-            yield Position(f"{body.name}.rotation", "", None, None, partial(tables.rotation_gauges, body))
+            yield Position(f"{body.name}.rotation", "", None, None, partial(tables.rotation_quantities, body))
             yield Position(None, "rad", f"{body.name}.angular_velocity", f"{body.name}.angular_acceleration",
-                           partial(tables.spin_gauges, body))
+                           partial(tables.spin_quantities, body))
             for point in (*((body.start, body.end) if isinstance(body, Link) else ()), body.center):
                 yield _place(tables, point.name, point)
     for point in tables.drawing.of(Point):
@@ -112,7 +113,7 @@ def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
         for speed, coordinate in speeds(joint.row).items():
             unit = "m" if dict(joint.row.coordinates)[coordinate] == "along" else "rad"
             yield Position(f"{joint.name}.{coordinate}", unit, f"{joint.name}.{speed}", f"{joint.name}.{acceleration_of(speed)}",
-                           lambda joint=joint, coordinate=coordinate: (tables.coordinate_gauge_of(joint, coordinate),))
+                           lambda joint=joint, coordinate=coordinate: (tables.coordinate_quantity_of(joint, coordinate),))
         if is_at_point(joint.row):
             yield _place(tables, joint.name, joint.second)._replace(second_rate=None)
     yield from _lengths(tables)
@@ -121,26 +122,26 @@ def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
 def _lengths(tables: Tables) -> Iterator[Position]:
     for actuator in tables.drawing.of(Actuator):
         yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
-                       lambda actuator=actuator: (tables.length_gauge(actuator),))
+                       lambda actuator=actuator: (tables.length_quantity(actuator),))
     for spring in tables.drawing.of(Spring):
-        yield Position(f"{spring.name}.length", "m", None, None, lambda spring=spring: (tables.length_gauge(spring),))
+        yield Position(f"{spring.name}.length", "m", None, None, lambda spring=spring: (tables.length_quantity(spring),))
 
 
 def _place(tables: Tables, name: str, of: Body | Point) -> Position:
-    return Position(f"{name}.position", "m", f"{name}.velocity", f"{name}.acceleration", partial(tables.place_gauges, of))
+    return Position(f"{name}.position", "m", f"{name}.velocity", f"{name}.acceleration", partial(tables.place_quantities, of))
 
 
-def _of_joints(tables: Tables) -> Iterator[Observed]:
+def _of_joints(tables: Tables) -> Iterator[OutputSpec]:
     """Reactions of joints."""
     for i, joint in enumerate(tables.joints):
-        yield Observed(f"{joint.name}.force", "N", "joint force", i, joint.dimension)
+        yield OutputSpec(f"{joint.name}.force", "N", "joint force", i, joint.dimension)
         if isinstance(joint, SpaceJoint):
             if has_torque(joint.row):
-                yield Observed(f"{joint.name}.torque", "N m", "joint torque", i, 3)
+                yield OutputSpec(f"{joint.name}.torque", "N m", "joint torque", i, 3)
         elif holds_angle(joint.row) or (has_coordinate(joint) and joint.coordinate == "angle"):
-            yield Observed(f"{joint.name}.torque", "N m", "joint torque", i)
+            yield OutputSpec(f"{joint.name}.torque", "N m", "joint torque", i)
         if joint.row.tension:
-            yield Observed(f"{joint.name}.{joint.row.tension}", "N", "joint tension", i)
+            yield OutputSpec(f"{joint.name}.{joint.row.tension}", "N", "joint tension", i)
 
 
 def orientation(watching: Watching, name: Any, solution: Any) -> np.ndarray | None:

@@ -27,19 +27,19 @@ class Relations:
     laws: Laws
     t: Node
 
-    def _of(self, gauges: Iterable[int]) -> tuple[list[Node], list[Node]]:
+    def _of(self, quantities: Iterable[int]) -> tuple[list[Node], list[Node]]:
         """Values and rates of marker quantities."""
-        readings = [self.readings[gauge] for gauge in gauges]
+        readings = [self.readings[quantity] for quantity in quantities]
         return [reading.value for reading in readings], [reading.rate for reading in readings]
 
     def _row(self, row: Any) -> Node:
         graph = self.graph
         if row.law >= 0:
-            return self._law(row.law, row.gauges)
-        values, rates = self._of(row.gauges)
+            return self._law(row.law, row.quantities)
+        values, rates = self._of(row.quantities)
         sum_of = graph.dot(row.coefficients, rates if row.nonholonomic else values)
         return graph.plus(sum_of, graph.minus(row.constant), graph.minus(graph.times(row.slope, self.t)))
 
-    def _law(self, law: int, gauges: Iterable[int]) -> Node:
-        values, rates = self._of(gauges)
+    def _law(self, law: int, quantities: Iterable[int]) -> Node:
+        values, rates = self._of(quantities)
         return self.laws.rows[law].written(self, values, rates)

@@ -11,8 +11,8 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from ..._gateway import plans
-from ..._gateway.element_tables import Effort, Relation
-from ..._gateway.mechanisms import Gauge
+from ..._gateway.element_tables import GeneralizedForce, Relation
+from ..._gateway.mechanisms import Quantity
 from ..._gateway.plans import Link, Plan
 from ...symbolics.graph.derivation import Derivation, Given
 from ...symbolics.graph.graph import Graph, Node
@@ -62,12 +62,12 @@ def with_nodes(plan: Plan, number: Numbering) -> Plan:
         near=number.pair(link.near, link.inner), far=number.pair(link.far, i), axis=number.pair(link.axis, "axis", link.inner),
         along=number(link.along), angle=number(link.angle), cosine=number(link.cosine), sine=number(link.sine),
         mass=number(link.mass), inertia=number(link.inertia)) for i, link in enumerate(plan.links, 1))
-    gauges = tuple(gauge._replace(
-        point1=number.pair(gauge.point1, gauge.first), point2=number.pair(gauge.point2, gauge.second),
-        axis=number.pair(gauge.axis, "axis", gauge.first), zero=number(gauge.zero)) for gauge in plan.gauges)
+    quantities = tuple(quantity._replace(
+        point1=number.pair(quantity.point1, quantity.first), point2=number.pair(quantity.point2, quantity.second),
+        axis=number.pair(quantity.axis, "axis", quantity.first), zero=number(quantity.zero)) for quantity in plan.quantities)
     rows = tuple(row_with_nodes(row, number) for row in plan.rows)
-    efforts = tuple(effort_with_nodes(effort, number) for effort in plan.efforts)
-    return Plan(links, gauges, rows, efforts, number.pair(plan.gravity))
+    forces = tuple(force_with_nodes(force, number) for force in plan.forces)
+    return Plan(links, quantities, rows, forces, number.pair(plan.gravity))
 
 
 def row_with_nodes(row: Relation, number: Numbering) -> Relation:
@@ -75,8 +75,8 @@ def row_with_nodes(row: Relation, number: Numbering) -> Relation:
                         slope=number(row.slope))
 
 
-def effort_with_nodes(effort: Effort, number: Numbering) -> Effort:
-    return effort._replace(stiffness=number(effort.stiffness), damping=number(effort.damping), value=number(effort.value))
+def force_with_nodes(force: GeneralizedForce, number: Numbering) -> GeneralizedForce:
+    return force._replace(stiffness=number(force.stiffness), damping=number(force.damping), value=number(force.value))
 
 
 class Frame(NamedTuple):
@@ -126,7 +126,7 @@ class Equations(Relations):
         self.frames = [Frame((graph.zero, graph.zero), graph.zero, graph.one, graph.zero)]
         for link in plan.links:
             self.frames.append(self._frame(link))
-        self.readings = [self._reading(gauge) for gauge in plan.gauges]
+        self.readings = [self._reading(quantity) for quantity in plan.quantities]
 
     def terms(self) -> dict[str, list[Node]]:
         """Nodes of A, M, d, f, Phi, C, Phi_t, xi, V and power, as far as the mechanism has them."""
@@ -180,23 +180,23 @@ class Equations(Relations):
         at = self._plus(inner.at, self._turned(inner, near))
         return Frame(self._plus(at, self._rotated(turn[1], turn[2], link.far)), *turn)
 
-    # ---- gauges ----
+    # ---- marker quantities ----
 
-    def _reading(self, gauge: Gauge) -> Reading:
-        graph, first, second = self.graph, self.frames[gauge.first], self.frames[gauge.second]
-        if gauge.kind == "angle":
-            return self._read(self.difference(second.angle, first.angle), gauge.zero)
-        axis = gauge.axis if gauge.kind in ("along", "glide") else (graph.minus(gauge.axis[1]), gauge.axis[0])
-        there = self._plus(second.at, self._turned(second, gauge.point2))
-        if gauge.kind in ("glide", "skid"):
+    def _reading(self, quantity: Quantity) -> Reading:
+        graph, first, second = self.graph, self.frames[quantity.first], self.frames[quantity.second]
+        if quantity.kind == "angle":
+            return self._read(self.difference(second.angle, first.angle), quantity.zero)
+        axis = quantity.axis if quantity.kind in ("along", "glide") else (graph.minus(quantity.axis[1]), quantity.axis[0])
+        there = self._plus(second.at, self._turned(second, quantity.point2))
+        if quantity.kind in ("glide", "skid"):
             return Reading(graph.zero, graph.dot(self._turned(first, axis), self._rates(there)))
-        if gauge.kind in ("along", "across"):       # the first body's own point is at rest in its axes
+        if quantity.kind in ("along", "across"):       # the first body's own point is at rest in its axes
             value = graph.dot(self._turned(first, axis), self._minus(there, first.at))
-            return self._read(value, graph.plus(graph.dot(axis, gauge.point1), gauge.zero))
-        apart = self._minus(there, self._plus(first.at, self._turned(first, gauge.point1)))
-        if gauge.kind == "distance":
-            return self._read(graph.product([(graph.dot(apart, apart), HALF)]), gauge.zero)
-        return self._read(apart["xy".index(gauge.kind)], gauge.zero)
+            return self._read(value, graph.plus(graph.dot(axis, quantity.point1), quantity.zero))
+        apart = self._minus(there, self._plus(first.at, self._turned(first, quantity.point1)))
+        if quantity.kind == "distance":
+            return self._read(graph.product([(graph.dot(apart, apart), HALF)]), quantity.zero)
+        return self._read(apart["xy".index(quantity.kind)], quantity.zero)
 
     def _read(self, value: Node, zero: Node) -> Reading:
         value = self.difference(value, zero)
@@ -215,19 +215,19 @@ class Equations(Relations):
         graph = self.graph
         weights = [(graph.times(link.mass, graph.dot(self.plan.gravity, frame.at)), -1)
                    for link, frame in zip(self.plan.links, self.frames[1:], strict=True)]
-        springs = [(graph.product([(effort.stiffness, 1), (self.readings[effort.gauge].value, 2)]), HALF)
-                   for effort in self.plan.efforts if effort.kind == "spring"]
+        springs = [(graph.product([(force.stiffness, 1), (self.readings[force.quantity].value, 2)]), HALF)
+                   for force in self.plan.forces if force.kind == "spring"]
         return graph.sum([*weights, *springs])
 
     def _force(self) -> list[Node]:
         """Generalized forces without a potential."""
-        graph, efforts = self.graph, []
-        for effort in self.plan.efforts:
-            rate = self.readings[effort.gauge].rate
-            if effort.kind == "spring":
-                efforts.append((graph.minus(graph.times(effort.damping, rate)), rate))
+        graph, forces = self.graph, []
+        for force in self.plan.forces:
+            rate = self.readings[force.quantity].rate
+            if force.kind == "spring":
+                forces.append((graph.minus(graph.times(force.damping, rate)), rate))
             else:
-                law = effort.kind == "law"
-                efforts.append((self._law(effort.law, effort.inputs) if law else effort.value, rate))
+                law = force.kind == "law"
+                forces.append((self._law(force.law, force.inputs) if law else force.value, rate))
         along = [graph.derivative_along({v: graph.one}) for v in self.v]
-        return [graph.plus(*(graph.times(value, of(rate)) for value, rate in efforts if value is not graph.zero)) for of in along]
+        return [graph.plus(*(graph.times(value, of(rate)) for value, rate in forces if value is not graph.zero)) for of in along]

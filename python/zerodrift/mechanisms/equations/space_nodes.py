@@ -5,7 +5,7 @@ the vector. So each is a leaf of the graph with a known expression and rate; pos
 and products of leaves. All else follows from these and the positions of mass centres: rates, C as derivatives of rates with
 respect to v, and xi by a second derivative along the motion (1) at constant v.
 
-    M = sum of m J^T J + W^T I W        d = sum of m J^T a + W^T (I alpha + omega x I omega)        f = sum of m J^T g + efforts
+    M = sum of m J^T J + W^T I W        d = sum of m J^T a + W^T (I alpha + omega x I omega)        f = sum of m J^T g + others
 
 with J and W the Jacobians with respect to v of mass centres' velocities and of angular velocities in body axes, and a and alpha
 their accelerations at constant v.
@@ -17,7 +17,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import pi
 from typing import Any, NamedTuple
 
-from ..._gateway.space import Gauge
+from ..._gateway.space import Quantity
 from ..._gateway.space_plans import Angle, Link, SpacePlan
 from ...symbolics.graph.gradient import Gradient
 from ...symbolics.graph.graph import Node
@@ -47,17 +47,18 @@ def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan:
                              near_axes=tuple(direction(each, link.inner) for each in link.near_axes),
                              far_axes=tuple(direction(each, i) for each in link.far_axes))
 
-    def read(gauge: Gauge) -> Gauge:
-        shape = tuple(tuple(number(each, "shape", gauge.second) for each in row) for row in gauge.shape)
-        return gauge._replace(
-            point1=point(gauge.point1, gauge.first), point2=point(gauge.point2, gauge.second), a=direction(gauge.a, gauge.first),
-            o=direction(gauge.o, gauge.first), b=direction(gauge.b, gauge.second), shape=shape, zero=number(gauge.zero))
+    def read(quantity: Quantity) -> Quantity:
+        shape = tuple(tuple(number(each, "shape", quantity.second) for each in row) for row in quantity.shape)
+        return quantity._replace(
+            point1=point(quantity.point1, quantity.first), point2=point(quantity.point2, quantity.second),
+            a=direction(quantity.a, quantity.first), o=direction(quantity.o, quantity.first),
+            b=direction(quantity.b, quantity.second), shape=shape, zero=number(quantity.zero))
 
     return plan._replace(
-        links=tuple(hung(link, i) for i, link in enumerate(plan.links, 1)), gauges=tuple(map(read, plan.gauges)),
+        links=tuple(hung(link, i) for i, link in enumerate(plan.links, 1)), quantities=tuple(map(read, plan.quantities)),
         rows=tuple(nodes.row_with_nodes(row, number) for row in plan.rows),
-        efforts=tuple(nodes.effort_with_nodes(effort, number) for effort in plan.efforts),
-        angles=tuple(Angle(read(angle.gauge), direction(angle.axis, angle.gauge.first), angle.place) for angle in plan.angles),
+        forces=tuple(nodes.force_with_nodes(force, number) for force in plan.forces),
+        angles=tuple(Angle(read(of), direction(axis, of.first), place) for of, axis, place in plan.angles),
         gravity=tuple(map(number, plan.gravity)))
 
 
@@ -80,82 +81,83 @@ class Equations(Relations):
         self.of, self.p, self.v, self.A, self.bodies = frames.of, frames.p, frames.v, frames.A, frames.bodies
         self.rate_of, self.values, self._rates = frames.rate_of, frames.values, frames.rates
         self._by_velocity = Gradient(self.graph, self.v)
-        self.readings = [self._reading(gauge) for gauge in plan.gauges]
+        self.readings = [self._reading(quantity) for quantity in plan.quantities]
         self._follow()
 
     def difference(self, a: Node, b: Node) -> Node:
         return self.graph.plus(a, self.graph.minus(b))
 
-    # ---- gauges ----
+    # ---- marker quantities ----
 
     def _follow(self) -> None:
         """Set the rows of A of dependent angles."""
         for angle in self.plan.angles:
             if angle.place < self.nq - self.plan.followers:
                 continue
-            relative = self.of.minus(*(self.bodies[body].spin for body in (angle.gauge.second, angle.gauge.first)))
-            self.A[angle.place] = self._row_of(self.graph.dot(self.frames.turned(angle.gauge.first, angle.axis), relative))
+            relative = self.of.minus(*(self.bodies[body].spin for body in (angle.quantity.second, angle.quantity.first)))
+            self.A[angle.place] = self._row_of(self.graph.dot(self.frames.turned(angle.quantity.first, angle.axis), relative))
 
     def _row_of(self, rate: Node) -> list[Node]:
         """Coefficients of v in a rate, (nv,)."""
         slopes = self._by_velocity(rate)
         return [slopes.get(v, self.graph.zero) for v in self.v]
 
-    def _reading(self, gauge: Gauge) -> nodes.Reading:
-        graph, of, first, second = self.graph, self.of, self.bodies[gauge.first], self.bodies[gauge.second]
-        Q = self.frames.point(gauge.second, gauge.point2)
-        a = self.frames.turned(gauge.first, gauge.a)
-        if gauge.kind == "glide":
+    def _reading(self, quantity: Quantity) -> nodes.Reading:
+        graph, of, first, second = self.graph, self.of, self.bodies[quantity.first], self.bodies[quantity.second]
+        Q = self.frames.point(quantity.second, quantity.point2)
+        a = self.frames.turned(quantity.first, quantity.a)
+        if quantity.kind == "glide":
             return nodes.Reading(graph.zero, graph.dot(a, self._rates(Q)))
-        if gauge.kind in ("spin", "turn"):
-            spin = second.spin if gauge.kind == "spin" else of.minus(second.spin, first.spin)
+        if quantity.kind in ("spin", "turn"):
+            spin = second.spin if quantity.kind == "spin" else of.minus(second.spin, first.spin)
             return nodes.Reading(graph.zero, graph.dot(a, spin))
-        apart = of.minus(Q, self.frames.point(gauge.first, gauge.point1))
-        if gauge.kind in ("clearance", "slip"):
-            return self._contact(gauge, a, apart)
-        if gauge.kind in XYZ:
-            value = apart[XYZ.index(gauge.kind)]
-        elif gauge.kind == "along":
+        apart = of.minus(Q, self.frames.point(quantity.first, quantity.point1))
+        if quantity.kind in ("clearance", "slip"):
+            return self._contact(quantity, a, apart)
+        if quantity.kind in XYZ:
+            value = apart[XYZ.index(quantity.kind)]
+        elif quantity.kind == "along":
             value = graph.dot(a, apart)
-        elif gauge.kind == "distance":
+        elif quantity.kind == "distance":
             value = graph.product([(graph.dot(apart, apart), HALF)])
-        elif gauge.kind == "cosine":
-            value = graph.dot(a, self.frames.turned(gauge.second, gauge.b))
+        elif quantity.kind == "cosine":
+            value = graph.dot(a, self.frames.turned(quantity.second, quantity.b))
         else:
-            return self._angle(gauge, a)
-        return self._read(value, gauge.zero)
+            return self._angle(quantity, a)
+        return self._read(value, quantity.zero)
 
     def _read(self, value: Node, zero: Node) -> nodes.Reading:
         return nodes.Reading(self.difference(value, zero), self.rate_of(value))
 
-    def _angle(self, gauge: Gauge, a: Vector) -> nodes.Reading:
+    def _angle(self, quantity: Quantity, a: Vector) -> nodes.Reading:
         """Angle of a joint, with the number of turns that brings it nearest to the coordinate that counts them."""
         graph = self.graph
-        counter = self.plan.angles[gauge.counted - 1].place if gauge.counted else None
+        counter = self.plan.angles[quantity.counted - 1].place if quantity.counted else None
         if counter is not None and counter < self.nq - self.plan.followers:
-            return self._read(self.p[counter], gauge.zero)
-        b = self.frames.turned(gauge.second, gauge.b)
-        value = graph.call(self.functions.atan2, graph.dot(self.frames.turned(gauge.first, gauge.o), b), graph.dot(a, b))
-        reading = self._read(value, gauge.zero)
+            return self._read(self.p[counter], quantity.zero)
+        b = self.frames.turned(quantity.second, quantity.b)
+        value = graph.call(self.functions.atan2, graph.dot(self.frames.turned(quantity.first, quantity.o), b), graph.dot(a, b))
+        reading = self._read(value, quantity.zero)
         if counter is None:
             return reading
         away = self.difference(self.p[counter], value)
         turns = graph.call(self.functions.floor, graph.sum([(away, 1 / (2 * pi)), (graph.one, HALF)]))
         return reading._replace(value=graph.sum([(reading.value, 1), (turns, 2 * pi)]))
 
-    def _contact(self, gauge: Gauge, a: Vector, apart: Vector) -> nodes.Reading:
+    def _contact(self, quantity: Quantity, a: Vector, apart: Vector) -> nodes.Reading:
         """Contact point: opposite to o from Q by S o over the root of o . S o, with S the shape in the second body's axes."""
-        graph, of, first, second = self.graph, self.of, self.bodies[gauge.first], self.bodies[gauge.second]
-        o = self.frames.turned(gauge.first, gauge.o)
+        graph, of, first, second = self.graph, self.of, self.bodies[quantity.first], self.bodies[quantity.second]
+        o = self.frames.turned(quantity.first, quantity.o)
         own = o if second.axes is None else tuple(graph.dot(axis, o) for axis in second.axes)
-        S = tuple(graph.dot(row, own) for row in gauge.shape)
+        S = tuple(graph.dot(row, own) for row in quantity.shape)
         shaped = S if second.axes is None else of.plus(*(of.scaled(x, axis) for x, axis in zip(S, second.axes, strict=True)))
         reach = graph.product([(graph.dot(own, S), HALF)])
         way = of.scaled(graph.minus(graph.product([(reach, -1)])), shaped)
-        if gauge.kind == "clearance":
-            return self._read(graph.dot(o, of.plus(apart, way)), gauge.zero)
-        arm = self.frames.turned(gauge.first, gauge.point1)
-        there = of.minus(self._rates(of.plus(second.at, self.frames.turned(gauge.second, gauge.point2))), self._rates(first.at))
+        if quantity.kind == "clearance":
+            return self._read(graph.dot(o, of.plus(apart, way)), quantity.zero)
+        arm = self.frames.turned(quantity.first, quantity.point1)
+        point2 = of.plus(second.at, self.frames.turned(quantity.second, quantity.point2))
+        there = of.minus(self._rates(point2), self._rates(first.at))
         there = of.plus(there, of.cross(second.spin, way), of.cross(of.plus(arm, apart, way), first.spin))
         return nodes.Reading(graph.zero, graph.dot(a, there))
 
@@ -165,7 +167,7 @@ class Equations(Relations):
         """Nodes of A, M, d, f, Phi, C, Phi_t, xi, V and power; terms that are zero are omitted where the interface allows it."""
         M, d = self._inertia()
         A = [node for row in self.A for node in row] if self.plan.has_rates else []
-        terms = {"A": A, "M": M, "d": d, **self._efforts(), **self._constraints()}
+        terms = {"A": A, "M": M, "d": d, **self._forces(), **self._constraints()}
         always = ("M", "Phi", "C", "xi", "V")
         return {name: entries for name, entries in terms.items()
                 if entries and (name in always or any(node is not self.graph.zero for node in entries))}
@@ -202,7 +204,7 @@ class Equations(Relations):
                 change = graph.dot(body.axes[k], changes)
                 yield link.inertia[k], Moving(body.own_spin[k], graph.plus(graph.times(link.inertia[k], change), gyroscopic[k]))
 
-    def _efforts(self) -> dict[str, list[Node]]:
+    def _forces(self) -> dict[str, list[Node]]:
         """f, V and the power of forces without a potential."""
         graph, f = self.graph, [[] for _ in self.v]
         V, power = [], []
@@ -211,23 +213,23 @@ class Equations(Relations):
             V.append(graph.minus(graph.times(link.mass, graph.dot(self.plan.gravity, at))))
             for speed, g in zip(self._rates(at), self.plan.gravity, strict=True):
                 self._push(f, graph.times(link.mass, g), speed)
-        for effort in self.plan.efforts:
-            value, rate = self.readings[effort.gauge]
-            if effort.kind == "spring":
-                damping = graph.minus(graph.times(effort.damping, rate))
-                self._push(f, self.difference(damping, graph.times(effort.stiffness, value)), rate)
-                V.append(graph.sum([(graph.product([(effort.stiffness, 1), (value, 2)]), HALF)]))
+        for force in self.plan.forces:
+            value, rate = self.readings[force.quantity]
+            if force.kind == "spring":
+                damping = graph.minus(graph.times(force.damping, rate))
+                self._push(f, self.difference(damping, graph.times(force.stiffness, value)), rate)
+                V.append(graph.sum([(graph.product([(force.stiffness, 1), (value, 2)]), HALF)]))
                 power.append(graph.times(damping, rate))
             else:
-                said = self._law(effort.law, effort.inputs) if effort.kind == "law" else effort.value
+                said = self._law(force.law, force.inputs) if force.kind == "law" else force.value
                 self._push(f, said, rate)
                 power.append(graph.times(said, rate))
         return {"f": [graph.plus(*terms) for terms in f], "V": [graph.plus(*V)], "power": [graph.plus(*power)]}
 
-    def _push(self, f: list[list[Node]], effort: Node, rate: Node) -> None:
-        if effort is not self.graph.zero:
+    def _push(self, f: list[list[Node]], force: Node, rate: Node) -> None:
+        if force is not self.graph.zero:
             for v, slope in self._by_velocity(rate).items():
-                f[v.content[1]].append(self.graph.times(effort, slope))
+                f[v.content[1]].append(self.graph.times(force, slope))
 
     def _constraints(self) -> dict[str, list[Node]]:
         """Phi, C, Phi_t and xi of (3), (5) and (6)."""

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..._gateway import Variable, space
-from ..._gateway import mechanisms as rows
-from ..._gateway.space import AS_DRAWN, Gauge, SpaceCore
+from ..._gateway import mechanisms as entries
+from ..._gateway.space import AS_DRAWN, Quantity, SpaceCore
 from ..._gateway.space_tree import SpaceTreeCore
 from ..._rotations import AXES, quaternion_of
 from ..elements.bodies import Body, Particle, Point
@@ -22,7 +22,7 @@ from ..elements.space_joints import SpaceJoint
 from ..elements.table_forces import MadeForce
 from . import space_tree
 from .tables import Tables
-from .tree import carriers
+from .tree import inboard_joints
 
 
 class SpaceTables(Tables):
@@ -30,7 +30,7 @@ class SpaceTables(Tables):
 
     joints: list[SpaceJoint]    # type: ignore[assignment]
     inertias: SpaceInertias     # type: ignore[assignment]
-    gauges: list[Gauge]         # type: ignore[assignment]
+    quantities: list[Quantity]         # type: ignore[assignment]
 
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool = False,
                  starts: Mapping[str, float] | None = None) -> None:
@@ -39,13 +39,13 @@ class SpaceTables(Tables):
     def _masses(self) -> Any:
         return SpaceInertias(self.drawing, self.numbers)
 
-    def core(self, gauges: Sequence[Gauge] | None = None, observed: Sequence[rows.Observed] = ()) -> SpaceCore:     # type: ignore[override]
+    def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[entries.OutputSpec] = ()) -> SpaceCore:     # type: ignore[override]
         """Core system, without measures, or with these; their marker quantities follow those of the tables."""
-        bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, carrier)
-                  for body, carrier in zip(self.parts, self.carrier, strict=True) for mass in [self.inertias.of[body.name]]]
-        tables = space.Tables(bodies, self.joint_rows, self.gauges if gauges is None else gauges, self.relations,
-                              self.efforts, observed, self._gravity())
-        made = SpaceCore if max(self.carrier, default=-1) < 0 else SpaceTreeCore
+        bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, inboard)
+                  for body, inboard in zip(self.parts, self.inboard, strict=True) for mass in [self.inertias.of[body.name]]]
+        tables = space.Tables(bodies, self.joint_rows, self.quantities if quantities is None else quantities, self.relations,
+                              self.forces, observed, self._gravity())
+        made = SpaceCore if max(self.inboard, default=-1) < 0 else SpaceTreeCore
         return made(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
 
     def joint_coordinates(self) -> int:
@@ -54,12 +54,12 @@ class SpaceTables(Tables):
 
     def tree(self, *, with_cut: bool = False) -> list[int]:
         weights = [(float(body.turns), self.inertias.of[body.name].mass) for body in self.parts]
-        return carriers(len(self.parts), space_tree.edges(self.joints, self.number, with_cut=with_cut), weights)
+        return inboard_joints(len(self.parts), space_tree.edges(self.joints, self.number, with_cut=with_cut), weights)
 
     def _carried(self) -> Iterator[tuple[Body, SpaceJoint | None]]:
         """Bodies, each with its inboard joint."""
-        for body, carrier in zip(self.parts, self.carrier, strict=True):
-            yield body, self.joints[carrier] if carrier >= 0 else None
+        for body, inboard in zip(self.parts, self.inboard, strict=True):
+            yield body, self.joints[inboard] if inboard >= 0 else None
 
     def drawn(self) -> np.ndarray:
         """Poses (bodies, 7) of the mass centres as drawn, with the principal axes."""
@@ -74,13 +74,13 @@ class SpaceTables(Tables):
         drawing's; of others the coordinates of their joints; and angles of joints that carry no body, which follow and count
         turns.
         """
-        bodies = (each for body, carrier in self._carried() for each in space_tree.positions(body, carrier))
-        others = (joint for i, joint in enumerate(self.joints) if i not in self.carrier)
+        bodies = (each for body, inboard in self._carried() for each in space_tree.positions(body, inboard))
+        others = (joint for i, joint in enumerate(self.joints) if i not in self.inboard)
         return (*bodies, *(Variable(f"{joint.name}.{angle}", "rad") for joint in others for angle in joint.angles))
 
     def velocities(self) -> tuple[Variable, ...]:
         """Entries of v: of free bodies velocities of mass centres, and angular velocities about their own principal axes."""
-        return tuple(each for body, carrier in self._carried() for each in space_tree.rates(body, carrier))
+        return tuple(each for body, inboard in self._carried() for each in space_tree.rates(body, inboard))
 
     # ---- joints ----
 
@@ -99,92 +99,93 @@ class SpaceTables(Tables):
         return space.Joint(joint.row.number, first, second, point1, point2, *frames, triple(joint.semiaxes_with(self.numbers)),
                            along, joint.length_with(self.numbers))
 
-    # ---- gauges ----
+    # ---- marker quantities ----
 
-    def _reading_of(self, name: str) -> Gauge:     # type: ignore[override]
-        owner, _, quantity = name.rpartition(".")
-        if quantity in AXES:
+    def _reading_of(self, name: str) -> Quantity:     # type: ignore[override]
+        owner, _, measured = name.rpartition(".")
+        if measured in AXES:
             owner, _, vector = owner.rpartition(".")
             element, _, end = owner.partition(".")
             of = self.drawing.elements[element]
             of = of.second if isinstance(of, SpaceJoint) else getattr(of, end) if end else of
-            found = self.place_gauges(of) if vector == "position" else self.spin_gauges(of)
-            return found[AXES.index(quantity)]
+            found = self.place_quantities(of) if vector == "position" else self.spin_quantities(of)
+            return found[AXES.index(measured)]
         of = self.drawing.elements[owner]
-        return self.coordinate_gauge_of(of, quantity) if isinstance(of, SpaceJoint) else self.length_gauge(of)
+        return self.coordinate_quantity_of(of, measured) if isinstance(of, SpaceJoint) else self.length_quantity(of)
 
-    def place_gauges(self, of: Body | Point) -> tuple[Gauge, ...]:     # type: ignore[override]
+    def place_quantities(self, of: Body | Point) -> tuple[Quantity, ...]:     # type: ignore[override]
         """Marker quantities x, y and z of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
             of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, np.zeros(3))
         body, local = self._place(of)
-        return tuple(Gauge(axis, 0, body, point2=local) for axis in AXES)
+        return tuple(Quantity(axis, 0, body, point2=local) for axis in AXES)
 
-    def spin_gauges(self, body: Body) -> tuple[Gauge, ...]:
+    def spin_quantities(self, body: Body) -> tuple[Quantity, ...]:
         """Marker quantities of a body's angular velocity, in the drawing's axes."""
-        return tuple(Gauge("spin", 0, self.number[body.name], a=axis) for axis in AS_DRAWN)
+        return tuple(Quantity("spin", 0, self.number[body.name], a=axis) for axis in AS_DRAWN)
 
-    def rotation_gauges(self, body: Body) -> tuple[Gauge, ...]:
+    def rotation_quantities(self, body: Body) -> tuple[Quantity, ...]:
         """Marker quantities of a body's rotation, row by row: cosines between the drawing's axes and its own."""
         own = [self._direction(body, axis) for axis in np.eye(3)]
-        return tuple(Gauge("cosine", 0, self.number[body.name], a=drawn, b=axis) for drawn in AS_DRAWN for axis in own)
+        return tuple(Quantity("cosine", 0, self.number[body.name], a=drawn, b=axis) for drawn in AS_DRAWN for axis in own)
 
-    def coordinate_gauge_of(self, joint: SpaceJoint, coordinate: str) -> Gauge:
+    def coordinate_quantity_of(self, joint: SpaceJoint, coordinate: str) -> Quantity:
         """Marker quantity of a joint's coordinate."""
         number = self.joint_number[joint.name]
         angles = sum(len(before.angles) for before in self.joints[:number])
-        return space.coordinate_gauge(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
+        return space.coordinate_quantity(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
 
-    def length_gauge(self, spring: Spring | Actuator) -> Gauge:     # type: ignore[override]
+    def length_quantity(self, spring: Spring | Actuator) -> Quantity:     # type: ignore[override]
         """Marker quantity of the length of a spring or an actuator."""
         (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
-        return Gauge("distance", first, second, point1, point2)
+        return Quantity("distance", first, second, point1, point2)
 
     # ---- drives and couplings ----
 
     # ---- forces ----
 
     def _torsion_spring(self, spring: TorsionSpring) -> None:
-        gauge = self.coordinate_gauge_of(spring.joint, "angle")
-        self._elastic(spring, self._gauge(spring.name, gauge._replace(zero=self.numbers(spring, "angle", spring.angle))))
+        quantity = self.coordinate_quantity_of(spring.joint, "angle")
+        self._elastic(spring, self._quantity(spring.name, quantity._replace(zero=self.numbers(spring, "angle", spring.angle))))
 
     def _bushing(self, bushing: SpaceBushing) -> None:     # type: ignore[override]
         """Force along each direction by the displacement, and moment about it by the rotation of the next direction."""
         (first, point1), (second, point2) = self._place(bushing.first), self._place(bushing.second)
         near, far = ([self._direction(side.body, row) for row in frame]
                      for side, frame in zip((bushing.first, bushing.second), bushing.frames, strict=True))
-        self.observed.append(rows.Observed(f"{bushing.name}.force", "N", "effort force", len(self.efforts), 3))
-        self.observed.append(rows.Observed(f"{bushing.name}.torque", "N m", "effort torque", len(self.efforts) + 3, 3))
+        self.observed.append(entries.OutputSpec(f"{bushing.name}.force", "N", "force sum", len(self.forces), 3))
+        self.observed.append(entries.OutputSpec(f"{bushing.name}.torque", "N m", "torque sum", len(self.forces) + 3, 3))
         apart = bushing.frames[0] @ bushing.first.body.pose.local_direction(
             bushing.second.drawn_with(self.numbers) - bushing.first.drawn_with(self.numbers))
-        gauges = [Gauge("along", first, second, point1, point2, a=near[i], zero=float(apart[i])) for i in range(3)]
-        gauges += [Gauge("angle", first, second, a=near[i - 2], o=near[i - 1], b=far[i - 2]) for i in range(3)]
-        quantities = [("stiffness", "damping")] * 3 + [("torsion", "torsion_damping")] * 3
-        for (stiffness, damping), gauge, axis in zip(quantities, gauges, (*AXES, *AXES), strict=True):
-            number = self._gauge(f"{bushing.name} {stiffness} {axis}", gauge)
+        quantities = [Quantity("along", first, second, point1, point2, a=near[i], zero=float(apart[i])) for i in range(3)]
+        quantities += [Quantity("angle", first, second, a=near[i - 2], o=near[i - 1], b=far[i - 2]) for i in range(3)]
+        parameters = [("stiffness", "damping")] * 3 + [("torsion", "torsion_damping")] * 3
+        for (stiffness, damping), quantity, axis in zip(parameters, quantities, (*AXES, *AXES), strict=True):
+            number = self._quantity(f"{bushing.name} {stiffness} {axis}", quantity)
             values = (self.numbers(bushing, path, bushing.values[path]) for path in (f"{stiffness}.{axis}", f"{damping}.{axis}"))
-            self.efforts.append(rows.Effort("spring", number, *values))
+            self.forces.append(entries.GeneralizedForce("spring", number, *values))
 
-    def _made_gauge(self, made: MadeForce, kind: str, zero: str | None) -> Gauge:     # type: ignore[override]
+    def _made_quantity(self, made: MadeForce, kind: str, zero: str | None) -> Quantity:     # type: ignore[override]
         (first, point1), (second, point2) = self._place(made.first), self._place(made.second)
         axis = AS_DRAWN[0] if made.axis is None else self._direction(made.first.body, made.axis)
-        return Gauge(kind, first, second, point1, point2, a=axis, zero=made.zero(zero, self.numbers))
+        return Quantity(kind, first, second, point1, point2, a=axis, zero=made.zero(zero, self.numbers))
 
     def _force(self, force: Force) -> None:
         body, local = self._place(force.point)
         along = self._direction(force.frame, force.along)
-        gauge = self._gauge(force.name, Gauge("glide", self.number[force.frame.name], body, point2=local, a=along))
-        self._effort(force.name, "value", gauge, force)
-        self._observe_effort(force)
+        quantity = self._quantity(force.name, Quantity("glide", self.number[force.frame.name], body, point2=local, a=along))
+        self._generalized_force(force.name, "value", quantity, force)
+        self._observe_force(force)
 
     def _torque(self, torque: Torque) -> None:
         """Moment about an axis that turns with a frame without reaction, or with the body that gets the opposite moment."""
         turns_with = torque.frame if torque.against is self.drawing.ground else torque.against
         kind = "spin" if torque.against is self.drawing.ground else "turn"
         axis = self._direction(turns_with, torque.axis)
-        gauge = self._gauge(torque.name, Gauge(kind, self.number[turns_with.name], self.number[torque.body.name], a=axis))
-        self._effort(torque.name, "value", gauge, torque)
-        self._observe_effort(torque)
+        first, second = self.number[turns_with.name], self.number[torque.body.name]
+        quantity = self._quantity(torque.name, Quantity(kind, first, second, a=axis))
+        self._generalized_force(torque.name, "value", quantity, torque)
+        self._observe_force(torque)
 
 
 def tables_of(drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> Tables:

@@ -26,29 +26,29 @@ def freedoms(joint: SpaceJoint) -> tuple[int, int]:
                  for body in joint.bodies)
 
 
-def positions(body: Body, carrier: SpaceJoint | None) -> Iterator[Variable]:
+def positions(body: Body, inboard: SpaceJoint | None) -> Iterator[Variable]:
     """Entries of p of a body: position and quaternion if it is free, otherwise the coordinates of its inboard joint."""
-    if carrier is None:
+    if inboard is None:
         yield from (Variable(f"{body.name}.{axis}", "m") for axis in AXES)
         yield from (Variable(f"{body.name}.{each}", "") for each in (QUATERNION if body.turns else ()))
         return
-    for each in carrier.row.freedoms:
+    for each in inboard.row.freedoms:
         if each.kind != "swings":
-            yield Variable(f"{carrier.name}.{each.name}", "m" if each.kind == "slides" else "rad")
+            yield Variable(f"{inboard.name}.{each.name}", "m" if each.kind == "slides" else "rad")
         elif body.turns:
-            yield from (Variable(f"{carrier.name}.{word}", "") for word in QUATERNION)
+            yield from (Variable(f"{inboard.name}.{word}", "") for word in QUATERNION)
 
 
-def rates(body: Body, carrier: SpaceJoint | None) -> Iterator[Variable]:
+def rates(body: Body, inboard: SpaceJoint | None) -> Iterator[Variable]:
     """Entries of v of a body; with a quaternion the angular velocity about the body's own axes."""
-    if carrier is None:
+    if inboard is None:
         yield from (Variable(f"{body.name}.{axis}_dot", "m/s") for axis in AXES)
         yield from (Variable(f"{body.name}.{axis}_spin", "rad/s") for axis in (AXES if body.turns else ()))
         return
-    speed_of = {coordinate: speed for speed, coordinate in speeds(carrier.row).items()}
-    for each in carrier.row.freedoms:
+    speed_of = {coordinate: speed for speed, coordinate in speeds(inboard.row).items()}
+    for each in inboard.row.freedoms:
         if each.kind != "swings":
             speed = speed_of.get(each.name, f"{each.name}_dot")
-            yield Variable(f"{carrier.name}.{speed}", "m/s" if each.kind == "slides" else "rad/s")
+            yield Variable(f"{inboard.name}.{speed}", "m/s" if each.kind == "slides" else "rad/s")
         elif body.turns:
-            yield from (Variable(f"{carrier.name}.{axis}_spin", "rad/s") for axis in AXES)
+            yield from (Variable(f"{inboard.name}.{axis}_spin", "rad/s") for axis in AXES)

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.mechanisms import Gauge
+from ..._gateway.mechanisms import Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint, is_hinge
@@ -66,11 +66,11 @@ def has_one(joint: Any, joints: Mapping[str, list[Joint]]) -> bool:
     return True
 
 
-def gauge(joint: Joint, joints: Mapping[str, list[Joint]], numbers: Numbers, number: Mapping[str, int]) -> Gauge:
+def quantity(joint: Joint, joints: Mapping[str, list[Joint]], numbers: Numbers, number: Mapping[str, int]) -> Quantity:
     """Marker quantity of the angle: between 0 and pi in the drawing, and smooth from there."""
     first, second = lines(joint, joints, numbers)
     drawn = (second.body.pose.angle if second.body.turns else 0.0) - first.body.pose.angle
-    return Gauge("angle", number[first.body.name], number[second.body.name], zero=drawn - _turned(first, second))
+    return Quantity("angle", number[first.body.name], number[second.body.name], zero=drawn - _turned(first, second))
 
 
 def _turned(first: Line, second: Line) -> float:
@@ -113,6 +113,6 @@ def _only(joint: Joint, body: Body, found: list[tuple[Joint, Body, Line]]) -> Li
             return chosen[0][2]
     if not found:
         raise NoTransmissionAngle(f"there is no transmission angle at {joint.name!r}: {body.name!r} has no other joint")
-    told = ", ".join(repr(other.name) for other, _, _ in found)
-    raise NoTransmissionAngle(f"there is no one transmission angle at {joint.name!r}: {body.name!r} has the other joints {told}, "
-                    f"{len(grounded) or 'none'} of them on the ground; take the difference of two angles of bodies")
+    others = ", ".join(repr(other.name) for other, _, _ in found)
+    raise NoTransmissionAngle(f"there is no one transmission angle at {joint.name!r}: {body.name!r} has the other joints "
+                    f"{others}, {len(grounded) or 'none'} of them on the ground; take the difference of two angles of bodies")

@@ -16,7 +16,7 @@ class Edge(NamedTuple):
     freedoms: tuple[int, int]
 
 
-def carriers(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, ...]]) -> list[int]:
+def inboard_joints(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, ...]]) -> list[int]:
     """Inboard joint of each body, numbered from 1; -1 for a free body.
 
     The tree grows from the ground, body 0, by the joint of fewest degrees of freedom, and among these by the one nearest to the
@@ -27,22 +27,22 @@ def carriers(bodies: int, edges: Sequence[Edge], weights: Sequence[tuple[float, 
     for edge in edges:
         around[edge.first].append(edge)
         around[edge.second].append(edge)
-    carrier, reached, frontier = [-1] * (bodies + 1), [False] * (bodies + 1), []
+    inboard, reached, frontier = [-1] * (bodies + 1), [False] * (bodies + 1), []
     for roots in (lambda: [0], lambda: sorted(range(1, bodies + 1), key=lambda body: weights[body - 1], reverse=True)):
         for root in roots() if not all(reached) else []:
             if not reached[root]:
                 reached[root] = True
                 _offer(frontier, around[root], root, 0)
-                _grow(frontier, around, carrier, reached)
-    return carrier[1:]
+                _grow(frontier, around, inboard, reached)
+    return inboard[1:]
 
 
-def _grow(frontier: list, around: list[list[Edge]], carrier: list[int], reached: list[bool]) -> None:
+def _grow(frontier: list, around: list[list[Edge]], inboard: list[int], reached: list[bool]) -> None:
     """Extend the tree by all that can be reached from the frontier."""
     while frontier:
         _, depth, joint, outer = heapq.heappop(frontier)
         if not reached[outer]:
-            reached[outer], carrier[outer] = True, joint
+            reached[outer], inboard[outer] = True, joint
             _offer(frontier, around[outer], outer, depth)
 
 
@@ -53,9 +53,9 @@ def _offer(frontier: list, edges: list[Edge], inner: int, depth: int) -> None:
         heapq.heappush(frontier, (edge.freedoms[side], depth + 1, edge.joint, edge.second if side else edge.first))
 
 
-def loop(carrier: Sequence[int], ends: Sequence[tuple[int, int]], joint: int) -> tuple[list[int], list[int]]:
+def loop(inboard: Sequence[int], ends: Sequence[tuple[int, int]], joint: int) -> tuple[list[int], list[int]]:
     """Bodies and joints of the loop that a joint closes: `ends` has the two bodies of every joint."""
-    first, second = (_way_down(carrier, ends, body) for body in ends[joint])
+    first, second = (_way_down(inboard, ends, body) for body in ends[joint])
     shared = {body for body, _ in first} & {body for body, _ in second}
     bodies, joints = [], [joint]
     for way, order in ((first, -1), (second, 1)):
@@ -66,11 +66,11 @@ def loop(carrier: Sequence[int], ends: Sequence[tuple[int, int]], joint: int) ->
     return [meet, *bodies], joints
 
 
-def _way_down(carrier: Sequence[int], ends: Sequence[tuple[int, int]], body: int) -> list[tuple[int, int]]:
+def _way_down(inboard: Sequence[int], ends: Sequence[tuple[int, int]], body: int) -> list[tuple[int, int]]:
     """Bodies from one down to its root, or to the ground beyond it, each with its inboard joint."""
     way = []
     while body:
-        joint = carrier[body - 1]
+        joint = inboard[body - 1]
         way.append((body, joint))
         body = 0 if joint < 0 else sum(ends[joint]) - body
     return [*way, (0, -1)]

@@ -19,7 +19,7 @@ from ..elements.table_forces import FORCES_BY_ROW, MadeForce
 from .expressions_json import from_json
 from .space_from_json import IN_SPACE, keep_rotations
 from .to_json import VERSION, WHAT
-from .values_from_json import law_and_of, point_of_body, told_direction, told_place
+from .values_from_json import direction_from_json, law_and_of, place_from_json, point_of_body
 
 MOST_DIGITS = 400       # digits of a whole number in a file, at most: doubles have up to 309
 
@@ -121,7 +121,7 @@ def _link(m: Any, name: str, *, start: Any, end: Any, mass: Any, length: Any = N
 
 
 def _particle(m: Any, name: str, *, mass: Any, at: Any) -> None:
-    m.particle(name, mass, at=at if isinstance(at, list) else told_place(m, at))
+    m.particle(name, mass, at=at if isinstance(at, list) else place_from_json(m, at))
 
 
 def _point(m: Any, name: str, *, body: Any, local: Any) -> None:
@@ -129,20 +129,20 @@ def _point(m: Any, name: str, *, body: Any, local: Any) -> None:
 
 
 def _slot(m: Any, name: str, *, first: Any, second: Any, axis: Any) -> None:
-    axis, line = told_direction("axis", axis), point_of_body(m, first)
-    joint = m.slot(name, line.body, told_place(m, second), axis=line.body.pose.direction(axis))
+    axis, line = direction_from_json("axis", axis), point_of_body(m, first)
+    joint = m.slot(name, line.body, place_from_json(m, second), axis=line.body.pose.direction(axis))
     amend(joint, first=line, axis=axis)
 
 
 def _rolling(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal: Any) -> None:
-    normal, line = told_direction("normal", normal), point_of_body(m, first)
-    joint = m.rolling(name, line.body, told_place(m, second), radius=radius, at=line.drawn,
+    normal, line = direction_from_json("normal", normal), point_of_body(m, first)
+    joint = m.rolling(name, line.body, place_from_json(m, second), radius=radius, at=line.drawn,
                       normal=line.body.pose.direction(normal))
     amend(joint, first=line, axis=np.array([normal[1], -normal[0]]))
 
 
 def _knife_edge(m: Any, name: str, *, first: Any, second: Any, axis: Any) -> None:
-    axis, point = told_direction("axis", axis), point_of_body(m, second)
+    axis, point = direction_from_json("axis", axis), point_of_body(m, second)
     joint = m.knife_edge(name, point, along=point.body.pose.direction(axis))
     amend(joint, first=point_of_body(m, first), axis=axis)
 
@@ -154,9 +154,9 @@ def _by_row(joint: type[Joint]) -> Callable[..., None]:
     def make(m: Any, name: str, **given: Any) -> None:
         places = {side: given.pop(side) for side in ("first", "second")}
         if axis := given.get("axis"):
-            axis = told_direction("axis", axis)
+            axis = direction_from_json("axis", axis)
             given["axis"] = point_of_body(m, places[sides[0]]).body.pose.direction(axis)
-        made = getattr(m, joint.kind)(name, *(told_place(m, places[side]) for side in sides), **given)
+        made = getattr(m, joint.kind)(name, *(place_from_json(m, places[side]) for side in sides), **given)
         amend(made, axis=axis)
         if joint.is_of_one_body:
             amend(made, first=point_of_body(m, places["first"]))
@@ -209,11 +209,11 @@ def _motor(m: Any, name: str, *, joint: Any, drives: Any, law: Any) -> None:
 def _actuator(m: Any, name: str, *, first: Any, second: Any, drives: Any, law: Any) -> None:
     value, of = law_and_of(law, "law")
     _check.choice("drives", drives, ("length", "force"))
-    m.actuator(name, told_place(m, first), told_place(m, second), of=of, **{drives: value})
+    m.actuator(name, place_from_json(m, first), place_from_json(m, second), of=of, **{drives: value})
 
 
 def _spring(m: Any, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, length: Any = None) -> None:
-    m.spring(name, told_place(m, first), told_place(m, second), stiffness=stiffness, length=length, damping=damping)
+    m.spring(name, place_from_json(m, first), place_from_json(m, second), stiffness=stiffness, length=length, damping=damping)
 
 
 def _torsion_spring(m: Any, name: str, *, joint: Any, stiffness: Any, angle: Any, damping: Any) -> None:
@@ -222,13 +222,14 @@ def _torsion_spring(m: Any, name: str, *, joint: Any, stiffness: Any, angle: Any
 
 def _bushing(m: Any, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, torsion: Any,
              torsion_damping: Any) -> None:
-    m.bushing(name, told_place(m, first), told_place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
+    m.bushing(name, place_from_json(m, first), place_from_json(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
               torsion_damping=torsion_damping)
 
 
 def _force(m: Any, name: str, *, point: Any, along: Any, frame: Any, value: Any) -> None:
-    along, frame, (value, of) = told_direction("along", along, m.dimension), m._body("frame", frame), law_and_of(value, "value")
-    force = m.force(name, told_place(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame)
+    along, frame = direction_from_json("along", along, m.dimension), m._body("frame", frame)
+    value, of = law_and_of(value, "value")
+    force = m.force(name, place_from_json(m, point), along=frame.pose.direction(along), value=value, of=of, frame=frame)
     amend(force, along=along)
 
 
@@ -242,11 +243,11 @@ def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
     def make(m: Any, name: str, **given: Any) -> None:
         sides = given.pop("first"), given.pop("second")
         if axis := given.get("axis"):
-            axis = told_direction("axis", axis, m.dimension)
+            axis = direction_from_json("axis", axis, m.dimension)
             given["axis"] = point_of_body(m, sides[0]).body.pose.direction(axis)
         if "value" in given:
             given["value"], given["of"] = law_and_of(given["value"], "value")
-        amend(getattr(m, force.kind)(name, *(told_place(m, side) for side in sides), **given), axis=axis)
+        amend(getattr(m, force.kind)(name, *(place_from_json(m, side) for side in sides), **given), axis=axis)
 
     initial = {"first": NEEDED, "second": NEEDED, **{word: value for word, value in taken(force).items() if word != "of"}}
     make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]

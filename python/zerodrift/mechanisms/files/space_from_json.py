@@ -12,15 +12,15 @@ from ..elements.bodies import Point
 from ..elements.frames import Pose3, given_rotation
 from ..elements.immutable import amend
 from ..elements.space_joints import BY_KIND, SpaceJoint, advances
-from .values_from_json import law_and_of, point_of_body, told_direction, told_place
+from .values_from_json import direction_from_json, law_and_of, place_from_json, point_of_body
 
 SAME = 1e-9         # difference of a joint's two frames in the drawing, at most
 
 
 def keep_rotations(m: Any, start: Any, wish: Any) -> None:
     """Set the rotations of a start to the stored ones, bit by bit."""
-    for kept, told in ((m._held, start), (m._wished, wish)):
-        kept.update({name: np.array(value) for name, value in told.items() if name.endswith(".rotation")})
+    for kept, given in ((m._held, start), (m._wished, wish)):
+        kept.update({name: np.array(value) for name, value in given.items() if name.endswith(".rotation")})
 
 
 def _matrix(what: str, given: Any) -> np.ndarray:
@@ -62,7 +62,7 @@ def _frames(m: Any, first: Point, second: Point, given: Any) -> tuple[np.ndarray
 def _joint(kind: str) -> Callable[..., None]:
     def make(m: Any, name: str, *, first: Any, second: Any, frames: Any, length: Any = None, damping: Any = 0.0,
              cut: Any = False) -> None:
-        sides = m._different(name, *(m._point("a side", told_place(m, side)) for side in (first, second)))
+        sides = m._different(name, *(m._point("a side", place_from_json(m, side)) for side in (first, second)))
         both = _frames(m, *sides, frames)
         if advances(BY_KIND[kind].row) and not _check.number("length", length):
             raise ValueError("length must not be 0: it is the pitch")
@@ -73,7 +73,7 @@ def _joint(kind: str) -> Callable[..., None]:
 
 
 def _rolling(m: Any, name: str, *, first: Any, second: Any, frames: Any, semiaxes: Any) -> None:
-    plane, centre = point_of_body(m, first), m._point("second", told_place(m, second))
+    plane, centre = point_of_body(m, first), m._point("second", place_from_json(m, second))
     given = tuple(_rotation(f"frames[{i}]", frame) for i, frame in enumerate(frames))
     a, b, c = (float(each) for each in _check.vector("semiaxes", semiaxes, 3))
     axle = centre.body.pose.direction(given[1][0])
@@ -93,14 +93,14 @@ def _knife_edge(m: Any, name: str, *, first: Any, second: Any, frames: Any, damp
 
 def _bushing(m: Any, name: str, *, first: Any, second: Any, frames: Any, stiffness: Any, damping: Any, torsion: Any,
              torsion_damping: Any) -> None:
-    bushing = m.bushing(name, told_place(m, first), told_place(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
-                        torsion_damping=torsion_damping)
+    sides = (place_from_json(m, side) for side in (first, second))
+    bushing = m.bushing(name, *sides, stiffness=stiffness, damping=damping, torsion=torsion, torsion_damping=torsion_damping)
     amend(bushing, frames=_frames(m, bushing.first, bushing.second, frames))
 
 
 def _torque(m: Any, name: str, *, body: Any, against: Any, axis: Any, frame: Any, value: Any) -> None:
     value, of = law_and_of(value, "value")
-    axis, against, frame = told_direction("axis", axis, 3), m._body("against", against), m._body("frame", frame)
+    axis, against, frame = direction_from_json("axis", axis, 3), m._body("against", against), m._body("frame", frame)
     turns_with = frame if against is m.ground else against
     torque = m.torque(name, body, value=value, of=of, against=against, axis=turns_with.pose.direction(axis),
                       frame=frame)

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..elements.drawing import Drawing
 from ..elements.space_joints import BY_KIND
-from .values_to_json import numbers, sides, told_law
+from .values_to_json import law_to_json, numbers, sides
 
 
 def _body(body: Any, drawing: Drawing) -> dict[str, Any]:
@@ -40,7 +40,7 @@ def _bushing(bushing: Any, drawing: Drawing) -> dict[str, Any]:
 
 def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
     return {"body": torque.body.name, "against": torque.against.name, "axis": numbers(torque.axis), "frame": torque.frame.name,
-            "value": told_law(torque.law)}
+            "value": law_to_json(torque.law)}
 
 
 IN_SPACE: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {

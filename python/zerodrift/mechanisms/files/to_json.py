@@ -16,7 +16,7 @@ from ..elements.joints import JOINTS, Coupling
 from ..elements.table_forces import FORCES_BY_ROW, MadeForce
 from .expressions_json import to_json
 from .space_to_json import IN_SPACE
-from .values_to_json import not_saved, numbers, place, sides, told_law
+from .values_to_json import law_to_json, not_saved, numbers, place, sides
 
 WHAT = "mechanism"      # first key of a file, by which it is recognized
 VERSION = 1             # version of the format
@@ -101,7 +101,7 @@ def _coupling(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
     law = coupling.law
     if isinstance(law._function, _Sum):
         return {"sum": dict(zip(coupling.of, law._function.coefficients, strict=True))}
-    return {"law": told_law(law)}
+    return {"law": law_to_json(law)}
 
 
 def _cam(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
@@ -116,11 +116,11 @@ def _cam(coupling: Coupling, drawing: Drawing) -> dict[str, Any]:
 
 
 def _motor(motor: Any, drawing: Drawing) -> dict[str, Any]:
-    return {"joint": motor.joint.name, "drives": motor.drives, "law": told_law(motor.law)}
+    return {"joint": motor.joint.name, "drives": motor.drives, "law": law_to_json(motor.law)}
 
 
 def _actuator(actuator: Any, drawing: Drawing) -> dict[str, Any]:
-    return {**sides(actuator, drawing), "drives": actuator.drives, "law": told_law(actuator.law)}
+    return {**sides(actuator, drawing), "drives": actuator.drives, "law": law_to_json(actuator.law)}
 
 
 def _spring(spring: Any, drawing: Drawing) -> dict[str, Any]:
@@ -141,17 +141,17 @@ def _bushing(bushing: Any, drawing: Drawing) -> dict[str, Any]:
 
 def _force(force: Any, drawing: Drawing) -> dict[str, Any]:
     return {"point": place(force.point, drawing), "along": numbers(force.along), "frame": force.frame.name,
-            "value": told_law(force.law)}
+            "value": law_to_json(force.law)}
 
 
 def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
-    return {"body": torque.body.name, "against": torque.against.name, "value": told_law(torque.law)}
+    return {"body": torque.body.name, "against": torque.against.name, "value": law_to_json(torque.law)}
 
 
 def _made_force(made: MadeForce, drawing: Drawing) -> dict[str, Any]:
     axis = {} if made.axis is None else {"axis": numbers(made.axis)}
     if made.law is not None:
-        return {**sides(made, drawing), **axis, "value": told_law(made.law)}
+        return {**sides(made, drawing), **axis, "value": law_to_json(made.law)}
     each = {quantity: [made.values[path] for path in made.paths(quantity)] for quantity in ("stiffness", "damping")}
     length = {"length": made.values["length"]} if "length" in made.values else {}
     return {**sides(made, drawing), **axis, **each, **length}

@@ -14,7 +14,7 @@ from .expressions_json import from_json
 UNIT = 1e-9         # deviation of a direction's length from one, at most
 
 
-def told_place(m: Any, given: Any) -> Any:
+def place_from_json(m: Any, given: Any) -> Any:
     """Point from its name, or from its body and its coordinates in the body's frame."""
     if isinstance(given, str):
         return m._named("a point", given)
@@ -23,7 +23,7 @@ def told_place(m: Any, given: Any) -> Any:
     return m._body("body", given["body"]).point(given["local"])
 
 
-def told_direction(what: str, given: Any, dimension: int = 2) -> np.ndarray:
+def direction_from_json(what: str, given: Any, dimension: int = 2) -> np.ndarray:
     """Direction (dimension,) of length one, as stored."""
     direction = _check.vector(what, given, dimension)
     if abs(np.linalg.norm(direction) - 1) > UNIT:
@@ -42,4 +42,4 @@ def law_and_of(given: Any, what: str) -> tuple[Any, Any]:
 
 def point_of_body(m: Any, given: Any) -> Point:
     """Point of a description whose body is needed."""
-    return _check.instance("a point", told_place(m, given), Point, "a point of a body")
+    return _check.instance("a point", place_from_json(m, given), Point, "a point of a body")

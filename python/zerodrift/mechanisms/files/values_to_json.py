@@ -37,7 +37,7 @@ def sides(element: Any, drawing: Drawing) -> dict[str, Any]:
     return {"first": place(element.first, drawing), "second": place(element.second, drawing)}
 
 
-def told_law(law: Law) -> Any:
+def law_to_json(law: Law) -> Any:
     """JSON of a user function: a number, or an expression and the measures of its names."""
     if law.constant is not None:
         return law.constant

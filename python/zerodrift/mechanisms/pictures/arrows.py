@@ -25,7 +25,7 @@ def chosen(drawing: Drawing, names: Any) -> list[Any]:
         return drawing.of(SHOWN)
     names = [names] if isinstance(names, str) or not isinstance(names, Iterable) else list(names)
     known = {element.name: element for element in drawing.of(HAVE_FORCES)
-             if not isinstance(element, MadeForce) or element.row.effort == "force"}
+             if not isinstance(element, MadeForce) or element.row.measure == "force"}
     return [known[_check.choice("each of forces", getattr(name, "name", name), list(known))] for name in names]
 
 
@@ -45,7 +45,7 @@ def _direction(element: Any, posed: Posed | SpacePosed) -> np.ndarray:
         return posed.direction(element.frame, element.along)
     if isinstance(element, MadeForce) and element.axis is not None:
         along = posed.direction(element.first.body, element.axis)
-        return along if element.row.gauges[0][0] != "across" else np.array([-along[1], along[0]])
+        return along if element.row.quantities[0][0] != "across" else np.array([-along[1], along[0]])
     apart = posed.at(element.second) - posed.at(element.first)
     pulls = isinstance(element, Spring) or (isinstance(element, MadeForce) and element.row.sign < 0)
     return (-apart if pulls else apart) / max(float(np.linalg.norm(apart)), 1e-300)

@@ -85,7 +85,7 @@ class Sketch:
     def _joints(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
         for joint in self.parts.drawing.of(Joint):
             first, second = posed.at(joint.first), posed.at(joint.second)
-            if "distance" in gauges(joint):
+            if "distance" in quantities(joint):
                 yield Shape("rod", np.array([first, second]), joint.name)
             elif joint.row.at_contact:
                 axis, radius = posed.direction(joint.bodies[0], joint.axis), joint.length_with(self.parts.numbers)
@@ -96,7 +96,7 @@ class Sketch:
                 yield from _slider(joint, posed, ranges, self.couplings.lifted.get(joint.name, 0.0))
             elif joint.is_of_one_body:
                 yield Shape("blade", np.array([second, posed.direction(joint.bodies[1], joint.axis)]), joint.name)
-            elif {"x", "y", "angle"} <= gauges(joint):
+            elif {"x", "y", "angle"} <= quantities(joint):
                 yield Shape("weld", np.array([second, posed.spoke(joint)]), joint.name)
             elif not is_pinned(joint):
                 yield Shape("coupled", np.array([first, second]), joint.name)
@@ -123,21 +123,21 @@ def _held_by_ground(parts: Parts) -> list[Point]:
     """Points of the ground about which a body or a rod turns, each position once."""
     ground, held = parts.drawing.ground, {}
     for joint in parts.drawing.of(Joint):
-        if "distance" in gauges(joint) or (is_pinned(joint) and joint.axis is None):
+        if "distance" in quantities(joint) or (is_pinned(joint) and joint.axis is None):
             for side in (joint.first, joint.second):
                 if side.body is ground:
                     held.setdefault(tuple(np.round(side.local_with(parts.numbers) / APART)), side)
     return list(held.values())
 
 
-def gauges(joint: Joint) -> set[str]:
+def quantities(joint: Joint) -> set[str]:
     """Kinds of marker quantities that the joint constrains."""
-    return {row.gauge for row in joint.row.rows}
+    return {row.quantity for row in joint.row.rows}
 
 
 def slides(joint: Joint) -> bool:
     """True if the joint guides a point along a line of its first body."""
-    return "across" in gauges(joint) and joint.axis is not None and not joint.row.at_contact
+    return "across" in quantities(joint) and joint.axis is not None and not joint.row.at_contact
 
 
 def has_groove(joint: Joint) -> bool:
@@ -147,7 +147,7 @@ def has_groove(joint: Joint) -> bool:
 
 def is_pinned(joint: Joint) -> bool:
     """True if the joint holds a point about which the second body turns."""
-    return bool(gauges(joint) & {"x", "y", "across"}) and not holds_angle(joint.row) and not joint.row.at_contact
+    return bool(quantities(joint) & {"x", "y", "across"}) and not holds_angle(joint.row) and not joint.row.at_contact
 
 
 def sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray],

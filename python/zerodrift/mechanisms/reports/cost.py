@@ -88,7 +88,7 @@ def cost(tables: Tables, exact: bool = False) -> Cost:
 
 def _allowed(tables: Tables) -> float:
     """Largest ratio of costs, absolute to joint, at which absolute coordinates are chosen."""
-    if max(tables.carrier) < 0:
+    if max(tables.inboard) < 0:
         return ALIKE
     return 1.0 if tables.drawing.dimension == 2 else PASSES_FLAT_POSES if _has_stiff_loops(tables) else CLEARLY
 
@@ -115,7 +115,7 @@ def parts_of_absolute(tables: Tables) -> tuple[tuple[float, ...], float]:
     times = 1.0 if not is_redundant else TIMES_OF_MANY if work.is_of_many else TIMES_OF_FEW
     by_products = work.rows * bool(work.has_products)
     return (1.0, known, other, by_products, work.rows - by_products, work.rows * (not work.is_alike), few, few * lost,
-            float(len(tables.efforts))), times
+            float(len(tables.forces))), times
 
 
 def parts_of_joint(tables: Tables) -> tuple[float, ...]:
@@ -125,21 +125,21 @@ def parts_of_joint(tables: Tables) -> tuple[float, ...]:
     passed = sum(rows * (depth[first] + depth[second]) for rows, (first, second) in loops)
     unhinged = bodies * (not _is_hinged(tables))
     return (1.0, n**3 / 6 + n**2 * m / 2 + n * m**2, float(n**2 + n * m + m**2), float(bodies), float(unhinged),
-            float(sum(depth)), float(passed), float(m), float(len(tables.efforts)))
+            float(sum(depth)), float(passed), float(m), float(len(tables.forces)))
 
 
 def _is_hinged(tables: Tables) -> bool:
     """True if every body of a planar mechanism has a hinge or weld as its inboard joint."""
     if tables.drawing.dimension == 3 or len(tables.parts) > MOST_HINGED:
         return False
-    return all(carrier >= 0 and tables.joints[carrier].row.carrier in ("turns", "fixed") for carrier in tables.carrier)
+    return all(inboard >= 0 and tables.joints[inboard].row.inboard in ("turns", "fixed") for inboard in tables.inboard)
 
 
 def _loops(tables: Tables) -> list[tuple[int, tuple[int, int]]]:
     """Number of constraints and the two bodies of each joint that closes a loop."""
-    carriers = {joint for joint in tables.carrier if joint >= 0}
+    inboard_joints = {joint for joint in tables.inboard if joint >= 0}
     return [(len(joint.row.rows), ends)
-            for i, (joint, ends) in enumerate(zip(tables.joints, _ends(tables), strict=True)) if i not in carriers]
+            for i, (joint, ends) in enumerate(zip(tables.joints, _ends(tables), strict=True)) if i not in inboard_joints]
 
 
 def _ends(tables: Tables) -> list[tuple[int, int]]:
@@ -154,8 +154,8 @@ def _depths(tables: Tables) -> list[int]:
         way = []
         while depth[body] < 0:
             way.append(body)
-            carrier = tables.carrier[body - 1]
-            body = 0 if carrier < 0 else sum(ends[carrier]) - body
+            inboard = tables.inboard[body - 1]
+            body = 0 if inboard < 0 else sum(ends[inboard]) - body
         for further, each in enumerate(reversed(way), depth[body] + 1):
             depth[each] = further
     return depth

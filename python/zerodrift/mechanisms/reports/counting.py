@@ -89,9 +89,9 @@ def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, sing
     notes = [*differences(tables, assembly, p), *(space_advice.at_right_angles(tables, assembly.core, p) if in_space else ())]
     if singular:
         why = space_advice.flat_crosses(tables, assembly.core, p) if in_space else []
-        told = f", as {' and '.join(why)}" if why else ""
+        reasons = f", as {' and '.join(why)}" if why else ""
         named = f"{', '.join(singular)} {'is' if len(singular) == 1 else 'are'} redundant"
-        return f"a singular pose: {named} as drawn, and not nearby{told}; {start.way_out()}", *notes
+        return f"a singular pose: {named} as drawn, and not nearby{reasons}; {start.way_out()}", *notes
     return tuple(notes)
 
 

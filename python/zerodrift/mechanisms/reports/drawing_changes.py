@@ -17,7 +17,7 @@ def differences(tables: Any, assembly: Assembly, p: np.ndarray) -> list[str]:
     drawn, _ = assembly.core.state(tables.drawn())
     lines = (("drawn open, and closed at the start (m, or rad)", _open_joints(assembly, drawn)),
              ("moved from the drawing", _moved(tables, assembly, p, drawn)))
-    return [f"{what}: {_listed(told)}" for what, told in lines if told]
+    return [f"{what}: {_listed(changes)}" for what, changes in lines if changes]
 
 
 def _open_joints(assembly: Assembly, drawn: np.ndarray) -> list[str]:
@@ -34,13 +34,13 @@ def _open_joints(assembly: Assembly, drawn: np.ndarray) -> list[str]:
 def _moved(tables: Any, assembly: Assembly, p: np.ndarray, drawn: np.ndarray) -> list[str]:
     places, angles = (_by_body(tables, assembly, assembly.core.apart(p, drawn), is_angle) for is_angle in (False, True))
     least = {name: max(by / assembly.length, angles.get(name, 0.0)) for name, by in places.items()}
-    told = []
+    changes = []
     for name, by in _largest({**angles, **least}):
         if by > NAMED:
             amounts = [f"{amount:.3g} {unit}" for amount, unit, size in (
                 (places.get(name, 0.0), "m", assembly.length), (angles.get(name, 0.0), "rad", 1.0)) if amount > NAMED * size]
-            told.append(f"{name!r} by {' and '.join(amounts)}")
-    return told
+            changes.append(f"{name!r} by {' and '.join(amounts)}")
+    return changes
 
 
 def _by_body(tables: Any, assembly: Assembly, apart: np.ndarray, is_angle: bool) -> dict[str, float]:
@@ -57,6 +57,6 @@ def _largest(amounts: dict[str, float]) -> list[tuple[str, float]]:
     return sorted(amounts.items(), key=lambda each: -each[1])
 
 
-def _listed(told: list[str]) -> str:
-    others = [f"{len(told) - MOST_NAMED} others"] if len(told) > MOST_NAMED else []
-    return ", ".join([*told[:MOST_NAMED], *others])
+def _listed(changes: list[str]) -> str:
+    others = [f"{len(changes) - MOST_NAMED} others"] if len(changes) > MOST_NAMED else []
+    return ", ".join([*changes[:MOST_NAMED], *others])

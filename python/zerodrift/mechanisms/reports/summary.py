@@ -56,8 +56,8 @@ def _freedom(drawing: Drawing, counted: Count) -> str:
     """Degrees of freedom, and numbers of coordinates and constraints in both layouts."""
     tables = tables_of(drawing, AS_GIVEN, in_tree=True)
     core = tables.core()
-    carriers = {joint for joint in tables.carrier if joint >= 0}
-    cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in carriers and not joint.is_of_one_body]
+    inboard_joints = {joint for joint in tables.inboard if joint >= 0}
+    cuts = [joint.name for i, joint in enumerate(tables.joints) if i not in inboard_joints and not joint.is_of_one_body]
     loops = f" closing {_several(len(cuts), 'loop')} at {_listed(cuts)}" if cuts else ""
     return (f"freedom {counted.freedom} (Gruebler {counted.gruebler}); "
             f"joint coordinates {core.nv}, {_several(core.m, 'constraint')}{loops}; "

@@ -19,7 +19,7 @@ DIRECT = "zd_symbolic_direct"       # symbol of the functions in their library
 NO_COMPILER = "there is no C compiler"      # reason why a system has no closed-form functions
 
 
-class DirectFunctions:
+class ClosedFormFunctions:
     """Closed-form functions of a system and of all that differ from it only in parameters and start.
 
     They are written and compiled at first use. Orders of elimination are chosen with the values that the system was created with,
@@ -30,7 +30,7 @@ class DirectFunctions:
                  p0: np.ndarray | None, is_length: np.ndarray, offset: int, data: str = "data", embeds: bool = False) -> None:
         self._definition = program, sizes, values, p0, is_length
         self._embeds = embeds       # True: for formulations in independent velocities
-        self._others: DirectFunctions | None = None
+        self._others: ClosedFormFunctions | None = None
         self._offset, self._data = offset, data     # `data` is C for the doubles of a system
         self._libraries: dict[str, ctypes.CDLL | None] = {}
         self._written: tuple[str, int] | None = None
@@ -38,10 +38,10 @@ class DirectFunctions:
         self._is_written = bool(self.why_none)
 
     @property
-    def embedding(self) -> DirectFunctions:
+    def embedding(self) -> ClosedFormFunctions:
         """Closed-form functions for formulations in independent velocities."""
         if self._others is None:
-            self._others = DirectFunctions(*self._definition, self._offset, self._data, embeds=True)
+            self._others = ClosedFormFunctions(*self._definition, self._offset, self._data, embeds=True)
         return self._others
 
     def prepare(self) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import tolerances as tol
-from mechanism_tables import KINDS, Body, Joint, Observed, Tabled, Tables, joint_measures, rotation
+from mechanism_tables import KINDS, Body, Joint, OutputSpec, Tabled, Tables, joint_measures, rotation
 from support import along, assert_close, numbers
 
 AXIS, FIRST, SECOND = (0.6, 0.8), (0.3, -0.4), (-0.2, 0.7)
@@ -39,7 +39,7 @@ def test_what_the_rows_do_is_the_joints_force_and_torque(joined):
     multipliers = np.arange(1.0, 1 + system.m)
     poses = {1: system.p0[:3], 2: system.p0[3:]}
     point = poses[2][:2] + rotation(poses[2][2]) @ SECOND
-    if kind.rows[0].gauge == "x":       # the points of both bodies are to coincide
+    if kind.rows[0].quantity == "x":       # the points of both bodies are to coincide
         poses[1][:2] = point - rotation(poses[1][2]) @ FIRST
     force, torque = (system.measured(f"0.{what}", 0, system.p0, system.v0, np.zeros(6), multipliers)
                      for what in ("force", "torque"))
@@ -56,8 +56,8 @@ def test_what_the_rows_do_is_the_joints_force_and_torque(joined):
 
 @pytest.mark.parametrize("name", [name for name in KINDS if KINDS[name].tension])
 def test_the_tension_pulls_the_bodies_together(name):
-    assert KINDS[name].rows[0].gauge == "distance"
+    assert KINDS[name].rows[0].quantity == "distance"
     joint = Joint(KINDS[name].number, 1, 2, FIRST, SECOND, length=0.4)
-    system = Tabled(Tables([Body(1.0, 1.0), Body(1.0, 1.0)], [joint], measures=[Observed("tension", "N", "joint tension", 0)]))
+    system = Tabled(Tables([Body(1.0, 1.0), Body(1.0, 1.0)], [joint], measures=[OutputSpec("tension", "N", "joint tension", 0)]))
     state = np.random.default_rng(11).normal(size=(3, 6))
     assert_close(system.measured("tension", 0, *state, np.array([-2.5])), np.array([-2.5]), tol.SAME)

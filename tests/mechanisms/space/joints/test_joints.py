@@ -7,8 +7,8 @@ from zerodrift._core import ffi, lib
 
 from space_tables import KINDS, random_frame
 from support import assert_close
-from zerodrift._gateway.mechanisms import Observed
-from zerodrift._gateway.space import Body, Joint, SpaceCore, Tables, coordinate_gauge
+from zerodrift._gateway.mechanisms import OutputSpec
+from zerodrift._gateway.space import Body, Joint, SpaceCore, Tables, coordinate_quantity
 
 PITCH = 0.4         # m for each turn
 LENGTH = 0.7        # m: of a rod
@@ -73,7 +73,7 @@ def test_it_leaves_its_motions_free_and_no_others(kind):
     for _ in range(5):
         joint = drawn(kind, rng)
         names = [name for name, _ in KINDS[kind].coordinates]
-        read = [coordinate_gauge(joint, i, 0) for i in range(len(names))]
+        read = [coordinate_quantity(joint, i, 0) for i in range(len(names))]
         core = SpaceCore(Tables([Body(1.0, (1.0, 1.0, 1.0))] * 2, [joint], read))
         first = rng.normal(size=3), Rotation.random(random_state=rng)
         for x in rng.uniform(-1.4, 1.4, size=(4, count)):
@@ -81,13 +81,13 @@ def test_it_leaves_its_motions_free_and_no_others(kind):
             terms = core.evaluate(0.0, p, np.zeros(core.nv))
             assert_close(terms["Phi"], np.zeros(core.m), 1e-14, scale=5.0)
             assert np.linalg.matrix_rank(terms["C"]) == core.m == 6 - count
-            measured = {name: measure(core.tables.gauges[i], core, p) for i, name in enumerate(names)}
+            measured = {name: measure(core.tables.quantities[i], core, p) for i, name in enumerate(names)}
             assert measured == pytest.approx(coordinates(x), abs=1e-13)
 
 
-def measure(gauge, core, p):
+def measure(quantity, core, p):
     """Value of a marker quantity, from a system with a measure of it."""
-    reader = SpaceCore(core.tables._replace(gauges=[gauge], measures=[Observed("it", "", "values", 0)]))
+    reader = SpaceCore(core.tables._replace(quantities=[quantity], measures=[OutputSpec("it", "", "values", 0)]))
     return float(reader.measure_at(0, 0.0, p, np.zeros(core.nv))["value"][0])
 
 

@@ -1,15 +1,15 @@
-"""Gauges against what they are said to be, in NumPy, and the tables of joints and elements."""
+"""Marker quantities against what they are said to be, in NumPy, and the tables of joints and elements."""
 
 import numpy as np
 import pytest
 
 import tolerances as tol
-from mechanism_tables import KINDS, TREE, Body, Gauge, Observed, Tabled, Tables, rotation
+from mechanism_tables import KINDS, TREE, Body, OutputSpec, Quantity, Tabled, Tables, rotation
 from support import along, assert_close
-from zerodrift._gateway.mechanisms import GAUGES, element_kinds
+from zerodrift._gateway.mechanisms import QUANTITY_KINDS, element_kinds
 
 FIRST, SECOND, AXIS, ZERO = (0.3, -0.4), (-0.2, 0.7), (0.6, 0.8), 0.25
-INTEGRABLE = sorted(GAUGES.keys() - {"glide", "skid"})
+INTEGRABLE = sorted(QUANTITY_KINDS.keys() - {"glide", "skid"})
 
 
 def points(poses):
@@ -29,11 +29,11 @@ READINGS = {
 }
 
 
-def gauged(which, first=1, second=2):
-    """Two free bodies, and measures of a gauge between them."""
-    gauge = Gauge(which, first, second, FIRST, SECOND, AXIS, ZERO)
-    measures = [Observed(name, "", name, 0, scale=-2.0) for name in ("values", "rates", "accelerations")]
-    return Tabled(Tables([Body(1, 1), Body(1, 1)], gauges=[gauge], measures=measures))
+def quantityd(which, first=1, second=2):
+    """Two free bodies, and measures of a marker quantity between them."""
+    quantity = Quantity(which, first, second, FIRST, SECOND, AXIS, ZERO)
+    measures = [OutputSpec(name, "", name, 0, scale=-2.0) for name in ("values", "rates", "accelerations")]
+    return Tabled(Tables([Body(1, 1), Body(1, 1)], quantities=[quantity], measures=measures))
 
 
 @pytest.fixture
@@ -47,9 +47,9 @@ def test_readings_are_there_for_all_kinds():
 
 
 @pytest.mark.parametrize("which", INTEGRABLE)
-def test_a_gauge_reads_what_it_says(which, state):
+def test_a_quantity_reads_what_it_says(which, state):
     p, v, vdot = state
-    system = gauged(which)
+    system = quantityd(which)
 
     def value(p):
         return np.array([-2 * (READINGS[which](p.reshape(2, 3)) - ZERO)])
@@ -64,7 +64,7 @@ def test_a_gauge_reads_what_it_says(which, state):
 @pytest.mark.parametrize("ends", [(1, 2), (2, 2), (0, 1)])
 def test_a_gliding_point_is_measured_along_an_axis_of_the_first_body(which, direction, ends, state):
     p, v, vdot = state
-    system = gauged(which, *ends)
+    system = quantityd(which, *ends)
     first, second = ends
 
     def frame(p):
@@ -77,10 +77,10 @@ def test_a_gliding_point_is_measured_along_an_axis_of_the_first_body(which, dire
     assert_close(system.measured("accelerations", 0, p, v, vdot), rate, tol.DIFFERENCE, scale=1)
 
 
-@pytest.mark.parametrize("which", sorted(GAUGES))
+@pytest.mark.parametrize("which", sorted(QUANTITY_KINDS))
 def test_a_measure_tells_its_row_and_bias(which, state):
     p, v, vdot = state
-    system = gauged(which)
+    system = quantityd(which)
     of_rate, acceleration = system._core.measure_at(1, 0.0, p, v), system.measured("accelerations", 0, p, v, vdot)
     assert_close(of_rate["row"] @ v, of_rate["value"], tol.SAME, scale=1)
     assert_close(of_rate["row"] @ vdot + of_rate["bias"], acceleration, tol.SAME, scale=1)
@@ -90,11 +90,11 @@ def test_a_measure_tells_its_row_and_bias(which, state):
     assert [system._core.measure_depends(i) for i in range(3)] == ["positions", "velocities", "accelerations"]
 
 
-@pytest.mark.parametrize("which", sorted(GAUGES))
+@pytest.mark.parametrize("which", sorted(QUANTITY_KINDS))
 @pytest.mark.parametrize("ends", [(1, 2), (2, 2), (0, 1)])
 def test_components_are_read_without_zeros(which, ends, state):
     p, v, _ = state
-    core = gauged(which, *ends)._core
+    core = quantityd(which, *ends)._core
     found = core.components(p, v, [(1, 0), (0, 0)])
     for i, measure in enumerate((1, 0)):
         expected, row = core.measure_at(measure, 0.0, p, v), np.zeros(core.nv)
@@ -116,13 +116,13 @@ def test_the_tables_introduce_their_rows():
             assert row.card.name == name
             assert row.card.summary.endswith(".")
             assert row.card.equations
-    assert {name: KINDS[name].carrier for name in TREE} == {"revolute": "turns", "prismatic": "slides", "weld": "fixed"}
+    assert {name: KINDS[name].inboard for name in TREE} == {"revolute": "turns", "prismatic": "slides", "weld": "fixed"}
 
 
 @pytest.mark.parametrize("name", TREE)
 def test_rows_and_coordinate_of_a_tree_joint_make_three(name):
     """Constraints and coordinate of a tree joint add up to the three relative freedoms of two bodies in the plane."""
-    assert len(KINDS[name].rows) + (KINDS[name].carrier != "fixed") == 3
+    assert len(KINDS[name].rows) + (KINDS[name].inboard != "fixed") == 3
 
 
 def test_holonomic_rows_come_first():
