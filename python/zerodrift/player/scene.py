@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ..plot.dense_samples import dense
 from ..plot.drawing import moments_of, paths_of
 from ..plot.glyphs import GLYPHS
 from ..runs.columns import columns
@@ -56,7 +57,7 @@ def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) 
     places = np.concatenate([places, *(_tips(layer, arrow) for layer in layers)])
     low, high = places.min(axis=0), places.max(axis=0)
     box = every.min(axis=0), every.max(axis=0)
-    labelled = list(zip(solutions, labels, strict=True))
+    labelled = list(zip(map(dense, solutions), labels, strict=True))
     return {"name": first.system.name, "upside": _is_upside_down(first),
             "span": [t0, t1], "samples": count, "speed": speed, "dimension": int(places.shape[1]),
             "low": low.tolist(), "high": high.tolist(), "pin": _pin(layers[0], float((high - low).max() or 1.0)),
@@ -83,7 +84,7 @@ def _is_upside_down(sol: Solution) -> bool:
 def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     """Shapes of a solution at all times, points in a table (times, points, dimension)."""
     p = _positions(sol, times)
-    moments = moments_of(sol, p)
+    moments, sol = moments_of(sol, p), dense(sol)
     shapes = [[shape.points for shape in moment] for moment in moments]
     points = np.array([np.concatenate(each) for each in shapes])                # (times, points of all shapes, dimension)
     entries, begin = [], 0

@@ -17,6 +17,7 @@ from ..studies.compare import nearest
 from ..systems.base import BaseSystem, system_of
 from ..systems.shapes import Shape
 from .annotations import Arrow, draw_path
+from .dense_samples import dense
 from .mechanism import Extras, Picture, points_of
 from .points import draw_in_space, moved_in_space, points_at, shapes_of, with_equal_scales
 from .space_picture import SpacePicture
@@ -84,7 +85,7 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     system_or_solution = system_of(system_or_solution, p)
     if not isinstance(system_or_solution, Solution) and not callable(getattr(system_or_solution, "points", None)):
         raise TypeError(f"system_or_solution must be a system or a Solution, not {_check.shown(system_or_solution)}")
-    sol = system_or_solution if isinstance(system_or_solution, Solution) else None
+    sol = dense(system_or_solution) if isinstance(system_or_solution, Solution) else None
     _check_asked(sol, p, t=t, ghosts=ghosts, forces=forces, path=path)
     force_scale = None if force_scale is None else _check.number("force_scale", force_scale, above=0)
     system = sol.system if sol is not None else system_or_solution
@@ -138,7 +139,7 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
     >>> sol = zd.simulate(zd.models.jansen(), 1.0, step=0.005)
     >>> ax = zd.plot.path(sol, "F")
     """
-    _check.instance("sol", sol, Solution, A_SOLUTION)
+    sol = dense(_check.instance("sol", sol, Solution, A_SOLUTION))
     found = paths_of(sol, points)
     ax = drawing_axes(ax, 3 if any(places.shape[1] == 3 for places in found) else 2)
     for places in found:
@@ -182,7 +183,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
     >>> film = zd.plot.animate(zd.simulate(zd.models.jansen(), 1.0, step=0.01), fps=4, path="F")
     >>> page = film.to_jshtml()
     """
-    _check.instance("sol", sol, Solution, A_SOLUTION)
+    sol = dense(_check.instance("sol", sol, Solution, A_SOLUTION))
     fps, speed = _check.number("fps", fps, above=0), _check.number("speed", speed, above=0)
     force_scale = None if force_scale is None else _check.number("force_scale", force_scale, above=0)
     frames = int((sol.t[-1] - sol.t[0]) * fps / speed) + 1

@@ -22,6 +22,7 @@ from ..studies.reference import Reference
 from ..studies.stability_map import StabilityMap
 from ..studies.work_precision import Row, Setting, WorkPrecision
 from . import style as _style
+from .dense_samples import dense
 from .style import COLOURS
 
 MARKERS = "os^Dv<>pPX*"
@@ -54,6 +55,7 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
     >>> ax.get_ylabel()
     'rad'
     """
+    sol = _with_samples_of_lines(_check.instance("sol", sol, Solution, A_SOLUTION), style)
     values, variables = signals(sol, names)
     ax = _style.axes(ax)
     units = _style.units(variables)
@@ -62,6 +64,11 @@ def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | N
     if len(variables) == 1 and "label" not in style:
         return _style.finished(ax, _style.labelled(variables[0]), legend=False)
     return _style.finished(ax, ", ".join(units))
+
+
+def _with_samples_of_lines(sol: Solution, style: dict[str, Any]) -> Solution:
+    """The samples between which lines are drawn; markers are at those of the solution."""
+    return sol if style.get("marker") else dense(sol)
 
 
 def measures(sol: Solution, names: Any, ax: Axes | None = None, **style: Any) -> Axes:
@@ -95,7 +102,8 @@ def measures(sol: Solution, names: Any, ax: Axes | None = None, **style: Any) ->
     >>> ax.get_ylabel()
     'N, rad'
     """
-    found = columns(_check.instance("sol", sol, Solution, A_SOLUTION), names)
+    sol = _with_samples_of_lines(_check.instance("sol", sol, Solution, A_SOLUTION), style)
+    found = columns(sol, names)
     ax = _style.axes(ax)
     variables = [variable for variable, _ in found]
     units = _style.units(variables)
