@@ -5,6 +5,7 @@
 
 #include "linalg/norms.h"
 #include "point/quaternions.h"
+#include "point/terms.h"
 #include "registry.h"
 #include "run/arguments.h"
 #include "run/create.h"
@@ -60,6 +61,39 @@ int zd_measure_states(const zd_system *system, int measure, int64_t rows, const 
     for (int64_t i = 0; i < rows && !status; i++)
         status = all->evaluate(system->data, measure, t[i], p + i * nq, v + i * nv, vdot ? vdot + i * nv : NULL,
                                multipliers ? multipliers + i * m : NULL, &(zd_measured){.value = values + i * size}, scratch);
+    return status;
+}
+
+int zd_evaluate_states(const zd_system *system, int want, int64_t states, const double *t, const double *p, const double *v,
+                       const zd_terms *first)
+{
+    zd_terms at = *first;
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < states && !status; i++) {
+        status = system->evaluate(system->data, want | ZD_MOVED, t[i], p + i * system->nq, v + i * system->nv, &at);
+        for (int row = 0; zd_term_at(row); row++)
+            if (want & zd_term_at(row)->term) *zd_term_in(&at, row) += zd_term_size(system, row);
+    }
+    return status;
+}
+
+int zd_measure_rates(const zd_system *system, int count, const int *measures, int64_t states, const double *t, const double *p,
+                     const double *v, const zd_measured *first, double *scratch)
+{
+    const zd_measures *all = system->measures;
+    zd_measured at = *first;
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < states && !status; i++) {
+        for (int j = 0; j < count && !status; j++) {
+            int size = all->measure[measures[j]].size;
+            at.is_same_state = j > 0;
+            status = all->evaluate(system->data, measures[j], t[i], p + i * system->nq, v + i * system->nv, NULL, NULL, &at, scratch);
+            at.value += size;
+            at.rate += size;
+            at.row += size * system->nv;
+            at.bias += size;
+        }
+    }
     return status;
 }
 

@@ -347,6 +347,16 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
  * measure does not depend on them. */
 int zd_measure_states(const zd_system *system, int measure, int64_t rows, const double *t, const double *p, const double *v,
                       const double *vdot, const double *multipliers, double *values, double *scratch);
+
+/* The terms in `want` at many states t (states,), p (states, nq), v (states, nv): `first` has the memory of the first, the others follow
+ * it, (states, size) of each term, with a single scratch. */
+int zd_evaluate_states(const zd_system *system, int want, int64_t states, const double *t, const double *p, const double *v,
+                       const zd_terms *first);
+
+/* Values, rates, rows and biases, all requested, of several measures of positions or velocities at many states; their components follow
+ * one another, (states, size of all) of each, of rows (states, size of all, nv). */
+int zd_measure_rates(const zd_system *system, int count, const int *measures, int64_t states, const double *t, const double *p,
+                     const double *v, const zd_measured *first, double *scratch);
 /* Projects p and v in place onto the constraints by the corrections of `settings`. Coordinates and velocities with nonzero hold_p, hold_v
  * are held fixed (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,

@@ -68,14 +68,18 @@ class Measuring:
 
     def measure_at(self, index: int, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """Value (size,), rate (size,), row (size, nv) and bias (size,) of a measure of positions or velocities at one state."""
-        core, size = self.for_run(), self.measure_size(index)
-        arrays = {"value": np.zeros(size), "rate": np.zeros(size), "row": np.zeros((size, self.nv)), "bias": np.zeros(size)}
+        return {name: array[0] for name, array in self.measure_rates((index,), np.array([float(t)]), p, v).items()}
+
+    def measure_rates(self, indices: Sequence[int], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
+        """The same of several of them, stacked, at many states: (k, size), with rows (k, size, nv)."""
+        core, k, size = self.for_run(), len(t), sum(self.measure_size(index) for index in indices)
+        arrays = {name: np.zeros((k, size)) for name in ("value", "rate", "bias")} | {"row": np.zeros((k, size, self.nv))}
         out = ffi.new("zd_measured *", {name: doubles(array, array.size, writable=True) for name, array in arrays.items()})
         scratch = ffi.new("double[]", max(1, self.c.measures.scratch))
-        at = doubles(p, self.nq), doubles(v, self.nv), ffi.NULL, ffi.NULL
-        status = core.c.measures.evaluate(core.c.data, index, t, *at, out, scratch)
+        status = lib.zd_measure_rates(core.c, len(indices), ffi.new("int[]", list(indices)), k, doubles(t, k),
+                                      doubles(p, k * self.nq), doubles(v, k * self.nv), out, scratch)
         if status:
-            raise core.error or self._lacks(index)
+            raise core.error or self._lacks(indices[0])
         return arrays
 
     def _lacks(self, index: int) -> ValueError:

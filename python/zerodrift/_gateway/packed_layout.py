@@ -67,9 +67,9 @@ class Packing:
         return self.offsets[name][-1]
 
     def expand(self, name: str, packed: np.ndarray) -> np.ndarray:
-        """The matrix with its zeros."""
-        dense = np.zeros(self.shapes[name])
-        dense[self._places[name]] = packed
+        """The matrix with its zeros, or several of them (k, ...) from packed ones (k, entries)."""
+        dense = np.zeros((*packed.shape[:-1], *self.shapes[name]))
+        dense[(..., *self._places[name])] = packed
         return dense
 
     def pack(self, name: str, dense: np.ndarray) -> np.ndarray:

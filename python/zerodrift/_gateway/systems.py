@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import math
 from typing import Any
 
 import numpy as np
@@ -175,17 +177,35 @@ class CoreSystem(Measuring):
 
     def evaluate_stored(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """All terms the system has, at (t, p, v), as they are stored."""
-        core = self.for_run()
-        terms = ffi.new("zd_terms *")
+        found = self._evaluated(tuple(self.layout), np.array([float(t)]), p, v)
+        return {name: values.reshape(self.layout[name]) for name, values in found.items()}
+
+    @functools.cached_property
+    def layout(self) -> dict[str, tuple[int, ...]]:
+        """Shape of what is stored of each term that the system has."""
+        return {name: self.stored(name) for name, term in TERMS.items() if self.provides & term.bit}
+
+    def evaluate_states(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
+        """Those of some terms that the system has, at many states t (k,), p (k, nq), v (k, nv), with matrices that are dense.
+
+        Rows of A for coordinates that follow others are zero.
+        """
+        k, arrays = len(t), self._evaluated(tuple(name for name in names if name in self.layout), t, p, v)
+        return {name: self.packing.expand(name, array.reshape(k, -1)) if self.packing and name in PACKED
+                else array.reshape(k, *self.layout[name]) for name, array in arrays.items()}
+
+    def _evaluated(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
+        """What is stored of terms at all states, one behind the other."""
+        core, terms, k = self.for_run(), ffi.new("zd_terms *"), len(t)
+        sizes = [k * math.prod(self.layout[name]) for name in names]
+        memory = np.zeros(sum(sizes))
+        start, first, want, arrays = doubles(memory, memory.size, writable=True), 0, lib.ZD_MOVED, {}
+        for name, size in zip(names, sizes, strict=True):
+            setattr(terms, name, start + first)
+            arrays[name], want, first = memory[first:first + size], want | TERMS[name].bit, first + size
         scratch = ffi.new("double[]", max(1, self.c.scratch))
         terms.scratch = scratch
-        arrays = {}
-        for name, term in TERMS.items():
-            if not self.provides & term.bit:
-                continue
-            arrays[name] = array = np.zeros(self.stored(name))
-            setattr(terms, name, doubles(array, array.size, writable=True))
-        status = core.c.evaluate(core.c.data, self.provides | lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
+        status = lib.zd_evaluate_states(core.c, want, k, doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv), terms)
         if status:
             raise core.error or error_of(status, "the system's evaluation failed")
         return arrays

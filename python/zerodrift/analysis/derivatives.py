@@ -4,7 +4,7 @@ The residuals are r = M vdot + d - f + C^T lambda of (2) and s = C vdot - xi of 
 of the acceleration follows from theirs by one solve with the leading matrix; of redundant constraints it is unique along
 tangent directions. Systems with a Jacobian of their own (symbolic and compiled ones) give the derivative of the acceleration
 exactly; of all others the residuals are differenced with the step control of `differences`, 1e-12 for functions that are smooth
-on their characteristic scale.
+on their characteristic scale; all directions and steps are evaluated at once.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ from ..systems.base import BaseSystem, core_of
 from . import differences
 from .state import Scales, State, scales, state
 from .tangent import Tangent, multipliers
+
+LARGEST_ARRAY = 1 << 22     # entries of the matrices of states that are evaluated at once
 
 
 class Direction(NamedTuple):
@@ -50,16 +52,55 @@ class Direction(NamedTuple):
 
 def residuals(at: State, vdot: np.ndarray, lam: np.ndarray) -> np.ndarray:
     """R of (2) and s of (6), one behind the other, (nv + m,)."""
-    return np.concatenate([at.M @ vdot - at.force + at.C.T @ lam, at.C @ vdot - at.xi])
+    return residuals_of(at.system, np.array([at.t]), at.p[None], at.v[None], vdot, lam)[0]
+
+
+def residuals_of(system: BaseSystem, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray,
+                 lam: np.ndarray) -> np.ndarray:
+    """R of (2) and s of (6) at many states t (k,), p (k, nq), v (k, nv), with the same vdot and multipliers, (k, nv + m)."""
+    core, nv, m = core_of(system), system.nv, system.m
+    found = np.zeros((len(t), nv + m))
+    most = max(1, LARGEST_ARRAY // (nv * (nv + m) or 1))
+    names = ("d", "f", *(("M",) if np.any(vdot) else ()), *(("C", "xi") if m else ()))
+    for first in range(0, len(t), most):
+        part = slice(first, first + most)
+        terms = core.evaluate_states(names, t[part], np.ascontiguousarray(p[part]), np.ascontiguousarray(v[part]))
+        r, s = found[part, :nv], found[part, nv:]
+        r += terms.get("d", 0.0) - terms.get("f", 0.0)
+        if "M" in terms:
+            r += terms["M"] @ vdot
+        if m:
+            r += lam @ terms["C"]
+            s += terms["C"] @ vdot - terms.get("xi", 0.0)
+    return found
 
 
 def of_residuals(at: State, vdot: np.ndarray, lam: np.ndarray, direction: Direction) -> tuple[np.ndarray, np.ndarray]:
     """Directional derivatives of r (nv,) and s (m,), with vdot and the multipliers frozen."""
-    def along(h: float) -> np.ndarray:
-        return residuals(direction.step(at, h), vdot, lam)
-
-    found = differences.along(along, direction.size(scales(at.system, at.p), at))
+    size = direction.size(scales(at.system, at.p), at)
+    if direction.dparameters:
+        found = differences.along(lambda h: residuals(direction.step(at, h), vdot, lam), size)
+    else:
+        dp, dv = (np.zeros((1, n)) if each is None else each[None] for each, n in ((direction.dp, at.system.nq),
+                                                                                  (direction.dv, at.system.nv)))
+        found = of_residuals_along(at, vdot, lam, dp, dv, direction.dt)[:, 0]
     return found[:at.system.nv], found[at.system.nv:]
+
+
+def of_residuals_along(at: State, vdot: np.ndarray, lam: np.ndarray, dp: np.ndarray, dv: np.ndarray,
+                       dt: float = 0.0) -> np.ndarray:
+    """The same along k directions dp (k, nq), dv (k, nv), all with dt, (nv + m, k)."""
+    def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+        return residuals_of(at.system, at.t + h * dt, at.p + h[:, None] * dp[which], at.v + h[:, None] * dv[which], vdot, lam)
+
+    return differences.each(residual, sizes_of(at, dp, dv, dt), at.system.nv + at.system.m).T
+
+
+def sizes_of(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> np.ndarray:
+    """The sizes (k,) of directions dp (k, nq), dv (k, nv), dt in characteristic scales."""
+    scale = scales(at.system, at.p)
+    speed = np.maximum(scale.v, np.abs(at.v))
+    return np.abs(np.hstack([dp / scale.p, dv / speed, np.full((len(dp), 1), dt)])).max(axis=1)
 
 
 class Derivatives:
@@ -83,19 +124,24 @@ class Derivatives:
         return self._jacobian is not None
 
     def of_accelerations(self, dp: np.ndarray, dv: np.ndarray) -> np.ndarray:
-        """The derivative (nv,) of vdot along a tangent direction."""
+        """The derivative (nv,) of vdot along a tangent direction, or (nv, k) along k of them, dp (k, nq) and dv (k, nv)."""
         if self._jacobian is not None:
-            return self._jacobian @ np.concatenate([dp, dv])
-        return self.solve(*of_residuals(self.at, self.vdot, self.lam, Direction(dp=dp, dv=dv)))[0]
+            return self._jacobian @ np.concatenate([dp.T, dv.T])
+        return self.both(dp, dv)[0]
 
     def both(self, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        """Derivatives of vdot (nv,) and of the multipliers (m,) along a tangent direction."""
-        return self.solve(*of_residuals(self.at, self.vdot, self.lam, Direction(dt, dp, dv)))
+        """Derivatives of vdot (nv,) and of the multipliers (m,) along a tangent direction, or along k of them."""
+        found = self._of_residuals(np.atleast_2d(dp), np.atleast_2d(dv), dt)
+        dvdot, dlam = self.solve(*np.split(found, [self.at.system.nv]))
+        return (dvdot, dlam) if dp.ndim > 1 else (dvdot[:, 0], dlam[:, 0])
+
+    def _of_residuals(self, dp: np.ndarray, dv: np.ndarray, dt: float) -> np.ndarray:
+        return of_residuals_along(self.at, self.vdot, self.lam, dp, dv, dt)
 
     def solve(self, r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Changes of vdot and lambda that make up for changes r, s of the residuals."""
+        """Changes of vdot and lambda that make up for changes r (nv,), s (m,) of the residuals, or (nv, k), (m, k)."""
         at, V = self.at, self.tangent.velocities
-        x = self.tangent.solve_rows(-s) if at.system.m else np.zeros(at.system.nv)
+        x = self.tangent.solve_rows(-s) if at.system.m else np.zeros_like(r)
         x = x + V @ (V.T @ (-r - at.M @ x))
         return x, multipliers(at, -r - at.M @ x)
 

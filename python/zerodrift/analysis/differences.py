@@ -2,8 +2,8 @@
 
 The difference of eighth order is compared with that of sixth order, which uses the same points. Where they disagree, as they do
 near kinks and for functions that vary on a short scale, the step is reduced; below that, the fourth-order difference with a
-short step stands. For functions that are smooth on their characteristic scale the error is a few units of rounding divided by
-the first step, 1e-14.
+short step stands. Many directions are differenced at once, so that one call evaluates all states. For functions that are smooth
+on their characteristic scale the error is a few units of rounding divided by the first step, 1e-14.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+POINTS = np.array([1.0, 2.0, 3.0, 4.0])     # k
 EIGHTH = np.array([4 / 5, -1 / 5, 4 / 105, -1 / 280])      # weights of f(k h) - f(-k h), k = 1 ... 4, over h
 SIXTH = np.array([3 / 4, -3 / 20, 1 / 60, 0.0])
 FOURTH = np.array([2 / 3, -1 / 12, 0.0, 0.0])
@@ -20,43 +21,65 @@ ROUGH_STEP = 1e-4
 AGREE = 1e-10                   # of the size: accepted without a shorter step
 
 
-def roughly(function: Callable[[float], np.ndarray], size: float) -> np.ndarray:
-    """The derivative at h = 0 by a central difference of second order, 1e-8 relative: for the steps of an iteration."""
-    h = ROUGH_STEP / max(size, 1e-300)
-    return (np.asarray(function(h), dtype=float) - np.asarray(function(-h), dtype=float)) / (2 * h) if size > 0 else (
-        np.zeros_like(np.asarray(function(0.0), dtype=float)))
+Function = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
-def along(function: Callable[[float], np.ndarray], size: float) -> np.ndarray:
-    """The derivative of ``function(h)`` at h = 0.
+def each(function: Function, sizes: np.ndarray, width: int) -> np.ndarray:
+    """Derivatives (k, width) at h = 0 along k directions.
 
     Parameters
     ----------
     function : callable
-        Of a float; returns an array.
-    size : float
-        The size of the direction in characteristic scales: steps are so many times shorter.
-
-    Returns
-    -------
-    ndarray
+        Of the numbers (j,) of directions and distances h (j,) along them; returns values (j, width).
+    sizes : ndarray (k,)
+        The sizes of the directions in characteristic scales: steps are so many times shorter. Zero: nothing changes along it.
+    width : int
     """
+    return each_with_error(function, sizes, width)[0]
+
+
+def each_roughly(function: Function, sizes: np.ndarray, width: int) -> np.ndarray:
+    """The same by central differences of second order, 1e-8 relative: for the steps of an iteration."""
+    h, which = ROUGH_STEP / np.maximum(sizes, 1e-300), np.arange(len(sizes))
+    if not which.size:
+        return np.zeros((0, width))
+    ahead, back = np.split(np.asarray(function(np.tile(which, 2), np.concatenate([h, -h])), dtype=float), 2)
+    return np.where(sizes[:, None] > 0, (ahead - back) / (2 * h[:, None]), 0.0)
+
+
+def each_with_error(function: Function, sizes: np.ndarray, width: int) -> tuple[np.ndarray, np.ndarray]:
+    """The derivatives of `each`, and the differences (k,) to those of lower order, which estimate their errors."""
+    best, error = np.zeros((len(sizes), width)), np.where(sizes > 0, np.inf, 0.0)
+    left = np.flatnonzero(sizes > 0)
+    for step in STEPS:
+        if not left.size:
+            break
+        h = step / sizes[left]
+        distances = h[:, None] * np.concatenate([POINTS, -POINTS])
+        values = np.asarray(function(np.repeat(left, distances.shape[1]), distances.ravel()), dtype=float)
+        ahead, back = np.split(values.reshape(*distances.shape, width), 2, axis=1)
+        derivative, lower, short = (np.einsum("kin,i->kn", ahead - back, weights) / h[:, None]
+                                    for weights in (EIGHTH, SIXTH, FOURTH))
+        found = np.abs(derivative - lower).max(axis=1, initial=0.0)
+        is_better = found < error[left]
+        best[left[is_better]], error[left[is_better]] = derivative[is_better], found[is_better]
+        if step == STEPS[-1]:       # not a number at all steps
+            best[left[np.isinf(error[left])]] = short[np.isinf(error[left])]
+        left = left[~(found <= AGREE * np.abs(derivative).max(axis=1, initial=1e-300))]
+    return best, error
+
+
+def along(function: Callable[[float], np.ndarray], size: float) -> np.ndarray:
+    """The derivative of ``function(h)``, of a float, (n,), at h = 0, along a direction of that size in characteristic scales."""
     return with_error(function, size)[0]
 
 
 def with_error(function: Callable[[float], np.ndarray], size: float) -> tuple[np.ndarray, float]:
     """The derivative of `along`, and the difference to that of lower order, which estimates its error."""
-    if not size > 0:
-        return np.zeros_like(np.asarray(function(0.0), dtype=float)), 0.0
-    best, least = None, np.inf
-    for step in STEPS:
-        h = step / size
-        ends = np.array([np.asarray(function(k * h), dtype=float) - np.asarray(function(-k * h), dtype=float)
-                         for k in (1, 2, 3, 4)])
-        derivative, lower = (np.tensordot(weights, ends, 1) / h for weights in (EIGHTH, SIXTH))
-        error = float(np.abs(derivative - lower).max(initial=0.0))
-        if error < least:
-            best, least = derivative, error
-        if error <= AGREE * np.abs(derivative).max(initial=1e-300):
-            return derivative, error
-    return (np.tensordot(FOURTH, ends, 1) / h, np.inf) if best is None else (best, least)
+    width = np.size(function(0.0))
+
+    def values(_: np.ndarray, distances: np.ndarray) -> np.ndarray:
+        return np.array([function(float(h)) for h in distances])
+
+    found, error = each_with_error(values, np.array([float(size)]), width)
+    return found[0], float(error[0])

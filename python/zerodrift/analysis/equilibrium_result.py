@@ -157,7 +157,7 @@ def _free(balance: Balance) -> list[np.ndarray]:
             p = onto(at.system, at.t, moved(at, balance.V @ step), balance.names)
         except CorrectionFailed:
             continue
-        there = Balance(at.system, at.t, p, balance.names)
+        there = Balance(at.system, at.t, p, balance.names, is_rough=True)
         if there.residual <= 1e3 * there.rounding:
             found.append(axis)
     return found

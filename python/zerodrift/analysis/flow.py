@@ -12,10 +12,10 @@ from .._gateway import acceleration
 from ..runs import settings
 from ..systems.base import core_of
 from . import differences
-from .derivatives import Derivatives, Direction
+from .derivatives import Derivatives, sizes_of
 from .frames import STEADY, frame_of
-from .quantities import find
-from .state import State, scales, state
+from .quantities import rates_of
+from .state import State, state
 from .tangent import Tangent
 
 
@@ -39,16 +39,16 @@ class DerivativesAtRest(Derivatives):
         super().__init__(tangent, np.zeros(tangent.at.system.nv), rest.lam)
         self._jacobian, self._rest = None, rest
 
-    def both(self, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        at, direction = self.at, Direction(dt, dp, dv)
+    def _of_residuals(self, dp: np.ndarray, dv: np.ndarray, dt: float) -> np.ndarray:
+        at, system, efforts = self.at, self.at.system, self._rest.efforts
+        r = super()._of_residuals(dp, dv, dt)[:system.nv]
+        if efforts:
+            def held(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+                rows = rates_of(system, tuple(efforts), "hold", at.t + h * dt, at.p + h[:, None] * dp[which])["row"]
+                return -np.array(list(efforts.values())) @ rows
 
-        def along(h: float) -> np.ndarray:
-            there = direction.step(at, h)
-            efforts = sum((find(there, name, "hold").row.T @ [u] for name, u in self._rest.efforts.items()), 0.0)
-            return there.C.T @ self.lam - there.force - efforts
-
-        r = differences.along(along, direction.size(scales(at.system, at.p), at))
-        return self.solve(r, np.zeros(at.system.m))
+            r = r + differences.each(held, sizes_of(at, dp, dv, dt), system.nv).T
+        return np.vstack([r, np.zeros((system.m, len(dp)))])
 
 
 class Flow:
@@ -77,7 +77,7 @@ class Flow:
         if not dp.any() and not dv.any():
             return np.zeros_like(self.acc)
         dvdot = self.derivatives.both(dp, dv, 1.0)[0]
-        return self._changes(self.at.v, dp, dv, dvdot, 1.0)[1][self.w.size:]
+        return self._changes(self.at.v[:, None], dp[None], dv[None], dvdot[:, None], 1.0)[1][self.w.size:, 0]
 
     @functools.cached_property
     def _fit(self) -> tuple[np.ndarray, np.ndarray]:
@@ -118,30 +118,27 @@ class Flow:
     @functools.cached_property
     def columns(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Basis E (2 n, k) in the frame, its rate (2 n, k), and the changes of vdot (nv, k) and lambda (m, k) along it."""
-        at, nv, parts = self.at, self.at.system.nv, []
-        for quasi in self.tangent.quasi.T:
-            dp, dv = at.A @ quasi[:nv], quasi[nv:]
-            dvdot, dlam = self.derivatives.both(dp, dv)
-            if self.derivatives.is_exact:
-                dvdot = self.derivatives.of_accelerations(dp, dv)
-            parts.append((*self._changes(quasi[:nv], dp, dv, dvdot), dvdot, dlam))
-        return tuple(np.array(each).reshape(len(parts), -1).T for each in zip(*parts, strict=True)) if parts else (
-            np.zeros((2 * self.w.size, 0)), np.zeros((2 * self.w.size, 0)), np.zeros((nv, 0)), np.zeros((at.system.m, 0)))
+        at, nv, quasi = self.at, self.at.system.nv, self.tangent.quasi
+        dp, dv = (at.A @ quasi[:nv]).T, quasi[nv:].T
+        dvdot, dlam = self.derivatives.both(dp, dv)
+        if self.derivatives.is_exact:
+            dvdot = self.derivatives.of_accelerations(dp, dv)
+        return (*self._changes(quasi[:nv], dp, dv, dvdot), dvdot, dlam)
 
     def _changes(self, delta: np.ndarray, dp: np.ndarray, dv: np.ndarray, dvdot: np.ndarray,
                  dt: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-        """A direction (eta, nu), and its rate, in the frame."""
-        at, frame = self.at, self.frame
+        """Directions (eta, nu), (2 n, k), and their rates in the frame; delta and dvdot (nv, k), dp (k, nq), dv (k, nv)."""
+        at, frame, n = self.at, self.frame, self.w.size
         J = frame.rows(at)
 
-        def along(h: float) -> np.ndarray:
-            there = Direction(dt, dp, dv).step(at, h)
-            rows = frame.rows(there)
-            return np.concatenate([rows @ there.v, rows @ self.vdot + frame.bias(there)])
+        def rates(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+            v = at.v + h[:, None] * dv[which]
+            rows, bias = frame.each(at.system, at.t + h * dt, at.p + h[:, None] * dp[which], v)
+            return np.hstack([np.einsum("kij,kj->ki", rows, v), rows @ self.vdot + bias])
 
-        nu, dacc = np.split(differences.along(along, Direction(dt, dp, dv).size(scales(at.system, at.p), at)), 2)
+        nu, dacc = np.split(differences.each(rates, sizes_of(at, dp, dv, dt), 2 * n).T, 2)
         eta = J @ delta
-        return np.concatenate([eta, nu]), np.concatenate([nu + frame.commutator(self.w) @ eta, dacc + J @ dvdot])
+        return np.vstack([eta, nu]), np.vstack([nu + frame.commutator(self.w) @ eta, dacc + J @ dvdot])
 
     @functools.cached_property
     def A(self) -> np.ndarray:
@@ -164,12 +161,11 @@ class Flow:
         """Changes of z' (k, j), vdot (nv, j) and of lambda (m, j), by generalized forces (nv, j)."""
         V = self.tangent.velocities
         vdot = V @ (V.T @ force)
-        nothing = np.zeros(self.at.system.m)
-        lam = [self.derivatives.solve(-each, nothing)[1] for each in force.T]
+        lam = self.derivatives.solve(-force, np.zeros((self.at.system.m, force.shape[1])))[1]
         n = V.shape[1]
         z = np.zeros((self.tangent.quasi.shape[1], force.shape[1]))
         z[-n:] = V.T @ force if n else z[-n:]
-        return z, vdot, np.array(lam).reshape(force.shape[1], self.at.system.m).T
+        return z, vdot, lam
 
 
 def flow_at(system: Any, t: float, p: np.ndarray, v: np.ndarray) -> Flow:

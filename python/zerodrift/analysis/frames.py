@@ -17,8 +17,9 @@ from typing import Any
 
 import numpy as np
 
+from ..systems.base import BaseSystem
 from . import differences
-from .quantities import find
+from .quantities import rates_of
 from .state import State, scales, state
 
 STEADY = 1e-7       # of the accelerations' size: what counts as a steady motion
@@ -48,6 +49,11 @@ class Frame:
     def bias(self, at: State) -> np.ndarray:
         """The derivative of J v with respect to time at frozen v, (n,)."""
         raise NotImplementedError
+
+    def each(self, system: BaseSystem, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """J (k, n, nv) and the bias (k, n) at many states t (k,), p (k, nq), v (k, nv)."""
+        there = [state(system, float(of_t), of_p, of_v) for of_t, of_p, of_v in zip(t, p, v, strict=True)]
+        return np.array([self.rows(at) for at in there]), np.array([self.bias(at) for at in there])
 
     def rates(self, at: State) -> np.ndarray:
         """W = J v, (n,)."""
@@ -92,25 +98,34 @@ class BodyFrame(Frame):
     def __init__(self, system: Any) -> None:
         drawing = system._drawing
         self.dimension, self.gravity = drawing.dimension, np.asarray(drawing.gravity, dtype=float)
-        self.names, self.turning, self.vectors, at = [], [], [], 0
+        names, self.turning, self.vectors, at = [], [], [], 0
         known = set(system._names_of_measures())
         for body in drawing.parts():
             centre, spin = f"{body.name}.center.velocity", f"{body.name}.angular_velocity"
-            self.names.append(centre if centre in known else f"{body.name}.velocity")
+            names.append(centre if centre in known else f"{body.name}.velocity")
             self.vectors.append(at)
             at += self.dimension
             if spin in known:
-                self.names.append(spin)
+                names.append(spin)
                 if self.dimension == 3:
                     self.turning.append(at)
                     self.vectors.append(at)
                 at += 3 if self.dimension == 3 else 1
+        self.names = tuple(names)
+
+    def each(self, system: BaseSystem, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        found = rates_of(system, self.names, "frame", t, p, v)
+        return found["row"], found["bias"]
+
+    def _at(self, at: State) -> tuple[np.ndarray, np.ndarray]:
+        rows, bias = self.each(at.system, np.array([at.t]), at.p[None], at.v[None])
+        return rows[0], bias[0]
 
     def rows(self, at: State) -> np.ndarray:
-        return np.vstack([find(at, name, "frame").row for name in self.names])
+        return self._at(at)[0]
 
     def bias(self, at: State) -> np.ndarray:
-        return np.concatenate([find(at, name, "frame").bias for name in self.names])
+        return self._at(at)[1]
 
 
 class CoordinateFrame(Frame):

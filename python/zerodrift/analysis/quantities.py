@@ -15,6 +15,7 @@ from .state import State, scales, state
 AXES = "xyz"
 # Coordinates or speeds of a joint or motor that its efforts act along
 EFFORTS = {"torque": ("angle", "speed"), "force": ("displacement", "length", "speed")}
+PARTS = ("value", "rate", "bias", "row")
 
 
 class Found(NamedTuple):
@@ -85,6 +86,28 @@ def find(at: State, name: str, what: str) -> Found:
         row = np.eye(system.nv)[[velocities.index(name)]]
         return Found(row @ at.v, np.zeros(1), row, np.zeros(1), True)
     raise ValueError(f"{what} names {name!r}, and nothing in {system.name} is called that; {_check.closest(name, known(system))}")
+
+
+def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarray, p: np.ndarray,
+             v: np.ndarray | None = None) -> dict[str, np.ndarray]:
+    """Values, rates, biases (k, size) and rows (k, size, nv) of quantities, stacked, at states t (k,), p (k, nq), v (k, nv).
+
+    `v` left out: at rest.
+    """
+    watching, v = system._watching, np.zeros((len(t), system.nv)) if v is None else v
+    places = [watching.find(name) for name in names]
+    if any(place is None for place in places):      # coordinates and velocities
+        found = [[find(state(system, float(at_t), at_p, at_v), name, what) for name in names]
+                 for at_t, at_p, at_v in zip(t, p, v, strict=True)]
+        return {key: np.array([np.concatenate([getattr(one, key) for one in of_state]) for of_state in found]) for key in PARTS}
+    core = watching.core
+    rates = core.measure_rates([place.number for place in places], t, np.ascontiguousarray(p), np.ascontiguousarray(v))
+    if all(place.component is None for place in places):
+        return rates
+    ends = np.cumsum([core.measure_size(place.number) for place in places])
+    columns = np.concatenate([np.arange(first, end) if place.component is None else [first + place.component]
+                              for place, first, end in zip(places, [0, *ends[:-1]], ends, strict=True)])
+    return {key: rates[key][:, columns] for key in PARTS}
 
 
 def _coordinate(at: State, i: int) -> Found:

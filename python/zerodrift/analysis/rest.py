@@ -10,13 +10,15 @@ retraction.
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from ..errors import ZerodriftError
 from ..systems.base import BaseSystem
 from . import differences
+from .derivatives import of_residuals_along, residuals_of
+from .quantities import rates_of
 from .retraction import moved, onto, rows_of
 from .state import Scales, scales, state
 from .tangent import Tangent, multipliers
@@ -36,7 +38,7 @@ class Balance:
 
     def __init__(self, system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray], *,
                  is_rough: bool = False) -> None:
-        self._differences, self.zero = (differences.roughly, ROUGHLY_FLAT) if is_rough else (differences.along, FLAT)
+        self._differences, self.zero = (differences.each_roughly, ROUGHLY_FLAT) if is_rough else (differences.each, FLAT)
         self.at, self.names = state(system, t, p, np.zeros(system.nv)), held
         self.held = rows_of(self.at, held)[1]
         self.rows = np.vstack([self.at.C, self.held])
@@ -83,38 +85,36 @@ class Balance:
     @functools.cached_property
     def stiffness(self) -> np.ndarray:
         """K (k, k): the derivative of V^T (d - f + C^T lambda) along V, multipliers frozen."""
-        return self._along(self.V)
+        return self._along(self.V, self._differences)
 
-    def _along(self, directions: np.ndarray) -> np.ndarray:
+    def _along(self, directions: np.ndarray, differentiate: Callable[..., np.ndarray]) -> np.ndarray:
         """The same derivative along displacements (nv, j), (k, j)."""
-        at, lam, scale, columns = self.at, self.multipliers, scales(self.at.system, self.at.p), []
-        for w in directions.T:
-            dp = at.A @ w
-            columns.append(self._differences(lambda h, dp=dp: self._residual(at.p + h * dp, lam),
-                                             float(np.abs(dp / scale.p).max())))
-        return self.V.T @ np.array(columns).reshape(-1, at.system.nv).T
+        at, system, lam, m = self.at, self.at.system, self.multipliers, self.at.system.m
+        dp = (at.A @ directions).T
+
+        def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+            t, p = np.full(len(h), at.t), at.p + h[:, None] * dp[which]
+            r = residuals_of(system, t, p, np.zeros((len(h), system.nv)), at.v, lam[:m])[:, :system.nv]
+            return r + lam[m:] @ rates_of(system, tuple(self.names), "hold", t, p)["row"] if self.names else r
+
+        sizes = np.abs(dp / scales(system, at.p).p).max(axis=1, initial=0.0)
+        return self.V.T @ differentiate(residual, sizes, system.nv).T
 
     def family(self) -> np.ndarray:
         """Displacements (nv, j) along which a balance stays one, beyond what nonholonomic constraints allow."""
         W = self.tangent.displacements
         if not self.at.system.mn or W.shape[1] == self.V.shape[1]:
             return np.zeros((len(W), 0))
-        _, values, vectors = np.linalg.svd(self._along(W))
-        rank = int((values > self.zero * max(values.max(initial=0.0), 1e-300)).sum())
+        _, values, vectors = np.linalg.svd(self._along(W, differences.each_roughly))
+        rank = int((values > ROUGHLY_FLAT * max(values.max(initial=0.0), 1e-300)).sum())
         return W @ vectors[rank:].T
-
-    def _residual(self, p: np.ndarray, lam: np.ndarray) -> np.ndarray:
-        there, m = state(self.at.system, self.at.t, p, self.at.v), self.at.system.m
-        held = rows_of(there, self.names)[1].T @ lam[m:] if self.names else 0.0
-        return there.C.T @ lam[:m] + held - there.force
 
     @functools.cached_property
     def damping(self) -> np.ndarray:
         """D (k, k): the derivative of V^T (d - f) with respect to the velocity along V."""
-        at = self.at
-        columns = [-differences.along(lambda h, w=w: state(at.system, at.t, at.p, h * w).force,
-                                      float(np.abs(w / self.tangent.scale).max())) for w in self.V.T]
-        return self.V.T @ np.array(columns).reshape(-1, at.system.nv).T
+        at, V = self.at, self.V
+        nothing = np.zeros((V.shape[1], at.system.nq))
+        return V.T @ of_residuals_along(at, at.v, np.zeros(at.system.m), nothing, V.T)[:at.system.nv]
 
     @property
     def residual(self) -> float:
@@ -185,13 +185,13 @@ class Search:
 
     def _polished(self, here: Balance) -> Balance:
         """The balance with accurate derivatives, after one more step of Newton's method where that is better."""
-        here = Balance(self.system, self.t, here.at.p, self.held)
         try:
-            there = Balance(self.system, self.t, onto(self.system, self.t, moved(here.at, here.V @ nearest(here)), self.held),
-                            self.held)
+            p = onto(self.system, self.t, moved(here.at, here.V @ nearest(here)), self.held)
+            there = Balance(self.system, self.t, p, self.held)
+            is_better = there.residual < here.residual
         except (ZerodriftError, ArithmeticError):      # also where the system cannot be evaluated
-            return here
-        return there if there.residual < here.residual else here
+            is_better = False
+        return there if is_better else Balance(self.system, self.t, here.at.p, self.held)
 
     def _search(self, here: Balance) -> tuple[Balance, bool]:
         start, self.radius, scale = here.at.p, FIRST_RADIUS, scales(self.system, here.at.p).p

@@ -17,8 +17,9 @@ import functools
 import numpy as np
 
 from ..errors import SingularSystem
+from ..systems.base import core_of
 from . import differences
-from .state import State, scales, state
+from .state import State, scales
 
 DEPENDENT = 1e-9        # of the largest singular value of scaled rows: what counts as dependent; rounding leaves 1e-13
 MASSLESS = 1e-13        # of the largest: mass of a motion that counts as none
@@ -86,13 +87,12 @@ class Tangent:
         at, W = self.at, self.displacements
         if not at.system.m:
             return np.zeros_like(W)
-        columns = [differences.along(lambda h, dp=at.A @ w: _velocity_residual(at, at.p + h * dp), self._size(w)) for w in W.T]
-        Psi_W = np.array(columns).reshape(W.shape[1], at.system.m).T
-        return -self.solve_rows(Psi_W)
+        dp, sizes = (at.A @ W).T, np.abs(W / self.scale[:, None]).max(axis=0, initial=0.0)
 
-    def _size(self, delta: np.ndarray) -> float:
-        """The size of a displacement in characteristic scales."""
-        return float(np.abs(delta / self.scale).max(initial=0.0))
+        def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+            return _velocity_residual(at, at.p + h[:, None] * dp[which])
+
+        return -self.solve_rows(differences.each(residual, sizes, at.system.m).T)
 
     def solve_rows(self, right: np.ndarray) -> np.ndarray:
         """Minimum-norm x, in scaled velocities, with C x = right."""
@@ -117,20 +117,20 @@ class Tangent:
 
 
 def _velocity_residual(at: State, p: np.ndarray) -> np.ndarray:
-    """C v + Phi_t at another position."""
-    there = state(at.system, at.t, p, at.v)
-    return there.C @ at.v + there.Phi_t
+    """C v + Phi_t (k, m) at other positions (k, nq)."""
+    terms = core_of(at.system).evaluate_states(("C", "Phi_t"), np.full(len(p), at.t), p, np.tile(at.v, (len(p), 1)))
+    return terms["C"] @ at.v + terms.get("Phi_t", 0.0)
 
 
 def multipliers(at: State, right: np.ndarray, rows: np.ndarray | None = None) -> np.ndarray:
-    """Multipliers with C^T lambda = right in the least-squares sense, of minimum ``sum(lambda**2 * s**2)``, s**2 = diag(C
-    inv(M) C^T).
+    """Multipliers with C^T lambda = right, (nv,) or (nv, k), in the least-squares sense.
 
+    They have the minimum ``sum(lambda**2 * s**2)``, s**2 = diag(C inv(M) C^T).
     `rows` are those of C, and of whatever else acts; where M is singular, s is the length of the row in characteristic scales.
     """
     rows = at.C if rows is None else rows
     if not len(rows):
-        return np.zeros(0)
+        return np.zeros((0, *right.shape[1:]))
     scale = scales(at.system, at.p).v
     try:
         size = np.sqrt(np.maximum((rows * np.linalg.solve(at.M, rows.T).T).sum(axis=1), 0.0))
@@ -138,4 +138,4 @@ def multipliers(at: State, right: np.ndarray, rows: np.ndarray | None = None) ->
         size = np.linalg.norm(rows * scale, axis=1)
     size = np.maximum(size, max(DEPENDENT * size.max(initial=0.0), 1e-300))
     scaled = (rows / size[:, None] * scale).T
-    return np.linalg.lstsq(scaled, scale * right, rcond=DEPENDENT)[0] / size
+    return (np.linalg.lstsq(scaled, (scale * right.T).T, rcond=DEPENDENT)[0].T / size).T
