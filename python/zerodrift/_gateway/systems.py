@@ -186,7 +186,7 @@ class CoreSystem(Measuring):
         return {name: self.stored(name) for name, term in TERMS.items() if self.provides & term.bit}
 
     def evaluate_states(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Those of some terms that the system has, at many states t (k,), p (k, nq), v (k, nv), with matrices that are dense.
+        """Terms of these names that the system has, at many states t (k,), p (k, nq), v (k, nv), with matrices that are dense.
 
         Rows of A for coordinates that follow others are zero.
         """
@@ -195,7 +195,7 @@ class CoreSystem(Measuring):
                 else array.reshape(k, *self.layout[name]) for name, array in arrays.items()}
 
     def _evaluated(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """What is stored of terms at all states, one behind the other."""
+        """Stored terms of these names at all states, one behind the other."""
         core, terms, k = self.for_run(), ffi.new("zd_terms *"), len(t)
         sizes = [k * math.prod(self.layout[name]) for name in names]
         memory = np.zeros(sum(sizes))

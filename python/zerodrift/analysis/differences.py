@@ -15,6 +15,7 @@ import numpy as np
 POINTS = np.array([1.0, 2.0, 3.0, 4.0])     # k
 EIGHTH = np.array([4 / 5, -1 / 5, 4 / 105, -1 / 280])      # weights of f(k h) - f(-k h), k = 1 ... 4, over h
 SIXTH = np.array([3 / 4, -3 / 20, 1 / 60, 0.0])
+WEIGHTS = np.array([EIGHTH, SIXTH])
 FOURTH = np.array([2 / 3, -1 / 12, 0.0, 0.0])
 STEPS = (2e-2, 2e-3, 5e-4)      # in characteristic scales
 ROUGH_STEP = 1e-4
@@ -58,13 +59,12 @@ def each_with_error(function: Function, sizes: np.ndarray, width: int) -> tuple[
         distances = h[:, None] * np.concatenate([POINTS, -POINTS])
         values = np.asarray(function(np.repeat(left, distances.shape[1]), distances.ravel()), dtype=float)
         ahead, back = np.split(values.reshape(*distances.shape, width), 2, axis=1)
-        derivative, lower, short = (np.einsum("kin,i->kn", ahead - back, weights) / h[:, None]
-                                    for weights in (EIGHTH, SIXTH, FOURTH))
+        derivative, lower = np.tensordot(WEIGHTS, ahead - back, (1, 1)) / h[:, None]
         found = np.abs(derivative - lower).max(axis=1, initial=0.0)
         is_better = found < error[left]
         best[left[is_better]], error[left[is_better]] = derivative[is_better], found[is_better]
-        if step == STEPS[-1]:       # not a number at all steps
-            best[left[np.isinf(error[left])]] = short[np.isinf(error[left])]
+        if step == STEPS[-1] and np.isinf(error[left]).any():       # not a number at all steps
+            best[np.isinf(error)] = (np.tensordot(FOURTH, ahead - back, (0, 1)) / h[:, None])[np.isinf(error[left])]
         left = left[~(found <= AGREE * np.abs(derivative).max(axis=1, initial=1e-300))]
     return best, error
 

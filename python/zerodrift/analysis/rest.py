@@ -17,10 +17,10 @@ import numpy as np
 from ..errors import ZerodriftError
 from ..systems.base import BaseSystem
 from . import differences
-from .derivatives import of_residuals_along, residuals_of
+from .derivatives import residuals_of, sizes_of
 from .quantities import rates_of
 from .retraction import moved, onto, rows_of
-from .state import Scales, scales, state
+from .state import scales, state
 from .tangent import Tangent, multipliers
 
 ITERATIONS = 300
@@ -30,6 +30,7 @@ ROUGHLY_FLAT = 1e-6     # with the derivatives of an iteration, which are right 
 FLAT = 1e-9         # relative to the largest stiffness: a smaller one is rounding; differences have errors of 1e-12
 BALANCED = 1e-12    # relative to the sum of magnitudes of the forces: a smaller resultant is rounding
 UPHILL, WANDERING = 1.2, 20     # towards any balance the residual may grow that much in a step, in so many first steps
+SHORT_STEP = 1e-6   # characteristic scales: the step after it, with accurate derivatives, leaves rounding
 DISTANT = 1e3       # characteristic lengths: a mechanism that went so far falls
 
 
@@ -38,7 +39,7 @@ class Balance:
 
     def __init__(self, system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray], *,
                  is_rough: bool = False) -> None:
-        self._differences, self.zero = (differences.each_roughly, ROUGHLY_FLAT) if is_rough else (differences.each, FLAT)
+        self.is_rough, self.zero = is_rough, ROUGHLY_FLAT if is_rough else FLAT
         self.at, self.names = state(system, t, p, np.zeros(system.nv)), held
         self.held = rows_of(self.at, held)[1]
         self.rows = np.vstack([self.at.C, self.held])
@@ -58,7 +59,7 @@ class Balance:
     def rounding(self) -> float:
         """The size of the force that counts as zero: from its terms, and from the rounding of positions times the stiffness."""
         terms = np.abs(self.V.T) @ (np.abs(self.at.force) + np.abs(self.rows.T) @ np.abs(self.multipliers))
-        unit = max((self.size(z) for z in np.eye(self.V.shape[1])), default=1.0)
+        unit = float(np.abs(self.reach).max(initial=0.0)) or 1.0
         return BALANCED * float(np.linalg.norm(terms) + np.abs(self.stiffness).max(initial=0.0) / max(unit, 1e-300))
 
     @functools.cached_property
@@ -82,49 +83,60 @@ class Balance:
         """Multipliers of the constraints and of what is held, (m + held,)."""
         return multipliers(self.at, self.at.force, self.rows)
 
-    @functools.cached_property
+    @property
     def stiffness(self) -> np.ndarray:
         """K (k, k): the derivative of V^T (d - f + C^T lambda) along V, multipliers frozen."""
-        return self._along(self.V, self._differences)
+        return self._both[0]
 
-    def _along(self, directions: np.ndarray, differentiate: Callable[..., np.ndarray]) -> np.ndarray:
-        """The same derivative along displacements (nv, j), (k, j)."""
+    @property
+    def damping(self) -> np.ndarray:
+        """D (k, k): the derivative of V^T (d - f) with respect to the velocity along V; without rough derivatives only."""
+        return self._both[1]
+
+    @functools.cached_property
+    def _both(self) -> tuple[np.ndarray, np.ndarray]:
+        V = self.V
+        if self.is_rough:
+            return self._along(V, np.zeros((len(V), 0)), differences.each_roughly), np.zeros((0, 0))
+        K, D = np.split(self._along(V, V, differences.each), 2, axis=1)
+        return K, D
+
+    def _along(self, displacements: np.ndarray, velocities: np.ndarray, differentiate: Callable[..., np.ndarray]) -> np.ndarray:
+        """The same derivatives along displacements (nv, i) and velocities (nv, j), (k, i + j)."""
         at, system, lam, m = self.at, self.at.system, self.multipliers, self.at.system.m
-        dp = (at.A @ directions).T
+        i, j = displacements.shape[1], velocities.shape[1]
+        dp = np.vstack([(at.A @ displacements).T, np.zeros((j, system.nq))])
+        dv = np.vstack([np.zeros((i, system.nv)), velocities.T])
 
         def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
             t, p = np.full(len(h), at.t), at.p + h[:, None] * dp[which]
-            r = residuals_of(system, t, p, np.zeros((len(h), system.nv)), at.v, lam[:m])[:, :system.nv]
+            r = residuals_of(system, t, p, h[:, None] * dv[which], at.v, lam[:m])[:, :system.nv]
             return r + lam[m:] @ rates_of(system, tuple(self.names), "hold", t, p)["row"] if self.names else r
 
-        sizes = np.abs(dp / scales(system, at.p).p).max(axis=1, initial=0.0)
-        return self.V.T @ differentiate(residual, sizes, system.nv).T
+        return self.V.T @ differentiate(residual, sizes_of(at, dp, dv), system.nv).T
 
     def family(self) -> np.ndarray:
         """Displacements (nv, j) along which a balance stays one, beyond what nonholonomic constraints allow."""
         W = self.tangent.displacements
         if not self.at.system.mn or W.shape[1] == self.V.shape[1]:
             return np.zeros((len(W), 0))
-        _, values, vectors = np.linalg.svd(self._along(W, differences.each_roughly))
+        _, values, vectors = np.linalg.svd(self._along(W, W[:, :0], differences.each_roughly))
         rank = int((values > ROUGHLY_FLAT * max(values.max(initial=0.0), 1e-300)).sum())
         return W @ vectors[rank:].T
-
-    @functools.cached_property
-    def damping(self) -> np.ndarray:
-        """D (k, k): the derivative of V^T (d - f) with respect to the velocity along V."""
-        at, V = self.at, self.V
-        nothing = np.zeros((V.shape[1], at.system.nq))
-        return V.T @ of_residuals_along(at, at.v, np.zeros(at.system.m), nothing, V.T)[:at.system.nv]
 
     @property
     def residual(self) -> float:
         """Norm of the force in the mass metric."""
         return float(np.linalg.norm(self.force))
 
+    @functools.cached_property
+    def reach(self) -> np.ndarray:
+        """Changes (nq, k) of the coordinates along the basis, in characteristic scales."""
+        return self.at.A @ self.V / scales(self.at.system, self.at.p).p[:, None]
+
     def size(self, z: np.ndarray) -> float:
         """Largest change of a coordinate by a step, in characteristic scales."""
-        scale: Scales = scales(self.at.system, self.at.p)
-        return float(np.abs(self.at.A @ (self.V @ z) / scale.p).max(initial=0.0))
+        return float(np.abs(self.reach @ z).max(initial=0.0))
 
     def is_stationary(self) -> bool:
         """True if the projected force is zero to rounding."""
@@ -177,11 +189,17 @@ class Search:
     def run(self, p: np.ndarray) -> tuple[Balance, bool]:
         """The last balance from a position on, and whether it is an equilibrium."""
         self._last = Balance(self.system, self.t, p, self.held, is_rough=True)
-        try:
-            here, is_found = self._search(self._last)
-        except (ZerodriftError, ArithmeticError):       # the system cannot be evaluated around the last position
-            return self._last, False
-        return (self._polished(here) if is_found else here), is_found
+        for short in (SHORT_STEP, 0.0):
+            try:
+                here, is_found = self._search(self._last, short)
+            except (ZerodriftError, ArithmeticError):       # the system cannot be evaluated around the last position
+                return self._last, False
+            if not is_found:
+                return here, False
+            found = self._polished(here)
+            if found.residual <= 10 * found.rounding:
+                break
+        return found, found.residual <= 10 * found.rounding
 
     def _polished(self, here: Balance) -> Balance:
         """The balance with accurate derivatives, after one more step of Newton's method where that is better."""
@@ -193,12 +211,16 @@ class Search:
             is_better = False
         return there if is_better else Balance(self.system, self.t, here.at.p, self.held)
 
-    def _search(self, here: Balance) -> tuple[Balance, bool]:
+    def _search(self, here: Balance, short: float) -> tuple[Balance, bool]:
+        """The balance with which iterations end, and whether an accurate step from there leads to an equilibrium."""
         start, self.radius, scale = here.at.p, FIRST_RADIUS, scales(self.system, here.at.p).p
         for _ in range(ITERATIONS):
             z = (downhill if self.is_downhill else nearest)(here)
-            if here.size(z) < 1e-13 or self._is_done(here, z):
+            size = here.size(z)
+            if size < 1e-13 or self._is_done(here):
                 return here, here.residual <= 10 * here.rounding
+            if size < short and (here.is_stable or not self.is_downhill) and not _is_pushed(here, z):
+                return here, True
             there = self._step(here, z)
             if there is None or np.abs((there.at.p - start) / scale).max() > DISTANT:
                 return here, here.residual <= 10 * here.rounding
@@ -206,7 +228,7 @@ class Search:
             self.iterations += 1
         return here, False
 
-    def _is_done(self, here: Balance, z: np.ndarray) -> bool:
+    def _is_done(self, here: Balance) -> bool:
         """The balance holds to rounding; at a saddle the search for a stable position goes on."""
         return here.is_stationary() and (here.is_stable or not self.is_downhill)
 

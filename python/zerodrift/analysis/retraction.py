@@ -18,6 +18,8 @@ ITERATIONS = 30
 SHORT = 1e-3            # of the longest row: residuals of shorter ones are compared with that
 CONVERGED = 1e-13       # of the characteristic scales: the last step of Newton's method
 SMALLEST_PART = 1e-4    # of the way to a position that is led to
+WELL_INDEPENDENT = 1e3  # largest entry of the inverse of the Cholesky factor of unit rows: errors are 1e-10 of a step
+QUADRATIC = 1e-5        # characteristic scales: steps that converge quadratically
 STAGNATED = 1e-9        # a last step of this size counts where the next ones are not smaller
 
 
@@ -59,35 +61,54 @@ def onto(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndar
         If it does not converge.
     """
     held, p = held or {}, consistent(system, p)
-    scale, rest = scales(system, p), np.zeros(system.nv)
+    scale = scales(system, p)
     target = np.concatenate([np.ravel(each) for each in held.values()]) if held else np.zeros(0)
     last = np.inf
     for _ in range(ITERATIONS):
-        at = state(system, t, p, rest)
-        value, rows = rows_of(at, held)
-        residual, rows = np.concatenate([at.Phi, value - target]), np.vstack([at.holonomic, rows])
+        A, residual, rows = _position_terms(system, t, p, held, target)
         if not residual.size:
             return p
-        step, off = _least_step(rows, residual, scale.v)
-        size = float(np.abs(at.A @ step / scale.p).max())
+        step, off, is_independent = _least_step(rows, residual, scale.v)
+        change = A @ step
+        size = float(np.abs(change / scale.p).max())
         contradict = size < STAGNATED and off > 1e3 * max(size, CONVERGED)     # rows that are met as nearly as can be
         if contradict or not np.isfinite(size) or size > 1e3:
             break
-        p = moved(at, step)
+        p = consistent(system, p + change)
         if size < CONVERGED or (size < STAGNATED and size > last / 4):
+            return p
+        if is_independent and size < QUADRATIC and size**3 < CONVERGED * last**2 / 10:     # as large as the next step would be
             return p
         last = size
     raise CorrectionFailed(f"no position satisfies the constraints{' and ' + ', '.join(held) if held else ''} near the guess: "
                            f"the last step was {last:.3g} of the size")
 
 
-def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, float]:
-    """Minimum-norm solution of rows x = -residual in scaled velocities, and the largest residual in these units."""
+def _position_terms(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray],
+                    target: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A (nq, nv), violations (mh + held,) and their rows (mh + held, nv)."""
+    at = state(system, t, p, np.zeros(system.nv))
+    if not held:
+        return at.A, at.Phi, at.holonomic
+    value, rows = rows_of(at, held)
+    return at.A, np.concatenate([at.Phi, value - target]), np.vstack([at.holonomic, rows])
+
+
+def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, float, bool]:
+    """Minimum-norm solution of rows x = -residual in scaled velocities, the largest residual in these units, and independence."""
     rows = rows * scale
     length = np.linalg.norm(rows, axis=1)
-    length = np.maximum(length, max(DEPENDENT * length.max(initial=0.0), 1e-300))
-    off = np.abs(residual) / np.maximum(length, SHORT * max(length.max(initial=0.0), 1e-300))
-    return scale * np.linalg.lstsq(rows / length[:, None], -residual / length, rcond=DEPENDENT)[0], float(off.max())
+    longest = length.max(initial=0.0)
+    length = np.maximum(length, max(DEPENDENT * longest, 1e-300))
+    off = np.abs(residual) / np.maximum(length, max(SHORT * longest, 1e-300))
+    unit, right = rows / length[:, None], -residual / length
+    try:
+        inverse = np.linalg.inv(np.linalg.cholesky(unit @ unit.T))
+        if np.abs(inverse).max(initial=0.0) < WELL_INDEPENDENT:
+            return scale * (unit.T @ (inverse.T @ (inverse @ right))), float(off.max()), True
+    except np.linalg.LinAlgError:
+        pass
+    return scale * np.linalg.lstsq(unit, right, rcond=DEPENDENT)[0], float(off.max()), False
 
 
 def near_to(system: BaseSystem, near: Any, t: float) -> np.ndarray:

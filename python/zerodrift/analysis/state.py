@@ -61,25 +61,23 @@ class Scales(NamedTuple):
     v: np.ndarray
 
 
-_known: weakref.WeakKeyDictionary[BaseSystem, tuple[np.ndarray, np.ndarray]] = weakref.WeakKeyDictionary()
-
-
-def _lengths(system: BaseSystem) -> tuple[np.ndarray, np.ndarray]:
-    """Entries of p (nq,) and of v (nv,) that are lengths or their rates."""
-    if system not in _known:
-        groups = (system.coordinates, system.velocities)
-        _known[system] = tuple(np.array([is_length(each) for each in group], dtype=bool) for group in groups)
-    return _known[system]
+_known: weakref.WeakKeyDictionary[BaseSystem, Scales] = weakref.WeakKeyDictionary()
 
 
 def scales(system: BaseSystem, p: np.ndarray) -> Scales:
     """Characteristic scales of a system near a position."""
-    of_p, of_v = _lengths(system)
-    length = core_of(system).c.length
-    if not length:
-        start = p if system.p0 is None else np.asarray(system.p0)
-        length = float(np.abs(start[of_p]).max(initial=0.0)) or 1.0
-    return Scales(length, np.where(of_p, length, 1.0), np.where(of_v, length, 1.0))
+    found = _known.get(system)
+    if found is None:
+        groups = (system.coordinates, system.velocities)
+        of_p, of_v = (np.array([is_length(each) for each in group], dtype=bool) for group in groups)
+        length = core_of(system).c.length
+        if not length:
+            start = p if system.p0 is None else np.asarray(system.p0)
+            length = float(np.abs(start[of_p]).max(initial=0.0)) or 1.0
+        found = Scales(length, np.where(of_p, length, 1.0), np.where(of_v, length, 1.0))
+        if core_of(system).c.length or system.p0 is not None:
+            _known[system] = found
+    return found
 
 
 def arguments(given: Any, p: Any, v: Any, t: Any) -> tuple[BaseSystem, float, np.ndarray, np.ndarray]:
