@@ -7,6 +7,8 @@ from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 from ._swing import swing
 
+HANDLEBAR, BEHIND = 0.28, 0.1       # m: half its width; of the wheelbase: how far behind the steering axis it is drawn
+
 
 @checked
 def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, inertia: float = 10.0, fork_mass: float = 5.0,
@@ -60,6 +62,8 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
     m.knife_edge("rear", rear, along=(1, 0))
     m.knife_edge("front", front, along=(1, 0))
     m.torsion_spring("arms", "head", stiffness=stiffness, damping=damping)
+    for side, y in (("left", HANDLEBAR), ("right", -HANDLEBAR)):
+        m.point(f"{side} grip", fork, (-BEHIND * wheelbase, y))
     m.motor("slalom", "head", torque=stiffness * swing(amplitude, frequency))
     if thrust:
         m.force("thrust", rear, along=(1, 0), value=thrust, frame=frame)

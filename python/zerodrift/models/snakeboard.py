@@ -59,10 +59,14 @@ def snakeboard(*, mass: float = 6.0, inertia: float = 0.016, rotor_inertia: floa
     board = m.body("board", mass, inertia)
     rotor = m.body("rotor", 0.0, rotor_inertia)
     m.revolute("rotor axle", board, rotor, at=(0, 0))
+    for side, y in (("left", 1), ("right", -1)):
+        m.point(f"{side} arm", rotor, (-0.2 * y * half, 0.6 * y * half))
     m.motor("rotor drive", "rotor axle", angle=swing(rotor_swing, rotor_rate))
     for name, x, way in (("front", half, 1), ("back", -half, -1)):
         axle = m.body(name, 0.0, wheel_inertia, at=(x, 0))
         m.revolute(f"{name} axle", board, axle, at=(x, 0))
         m.knife_edge(f"{name} blade", axle, along=(1, 0))
+        for side, y in (("left", 1), ("right", -1)):
+            m.point(f"{name} {side} wheel", axle, (0, 0.4 * y * half))
         m.motor(f"{name} drive", f"{name} axle", angle=swing(way * wheel_swing, wheel_rate))
     return m

@@ -156,7 +156,7 @@ def rod(shape: Shape, size: float) -> list[Mark]:
 def blade(shape: Shape, size: float) -> list[Mark]:
     """A blade, or a wheel from above, at a place along a direction."""
     place, axis = shape.points
-    return [area(rounded(np.array([place - 3.2 * size * axis, place + 3.2 * size * axis]), 0.7 * size), face=DARK, width=0.6)]
+    return [area(rounded(np.array([place - 4.5 * size * axis, place + 4.5 * size * axis]), 0.8 * size), face=DARK, width=0.6)]
 
 
 def wheel(shape: Shape, size: float) -> list[Mark]:
