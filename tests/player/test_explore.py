@@ -43,13 +43,17 @@ def test_lengths_are_arguments_of_a_function_and_what_cannot_be_built_says_why()
 
 def test_sliders_move_the_film(crank):
     pytest.importorskip("ipywidgets")
-    slider, picture = crank.widget().children
+    slider, picture, behind = crank.widget().children
     before = picture.value
+    assert (picture.layout.display, behind.layout.display) == (None, "none")
     assert (slider.min, slider.max, slider.value) == (0.5, 5.0, 1.0)
     slider.value = 3.0
     assert crank.values == {"spring.stiffness": 3.0}
-    assert picture.value != before
-    assert 'sandbox="allow-scripts"' in picture.value
+    assert picture.value == before      # it stays behind the new one, which asks it for its time
+    assert behind.value != before
+    assert (picture.layout.display, behind.layout.display) == ("none", None)
+    assert 'sandbox="allow-scripts"' in behind.value
+    assert crank.group in behind.value
 
 
 @pytest.mark.parametrize(("parameters", "error", "words"), [

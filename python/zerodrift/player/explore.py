@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import inspect
+import secrets
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -11,7 +12,8 @@ from .. import _check
 from ..errors import ZerodriftError
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
-from .view import View, view
+from .scene import Wanted
+from .view import View
 
 STEPS = 100         # of a slider
 SHOWN = ("forces", "path", "graphs", "names", "speed")      # arguments of `view`; all others are those of `simulate`
@@ -30,6 +32,8 @@ class Exploration:
         Its film.
     message : str
         The reason for which there is no motion; empty if there is one.
+    group : str
+        Name by which its films find each other: a new one goes on at the time of the one before, as seen from the same side.
     """
 
     def __init__(self, made: Callable[[dict[str, float]], Any], t_span: Any, ranges: Mapping[str, tuple[float, float]],
@@ -40,6 +44,7 @@ class Exploration:
         self.solution: Solution | None = None
         self.film: View | None = None
         self.message = ""
+        self.group = secrets.token_hex(8)
         self._run()
 
     def set(self, values: Mapping[str, float] | None = None, /, **named: float) -> Exploration:
@@ -78,10 +83,12 @@ class Exploration:
         except (ZerodriftError, ValueError) as error:
             self.message = str(error)
             return
-        self.film = view(self.solution, **self._shown)
+        self.film = View([self.solution], [self.solution.system.name], Wanted(**self._shown, group=self.group))
 
     def widget(self) -> Any:
         """Sliders above the film, as a widget of ipywidgets.
+
+        A new film is laid behind the present one, which it asks for its time, and takes its place.
 
         Raises
         ------
@@ -92,7 +99,7 @@ class Exploration:
             import ipywidgets
         except ImportError:
             raise ImportError("sliders need ipywidgets, which is not installed: pip install 'zerodrift[notebook]'") from None
-        picture = ipywidgets.HTML(self._picture())
+        pictures = [ipywidgets.HTML(self._picture()), ipywidgets.HTML(layout={"display": "none"})]
         sliders = [ipywidgets.FloatSlider(value=self.values[name], min=low, max=high, step=(high - low) / STEPS, description=name,
                                           readout_format=".4g", continuous_update=True, style={"description_width": "12em"},
                                           layout={"width": "34em", "max_width": "100%"})
@@ -100,11 +107,13 @@ class Exploration:
 
         def moved(change: Any) -> None:
             self.set({change["owner"].description: change["new"]})
-            picture.value = self._picture()
+            pictures.reverse()
+            pictures[0].value = self._picture()
+            pictures[0].layout.display, pictures[1].layout.display = None, "none"
 
         for slider in sliders:
             slider.observe(moved, names="value")
-        return ipywidgets.VBox([*sliders, picture])
+        return ipywidgets.VBox([*sliders, *pictures])
 
     def _picture(self) -> str:
         """The film, or the reason for which there is none."""

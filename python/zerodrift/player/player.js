@@ -9,17 +9,32 @@ let zoom = 1, turn = -0.9, tilt = 0.42, shift = [0, 0];
 /* ---- numbers ---- */
 
 const bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer;
-for (const layer of film.layers) layer.table = new Uint16Array(bytes(layer.points));
+const levels = (each, text) => Array.from(new Uint16Array(bytes(text)), x => each.least + each.size * x / 65535);
+for (const layer of film.layers) {
+  layer.table = new Uint16Array(bytes(layer.points));
+  layer.paths = layer.paths.map(path => {
+    const d = film.dimension, table = new Uint16Array(bytes(path.points));
+    return Array.from({length: table.length / d}, (_, i) => path.low.map((x, k) => x + path.size[k] * table[i * d + k] / 65535));
+  });
+  for (const load of layer.loads) load.values = levels(load, load.values);
+}
 for (const line of [...film.graphs, ...film.trust]) line.values = new Float32Array(bytes(line.values));
 
-const place = (layer, number) => {        // of a point, on the straight line between two samples
-  if (number < 0) return layer.fixed[-1 - number];
-  const i = Math.min(Math.floor(now), last), share = now - i, d = film.dimension, to = [];
-  for (let k = 0; k < d; k++) {
-    const a = layer.table[(i * layer.moving + number) * d + k], b = layer.table[(Math.min(i + 1, last) * layer.moving + number) * d + k];
-    to.push(film.box[0][k] + (film.box[1][k] - film.box[0][k]) * (a + (b - a) * share) / 65535);
+const place = (layer, number) => number < 0 ? layer.fixed[-1 - number] : layer.at[number];
+const locate = layer => {       // points on straight lines between two samples, then those that bodies carry
+  const i = Math.min(Math.floor(now), last), share = now - i, d = film.dimension, from = i * layer.moving * d, to = Math.min(i + 1, last) * layer.moving * d;
+  const low = film.box[0], step = film.box[1].map((x, k) => (x - low[k]) / 65535), table = layer.table;
+  layer.at = Array.from({length: layer.moving}, (_, n) => {
+    const found = new Array(d);
+    for (let k = 0; k < d; k++) found[k] = low[k] + step[k] * (table[from + n * d + k] * (1 - share) + table[to + n * d + k] * share);
+    return found;
+  });
+  for (const [base, own] of layer.carried) {
+    const [a, b, c] = base.map(n => place(layer, n)), along = sub(b, a);
+    if (!space) { layer.at.push([a[0] + own[0] * along[0] - own[1] * along[1], a[1] + own[0] * along[1] + own[1] * along[0]]); continue; }
+    const aside = sub(c, a), normal = cross(along, aside), far = length(along) || 1;
+    layer.at.push(a.map((x, k) => x + own[0] * along[k] + own[1] * aside[k] + own[2] * normal[k] / far));
   }
-  return to;
 };
 const sub = (a, b) => a.map((x, i) => x - b[i]), add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]);
 const length = a => Math.hypot(...a), unit = a => { const l = length(a) || 1; return a.map(x => x / l); };
@@ -34,7 +49,7 @@ const make = (tag, parent, attributes = {}) => {
   return parent.appendChild(element);
 };
 const stage = make("div", document.body, {class: "stage"});
-const canvas = make("canvas", stage, {role: "img", tabindex: "0", "aria-label": "Film of " + film.name + (space ? "; drag turns, arrow keys step" : "; arrow keys step")});
+const canvas = make("canvas", stage, {role: "img", tabindex: "0", "aria-label": "Film of " + film.name + "; arrow keys step, n chooses the next part" + (space ? ", Shift with arrow keys turns" : "")});
 const units = [...new Set(film.graphs.map(line => line.unit))];
 const panels = units.length ? make("div", stage, {class: "graphs"}) : null;
 const graphs = units.map(unitOf => ({unit: unitOf, lines: film.graphs.filter(line => line.unit === unitOf),
@@ -64,7 +79,8 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", readColour
 /* ---- view ---- */
 
 let pen, scale, middle, width, height;
-const centre = film.low.map((x, i) => (x + film.high[i]) / 2), extent = sub(film.high, film.low), reach = length(extent) || 1;
+let centre = film.low.map((x, i) => (x + film.high[i]) / 2);
+const extent = film.follow ? film.low.map(() => film.follow) : sub(film.high, film.low), reach = length(extent) || 1;
 const fit = (element, context) => {
   const ratio = devicePixelRatio || 1, box = element.getBoundingClientRect();
   if (element.width !== Math.round(box.width * ratio) || element.height !== Math.round(box.height * ratio)) {
@@ -81,83 +97,102 @@ const project = at => {         // (x, y, depth, scale there) on the screen
   const seen = scale * 3 * reach / (3 * reach + depth);
   return [middle[0] + right * seen, middle[1] - up * seen, depth, seen];
 };
+const seenFirst = space ? (() => {       // width and height of the box around all motion, in metres of the screen, as the film begins
+  [scale, middle] = [1, [0, 0]];
+  const corners = Array.from({length: 8}, (_, i) => project(centre.map((x, k) => x + (i >> k & 1 ? 0.5 : -0.5) * extent[k])));
+  return [0, 1].map(k => Math.max(0.3 * reach, 2 * Math.max(...corners.map(at => Math.abs(at[k])))));
+})() : null;
 const begin = () => {
   pen = canvas.getContext("2d");
   [width, height] = fit(canvas, pen);
   const margin = space ? 30 : 34;
-  scale = zoom * (space ? 1.2 * Math.min(width, height) / reach
+  scale = zoom * (space ? Math.min((width - 2 * margin) / seenFirst[0], (height - 2 * margin) / seenFirst[1])
     : Math.min((width - 2 * margin) / Math.max(extent[0], 0.2 * reach), (height - 2 * margin) / Math.max(extent[1], 0.2 * reach)));
   middle = [width / 2 + shift[0], height / 2 + shift[1]];
   pen.clearRect(0, 0, width, height);
   pen.lineCap = pen.lineJoin = "round";
 };
 
-/* ---- marks: lists of [depth, function that draws], in the picture's units ---- */
+/* ---- marks: the path of each, and how paths of one style are painted; among many those of one style are painted together ---- */
 
 let marks = [], spots = [];
-const put = (points, how) => {
-  const seen = points.map(project), depth = space ? seen.reduce((sum, p) => sum + p[2], 0) / seen.length : 0;
-  marks.push([depth, marks.length, () => how(seen)]);
+const MANY = 600, SLICES = 48;      // marks, and slices of depth within which they may change places
+const put = (points, style, add, paint) => {
+  const seen = points.map(project);
+  marks.push({depth: space ? seen.reduce((sum, p) => sum + p[2], 0) / seen.length : 0, order: marks.length, style, seen, add, paint});
+};
+const paintAll = () => {
+  const many = marks.length > MANY;
+  if (space) {
+    const slice = many ? 2 * reach / SLICES : 0;
+    for (const each of marks) if (slice) each.depth = Math.round(each.depth / slice);
+    marks.sort((a, b) => b.depth - a.depth || (many && a.style !== b.style ? a.style < b.style ? -1 : 1 : a.order - b.order));
+  }
+  for (let i = 0; i < marks.length;) {
+    let next = i + 1;
+    if (many && marks[i].style) while (next < marks.length && marks[next].style === marks[i].style) next++;
+    const run = marks.slice(i, next);
+    pen.beginPath();
+    for (const each of run) each.add(each.seen);
+    run[0].paint(run, many);
+    i = next;
+  }
 };
 const trace = (seen, closed) => {
-  pen.beginPath();
   seen.forEach((p, i) => i ? pen.lineTo(p[0], p[1]) : pen.moveTo(p[0], p[1]));
   if (closed) pen.closePath();
 };
-const line = (points, tone, wide, dash = []) => put(points, seen => {
-  trace(seen);
+const stroke = (tone, wide) => { pen.strokeStyle = tone; pen.lineWidth = wide; pen.stroke(); };
+const fill = tone => { pen.fillStyle = tone; pen.fill(); };
+const line = (points, tone, wide, dash = []) => put(points, "line" + tone + wide + dash, seen => trace(seen), () => {
   pen.setLineDash(dash);
-  pen.strokeStyle = tone;
-  pen.lineWidth = wide;
-  pen.stroke();
+  stroke(tone, wide);
   pen.setLineDash([]);
 });
-const area = (points, face, edge, wide = 1.2) => put(points, seen => {
-  trace(seen, true);
-  if (face) { pen.fillStyle = face; pen.fill(); }
-  if (edge) { pen.strokeStyle = edge; pen.lineWidth = wide; pen.stroke(); }
+const area = (points, face, edge, wide = 1.2) => put(points, "", seen => trace(seen, true), () => {
+  if (face) fill(face);
+  if (edge) stroke(edge, wide);
 });
-const dot = (at, radius, face, edge, wide = 1.4) => put([at], ([p]) => {
-  pen.beginPath();
-  pen.arc(p[0], p[1], Math.max(radius * p[3], 1.8), 0, 2 * Math.PI);
-  if (face) { pen.fillStyle = face; pen.fill(); }
-  if (edge) { pen.strokeStyle = edge; pen.lineWidth = wide; pen.stroke(); }
-  const round = radius * p[3];
-  if (!space || !face || round < 4) return;       // a sphere
+const dot = (at, radius, face, edge, wide = 1.4) => put([at], "dot" + face + edge + wide, ([p]) => {
+  const round = Math.max(radius * p[3], 1.8);
+  pen.moveTo(p[0] + round, p[1]);
+  pen.arc(p[0], p[1], round, 0, 2 * Math.PI);
+}, (run, many) => {
+  if (face) fill(face);
+  if (edge) stroke(edge, wide);
+  const p = run[0].seen[0], round = radius * p[3];
+  if (!space || many || !face || round < 4) return;       // a sphere
   const shine = pen.createRadialGradient(p[0] - 0.35 * round, p[1] - 0.4 * round, 0, p[0], p[1], round);
   shine.addColorStop(0, "#fff9");
   shine.addColorStop(1, "#fff0");
-  pen.fillStyle = shine;
-  pen.fill();
+  fill(shine);
 });
 const bar = (points, wide, tone, edge) => {      // a rod with round ends and an outline; long ones in parts, so that depths are right
   const parts = space ? Math.max(1, Math.min(8, Math.ceil(length(sub(points[1], points[0])) / (0.15 * reach)))) : 1;
   for (let i = 0; i < parts; i++) {
-    const ends = space ? [i / parts, (i + 1) / parts].map(s => add(points[0], sub(points[1], points[0]), s)) : points;
-    put(ends, seen => {
-      const broad = Math.max(wide * seen[0][3], 2);
-      const shine = space && broad > 5 ? 0.22 * broad : 0;       // of a round rod, lit from above
-      for (const [more, colourOf, up] of [[2, edge, 0], [0, tone, 0], ...(shine ? [[-0.7 * broad, "#fff6", shine]] : [])]) {
-        pen.lineCap = space && more ? "butt" : "round";
-        trace(up ? seen.map(([x, y]) => [x, y - up]) : seen);
-        pen.strokeStyle = colourOf;
-        pen.lineWidth = broad + more;
-        pen.stroke();
-      }
+    const ends = parts > 1 ? [i / parts, (i + 1) / parts].map(s => add(points[0], sub(points[1], points[0]), s)) : points;
+    const broad = Math.max(Math.round(2 * wide * (space ? project(ends[0])[3] : scale)) / 2, 2);
+    put(ends, "bar" + broad + tone + edge, seen => trace(seen), (run, many) => {
+      pen.lineCap = space ? "butt" : "round";
+      stroke(edge, broad + 2);
       pen.lineCap = "round";
+      stroke(tone, broad);
+      if (!space || many || broad <= 5) return;
+      pen.beginPath();
+      trace(run[0].seen.map(([x, y]) => [x, y - 0.22 * broad]));       // a round rod, lit from above
+      stroke("#fff6", 0.3 * broad);
     });
   }
 };
-const arrow = (from, to, tone, wide = 2.2) => put([from, to], ([a, b]) => {
+const arrow = (from, to, tone, wide = 2.2) => put([from, to], "", () => 0, ([{seen: [a, b]}]) => {
   const far = Math.hypot(b[0] - a[0], b[1] - a[1]);
   if (far < 2) return;
   const x = (b[0] - a[0]) / far, y = (b[1] - a[1]) / far, head = Math.min(11, 0.6 * far);
-  pen.strokeStyle = pen.fillStyle = tone;
-  pen.lineWidth = wide;
   trace([a, [b[0] - 0.8 * head * x, b[1] - 0.8 * head * y]]);
-  pen.stroke();
+  stroke(tone, wide);
+  pen.beginPath();
   trace([b, [b[0] - head * x + 0.4 * head * y, b[1] - head * y - 0.4 * head * x], [b[0] - head * x - 0.4 * head * y, b[1] - head * y + 0.4 * head * x]], true);
-  pen.fill();
+  fill(tone);
 });
 const box = (at, axis, along, aside, face, edge) => {
   const side = across(axis);
@@ -214,7 +249,7 @@ const flat = {
   block: (p, r, size, face, edge) => box(p[0], unit(p[1]), 1.6 * size, 1 * size, face, edge),
   weld: (p, r, size, face, edge) => box(p[0], unit(p[1]), 0.7 * size, 0.7 * size, edge, null),
   rod: (p, r, size, face, edge) => line(p, edge, 1.8),
-  blade: (p, r, size, face, edge) => bar([add(p[0], unit(p[1]), -2.2 * size), add(p[0], unit(p[1]), 2.2 * size)], 0.5 * size, tones.ink, tones.ink),
+  blade: (p, r, size, face, edge) => bar([add(p[0], unit(p[1]), -4.5 * size), add(p[0], unit(p[1]), 4.5 * size)], 0.8 * size, tones.ink, tones.ink),
   wheel, gear: wheel, ring: (p, r, size, face, edge) => area(circle(p[0], r), null, edge, 3),
   rack: (p, r, size, face, edge) => bar([p[0], p[1]], 0.9 * size, face, edge),
   cam: (p, r, size, face, edge) => area(p, face, edge),
@@ -241,11 +276,12 @@ const lit = (p, tone) => {
   return `rgb(${parts.map(x => Math.min(255, Math.round(x * share))).join(",")})`;
 };
 const face3 = (p, face, edge, wide) => area(p, lit(p, face), edge, wide);
+const glass = tone => tone.replace("rgb(", "rgba(").replace(")", ", 0.55)");        // boxes of inertia, through which one sees their joints
 const faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
 const solid = {
   bar: (p, r, size, face, edge) => bar(p, 0.9 * size, face, edge),
   plate: (p, r, size, face, edge) => face3(p, face, edge),
-  box: (p, r, size, face, edge) => faces.forEach(each => face3(each.map(i => p[i]), face, edge, 0.8)),
+  box: (p, r, size, face, edge) => faces.forEach(each => area(each.map(i => p[i]), glass(lit(each.map(i => p[i]), face)), edge, 0.8)),
   disc: (p, r, size, face, edge) => face3(p, face, edge, 1.6), ring: (p, r, size, face, edge) => line([...p, p[0]], edge, 1.4),
   patch: (p, r, size) => area([[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => add(add(p[0], p[1], 2 * a * size), p[2], 2 * b * size)), null, tones.accent),
   rod: (p, r, size, face, edge) => line(p, edge, 1.6), track: (p, r, size) => line(p, tones.grey, 1, [2, 4]),
@@ -269,6 +305,19 @@ const shifted = (p, r, size) => { const side = across(unit(sub(p[1], p[0]))); re
 
 /* ---- a picture ---- */
 
+/* What goes far is followed, and a grid at rest shows how it goes. */
+const follow = () => {
+  const layer = film.layers[0], seen = layer.shapes.map(each => each[2][0]).filter(n => n >= 0).map(n => place(layer, n));
+  centre = film.low.map((_, k) => (Math.min(...seen.map(at => at[k])) + Math.max(...seen.map(at => at[k]))) / 2);
+  const near = film.follow / 3, power = 10 ** Math.floor(Math.log10(near)), step = power * [1, 2, 5].findLast(each => each * power <= near * 1.001);
+  const [a, b] = [0, 1].map(k => Math.round(centre[k] / step)), most = space ? 4 : 8, floor = space ? [film.upside ? film.high[2] : film.low[2]] : [];
+  for (let i = -most; i <= most; i++) {
+    line([[(a + i) * step, (b - most) * step, ...floor], [(a + i) * step, (b + most) * step, ...floor]], tones.body, 0.7);
+    line([[(a - most) * step, (b + i) * step, ...floor], [(a + most) * step, (b + i) * step, ...floor]], tones.body, 0.7);
+  }
+  marks.forEach(each => { each.depth = Infinity; });
+};
+
 const anchor = points => points.length > 1 ? points[0].map((x, i) => (x + points[1][i]) / 2) : points[0];
 const single = new Set(["pin", "ball", "weld", "ground", "sleeve", "slider", "block", "wheel", "gear", "patch", "motor", "drive", "disc", "particle", "dot", "bushing", "blade", "mark"]);
 const back = ["ring", "gear", "cam", "ground", "wall", "rail", "road", "wheel", "disc", "coupled", "guide", "link", "curve", "groove", "rod", "cylinder", "damper", "spring", "slider", "rack", "block", "bushing", "weld", "particle", "roller", "spiral", "pin"];
@@ -276,10 +325,12 @@ const draw = () => {
   begin();
   marks = [];
   spots = [];
+  film.layers.forEach(locate);
+  if (film.follow) follow();
   film.layers.forEach((layer, number) => {
     const face = number ? "transparent" : tones.body, edge = [tones.line, tones.second, tones.accent][number % 3];
-    const order = space ? layer.shapes : [...layer.shapes].sort((a, b) => (back.indexOf(a[0]) + 1 || 99) - (back.indexOf(b[0]) + 1 || 99));
-    for (const [kind, name, numbers, radius] of order) {
+    layer.order ??= space ? layer.shapes : [...layer.shapes].sort((a, b) => (back.indexOf(a[0]) + 1 || 99) - (back.indexOf(b[0]) + 1 || 99));
+    for (const [kind, name, numbers, radius] of layer.order) {
       const points = numbers.map(i => place(layer, i));
       const how = (space ? solid : flat)[kind] || ((p, r, size, f, e) => line(p, e, 1.4));
       how(points, radius, film.pin * (space ? 1.25 : 1), face, edge);
@@ -292,8 +343,7 @@ const draw = () => {
       if (length(force) > 0.01) arrow(at, add(at, force, film.arrow), tones.force, 2.4);
     }
   });
-  if (space) marks.sort((a, b) => b[0] - a[0] || a[1] - b[1]);
-  marks.forEach(each => each[2]());
+  paintAll();
   labels();
   if (trust) lines(trust, film.trust.map(each => ({...each, log: true})), true);
   graphs.forEach(each => lines(each.canvas, each.lines, false, each.unit));
@@ -317,10 +367,9 @@ const labels = () => {
   const scales = film.layers.flatMap(layer => layer.arrows);
   if (scales.length) {
     const most = scales[0].scale, long = film.arrow * scale;
-    pen.strokeStyle = tones.force;
-    pen.lineWidth = 2.4;
+    pen.beginPath();
     trace([[12, height - 12], [12 + long, height - 12]]);
-    pen.stroke();
+    stroke(tones.force, 2.4);
     words(number(most) + " N", 16, height - 18, tones.force);
   }
   if (film.layers.length > 1) film.layers.forEach((layer, i) => words(layer.label, 12, 18 + 16 * i, [tones.line, tones.second, tones.accent][i % 3]));
@@ -330,33 +379,38 @@ const labels = () => {
       const [x, y] = project(spot.at);
       pen.beginPath();
       pen.arc(x, y, 13, 0, 2 * Math.PI);
-      pen.strokeStyle = tones.accent;
-      pen.lineWidth = 2;
-      pen.stroke();
-      const force = film.layers[0].arrows.find(each => each.name === chosen);
-      words(chosen + (force ? ": " + number(force.size) + " N" : ""), x + 16, y + 5, tones.accent);
+      stroke(tones.accent, 2);
+      words(told(), x + 16, y + 5, tones.accent);
     }
   }
 };
+const told = () => {        // the chosen part, and its forces in each of the films
+  const loads = film.layers.flatMap(layer => layer.loads.filter(each => each.name === chosen).map(each => number(at(each.values)) + " " + each.unit));
+  const arrows = loads.length ? [] : film.layers.flatMap(layer => layer.arrows.filter(each => each.name === chosen).map(each => number(each.size) + " N"));
+  return [chosen, [...loads, ...arrows].join(", ")].filter(Boolean).join(": ");
+};
+const at = values => { const i = Math.min(Math.floor(now), last), next = values[Math.min(i + 1, last)]; return values[i] + (next - values[i]) * (now - i); };
 const number = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(2) : x.toPrecision(3);
 const hues = () => [tones.accent, tones.second, tones.third, tones.ink, tones.grey, tones.force];
-const lines = (element, all, slim, unitOf) => {        // lines over time, with a cursor
+const lines = (element, all, slim, unitOf) => {        // lines over time, with a cursor; the lines are drawn once for each size
   const brush = element.getContext("2d"), [w, h] = fit(element, brush), left = slim ? 0 : 8, top = slim ? 14 : 20, low = slim ? 4 : 8;
+  const known = [element.width, element.height, tones.ink].join();
+  if (element.known !== known) {
+    element.known = known;
+    element.drawn = document.createElement("canvas");
+    element.drawn.width = element.width;
+    element.drawn.height = element.height;
+    const curves = element.drawn.getContext("2d");
+    curves.setTransform(brush.getTransform());
+    curve(curves, all, slim, left, w - 2 * left, top, h - low);
+  }
   brush.clearRect(0, 0, w, h);
-  const tiny = 1e-18, value = (line, x) => line.log ? Math.log10(Math.max(Math.abs(x), tiny)) : x;
+  if (element.width && element.height) brush.drawImage(element.drawn, 0, 0, w, h);
   brush.font = "11px system-ui, sans-serif";
   let word = left;
-  const shared = slim ? null : [Math.min(...all.map(each => each.least)), Math.max(...all.map(each => each.most))];
   all.forEach((line, i) => {
-    const [a, b] = shared || [Math.min(...Array.from(line.values, x => value(line, x))), Math.max(...Array.from(line.values, x => value(line, x)))];
-    const y = x => h - low - (h - top - low) * (b > a ? (value(line, x) - a) / (b - a) : 0.5);
-    brush.beginPath();
-    line.values.forEach((x, k) => brush[k ? "lineTo" : "moveTo"](left + (w - 2 * left) * k / Math.max(last, 1), y(x)));
-    brush.strokeStyle = brush.fillStyle = hues()[i % 6];
-    brush.lineWidth = 1.5;
-    brush.stroke();
-    const here = line.values[Math.round(now)];
-    const text = (film.layers.length > 1 ? line.label + " " : "") + line.name + " " + (slim ? "\u2264 " + number(line.most) : number(here)) + " " + line.unit;
+    brush.fillStyle = hues()[i % 6];
+    const text = (film.layers.length > 1 ? line.label + " " : "") + line.name + " " + (slim ? "\u2264 " + number(line.most) : number(line.values[Math.round(now)])) + " " + line.unit;
     brush.fillText(text, word, 11);
     word += brush.measureText(text).width + 16;
   });
@@ -367,6 +421,18 @@ const lines = (element, all, slim, unitOf) => {        // lines over time, with 
   brush.moveTo(x, top);
   brush.lineTo(x, h);
   brush.stroke();
+};
+const curve = (brush, all, slim, left, wide, top, low) => {
+  const tiny = 1e-18, value = (line, x) => line.log ? Math.log10(Math.max(Math.abs(x), tiny)) : x;
+  const shared = slim ? null : [Math.min(...all.map(each => each.least)), Math.max(...all.map(each => each.most))];
+  all.forEach((line, i) => {
+    const seen = Array.from(line.values, x => value(line, x)), [a, b] = shared || [Math.min(...seen), Math.max(...seen)];
+    brush.beginPath();
+    seen.forEach((x, k) => brush[k ? "lineTo" : "moveTo"](left + wide * k / Math.max(last, 1), low - (low - top) * (b > a ? (x - a) / (b - a) : 0.5)));
+    brush.strokeStyle = hues()[i % 6];
+    brush.lineWidth = 1.5;
+    brush.stroke();
+  });
 };
 
 /* ---- time ---- */
@@ -396,18 +462,38 @@ const frame = stamp => {
   }
   requestAnimationFrame(frame);
 };
-window.zerodrift = {film, play, show: value => { play(false); set(value); draw(); }, get now() { return now; }};
+/* Films that replace each other, as behind sliders, go on where the one before is: a new one asks the frames of its page. */
+const state = () => ({group: film.group, zerodrift: "state", time: seconds(), playing, rate, view: [zoom, turn, tilt, shift], chosen});
+addEventListener("message", ({data, source}) => {
+  if (!film.group || data?.group !== film.group) return;
+  if (data.zerodrift === "where" && source !== window) source.postMessage(state(), "*");
+  if (data.zerodrift !== "state" || state.known) return;
+  state.known = true;
+  [zoom, turn, tilt, shift] = data.view;
+  [rate, chosen] = [data.rate, data.chosen];
+  speeds.value = rate;
+  set((data.time - film.span[0]) / (film.span[1] - film.span[0]) * last);
+  play(data.playing);
+});
+if (film.group) for (let i = 0; i < parent.length; i++) if (parent[i] !== window) parent[i].postMessage({group: film.group, zerodrift: "where"}, "*");
+window.zerodrift = {film, tones, play, show: value => { play(false); set(value); draw(); }, choose: name => choose(name), get now() { return now; }, get playing() { return playing; },
+  get told() { return told(); }, get spots() { return spots.map(({name, at}) => ({name, at: project(at)})); }};
 
 button.addEventListener("click", () => play(!playing));
 slider.addEventListener("input", () => { play(false); set(+slider.value); });
 speeds.addEventListener("change", () => { rate = +speeds.value; });
 document.addEventListener("keydown", event => {
   if (event.target === speeds || (event.target === button && event.key === " ")) return;
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
   const step = {ArrowRight: 1, ArrowLeft: -1, PageDown: 10, PageUp: -10}[event.key];
+  const way = {ArrowRight: [-1, 0], ArrowLeft: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
   if (event.key === " ") play(!playing);
+  else if (space && event.shiftKey && way) turnBy(way[0] / 15, way[1] / 15);
   else if (step) { play(false); set(Math.round(now) + step); }
   else if (event.key === "Home") set(0);
   else if (event.key === "End") set(last);
+  else if (event.key === "n" || event.key === "N") choose(next(event.key === "n" ? 1 : -1));
+  else if (event.key === "+" || event.key === "-") zoomBy(event.key === "+" ? 1.2 : 1 / 1.2);
   else return;
   event.preventDefault();
 });
@@ -417,30 +503,39 @@ canvas.addEventListener("pointermove", event => {
   if (!held) return;
   const x = event.clientX - held[0], y = event.clientY - held[1];
   if (!held[2] && Math.hypot(x, y) < 4) return;
-  if (space && !event.shiftKey) { turn -= x / 150; tilt = Math.min(Math.max(tilt + y / 150, -1.5), 1.5); } else shift = [shift[0] + x, shift[1] + y];
+  if (space && !event.shiftKey) turnBy(x / 150, y / 150); else shift = [shift[0] + x, shift[1] + y];
   held = [event.clientX, event.clientY, true];
   dirty = true;
 });
 canvas.addEventListener("pointerup", event => {
-  if (held && !held[2]) choose(event);
+  if (held && !held[2]) choose(nearest(event));
   held = null;
 });
-const choose = event => {
+const turnBy = (x, y) => { turn -= x; tilt = Math.min(Math.max(tilt + y, -1.5), 1.5); dirty = true; };
+const zoomBy = factor => { zoom = Math.min(Math.max(zoom * factor, 0.2), 20); dirty = true; };
+const nearest = event => {
   const box = canvas.getBoundingClientRect();
-  let best = 26;
-  chosen = null;
-  for (const {name, at} of spots) {
+  let best = 26, found = null;
+  for (const {name, at} of [...spots].sort((a, b) => hasLoad(b.name) - hasLoad(a.name))) {     // of a joint and a body in one place, the joint
     const [x, y] = project(at), far = Math.hypot(x - event.clientX + box.left, y - event.clientY + box.top);
-    if (far < best) { best = far; chosen = name; }
+    if (far < best - 0.5) { best = far; found = name; }
   }
-  note.textContent = chosen ? chosen : "";
+  return found;
+};
+const hasLoad = name => film.layers.some(layer => layer.loads.some(each => each.name === name));
+const next = way => {
+  const names = [...new Set(spots.map(each => each.name))];
+  return names[(names.indexOf(chosen) + way + names.length) % names.length] ?? null;
+};
+const choose = name => {
+  chosen = name;
+  note.textContent = chosen ? told() : "";
   dirty = true;
 };
 canvas.addEventListener("wheel", event => {
   if (!event.ctrlKey) return;
   event.preventDefault();
-  zoom = Math.min(Math.max(zoom * Math.exp(-event.deltaY / 300), 0.2), 20);
-  dirty = true;
+  zoomBy(Math.exp(-event.deltaY / 300));
 }, {passive: false});
 canvas.addEventListener("dblclick", () => { zoom = 1; shift = [0, 0]; dirty = true; });
 new ResizeObserver(() => { dirty = true; }).observe(document.body);

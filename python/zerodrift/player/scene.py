@@ -13,12 +13,14 @@ from typing import Any
 
 import numpy as np
 
+from .. import _check
 from ..plot.dense_samples import dense
 from ..plot.drawing import moments_of, paths_of
 from ..plot.glyphs import GLYPHS
 from ..runs.columns import columns
 from ..runs.solution import Solution
 from ..systems.shapes import Shape
+from .rigid import carried
 
 RATE = 60               # samples for each second of the film
 MOST_SAMPLES = 900      # of a film; longer ones are thinned
@@ -29,6 +31,9 @@ PIN = 0.017             # of the picture: a pin's radius
 SLENDER = 0.13          # of the short bars, the quarter of all: no pin is larger
 ROUND = ("wheel", "gear", "ring")       # kinds of shapes whose number is a radius
 ARROW = 0.22            # of the picture: the longest arrow
+FAR = 0.4               # of all its motion: what is smaller than that is followed
+FOLLOWED = 1.6          # widths of it are seen then
+MOST_LOADS = 200        # measures of forces that a film contains for clicks; of more, those of arrows alone
 
 
 @dataclass(frozen=True)
@@ -41,6 +46,11 @@ class Wanted:
     names: bool = False
     speed: float | None = None
     samples: int = MOST_SAMPLES
+    group: str = ""         # films of one group that replace each other go on at the same time
+
+    def __post_init__(self) -> None:
+        if self.speed is not None:
+            _check.number("speed", self.speed, above=0)
 
 
 def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) -> dict[str, Any]:
@@ -53,15 +63,17 @@ def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) 
     layers = [_layer(sol, times, wanted) for sol in solutions]
     every = np.concatenate([layer["table"].reshape(-1, layer["table"].shape[2]) for layer in layers])
     places = np.concatenate([layer["extent"] for layer in layers])
-    arrow = ARROW * float(np.linalg.norm(np.ptp(places, axis=0)) or 1.0)
+    follow = _follow(layers, places)
+    shown = np.full(places.shape[1], follow) if follow else np.ptp(places, axis=0)
+    arrow = ARROW * float(np.linalg.norm(shown) or 1.0)
     places = np.concatenate([places, *(_tips(layer, arrow) for layer in layers)])
     low, high = places.min(axis=0), places.max(axis=0)
     box = every.min(axis=0), every.max(axis=0)
     labelled = list(zip(map(dense, solutions), labels, strict=True))
     return {"name": first.system.name, "upside": _is_upside_down(first),
             "span": [t0, t1], "samples": count, "speed": speed, "dimension": int(places.shape[1]),
-            "low": low.tolist(), "high": high.tolist(), "pin": _pin(layers[0], float((high - low).max() or 1.0)),
-            "arrow": arrow, "box": [side.tolist() for side in box], "names": wanted.names,
+            "low": low.tolist(), "high": high.tolist(), "follow": follow, "pin": _pin(layers[0], float(shown.max() or 1.0)),
+            "arrow": arrow, "box": [side.tolist() for side in box], "names": wanted.names, "group": wanted.group,
             "layers": [_packed(layer, box, label) for layer, label in zip(layers, labels, strict=True)],
             "graphs": [line for sol, label in labelled for line in _graphs(sol, times, wanted.graphs, label)],
             "trust": [line for sol, label in labelled for line in _trust(sol, times, label)]}
@@ -74,6 +86,13 @@ def _speed(duration: float) -> float:
     wanted = duration / (SHORTEST if duration < SHORTEST else LONGEST)
     power = 10.0 ** np.floor(np.log10(wanted))
     return float(next(times * power for times in (5, 2, 1) if times * power <= wanted * (1 + 1e-12)))
+
+
+def _follow(layers: Sequence[dict[str, Any]], places: np.ndarray) -> float:
+    """Width in m of a view that moves with what goes far, or 0: the view then rests."""
+    sizes = [np.ptp(layer["table"][:, layer["at"]], axis=1).max(initial=0.0) for layer in layers if len(layer["at"])]
+    size = float(max(sizes, default=0.0))
+    return FOLLOWED * size if 0 < size < FAR * float(np.ptp(places, axis=0).max()) else 0.0
 
 
 def _is_upside_down(sol: Solution) -> bool:
@@ -91,13 +110,14 @@ def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     for shape in moments[0]:
         entries.append((shape, range(begin, begin + len(shape.points))))
         begin += len(shape.points)
-    extent = [points[:, [i for shape, numbers in entries for i in numbers[:_places(shape)]]].reshape(-1, points.shape[2])]
+    at = [i for shape, numbers in entries for i in numbers[:_places(shape)]]
+    extent = [points[:, at].reshape(-1, points.shape[2])]
     round_ones = [(points[:, numbers[0]], shape.number) for shape, numbers in entries if shape.kind in ROUND]
     extent += [at + side * radius for at, radius in round_ones for side in (-1, 1)]
     arrows, columns_of_arrows = _arrows(sol, times, wanted.forces)
     paths = [np.column_stack([np.interp(times, sol.t, each) for each in path.T]) for path in paths_of(sol, wanted.path or ())]
     return {"table": np.concatenate([points, *columns_of_arrows], axis=1), "entries": entries, "arrows": arrows, "paths": paths,
-            "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
+            "loads": _loads(sol, times), "at": at, "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
 
 
 def _places(shape: Shape) -> int:
@@ -143,25 +163,66 @@ def _tips(layer: dict[str, Any], arrow: float) -> np.ndarray:
     return (ways[:, ::2] + arrow * ways[:, 1::2]).reshape(-1, ways.shape[2])
 
 
+def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
+    """Forces and torques of joints and force elements over time, which a click shows: sizes of vectors, otherwise with their sign."""
+    names = [name for name in sol.measures if name.endswith((".force", ".torque"))]
+    if len(names) > MOST_LOADS:
+        return []
+    found = []
+    for name in names:
+        values = np.asarray(sol[name], dtype=float)
+        values = np.linalg.norm(values, axis=1) if values.ndim == 2 else values
+        element, _, kind = name.rpartition(".")
+        if np.isfinite(values).all() and (kind == "force" or np.abs(values).max(initial=0.0) > 0):
+            found.append({"name": element, "unit": "N" if kind == "force" else "N m"} | _levels(np.interp(times, sol.t, values)))
+    return found
+
+
 def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: str) -> dict[str, Any]:
-    """A layer with numbers as text: each point that moves once, those that rest apart."""
+    """A layer with numbers as text: each point that moves once, those that rest or follow from others apart."""
     table = layer["table"]
     size = np.maximum(box[1] - box[0], 1e-300)
     levels = np.round((table - box[0]) / size * LEVELS).astype(np.uint16)
     moves = (np.ptp(table, axis=0) > RESTS * size.max()).any(axis=1)
-    numbers, fixed, moving, known = [], [], [], {}
-    for i in range(table.shape[1]):
-        key = levels[:, i].tobytes() if moves[i] else levels[0, i].tobytes()
-        if (moves[i], key) not in known:
-            known[moves[i], key] = len(moving) if moves[i] else -1 - len(fixed)
-            (moving if moves[i] else fixed).append(i)
-        numbers.append(known[moves[i], key])
+    followers = carried(table, _bodies(layer, moves), float(size.max()))
+    kinds = ["rests" if not moves[i] else "follows" if i in followers else "moves" for i in range(table.shape[1])]
+    numbers, lists, known = [], {"rests": [], "moves": [], "follows": []}, {}
+    for i, kind in enumerate(kinds):
+        key = kind, levels[0, i].tobytes() if kind == "rests" else levels[:, i].tobytes()
+        if key not in known:
+            known[key] = len(lists[kind])
+            lists[kind].append(i)
+        numbers.append(known[key])
+    first = {"rests": lambda n: -1 - n, "moves": lambda n: n, "follows": lambda n: n + len(lists["moves"])}
+    numbers = [first[kind](n) for kind, n in zip(kinds, numbers, strict=True)]
     shapes = [[shape.kind, shape.name, [numbers[i] for i in those], round(float(shape.number), 9)]
               for shape, those in layer["entries"]]
     of_arrows = numbers[layer["own"]:]
     arrows = [each | {"at": of_arrows[2 * i], "to": of_arrows[2 * i + 1]} for i, each in enumerate(layer["arrows"])]
-    return {"label": label, "shapes": shapes, "arrows": arrows, "moving": len(moving), "points": _text(levels[:, moving]),
-            "fixed": [table[0, i].tolist() for i in fixed], "paths": [np.round(path, 6).tolist() for path in layer["paths"]]}
+    return {"label": label, "shapes": shapes, "arrows": arrows, "moving": len(lists["moves"]), "points": _text(levels[:, lists["moves"]]),
+            "carried": [[[numbers[k] for k in followers[i][0]], np.round(followers[i][1], 6).tolist()] for i in lists["follows"]],
+            "fixed": [table[0, i].tolist() for i in lists["rests"]], "paths": [_path(path) for path in layer["paths"]],
+            "loads": layer["loads"]}
+
+
+def _bodies(layer: dict[str, Any], moves: np.ndarray) -> list[list[int]]:
+    """Moving points of shapes that share a name, without directions."""
+    found: dict[str, list[int]] = {}
+    for shape, numbers in layer["entries"]:
+        found.setdefault(shape.name, []).extend(i for i in numbers[:_places(shape)] if moves[i])
+    return list(found.values())
+
+
+def _path(path: np.ndarray) -> dict[str, Any]:
+    """Places (k, d) as 16-bit integers within their own box."""
+    low, size = path.min(axis=0), np.maximum(np.ptp(path, axis=0), 1e-300)
+    return {"low": low.tolist(), "size": size.tolist(), "points": _text(np.round((path - low) / size * LEVELS).astype(np.uint16))}
+
+
+def _levels(values: np.ndarray) -> dict[str, Any]:
+    """Values as 16-bit integers between their least and greatest."""
+    low, size = float(values.min()), float(np.ptp(values)) or 1.0
+    return {"least": low, "size": size, "values": _text(np.round((values - low) / size * LEVELS).astype(np.uint16))}
 
 
 def _graphs(sol: Solution, times: np.ndarray, names: Any, label: str) -> list[dict[str, Any]]:

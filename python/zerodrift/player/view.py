@@ -137,8 +137,9 @@ def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any 
     """Film of one motion, or of several over each other, for notebooks and browsers.
 
     Play, pause and step with the space bar and the arrow keys; the slider is the time. Below it are the position violation and
-    the energy error of the run. A click on a part shows its name and, where forces are drawn, its force. In space, drag turns;
-    the wheel with Ctrl zooms.
+    the energy error of the run. A click on a part shows its name and, of joints and force elements, force and torque (up to 200 of
+    them); ``n`` chooses the next part. In space, drag or Shift with the arrow keys turns; the wheel with Ctrl, ``+`` and ``-`` zoom.
+    What goes far is followed, over a grid at rest.
 
     Parameters
     ----------
@@ -182,7 +183,6 @@ def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any 
         raise TypeError("view needs at least one solution, as zd.simulate returns")
     for sol in solutions:
         _check.instance("each of solutions", sol, Solution, A_SOLUTION)
-    speed = None if speed is None else _check.number("speed", speed, above=0)
     if labels is None:
         labels = [sol.system.name if len(solutions) == 1 else f"{sol.system.name} {i}" for i, sol in enumerate(solutions, 1)]
     if len(labels) != len(solutions):
@@ -197,5 +197,5 @@ def _quoted(page: str) -> str:
 
 @functools.cache
 def _text(name: str) -> str:
-    """A file of the player."""
-    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+    """A file of the player, without indentation."""
+    return "\n".join(map(str.lstrip, resources.files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines()))

@@ -1,0 +1,154 @@
+"""Films in Chromium: they move without an error, answer to keys and clicks, keep their time when replaced, and are fast."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from browser import Browser, needs_chromium
+from zerodrift import gallery
+
+pytestmark = needs_chromium
+RATE = """new Promise(done => {
+  const begin = performance.now(), costs = [];
+  let count = 0;
+  const next = () => {
+    count++;
+    costs.push(zerodrift.film.cost || 0);
+    if (performance.now() - begin < 2000) return requestAnimationFrame(next);
+    done([count / 2, costs.sort((a, b) => a - b)[count >> 1]]);
+  };
+  requestAnimationFrame(next);
+})"""
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    with Browser(tmp_path_factory.mktemp("profile")) as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def crank():
+    return zd.simulate(zd.models.slider_crank(), 4.0, step=0.005)
+
+
+def shown(browser, film, folder, **how):
+    browser.open(film.save(folder / "film").as_uri(), **how)
+    browser.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))).then(() => null)")     # it is drawn
+    return film
+
+
+@pytest.mark.parametrize("name", [each.name for each in gallery.exhibits()])
+def test_every_model_moves_without_an_error(browser, name, tmp_path):
+    exhibit = gallery.exhibit(name)
+    shown(browser, zd.view(exhibit.run(), path=list(exhibit.path), names=True), tmp_path, width=480, height=400)
+    changed = browser.evaluate("""(() => {
+      const canvas = document.querySelector("canvas"), n = zerodrift.film.samples, at = t => { zerodrift.show(t); return canvas.toDataURL(); };
+      const begin = at(0);
+      return [begin !== at(n / 3), begin === at(0)];
+    })()""")
+    assert changed == [True, True]
+    assert browser.errors == []
+
+
+def test_keys(browser, crank, tmp_path):
+    film = shown(browser, zd.view(crank), tmp_path)
+    places = []
+    for key in ("Home", "ArrowRight", "PageDown", "End"):
+        browser.press(key)
+        places.append(browser.evaluate("zerodrift.now"))
+    assert places == [0, 1, 11, film.samples - 1]
+    browser.press(" ")
+    assert browser.evaluate("zerodrift.playing")
+    browser.press(" ")
+    assert not browser.evaluate("zerodrift.playing")
+
+
+def test_every_control_has_a_name_and_takes_the_focus(browser, crank, tmp_path):
+    shown(browser, zd.view(crank, graphs=["crank.angle"]), tmp_path)
+    found = []
+    for _ in range(4):
+        browser.press("Tab")
+        found.append(browser.evaluate("[document.activeElement.tagName, document.activeElement.ariaLabel || document.activeElement.textContent]"))
+    assert [tag for tag, _ in found] == ["CANVAS", "BUTTON", "INPUT", "SELECT"]
+    assert all(name for _, name in found)
+    assert browser.evaluate("[...document.querySelectorAll('canvas')].every(each => each.ariaLabel)")
+
+
+def test_a_click_on_a_joint_shows_its_name_and_its_force(browser, crank, tmp_path):
+    """Also where no arrow is drawn."""
+    film = shown(browser, zd.view(crank), tmp_path)
+    sample = 30
+    browser.evaluate(f"zerodrift.show({sample})")
+    t = np.linspace(0.0, 4.0, film.samples)[sample]
+    for joint in ("pin", "main"):
+        x, y = browser.evaluate(f"zerodrift.spots.find(each => each.name === '{joint}').at.slice(0, 2)")
+        browser.click(x, y)
+        name, force = browser.evaluate("zerodrift.told").split(": ")
+        known = np.interp(t, crank.t, np.linalg.norm(crank[f"{joint}.force"], axis=1))
+        assert name == joint
+        assert float(force.split(" N")[0]) == pytest.approx(known, rel=6e-3)      # three digits are shown
+
+
+def test_n_chooses_the_next_part(browser, crank, tmp_path):
+    shown(browser, zd.view(crank), tmp_path)
+    browser.press("n", "n")
+    first = browser.evaluate("zerodrift.told")
+    browser.press("n", "n")
+    assert first
+    assert browser.evaluate("zerodrift.told") not in ("", first)
+
+
+def test_a_film_that_replaces_another_goes_on_at_its_time(browser, crank, tmp_path):
+    """As sliders do it: the new frame asks those beside it."""
+    explored = zd.explore(zd.models.slider_crank(), {"spring.stiffness": (0.5, 5.0)}, 4.0, step=0.01)
+    frames = [explored.film.frame(), explored.set({"spring.stiffness": 3.0}).film.frame()]
+    other = zd.view(crank).frame()
+    (tmp_path / "page.html").write_text(f"<!DOCTYPE html><title>x</title>{other}{frames[0]}", encoding="utf-8")
+    browser.open((tmp_path / "page.html").as_uri())
+    browser.evaluate(f"""new Promise(done => {{
+      document.querySelectorAll("iframe")[1].contentWindow.postMessage({{group: {explored.group!r}, zerodrift: "state", time: 2.5, playing: false,
+        rate: 1, view: [1, -0.9, 0.42, [0, 0]], chosen: "pin"}}, "*");
+      setTimeout(() => {{ document.body.insertAdjacentHTML("beforeend", {frames[1]!r}); setTimeout(done, 1500); }}, 300);
+    }})""")
+    found = browser.evaluate(f"""new Promise(done => {{
+      addEventListener("message", each => each.data.zerodrift === "state" && done(each.data));
+      document.querySelectorAll("iframe")[2].contentWindow.postMessage({{group: {explored.group!r}, zerodrift: "where"}}, "*");
+    }})""")
+    assert found["time"] == pytest.approx(2.5, abs=0.01)
+    assert (found["playing"], found["chosen"]) == (False, "pin")
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("width", [320, 1280])
+def test_nothing_is_cut_off(browser, crank, width, dark, tmp_path):
+    shown(browser, zd.view(crank, graphs=["crank.angle", "pin.force"]), tmp_path, width=width, height=460, dark=dark)
+    assert browser.evaluate("document.documentElement.scrollWidth") <= width
+    assert browser.evaluate("[...document.querySelectorAll('canvas, button, input, select')].every(each => each.getBoundingClientRect().width > 20)")
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_colours_of_words_have_contrast(browser, crank, dark, tmp_path):
+    """WCAG AA: 4.5 between words and paper, 3 between lines and paper."""
+    shown(browser, zd.view(crank), tmp_path, dark=dark)
+    tones = browser.evaluate("zerodrift.tones")
+    for name, least in {"ink": 4.5, "accent": 4.5, "second": 4.5, "third": 4.5, "force": 4.5, "grey": 3, "line": 3, "path": 3}.items():
+        assert contrast(tones[name], tones["paper"]) >= least, name
+
+
+def contrast(one, other):
+    """Ratio of luminances of two colours "rgb(r, g, b)", by WCAG 2."""
+    def luminance(tone):
+        parts = np.array([float(each) for each in tone[tone.index("(") + 1:-1].split(",")[:3]]) / 255
+        return np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4) @ (0.2126, 0.7152, 0.0722)
+    low, high = sorted((luminance(one), luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def test_a_hundred_bodies_are_drawn_within_a_frame(browser, tmp_path):
+    """Milliseconds of a script on a machine that may be busy: a third of a frame of 60 in a second."""
+    shown(browser, zd.view(zd.simulate(zd.models.closed_pendulum(100), 0.05, step=1e-3)), tmp_path, still=False)
+    _, cost = browser.evaluate(RATE)
+    assert cost < 1000 / 60 / 3 * 2
+
+
