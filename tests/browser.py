@@ -11,9 +11,9 @@ import pytest
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium")
-FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-extensions", "--mute-audio",
-         "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage", "--remote-debugging-pipe",
-         "--host-resolver-rules=MAP * ~NOTFOUND")      # no network
+FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-extensions",
+         "--mute-audio", "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage",
+         "--remote-debugging-pipe", "--host-resolver-rules=MAP * ~NOTFOUND")      # no network
 SECONDS = 120       # for one answer
 
 
@@ -86,8 +86,9 @@ class Browser:
         """Open a page and wait for all of it."""
         self.errors = []
         self("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
-                                                     {"name": "prefers-reduced-motion", "value": "reduce" if still else "no-preference"}])
+        media = {"prefers-color-scheme": "dark" if dark else "light",
+                 "prefers-reduced-motion": "reduce" if still else "no-preference"}
+        self("Emulation.setEmulatedMedia", features=[{"name": name, "value": value} for name, value in media.items()])
         loader = self("Page.navigate", url=url)["loaderId"]
         end = time.monotonic() + SECONDS
         while (loader, "load") not in self._loaded:

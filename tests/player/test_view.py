@@ -54,7 +54,7 @@ def test_a_small_film_is_small(crank):
 
 @pytest.mark.parametrize("name", ["cam_follower", "whipple_bicycle", "rattleback", "gyroscope", "planetary_gear"])
 def test_bodies_carry_their_points(name):
-    """Where a point is carried it is where the drawing has it: to half a level of 16 bits, three base points' worth."""
+    """Points of the film are those of the drawing: to half a level of 16 bits of each of three points that span the axes."""
     from zerodrift.plot.drawing import moments_of
     sol = zd.simulate(getattr(zd.models, name)(), 0.2, step=0.005)
     scene = scene_of(zd.view(sol))
@@ -81,7 +81,8 @@ def test_clicks_know_all_forces(crank):
     scene = scene_of(zd.view(crank))
     t = np.linspace(*scene["span"], scene["samples"])
     for name, known in (("pin", np.linalg.norm(crank["pin.force"], axis=1)), ("spring", crank["spring.force"])):
-        values = loads[name]["least"] + loads[name]["size"] / 65535 * np.frombuffer(base64.b64decode(loads[name]["values"]), dtype="<u2")
+        levels = np.frombuffer(base64.b64decode(loads[name]["values"]), dtype="<u2")
+        values = loads[name]["least"] + loads[name]["size"] / 65535 * levels
         assert np.abs(values - np.interp(t, crank.t, known)).max() < np.ptp(known) / 65535
 
 

@@ -1,5 +1,5 @@
-"""Points that rigid bodies carry: a film stores the motion of two points of a body in the plane, of three in space, and coordinates
-of the others in the axes that these span.
+"""Points that rigid bodies carry: a film stores the motion of two points of a body in the plane, of three in space, and
+coordinates of the others in the axes that these span.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ Carried = dict[int, tuple[tuple[int, ...], np.ndarray]]
 
 
 def carried(table: np.ndarray, bodies: Iterable[Sequence[int]], size: float) -> Carried:
-    """Points that follow from others.
+    """Points at rest in the axes of their body.
 
     Parameters
     ----------
@@ -60,8 +60,8 @@ def _base(points: np.ndarray, body: list[int]) -> tuple[int, ...] | None:
 
 
 def _axes(base: np.ndarray) -> np.ndarray:
-    """Matrices (times, d, d) whose columns are the axes that points (times, 2 or 3, d) span: their differences, and what is normal
-    to these, as long as the first.
+    """Matrices (times, d, d) whose columns are the axes that points (times, 2 or 3, d) span: their differences, and a normal
+    as long as the first.
     """
     along = base[:, 1] - base[:, 0]
     if base.shape[2] == 2:

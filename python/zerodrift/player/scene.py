@@ -117,7 +117,7 @@ def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     arrows, columns_of_arrows = _arrows(sol, times, wanted.forces)
     paths = [np.column_stack([np.interp(times, sol.t, each) for each in path.T]) for path in paths_of(sol, wanted.path or ())]
     return {"table": np.concatenate([points, *columns_of_arrows], axis=1), "entries": entries, "arrows": arrows, "paths": paths,
-            "loads": _loads(sol, times), "at": at, "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
+            "loads": _loads(dense(sol), times), "at": at, "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
 
 
 def _places(shape: Shape) -> int:
@@ -164,7 +164,7 @@ def _tips(layer: dict[str, Any], arrow: float) -> np.ndarray:
 
 
 def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
-    """Forces and torques of joints and force elements over time, which a click shows: sizes of vectors, otherwise with their sign."""
+    """Forces and torques of joints and force elements over time, which a click shows: magnitudes of vectors, signed scalars."""
     names = [name for name in sol.measures if name.endswith((".force", ".torque"))]
     if len(names) > MOST_LOADS:
         return []
@@ -179,28 +179,29 @@ def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
 
 
 def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: str) -> dict[str, Any]:
-    """A layer with numbers as text: each point that moves once, those that rest or follow from others apart."""
+    """A layer with numbers as text: each point that moves once, those that rest or that a body carries apart."""
     table = layer["table"]
     size = np.maximum(box[1] - box[0], 1e-300)
     levels = np.round((table - box[0]) / size * LEVELS).astype(np.uint16)
     moves = (np.ptp(table, axis=0) > RESTS * size.max()).any(axis=1)
     followers = carried(table, _bodies(layer, moves), float(size.max()))
-    kinds = ["rests" if not moves[i] else "follows" if i in followers else "moves" for i in range(table.shape[1])]
-    numbers, lists, known = [], {"rests": [], "moves": [], "follows": []}, {}
+    kinds = ["rests" if not moves[i] else "carried" if i in followers else "moves" for i in range(table.shape[1])]
+    numbers, lists, known = [], {"rests": [], "moves": [], "carried": []}, {}
     for i, kind in enumerate(kinds):
         key = kind, levels[0, i].tobytes() if kind == "rests" else levels[:, i].tobytes()
         if key not in known:
             known[key] = len(lists[kind])
             lists[kind].append(i)
         numbers.append(known[key])
-    first = {"rests": lambda n: -1 - n, "moves": lambda n: n, "follows": lambda n: n + len(lists["moves"])}
+    first = {"rests": lambda n: -1 - n, "moves": lambda n: n, "carried": lambda n: n + len(lists["moves"])}
     numbers = [first[kind](n) for kind, n in zip(kinds, numbers, strict=True)]
     shapes = [[shape.kind, shape.name, [numbers[i] for i in those], round(float(shape.number), 9)]
               for shape, those in layer["entries"]]
     of_arrows = numbers[layer["own"]:]
     arrows = [each | {"at": of_arrows[2 * i], "to": of_arrows[2 * i + 1]} for i, each in enumerate(layer["arrows"])]
-    return {"label": label, "shapes": shapes, "arrows": arrows, "moving": len(lists["moves"]), "points": _text(levels[:, lists["moves"]]),
-            "carried": [[[numbers[k] for k in followers[i][0]], np.round(followers[i][1], 6).tolist()] for i in lists["follows"]],
+    return {"label": label, "shapes": shapes, "arrows": arrows, "moving": len(lists["moves"]),
+            "points": _text(levels[:, lists["moves"]]),
+            "carried": [[[numbers[k] for k in followers[i][0]], np.round(followers[i][1], 6).tolist()] for i in lists["carried"]],
             "fixed": [table[0, i].tolist() for i in lists["rests"]], "paths": [_path(path) for path in layer["paths"]],
             "loads": layer["loads"]}
 

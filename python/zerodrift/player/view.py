@@ -137,9 +137,9 @@ def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any 
     """Film of one motion, or of several over each other, for notebooks and browsers.
 
     Play, pause and step with the space bar and the arrow keys; the slider is the time. Below it are the position violation and
-    the energy error of the run. A click on a part shows its name and, of joints and force elements, force and torque (up to 200 of
-    them); ``n`` chooses the next part. In space, drag or Shift with the arrow keys turns; the wheel with Ctrl, ``+`` and ``-`` zoom.
-    What goes far is followed, over a grid at rest.
+    the energy error of the run. A click on a part shows its name and, of joints and force elements, force and torque (of up to
+    200); ``n`` chooses the next part. In space, drag or Shift with the arrow keys turns; the wheel with Ctrl, ``+`` and ``-``
+    zoom. What goes far is followed, over a grid at rest.
 
     Parameters
     ----------
