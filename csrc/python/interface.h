@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 
+#include "../block/block.h"
 #include "../mechanisms/plane/varied.h"
 #include "../mechanisms/space_tree/tree.h"
 #include "../zerodrift.h"

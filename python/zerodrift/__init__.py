@@ -51,7 +51,7 @@ __all__ = [
     "InconsistentStart", "InconsistentSystem", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning",
     "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration",
-    "assemble", "bias", "check", "compare", "corrections", "ensemble", "equilibria", "equilibrium", "explore",
+    "assemble", "bias", "block", "check", "compare", "corrections", "ensemble", "equilibria", "equilibrium", "explore",
     "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "inverse_dynamics", "jacobian",
     "kinematics", "linearize", "linkage", "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project",
     "reach", "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "table", "trace",
@@ -59,7 +59,7 @@ __all__ = [
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.methods", "EnergyCorrection": "runs.methods", "Mechanism": "mechanisms.mechanism",
-    "Projection": "runs.methods", "System": "systems.callables", "bias": "analysis.matrices", "check": "studies.check",
+    "Projection": "runs.methods", "System": "systems.callables", "bias": "analysis.matrices", "block": "export.block", "check": "studies.check",
     "ensemble": "ensembles.ensemble", "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium",
     "explore": "player.explore", "from_mechanics": "symbolics.mechanics",
     "get_include": "systems.native", "grid": "ensembles.runs", "inverse_dynamics": "analysis.inverse_dynamics",

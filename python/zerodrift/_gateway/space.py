@@ -262,14 +262,19 @@ class SpaceCore(CoreSystem):
 
 def _create(tables: Tables, has_laws: bool, laws_know_time: bool, made_by: Any) -> tuple[Any, Any]:
     """The core's mechanism, and words that have to live as long."""
-    bodies, joints = ffi.new("zd_space_body[]", list(tables.bodies)), ffi.new("zd_space_joint[]", list(tables.joints))
-    quantities = ffi.new("zd_space_quantity[]", [(QUANTITY_KINDS[kind], *others) for kind, *others in tables.quantities])
-    elements, words = written_elements(tables, has_laws, laws_know_time)
-    c = ffi.new("zd_space_tables *", {
-        "gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "quantities": len(quantities),
-        "body": bodies, "joint": joints, "quantity": quantities, "elements": elements})
+    written, words = written_tables(tables, has_laws, laws_know_time)
+    c = ffi.new("zd_space_tables *", written)
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = made_by(c, message, MESSAGE_SIZE)
     if not mechanism:
         raise ValueError(text(message))
     return ffi.gc(mechanism, lib.zd_space_free), words
+
+
+def written_tables(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
+    """Fields of a `zd_space_tables`, and the words that must live as long as the objects made from it."""
+    bodies, joints = ffi.new("zd_space_body[]", list(tables.bodies)), ffi.new("zd_space_joint[]", list(tables.joints))
+    quantities = ffi.new("zd_space_quantity[]", [(QUANTITY_KINDS[kind], *others) for kind, *others in tables.quantities])
+    elements, words = written_elements(tables, has_laws, laws_know_time)
+    return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "quantities": len(quantities),
+            "body": bodies, "joint": joints, "quantity": quantities, "elements": elements}, words

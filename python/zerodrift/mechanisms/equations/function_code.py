@@ -41,6 +41,14 @@ def compiled(row: Any, k: int) -> Compiled | None:
     return function and (function[0], np.array([*(row.parameters[name] for name in names), *numbers], dtype=float), function[1])
 
 
+def nodes_of(row: Any, k: int) -> tuple[Any, Any, list[float]]:
+    """Graph and nodes of a user function that has an expression, as they are compiled, and the values of its parameters."""
+    template, numbers = _without_numbers(row.law.inner_expression)
+    names = tuple(sorted(name for name in row.parameters if name in row.law.names))
+    equations = _Equations(template, names, len(numbers), k)
+    return equations.graph, equations.results(row), [*(float(row.parameters[name]) for name in names), *numbers]
+
+
 class _Equations:
     """Equations into which a user function is written: `reads` its one expression; decimal numbers follow the parameters."""
 
@@ -64,12 +72,15 @@ class _Equations:
         """Node of a - b."""
         return self.graph.plus(a, self.graph.minus(b))
 
+    def results(self, row: Any) -> Any:
+        """Nodes of what the user function gives."""
+        return row.said(self.leaves, row.written(self, self.leaves.x, self.leaves.xdot))
+
     def function_of(self, row: Any) -> tuple[int, Any] | None:
         """Compiled function, or None without a compiler."""
         from ...symbolics.compile import law_terms
 
-        node = row.written(self, self.leaves.x, self.leaves.xdot)
-        return law_terms.compiled(self.graph, row.said(self.leaves, node))
+        return law_terms.compiled(self.graph, self.results(row))
 
 
 def _without_numbers(expression: Any) -> tuple[Any, list[float]]:

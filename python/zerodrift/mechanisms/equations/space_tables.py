@@ -41,12 +41,16 @@ class SpaceTables(Tables):
 
     def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[entries.OutputSpec] = ()) -> SpaceCore:     # type: ignore[override]
         """Core system, without measures, or with these; their marker quantities follow those of the tables."""
+        made = SpaceCore if max(self.inboard, default=-1) < 0 else SpaceTreeCore
+        laws = self.laws if self.laws.rows else None
+        return made(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
+
+    def written(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[entries.OutputSpec] = ()) -> space.Tables:     # type: ignore[override]
+        """Tables for the core."""
         bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, inboard)
                   for body, inboard in zip(self.parts, self.inboard, strict=True) for mass in [self.inertias.of[body.name]]]
-        tables = space.Tables(bodies, self.joint_rows, self.quantities if quantities is None else quantities, self.relations,
-                              self.forces, observed, self._gravity())
-        made = SpaceCore if max(self.inboard, default=-1) < 0 else SpaceTreeCore
-        return made(tables, self.laws if self.laws.rows else None, laws_know_time=self.laws.know_time)
+        quantities = self.quantities if quantities is None else quantities
+        return space.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity())
 
     def joint_coordinates(self) -> int:
         """Number of velocities of the bodies along the tree."""

@@ -1,0 +1,109 @@
+/* A mechanism as one block of data, from which a system is made without Python.
+ *
+ * A block is a sequence of words of eight bytes, little-endian. The first word is the text "zdblock" and a zero byte; every other word
+ * outside the section of texts is a double, whole numbers included, and finite. Words in order:
+ *
+ *     0       "zdblock\0"
+ *     1       version of this description: ZD_BLOCK_VERSION
+ *     2       number of words of the block, header included
+ *     3       dimension of the mechanism: 2 or 3
+ *     4 ...   number of entries of each section, in the order of enum zd_block_section
+ *
+ * and the sections follow each other in the same order, without gaps. An entry of a section has these words:
+ *
+ *     gravity         one component each: 2 or 3 entries
+ *     bodies ...      the members of zd_plane_body, zd_plane_joint, zd_plane_quantity of mechanisms/plane/tables.h, or of zd_space_body,
+ *                     zd_space_joint, zd_space_quantity of mechanisms/space/tables.h, in their order, arrays entry after entry
+ *     terms ...       those of zd_quantity_term, zd_relation, zd_generalized_force and zd_output_spec of mechanisms/common/elements.h
+ *     laws            user functions: first instruction, number of instructions, number of marker quantities x, number of results:
+ *                     1 for a generalized force; for a relation with k terms the k + 3 that zd_law describes
+ *     instructions    code, and three operands: see enum zd_block_code
+ *     splines         first knot, number of knots: at least 2, abscissas increasing
+ *     knots           abscissa, and coefficients of powers 3, 2, 1, 0 of the distance from it, valid to the next knot
+ *     start           p, then v: one entry each; none if the start is not given
+ *     outputs         index of a measure that a run records
+ *     inputs          name, unit, and what it sets between steps: a enum zd_block_input_kind, and an index there
+ *     settings        t0, step, rtol, atol, first step, maximum step, maximum move, maximum number of steps, 1 to continue at
+ *                     bifurcations: one entry or none; as in zd_settings
+ *     methods         table (enum zd_table), name, and ZD_ROW_VALUES values of its parameters: of the formulation, the integrator and
+ *                     each correction that is on; none of a table: its default
+ *     names           of bodies, joints and relations, in this order; none, or one of each
+ *     parameters      name, unit, value, smallest and largest value
+ *     effects         word of the block that depends on parameters, first and number of its products, whose sum it is
+ *     products        a factor, and three pairs of a parameter and its exponent; exponents 0 to 8
+ *     texts           UTF-8, each ended by a zero byte, the last word filled with zero bytes; an entry is a word
+ *
+ * A name or unit is the offset of its text, in bytes. Kinds are numbered as in the tables of the core of this version; body 0 is the ground.
+ * A block with a wrong count, an index out of range, or a number that is not finite is refused with a sentence.
+ *
+ * Plain declarations only: CFFI parses this text. SI units, radians.
+ */
+#ifndef ZD_BLOCK_H
+#define ZD_BLOCK_H
+
+#include <stddef.h>
+
+#include "../zerodrift.h"
+
+enum { ZD_BLOCK_VERSION = 1 };
+
+enum zd_block_section {
+    ZD_BLOCK_GRAVITY, ZD_BLOCK_BODIES, ZD_BLOCK_JOINTS, ZD_BLOCK_QUANTITIES,
+    ZD_BLOCK_TERMS, ZD_BLOCK_RELATIONS, ZD_BLOCK_FORCES, ZD_BLOCK_MEASURES,
+    ZD_BLOCK_LAWS, ZD_BLOCK_INSTRUCTIONS, ZD_BLOCK_SPLINES, ZD_BLOCK_KNOTS,
+    ZD_BLOCK_START, ZD_BLOCK_OUTPUTS, ZD_BLOCK_INPUTS, ZD_BLOCK_SETTINGS, ZD_BLOCK_METHODS, ZD_BLOCK_NAMES,
+    ZD_BLOCK_PARAMETERS, ZD_BLOCK_EFFECTS, ZD_BLOCK_PRODUCTS, ZD_BLOCK_TEXTS,
+    ZD_BLOCK_SECTIONS
+};
+
+/* Codes of instructions. Instruction i of a law writes value i; operands a, b, c are numbers of earlier values, except where noted. */
+enum zd_block_code {
+    ZD_CODE_NUMBER,         /* a itself */
+    ZD_CODE_TIME,           /* t */
+    ZD_CODE_X,              /* x of marker quantity a */
+    ZD_CODE_XDOT,           /* its rate */
+    ZD_CODE_RESULT,         /* result number a <- value b */
+    ZD_CODE_PLUS, ZD_CODE_MINUS, ZD_CODE_TIMES, ZD_CODE_OVER, ZD_CODE_NEGATIVE,
+    ZD_CODE_LESS, ZD_CODE_LESS_EQUAL, ZD_CODE_GREATER, ZD_CODE_GREATER_EQUAL, ZD_CODE_EQUAL, ZD_CODE_UNEQUAL,     /* 1 if true, else 0 */
+    ZD_CODE_AND, ZD_CODE_OR, ZD_CODE_NOT,
+    ZD_CODE_CHOOSE,         /* b if a is not 0, otherwise c */
+    ZD_CODE_SPLINE,         /* spline a (its number) at value b, derivative of order c (a number: 0, 1 or 2); fails beyond its ends */
+    ZD_CODE_POWER, ZD_CODE_ROOT, ZD_CODE_SIN, ZD_CODE_COS, ZD_CODE_TAN, ZD_CODE_ASIN, ZD_CODE_ACOS, ZD_CODE_ATAN, ZD_CODE_ATAN2,
+    ZD_CODE_SINH, ZD_CODE_COSH, ZD_CODE_TANH, ZD_CODE_ASINH, ZD_CODE_ACOSH, ZD_CODE_ATANH, ZD_CODE_EXP, ZD_CODE_LOG, ZD_CODE_ABS,
+    ZD_CODE_FLOOR, ZD_CODE_CEILING, ZD_CODE_ERF, ZD_CODE_ERFC, ZD_CODE_EXPM1, ZD_CODE_HYPOT, ZD_CODE_LOG1P, ZD_CODE_LOG2,
+    ZD_CODE_LOG10, ZD_CODE_GAMMA, ZD_CODE_LOGGAMMA,
+    ZD_CODES
+};
+
+/* Members that an input sets. */
+enum zd_block_input_kind {
+    ZD_INPUT_FORCE,        /* value of a generalized force of kind ZD_FORCE_CONSTANT */
+    ZD_INPUT_SPEED          /* slope of a relation without a user function: the speed of a motor; its value does not jump */
+};
+
+typedef struct zd_block zd_block;
+
+/* Makes the mechanism from a copy of the block; name and unit of measures are texts of this copy. NULL on failure, with the reason in
+ * `message`. A block belongs to one run: user functions write into its memory. */
+zd_block *zd_block_create(const void *data, size_t size, char *message, int message_size);
+void zd_block_free(zd_block *block);
+const zd_system *zd_block_system(const zd_block *block);
+/* Start: p (nq,), v (nv,); NULL: not given. */
+const double *zd_block_start(const zd_block *block);
+/* Settings of a run and its outputs, which refer to the block; the caller sets t1 and samples. Returns ZD_DONE, or ZD_BAD_ARGUMENT. */
+int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int message_size);
+
+int zd_block_inputs(const zd_block *block);
+const char *zd_block_input_name(const zd_block *block, int input);
+double zd_block_input(const zd_block *block, int input);
+/* Sets an input from time t on. Returns ZD_DONE, or ZD_BAD_ARGUMENT for an input that does not exist or a value that is not finite. */
+int zd_block_set_input(zd_block *block, int input, double t, double value);
+
+int zd_block_parameters(const zd_block *block);
+const char *zd_block_parameter_name(const zd_block *block, int parameter);
+/* Changes the block's own copy of its words; a system of these parameters is made by zd_block_create() from zd_block_words(). Returns
+ * ZD_DONE, or ZD_BAD_ARGUMENT for a value outside the parameter's range. */
+int zd_block_set_parameter(zd_block *block, int parameter, double value);
+const double *zd_block_words(const zd_block *block, size_t *size);
+
+#endif

@@ -1,0 +1,206 @@
+/* From a block to a mechanism: its tables are those that Python would give to the core. */
+#include "made.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../workspace.h"
+
+/* Arrays of the tables, needed until the mechanism has its own. */
+typedef struct arrays {
+    void *section[ZD_BLOCK_MEASURES + 1];
+} arrays;
+
+static arrays take_tables(const zd_block_layout *layout, zd_arena *arena)
+{
+    arrays taken = {{NULL}};
+    for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++) {
+        const size_t size = zd_block_structure_of(layout->dimension, section)->size;
+        taken.section[section] = zd_take(arena, (size_t)layout->part[section].count * size);
+    }
+    return taken;
+}
+
+static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
+
+/* ---- checks of what the mechanism does not check ---- */
+
+static int laws_suit(const zd_block_layout *layout, const zd_elements *elements, zd_complaint to)
+{
+    for (int i = 0; i < elements->relations; i++) {
+        const zd_relation *row = elements->relation + i;
+        if (row->law >= 0 && !zd_block_law_suits(layout, row->law, row->terms, row->terms + 3))
+            return zd_complain(to, "relation %d: its law must exist, with its marker quantities and results", i);
+    }
+    for (int i = 0; i < elements->forces; i++) {
+        const zd_generalized_force *force = elements->force + i;
+        if (force->law >= 0 && !zd_block_law_suits(layout, force->law, force->terms, 1))
+            return zd_complain(to, "force %d: its law must exist, with its marker quantities and one result", i);
+    }
+    return 1;
+}
+
+static int laws_know_time(const zd_block_layout *layout)
+{
+    for (int i = 0; i < count_of(layout, ZD_BLOCK_INSTRUCTIONS); i++)
+        if (*zd_block_entry(layout, ZD_BLOCK_INSTRUCTIONS, i) == ZD_CODE_TIME) return 1;
+    return 0;
+}
+
+static int fits(const zd_block *self, zd_complaint to)
+{
+    const int start = count_of(&self->layout, ZD_BLOCK_START), needed = self->system.nq + self->system.nv;
+    if (start && start != needed) return zd_complain(to, "the start must have %d numbers, p and v, not %d", needed, start);
+    for (int i = 0; i < count_of(&self->layout, ZD_BLOCK_OUTPUTS); i++) {
+        const double measure = *zd_block_entry(&self->layout, ZD_BLOCK_OUTPUTS, i);
+        if (!zd_block_is_whole(measure, 0, count_of(&self->layout, ZD_BLOCK_MEASURES)))
+            return zd_complain(to, "output %d: its measure must exist, and is %g", i, measure);
+        self->output[i] = (int)measure;
+    }
+    return zd_block_inputs_check(self, to) && zd_block_parameters_check(&self->layout, to);
+}
+
+/* ---- the mechanism ---- */
+
+static zd_elements elements_of(zd_block *self, const arrays *from)
+{
+    const zd_block_layout *layout = &self->layout;
+    const int laws = count_of(layout, ZD_BLOCK_LAWS);
+    return (zd_elements){
+        .terms = count_of(layout, ZD_BLOCK_TERMS), .relations = count_of(layout, ZD_BLOCK_RELATIONS),
+        .forces = count_of(layout, ZD_BLOCK_FORCES), .measures = count_of(layout, ZD_BLOCK_MEASURES),
+        .term = from->section[ZD_BLOCK_TERMS], .relation = from->section[ZD_BLOCK_RELATIONS],
+        .force = from->section[ZD_BLOCK_FORCES], .measure = from->section[ZD_BLOCK_MEASURES],
+        .law = laws ? zd_block_law : NULL, .owner = &self->laws, .laws_know_time = laws_know_time(layout)};
+}
+
+static int make_plane(zd_block *self, const arrays *from, const zd_elements *elements, zd_complaint to)
+{
+    const zd_block_layout *layout = &self->layout;
+    const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
+    const zd_plane_tables tables = {
+        .gravity = {gravity[0], gravity[1]}, .bodies = count_of(layout, ZD_BLOCK_BODIES), .joints = count_of(layout, ZD_BLOCK_JOINTS),
+        .quantities = count_of(layout, ZD_BLOCK_QUANTITIES), .body = from->section[ZD_BLOCK_BODIES], .joint = from->section[ZD_BLOCK_JOINTS],
+        .quantity = from->section[ZD_BLOCK_QUANTITIES], .elements = *elements};
+    self->plane = zd_plane_create(&tables, to.message, to.size);
+    if (!self->plane) return 0;
+    const zd_plane_plan plan = zd_plane_planned(self->plane);
+    self->row = (zd_relation *)(uintptr_t)plan.row;
+    self->force = (zd_generalized_force *)(uintptr_t)plan.force;
+    self->names.owner = zd_plane_rows(self->plane);
+    self->system = *zd_plane_system(self->plane);
+    return 1;
+}
+
+static int make_space(zd_block *self, const arrays *from, const zd_elements *elements, zd_complaint to)
+{
+    const zd_block_layout *layout = &self->layout;
+    const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
+    const zd_space_tables tables = {
+        .gravity = {gravity[0], gravity[1], gravity[2]}, .bodies = count_of(layout, ZD_BLOCK_BODIES),
+        .joints = count_of(layout, ZD_BLOCK_JOINTS), .quantities = count_of(layout, ZD_BLOCK_QUANTITIES),
+        .body = from->section[ZD_BLOCK_BODIES], .joint = from->section[ZD_BLOCK_JOINTS], .quantity = from->section[ZD_BLOCK_QUANTITIES],
+        .elements = *elements};
+    int has_tree = 0;
+    for (int i = 0; i < tables.bodies; i++) has_tree |= tables.body[i].inboard >= 0;
+    self->space = (has_tree ? zd_space_tree_create : zd_space_create)(&tables, to.message, to.size);
+    if (!self->space) return 0;
+    const zd_space_plan plan = zd_space_planned(self->space);
+    self->row = (zd_relation *)(uintptr_t)plan.row;
+    self->force = (zd_generalized_force *)(uintptr_t)plan.force;
+    self->names.owner = zd_space_rows(self->space);
+    self->system = *zd_space_system(self->space);
+    return 1;
+}
+
+static int make(zd_block *self, const arrays *from, zd_complaint to)
+{
+    const zd_elements elements = elements_of(self, from);
+    for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++)
+        if (!zd_block_unpack(&self->layout, section, from->section[section], to)) return 0;
+    if (!laws_suit(&self->layout, &elements, to) || !zd_block_names_check(&self->layout, to)) return 0;
+    if (!(self->layout.dimension == 2 ? make_plane : make_space)(self, from, &elements, to)) return 0;
+    self->system.name_row = zd_block_name_row;
+    self->system.names = &self->names;
+    if (count_of(&self->layout, ZD_BLOCK_LAWS)) self->system.failure = "a user function of the mechanism is not defined here, as a table "
+                                                                        "beyond its ends";
+    self->outputs = (zd_outputs){NULL, count_of(&self->layout, ZD_BLOCK_OUTPUTS), self->output};
+    return fits(self, to);
+}
+
+/* ---- memory ---- */
+
+static zd_block *take(zd_arena *arena, size_t size, const zd_block_layout *layout, int longest)
+{
+    zd_block nowhere = {.size = 0}, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
+    self->word = zd_take(arena, size);
+    self->laws.value = zd_take_doubles(arena, (size_t)longest);
+    self->output = zd_take(arena, (size_t)count_of(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
+    return here;
+}
+
+static zd_block *copy_of(const double *word, size_t size, zd_complaint to)
+{
+    zd_block_layout layout;
+    if (!zd_block_split(word, size / sizeof *word, &layout, to)) return NULL;
+    const int longest = zd_block_laws_check(&layout, to);
+    if (longest < 0) return NULL;
+    zd_arena counting = {NULL, 0};
+    take(&counting, size, &layout, longest);
+    zd_arena arena = {zd_allocate(counting.used), 0};
+    if (!arena.base) {
+        zd_complain(to, "there is no memory for the mechanism");
+        return NULL;
+    }
+    zd_block *self = take(&arena, size, &layout, longest);
+    memcpy(self->word, word, size);
+    self->size = size;
+    zd_block_split(self->word, size / sizeof *word, &self->layout, to);
+    self->laws.layout = self->names.layout = &self->layout;
+    return self;
+}
+
+zd_block *zd_block_create(const void *data, size_t size, char *message, int message_size)
+{
+    const zd_complaint to = {message, message_size};
+    if (size % sizeof(double)) {
+        zd_complain(to, "the block must be words of 8 bytes, not %g bytes", (double)size);
+        return NULL;
+    }
+    double *aligned = zd_allocate(size);
+    if (aligned) memcpy(aligned, data, size);
+    else zd_complain(to, "there is no memory for the mechanism");
+    zd_block *self = aligned ? copy_of(aligned, size, to) : NULL;
+    zd_release(aligned);
+    if (!self) return NULL;
+    zd_arena counting = {NULL, 0};
+    take_tables(&self->layout, &counting);
+    zd_arena arena = {zd_allocate(counting.used), 0};
+    const arrays all = take_tables(&self->layout, &arena);
+    const int is_made = arena.base ? make(self, &all, to) : zd_complain(to, "there is no memory for the mechanism");
+    zd_release(arena.base);
+    if (is_made) return self;
+    zd_block_free(self);
+    return NULL;
+}
+
+void zd_block_free(zd_block *block)
+{
+    if (block && block->plane) zd_plane_free(block->plane);
+    if (block && block->space) zd_space_free(block->space);
+    zd_release(block);
+}
+
+const zd_system *zd_block_system(const zd_block *block) { return &block->system; }
+
+const double *zd_block_start(const zd_block *block)
+{
+    const zd_block_part *start = block->layout.part + ZD_BLOCK_START;
+    return start->count ? start->word : NULL;
+}
+
+const double *zd_block_words(const zd_block *block, size_t *size)
+{
+    *size = block->size;
+    return block->word;
+}

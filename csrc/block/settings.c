@@ -1,0 +1,53 @@
+/* Settings of a run from the block: methods by name, so that tables of methods may grow. */
+#include <string.h>
+
+#include "made.h"
+
+/* Parameters of a method as given. */
+static zd_given given_of(const double *method)
+{
+    zd_given given = {1, {0}};
+    memcpy(given.value, method + 2, sizeof given.value);
+    return given;
+}
+
+static int take_method(const zd_block *block, const double *method, zd_settings *to, zd_complaint complaint)
+{
+    const char *name = zd_block_text(&block->layout, method[1]);
+    if (!zd_block_is_whole(method[0], ZD_FORMULATIONS, ZD_CORRECTIONS + 1) || !name)
+        return zd_complain(complaint, "methods of a block must be of a table of methods, and have a name");
+    const enum zd_table table = (enum zd_table)(int)method[0];
+    const int row = zd_row_named(table, name);
+    if (row < 0) return zd_complain(complaint, "there is no method '%s' in this core", name);
+    const zd_given given = given_of(method);
+    if (zd_check_given(table, row, &given, complaint.message, complaint.size)) return 0;
+    if (table == ZD_FORMULATIONS) to->formulation = row, to->of_formulation = given;
+    if (table == ZD_INTEGRATORS) to->integrator = row, to->of_integrator = given;
+    if (table == ZD_CORRECTIONS) to->correction[row] = given;
+    return 1;
+}
+
+int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int message_size)
+{
+    const zd_complaint to = {message, message_size};
+    const zd_block_part *methods = block->layout.part + ZD_BLOCK_METHODS, *given = block->layout.part + ZD_BLOCK_SETTINGS;
+    *settings = (zd_settings){
+        .formulation = zd_default_row(ZD_FORMULATIONS), .integrator = zd_default_row(ZD_INTEGRATORS), .step = 0.01, .save_every = 1,
+        .on_singular = ZD_STOP, .outputs = block->outputs.count ? &block->outputs : NULL, .vector = ZD_BASELINE};
+    if (!methods->count) {
+        const int correction = zd_default_row(ZD_CORRECTIONS);
+        settings->correction[correction] = zd_initial(zd_row(ZD_CORRECTIONS, correction));
+    }
+    for (int i = 0; i < methods->count; i++)
+        if (!take_method(block, zd_block_entry(&block->layout, ZD_BLOCK_METHODS, i), settings, to)) return ZD_BAD_ARGUMENT;
+    if (!given->count) return ZD_DONE;
+    const double *word = given->word;
+    if (!zd_block_is_whole(word[7], 0, 0x1p53) || !zd_block_is_whole(word[8], 0, 2)) {
+        zd_complain(to, "settings of a block must have a whole number of steps, and 0 or 1 for bifurcations");
+        return ZD_BAD_ARGUMENT;
+    }
+    settings->t0 = word[0], settings->step = word[1], settings->rtol = word[2], settings->atol = word[3];
+    settings->first_step = word[4], settings->max_step = word[5], settings->max_move = word[6], settings->max_steps = (int64_t)word[7];
+    settings->on_singular = word[8] == 1 ? ZD_CONTINUE : ZD_STOP;
+    return ZD_DONE;
+}

@@ -1,0 +1,175 @@
+"""Blocks: a mechanism's tables as words of eight bytes, and the core's reader of them; see csrc/block/block.h."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .._core import ffi, lib
+from . import mechanisms, space
+from .base import MESSAGE_SIZE, cards, error_of, text
+from .systems import CoreSystem
+
+SECTIONS = ("gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions", "splines",
+            "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "texts")
+VERSION = lib.ZD_BLOCK_VERSION
+# by the names of operations in `symbolics.graph.lowering`, and of functions
+OPERATIONS = {"+": lib.ZD_CODE_PLUS, "-": lib.ZD_CODE_MINUS, "*": lib.ZD_CODE_TIMES, "/": lib.ZD_CODE_OVER,
+              "negative": lib.ZD_CODE_NEGATIVE, "root": lib.ZD_CODE_ROOT, "power": lib.ZD_CODE_POWER, "<": lib.ZD_CODE_LESS,
+              "<=": lib.ZD_CODE_LESS_EQUAL, ">": lib.ZD_CODE_GREATER, ">=": lib.ZD_CODE_GREATER_EQUAL, "==": lib.ZD_CODE_EQUAL,
+              "!=": lib.ZD_CODE_UNEQUAL, "and": lib.ZD_CODE_AND, "or": lib.ZD_CODE_OR, "not": lib.ZD_CODE_NOT,
+              "choose": lib.ZD_CODE_CHOOSE, "spline": lib.ZD_CODE_SPLINE, "number": lib.ZD_CODE_NUMBER, "t": lib.ZD_CODE_TIME,
+              "p": lib.ZD_CODE_X, "v": lib.ZD_CODE_XDOT, "result": lib.ZD_CODE_RESULT}
+FUNCTIONS = {name: getattr(lib, f"ZD_CODE_{code or name.upper()}") for name, code in {
+    "Pow": "POWER", "sin": "", "cos": "", "tan": "", "asin": "", "acos": "", "atan": "", "atan2": "", "sinh": "", "cosh": "",
+    "tanh": "", "asinh": "", "acosh": "", "atanh": "", "exp": "", "log": "", "Abs": "ABS", "floor": "", "ceiling": "", "erf": "",
+    "erfc": "", "expm1": "", "hypot": "", "log1p": "", "log2": "", "log10": "", "gamma": "", "loggamma": ""}.items()}
+TABLES = {"formulations": lib.ZD_FORMULATIONS, "integrators": lib.ZD_INTEGRATORS, "corrections": lib.ZD_CORRECTIONS}
+INPUTS = {"force": lib.ZD_INPUT_FORCE, "speed": lib.ZD_INPUT_SPEED}
+
+
+class Texts:
+    """Texts of a block, each once."""
+
+    def __init__(self) -> None:
+        self._offsets: dict[str, int] = {}
+        self._bytes = bytearray()
+
+    def offset(self, word: str) -> float:
+        """Place of a text, added at first use."""
+        if word not in self._offsets:
+            self._offsets[word] = len(self._bytes)
+            self._bytes += word.encode() + b"\0"
+        return float(self._offsets[word])
+
+    def words(self) -> np.ndarray:
+        """Texts, the last word filled with zero bytes."""
+        return np.frombuffer(bytes(self._bytes) + b"\0" * (-len(self._bytes) % 8), "<f8")
+
+
+def tables(written: mechanisms.Tables | space.Tables, texts: Texts) -> dict[str, list[float]]:
+    """Sections with the tables of a mechanism: the members of the core's structures in their order."""
+    packed, _words = (space if isinstance(written, space.Tables) else mechanisms).written_tables(written, False, False)
+    elements = packed["elements"]
+    arrays = {"bodies": packed["body"], "joints": packed["joint"], "quantities": packed["quantity"], "terms": elements["term"],
+              "relations": elements["relation"], "forces": elements["force"], "measures": elements["measure"]}
+    found = {name: [number for entry in array for number in _numbers(entry, texts)] for name, array in arrays.items()}
+    return {"gravity": [float(each) for each in packed["gravity"]], **found}
+
+
+def _numbers(value: Any, texts: Texts) -> list[float]:
+    """Numbers of a structure, an array, a text or a number."""
+    if not isinstance(value, ffi.CData):
+        return [float(value)]
+    kind = ffi.typeof(value)
+    if kind.kind == "struct":
+        return [number for name, _ in kind.fields for number in _numbers(getattr(value, name), texts)]
+    if kind.kind == "array":
+        return [number for each in value for number in _numbers(each, texts)]
+    return [texts.offset(text(value))]
+
+
+def methods(options: Any, texts: Texts) -> list[float]:
+    """Section with the methods of a run, from its settings, a `zd_settings`."""
+    chosen = [("formulations", options.formulation, options.of_formulation), ("integrators", options.integrator, options.of_integrator)]
+    chosen += [("corrections", row, options.correction[row]) for row in range(len(cards("corrections")))
+               if options.correction[row].given]
+    found: list[float] = []
+    for table, row, given in chosen:
+        card = lib.zd_row(TABLES[table], row)
+        given = given if given.given else lib.zd_initial(card)
+        found += [TABLES[table], texts.offset(text(card.name)), *given.value]
+    return found
+
+
+def settings(options: Any) -> list[float]:
+    """Section with the steps of a run, from its settings."""
+    names = ("t0", "step", "rtol", "atol", "first_step", "max_step", "max_move", "max_steps", "on_singular")
+    return [float(getattr(options, name)) for name in names]
+
+
+WIDTHS = {"laws": 4, "instructions": 4, "splines": 2, "knots": 5, "inputs": 4, "settings": 9, "methods": 2 + lib.ZD_ROW_VALUES,
+          "parameters": 5, "effects": 3, "products": 7}
+
+
+def assembled(dimension: int, sections: Mapping[str, Sequence[float]], counts: Mapping[str, int], texts: Texts) -> bytes:
+    """The block of these sections; `counts` has the numbers of entries of those whose widths depend on the dimension."""
+    parts = [np.asarray(sections.get(name, ()), dtype="<f8") for name in SECTIONS[:-1]] + [texts.words()]
+    entries = [counts.get(name, len(part) // WIDTHS.get(name, 1)) for name, part in zip(SECTIONS, parts, strict=True)]
+    size = 4 + len(SECTIONS) + sum(len(part) for part in parts)
+    header = b"zdblock\0" + struct.pack(f"<{3 + len(SECTIONS)}d", VERSION, size, dimension, *entries)
+    return header + b"".join(part.tobytes() for part in parts)
+
+
+class BlockCore(CoreSystem):
+    """The core's system of a block.
+
+    Raises
+    ------
+    ValueError
+        If the block is not valid, with the core's sentence.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        message = ffi.new("char[]", MESSAGE_SIZE)
+        made = lib.zd_block_create(ffi.from_buffer(data), len(data), message, MESSAGE_SIZE)
+        if not made:
+            raise ValueError(text(message))
+        self._block = ffi.gc(made, lib.zd_block_free)
+        super().__init__(lib.zd_block_system(self._block), (self._block,))
+
+    @property
+    def start(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """Initial p (nq,) and v (nv,), or None."""
+        words = lib.zd_block_start(self._block)
+        if not words:
+            return None
+        numbers = np.array(ffi.unpack(words, self.nq + self.nv))
+        return numbers[:self.nq], numbers[self.nq:]
+
+    @property
+    def settings(self) -> Any:
+        """Settings of a run, a `zd_settings`; t1 is the caller's."""
+        made, message = ffi.new("zd_settings *"), ffi.new("char[]", MESSAGE_SIZE)
+        status = lib.zd_block_settings(self._block, made, message, MESSAGE_SIZE)
+        if status:
+            raise error_of(status, text(message))
+        return made
+
+    @property
+    def constraint_names(self) -> list[str]:
+        """Names of the rows of C."""
+        to = ffi.new("char[]", MESSAGE_SIZE)
+
+        def name(row: int) -> str:
+            self.c.name_row(self.c.names, row, to, MESSAGE_SIZE)
+            return text(to)
+
+        return [name(row) for row in range(self.m)]
+
+    @property
+    def inputs(self) -> dict[str, float]:
+        """Inputs with their values."""
+        return {text(lib.zd_block_input_name(self._block, i)): lib.zd_block_input(self._block, i)
+                for i in range(lib.zd_block_inputs(self._block))}
+
+    def set_input(self, name: str, value: float, t: float = 0.0) -> None:
+        """Sets an input from a time on."""
+        if lib.zd_block_set_input(self._block, list(self.inputs).index(name), t, value):
+            raise ValueError(f"input {name!r} must be a finite number, not {value!r}")
+
+    def set_parameter(self, index: int, value: float) -> bool:
+        """Changes the words that depend on a parameter; False: the value is outside its range."""
+        return not lib.zd_block_set_parameter(self._block, index, value)
+
+    @property
+    def words(self) -> bytes:
+        """The block with its parameters as set."""
+        size = ffi.new("size_t *")
+        words = lib.zd_block_words(self._block, size)
+        return bytes(ffi.buffer(words, size[0]))
+
+

@@ -1,0 +1,1 @@
+"""Mechanisms outside Python: blocks of data and what reads them."""

@@ -1,0 +1,170 @@
+"""`zd.block`: a mechanism as one block of data, which the core reads without Python."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+from .. import _check
+from .._gateway import blocks
+from .._gateway.element_tables import law_sizes
+from ..mechanisms.equations.measure_tables import read
+from ..mechanisms.system import MechanismSystem
+from ..runs import outputs as _outputs
+from ..runs import settings
+from ..runs.start import start_of
+from .law_programs import Programs
+
+MOST_MEASURES = 8192        # of a system of the core
+
+
+class Chosen(NamedTuple):
+    """A mechanism's system with its start, and what a block holds of its run."""
+
+    system: MechanismSystem
+    p: Any
+    v: Any
+    options: Any                    # a `zd_settings`
+    outputs: tuple[str, ...] | None     # measures; None: all, and none is recorded
+    inputs: tuple[str, ...]
+
+
+def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = 0.01, outputs: Any = None,
+          inputs: Sequence[str] = (), **chosen: Any) -> bytes:
+    """A mechanism as one block of data: tables, user functions, start, measures, inputs, and the settings of a run.
+
+    The core makes a system of it without Python: it is what `c_source` and `fmu` write, and what a page in the browser reads. Its
+    format is described in ``block.h`` of the core's sources: words of eight bytes, so that a program of a few hundred lines can write
+    one, too. User functions are held as programs of elementary operations, tables as splines.
+
+    Parameters
+    ----------
+    system : Mechanism or its system
+        The tables of `Mechanism.system`, in its coordinates.
+    p0, v0 : array_like (nq,), (nv,), optional
+        Start; by default that of `simulate`.
+    t0 : float
+        Time of the start, in s.
+    step : float or None
+        Size of fixed steps, in s; None: adaptive steps.
+    outputs : list of measures or names, optional
+        Measures that a run records; other measures are left out. By default all measures are kept, and none is recorded.
+    inputs : list of str
+        Numbers that may be set between steps: forces and torques, such as ``"motor.torque"``, and speeds of motors, ``"drive.speed"``,
+        which must be given as numbers.
+    **chosen
+        Formulation, integrator, corrections and tolerances, as `simulate` takes them.
+
+    Returns
+    -------
+    bytes
+
+    Raises
+    ------
+    ValueError
+        If a user function is a callable, or has a function that a block does not know; it is named.
+    TypeError
+        If the system is not that of a mechanism.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> m = zd.models.four_bar()
+    >>> data = zd.block(m, step=0.01, outputs=["crank.angle"])
+    >>> data[:7], len(data) % 8
+    (b'zdblock', 0)
+    """
+    return written(choose(system, p0, v0, t0, step, outputs, inputs, chosen))
+
+
+def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs: Any, inputs: Sequence[str],
+           chosen: Mapping[str, Any]) -> Chosen:
+    """Check the arguments of `block`."""
+    t0 = _check.number("t0", t0)
+    system, p0, v0 = start_of(system, p0, v0, t0)
+    _check.instance("system", system, MechanismSystem, "a mechanism or its system")
+    p, v = system._state_or_start(p0, v0, t=t0)
+    given = {name: chosen.get(name) for name in ("rtol", "atol", "first_step", "max_step", "max_move", "integrator", "energy",
+                                                 "correction")}
+    unknown = set(chosen) - {*given, "formulation", "stabilization", "on_singular", "max_steps"}
+    if unknown:
+        raise TypeError(f"block() has no argument {sorted(unknown)[0]!r}")
+    options = settings.plan(
+        system, (t0, t0 + 1), None, 1, step, formulation=chosen.get("formulation", settings.FORMULATION),
+        stabilization=chosen.get("stabilization", settings.STABILIZATION), on_singular=chosen.get("on_singular", "stop"),
+        max_steps=chosen.get("max_steps", settings.MAX_STEPS), direct=False, vector="baseline", **given).options
+    names = None if outputs is None else _measures(_outputs.names(outputs, system), system)
+    return Chosen(system, p, v, options, names, _inputs(inputs))
+
+
+def _measures(names: Sequence[str], system: MechanismSystem) -> tuple[str, ...]:
+    """Names of whole measures, each once, in their order."""
+    known = list(system._watching.number)
+    found = []
+    for name in names:
+        place = system._watching.find(name)
+        if place is None:
+            raise ValueError(f"outputs of a block must be measures of the mechanism, not {name!r}")
+        found.append(known[place.number])
+    return tuple(dict.fromkeys(found))
+
+
+def _inputs(inputs: Any) -> tuple[str, ...]:
+    if isinstance(inputs, str) or not isinstance(inputs, Sequence) or not all(isinstance(name, str) for name in inputs):
+        raise TypeError(f"inputs must be a list of names, not {_check.shown(inputs)}")
+    return tuple(inputs)
+
+
+def written(chosen: Chosen) -> bytes:
+    """The block of these choices."""
+    system, texts = chosen.system, blocks.Texts()
+    tables = system._started_tables
+    quantities, observed = read(tables)
+    if chosen.outputs is not None:
+        observed = [row for row in observed if row.name in chosen.outputs]
+    packed = tables.written(quantities, observed)
+    measures = [row.name for row in observed]
+    if len(measures) > MOST_MEASURES:
+        raise ValueError(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, as {system.name} has")
+    sections = {
+        **blocks.tables(packed, texts), **_laws(tables, packed), "start": [*chosen.p.tolist(), *chosen.v.tolist()],
+        "outputs": [measures.index(name) for name in chosen.outputs or ()], "inputs": _input_section(chosen, tables, texts),
+        "settings": blocks.settings(chosen.options), "methods": blocks.methods(chosen.options, texts),
+        "names": [texts.offset(name) for name in (*(body.name for body in tables.parts), *(joint.name for joint in tables.joints),
+                                                  *tables.relation_names)]}
+    counts = {"bodies": len(packed.bodies), "joints": len(packed.joints), "quantities": len(packed.quantities),
+              "terms": len(sections["terms"]) // 2, "relations": len(packed.relations), "forces": len(packed.forces),
+              "measures": len(packed.measures)}
+    return blocks.assembled(system._drawing.dimension, sections, counts, texts)
+
+
+def _laws(tables: Any, packed: Any) -> dict[str, list[float]]:
+    """Sections of the user functions."""
+    programs, sizes = Programs(), law_sizes(packed)
+    for i, row in enumerate(tables.laws.rows):
+        programs.add(row, *sizes[i])
+    return vars(programs)
+
+
+def _input_section(chosen: Chosen, tables: Any, texts: blocks.Texts) -> list[float]:
+    found: list[float] = []
+    for name in chosen.inputs:
+        kind, index = _target(name, tables)
+        unit = next((row.unit for row in tables.observed if row.name == name), "")
+        found += [texts.offset(name), texts.offset(unit), blocks.INPUTS[kind], index]
+    return found
+
+
+def _target(name: str, tables: Any) -> tuple[str, int]:
+    """What an input sets: a force or a speed, and its index in the tables."""
+    owner, _, quantity = name.rpartition(".")
+    if quantity in ("force", "torque", "value") and owner in tables.force_of:
+        index = tables.force_of[owner]
+        if tables.forces[index].kind == "constant":
+            return "force", index
+    if quantity == "speed" and owner in tables.relation_names:
+        index = tables.relation_names.index(owner)
+        relation = tables.relations[index]
+        if relation.law < 0 and len(relation.quantities) == 1 and tables.drawing.elements[owner].drives == "speed":
+            return "speed", index
+    raise ValueError(f"inputs must name forces, torques and speeds that are given as numbers, such as 'motor.torque', not {name!r}")
