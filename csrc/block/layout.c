@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double LARGEST = 0x1p24;       /* of whole numbers: sums of two are far from the range of int */
+static const double LARGEST = 0x1p24;       /* whole number: sums of two are far from the range of int */
 
 static const char *const name_of_section[ZD_BLOCK_SECTIONS] = {
     "gravity", "bodies", "joints", "marker quantities", "terms", "relations", "forces", "measures", "laws", "instructions", "splines", "knots",

@@ -3,7 +3,7 @@
 #define ZD_BLOCK_LAYOUT_H
 
 #include "../mechanisms/common/check.h"
-#include "block.h"
+#include "structures.h"
 
 enum { ZD_BLOCK_HEADER = 4 + ZD_BLOCK_SECTIONS };
 
@@ -17,22 +17,6 @@ typedef struct zd_block_layout {
     zd_block_part part[ZD_BLOCK_SECTIONS];
 } zd_block_layout;
 
-/* A member of a structure, or several of one type in sequence. */
-enum zd_block_member { ZD_MEMBER_END, ZD_MEMBER_DOUBLES, ZD_MEMBER_INT, ZD_MEMBER_TEXT };
-
-typedef struct zd_block_field {
-    enum zd_block_member member;
-    size_t offset;
-    int count;
-} zd_block_field;
-
-typedef struct zd_block_structure {
-    size_t size;
-    const zd_block_field *field;    /* ended by ZD_MEMBER_END */
-} zd_block_structure;
-
-/* Structure of the entries of a section; NULL: they are read as words. */
-const zd_block_structure *zd_block_structure_of(int dimension, int section);
 /* Splits (words,) into sections, and checks counts, numbers and texts; returns 0 with the reason otherwise. */
 int zd_block_split(const double *word, size_t words, zd_block_layout *to, zd_complaint complaint);
 /* to (count,) <- entries of a section. Returns 0 if a whole number is not one. */

@@ -4,7 +4,7 @@
 
 #include "layout.h"
 
-/* What the name of a row consists of. */
+/* Parts of the name of a row. */
 typedef struct zd_block_names {
     const zd_block_layout *layout;
     const zd_row_owner *owner;      /* (m,) */

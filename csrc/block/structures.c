@@ -1,5 +1,5 @@
 /* Members of the structures of mechanisms, in the order of a block's words. */
-#include "layout.h"
+#include "structures.h"
 
 #include "../mechanisms/plane/tables.h"
 #include "../mechanisms/space/tables.h"

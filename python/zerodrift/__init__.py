@@ -59,7 +59,8 @@ __all__ = [
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.methods", "EnergyCorrection": "runs.methods", "Mechanism": "mechanisms.mechanism",
-    "Projection": "runs.methods", "System": "systems.callables", "bias": "analysis.matrices", "block": "export.block", "check": "studies.check",
+    "Projection": "runs.methods", "System": "systems.callables", "bias": "analysis.matrices",
+    "block": "export.block", "check": "studies.check",
     "ensemble": "ensembles.ensemble", "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium",
     "explore": "player.explore", "from_mechanics": "symbolics.mechanics",
     "get_include": "systems.native", "grid": "ensembles.runs", "inverse_dynamics": "analysis.inverse_dynamics",

@@ -13,8 +13,9 @@ from . import mechanisms, space
 from .base import MESSAGE_SIZE, cards, error_of, text
 from .systems import CoreSystem
 
-SECTIONS = ("gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions", "splines",
-            "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "texts")
+SECTIONS = ("gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
+            "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products",
+            "texts")
 VERSION = lib.ZD_BLOCK_VERSION
 # by the names of operations in `symbolics.graph.lowering`, and of functions
 OPERATIONS = {"+": lib.ZD_CODE_PLUS, "-": lib.ZD_CODE_MINUS, "*": lib.ZD_CODE_TIMES, "/": lib.ZD_CODE_OVER,
@@ -74,7 +75,8 @@ def _numbers(value: Any, texts: Texts) -> list[float]:
 
 def methods(options: Any, texts: Texts) -> list[float]:
     """Section with the methods of a run, from its settings, a `zd_settings`."""
-    chosen = [("formulations", options.formulation, options.of_formulation), ("integrators", options.integrator, options.of_integrator)]
+    chosen = [("formulations", options.formulation, options.of_formulation),
+              ("integrators", options.integrator, options.of_integrator)]
     chosen += [("corrections", row, options.correction[row]) for row in range(len(cards("corrections")))
                if options.correction[row].given]
     found: list[float] = []

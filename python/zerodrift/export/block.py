@@ -33,9 +33,9 @@ def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step:
           inputs: Sequence[str] = (), **chosen: Any) -> bytes:
     """A mechanism as one block of data: tables, user functions, start, measures, inputs, and the settings of a run.
 
-    The core makes a system of it without Python: it is what `c_source` and `fmu` write, and what a page in the browser reads. Its
-    format is described in ``block.h`` of the core's sources: words of eight bytes, so that a program of a few hundred lines can write
-    one, too. User functions are held as programs of elementary operations, tables as splines.
+    The core makes a system of it without Python. Its format is described in ``block.h`` of the core's sources: words of eight
+    bytes, so that a program of a few hundred lines can write one, too. User functions are held as programs of elementary
+    operations, tables as splines.
 
     Parameters
     ----------
@@ -50,8 +50,8 @@ def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step:
     outputs : list of measures or names, optional
         Measures that a run records; other measures are left out. By default all measures are kept, and none is recorded.
     inputs : list of str
-        Numbers that may be set between steps: forces and torques, such as ``"motor.torque"``, and speeds of motors, ``"drive.speed"``,
-        which must be given as numbers.
+        Numbers that may be set between steps: forces and torques, such as ``"motor.torque"``, and speeds of motors,
+        ``"drive.speed"``, which must be given as numbers.
     **chosen
         Formulation, integrator, corrections and tolerances, as `simulate` takes them.
 
@@ -156,7 +156,7 @@ def _input_section(chosen: Chosen, tables: Any, texts: blocks.Texts) -> list[flo
 
 
 def _target(name: str, tables: Any) -> tuple[str, int]:
-    """What an input sets: a force or a speed, and its index in the tables."""
+    """Member that an input sets, a force or a speed, and its index in the tables."""
     owner, _, quantity = name.rpartition(".")
     if quantity in ("force", "torque", "value") and owner in tables.force_of:
         index = tables.force_of[owner]
@@ -167,4 +167,5 @@ def _target(name: str, tables: Any) -> tuple[str, int]:
         relation = tables.relations[index]
         if relation.law < 0 and len(relation.quantities) == 1 and tables.drawing.elements[owner].drives == "speed":
             return "speed", index
-    raise ValueError(f"inputs must name forces, torques and speeds that are given as numbers, such as 'motor.torque', not {name!r}")
+    raise ValueError("inputs must name forces, torques and speeds that are given as numbers, such as 'motor.torque', "
+                     f"not {name!r}")

@@ -1,4 +1,4 @@
-"""User functions of a mechanism as the programs of a block: expressions, profiles and tables; anything else is refused by name."""
+"""User functions of a mechanism as the programs of a block: expressions, profiles and tables."""
 
 from __future__ import annotations
 
@@ -154,7 +154,8 @@ def _nodes(row: function_calls.Call, k: int) -> tuple[str, Any, Any, Any]:
     if law.inner_expression is not None:
         return law.what, *function_code.nodes_of(row, k)
     if law.constant is None and not hasattr(law._function, "written"):
-        raise ValueError(f"{law.what} is a callable, which a block cannot hold: give a number, an expression of SymPy or zd.table(x, y)")
+        raise ValueError(f"{law.what} is a callable, which a block cannot hold: give a number, an expression of SymPy "
+                         "or zd.table(x, y)")
     equations = _Equations(row.parameters, k)
     nodes = row.said(equations.leaves, row.written(equations, equations.leaves.x, equations.leaves.xdot))
     return law.what, equations.graph, nodes, list(row.parameters.values())

@@ -1,0 +1,24 @@
+/* Structures of mechanisms that entries of a block become. */
+#ifndef ZD_BLOCK_STRUCTURES_H
+#define ZD_BLOCK_STRUCTURES_H
+
+#include "block.h"
+
+/* A member of a structure, or several of one type in sequence. */
+enum zd_block_member { ZD_MEMBER_END, ZD_MEMBER_DOUBLES, ZD_MEMBER_INT, ZD_MEMBER_TEXT };
+
+typedef struct zd_block_field {
+    enum zd_block_member member;
+    size_t offset;
+    int count;
+} zd_block_field;
+
+typedef struct zd_block_structure {
+    size_t size;
+    const zd_block_field *field;    /* ended by ZD_MEMBER_END */
+} zd_block_structure;
+
+/* Structure of the entries of a section; NULL: they are read as words. */
+const zd_block_structure *zd_block_structure_of(int dimension, int section);
+
+#endif

@@ -1,0 +1,163 @@
+"""`zd.block`: what the core makes of a block is what it makes of Python's tables, to the bit."""
+
+import math
+import struct
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.special import ellipk
+
+import zerodrift as zd
+from every_model import IN_SPACE, MECHANISMS
+from zerodrift import _gateway
+from zerodrift._gateway.blocks import SECTIONS, BlockCore
+
+STEPS, STEP = 40, 1e-3
+t = sp.Symbol("t")
+LARGE = {"chain"}       # thousands of bodies
+
+
+def run(core, duration):
+    """Samples of a run of a block."""
+    options = core.settings
+    options.t1 = options.t0 + duration
+    record = _gateway.Record(core, 4000)
+    assert _gateway.Run(core, options, *core.start).advance(record, 1e3) == 0
+    return record.take()
+
+
+def assert_bits(system, duration=STEPS * STEP, **settings):
+    core = BlockCore(zd.block(system, step=STEP, outputs=[], **settings))
+    samples, sol = run(core, duration), zd.simulate(system, duration, step=STEP, vector="baseline", direct=False, **settings)
+    for name in ("t", "p", "v", "multipliers", "position_violation", "velocity_violation", "potential_energy"):
+        np.testing.assert_array_equal(samples[name.removesuffix("_energy")], getattr(sol, name), err_msg=name)
+    return core
+
+
+@pytest.mark.parametrize("name", sorted({*MECHANISMS, *IN_SPACE} - LARGE))
+def test_runs_of_blocks_have_the_bits_of_simulate(name):
+    system = getattr(zd.models, name)().system()
+    core = assert_bits(system)
+    assert core.constraint_names == [variable.name for variable in system.constraints]
+    assert (core.nq, core.nv, core.mh, core.mn) == (system.nq, system.nv, system.mh, system.mn)
+
+
+@pytest.mark.parametrize("name", ["four_bar", "andrews", "double_wishbone", "coin"])
+def test_also_in_absolute_coordinates(name):
+    system = getattr(zd.models, name)().system("absolute")
+    core = assert_bits(system)
+    assert core.constraint_names == [variable.name for variable in system.constraints]
+
+
+@pytest.mark.parametrize("settings", [
+    {"formulation": "augmented", "stabilization": zd.Baumgarte(alpha=3.0, beta=4.0)}, {"integrator": "heun", "energy": True},
+    {"formulation": "nullspace", "stabilization": None, "integrator": "rattle"}])
+def test_methods_and_their_parameters_are_kept(settings):
+    assert_bits(zd.models.four_bar().system(), **settings)
+
+
+def linkage(**drive):
+    m = zd.Mechanism("drive")
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    pin = m.revolute("pin", m.ground, link.start)
+    m.motor("drive", pin, **drive)
+    return m
+
+
+TIMES = np.linspace(0, 1, 11)
+LAWS = {
+    "table of angles": {"angle": zd.table(TIMES, 0.2 * TIMES**3)}, "table of speeds": {"speed": zd.table(TIMES, TIMES**2)},
+    "table of torques": {"torque": zd.table(TIMES, np.sin(TIMES))}, "angle": {"angle": sp.sin(3 * t) * sp.exp(-t / 2) + 0.3 * t},
+    "speed": {"speed": sp.tanh(4 * t)}, "speed of a measure": {"speed": sp.cos(sp.Symbol("pin.angle"))},
+    "cases": {"torque": sp.Piecewise((2.5, t < 0.02), (sp.log(1 + t), True))},
+    "functions": {"torque": sp.sqrt(1 + t) * sp.atan2(t, 2) - sp.Abs(t - 0.02) + sp.erf(t) * sp.floor(100 * t) / sp.cosh(t)},
+    "powers": {"torque": (1 + t)**sp.Rational(5, 3) + sp.Max(t, 0.01) * sp.sign(t - 0.02)}}
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_user_functions_have_the_bits_of_compiled_ones(name):
+    assert_bits(linkage(**LAWS[name]).system())
+
+
+def test_a_parameter_of_the_mechanism_is_a_number_of_its_programs():
+    m = zd.Mechanism("swing", parameters={"amplitude": 2.0})
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.motor("drive", m.revolute("pin", m.ground, link.start), torque=sp.Symbol("amplitude") * sp.sin(t))
+    assert_bits(m.system())
+
+
+def test_callables_and_unknown_functions_are_refused_by_name():
+    with pytest.raises(ValueError, match="torque of motor 'drive' is a callable, which a block cannot hold"):
+        zd.block(linkage(torque=lambda t: t))
+    with pytest.raises(ValueError, match="outputs of a block must be measures of the mechanism"):
+        zd.block(linkage(torque=1.0).system("absolute"), outputs=["pin.y"])
+    with pytest.raises(ValueError, match="inputs must name forces, torques and speeds"):
+        zd.block(linkage(torque=t), inputs=["drive.torque"])
+    with pytest.raises(TypeError, match="a mechanism or its system"):
+        zd.block(zd.systems.four_bar())
+
+
+def test_a_table_left_ends_the_run_with_a_sentence():
+    core = BlockCore(zd.block(linkage(torque=zd.table([0, 0.01], [1, 2])), step=STEP, outputs=[]))
+    options = core.settings
+    options.t1 = 0.1
+    made, record = _gateway.Run(core, options, *core.start), _gateway.Record(core, 200)
+    assert made.advance(record, 1e3) == _gateway.CALLBACK
+    assert "a table beyond its ends" in made.message
+
+
+def test_inputs_are_set_by_name():
+    core = BlockCore(zd.block(linkage(torque=0.0), step=STEP, outputs=[], inputs=["drive.torque"]))
+    assert core.inputs == {"drive.torque": 0.0}
+    core.set_input("drive.torque", 3.5)
+    sol = zd.simulate(linkage(torque=3.5), STEPS * STEP, step=STEP, vector="baseline")
+    np.testing.assert_array_equal(run(core, STEPS * STEP)["p"], sol.p)
+    with pytest.raises(ValueError, match="must be a finite number, not nan"):
+        core.set_input("drive.torque", math.nan)
+
+
+def test_a_speed_set_later_does_not_move_the_driven_angle():
+    fast = linkage(speed=2.0).system()
+    core = BlockCore(zd.block(linkage(speed=1.0).system(), fast.p0, fast.v0, step=STEP, outputs=[], inputs=["drive.speed"]))
+    core.set_input("drive.speed", 2.0)
+    np.testing.assert_array_equal(run(core, STEPS * STEP)["p"], zd.simulate(fast, STEPS * STEP, step=STEP).p)
+    core.set_input("drive.speed", 5.0, t=0.3)
+    np.testing.assert_allclose(core.evaluate(0.3, np.array([fast.p0[0] + 0.6]), fast.v0)["Phi"], 0, atol=1e-15)
+
+
+def test_recorded_outputs_are_those_of_simulate():
+    names = ["crank.angle", "coupler.position", "C.force"]
+    system = zd.models.four_bar().system()
+    core = BlockCore(zd.block(system, step=STEP, outputs=names))
+    measures = [core.c.measures.measure[core.settings.outputs.measure[i]] for i in range(len(names))]
+    assert [each.size for each in measures] == [1, 2, 2]
+    sol = zd.simulate(system, 10 * STEP, step=STEP, vector="baseline", outputs=names)
+    options = core.settings
+    options.t1 = 10 * STEP
+    record = _gateway.Record(core, 20, type("Width", (), {"width": 5}))
+    assert _gateway.Run(core, options, *core.start).advance(record, 1e3) == 0
+    np.testing.assert_array_equal(record.take()["outputs"], np.column_stack([sol[name] for name in names]))
+
+
+# ---- a block that no code of the package has written ----
+
+def pendulum_by_hand(mass, length, inertia, start):
+    """Block of a physical pendulum, as the description in block.h has it: one body that turns about the origin."""
+    body, joint = [mass, inertia, 0, 0], [0, 0, 1, 0, 0, -length, 0, 1, 0, 0, 0, 0, 0]
+    sections = {"gravity": [0, -9.81], "bodies": body, "joints": joint, "start": [start - math.pi / 2, 0], "names": [0, 0]}
+    counts = {"gravity": 2, "bodies": 1, "joints": 1, "start": 2, "names": 2, "texts": 1}
+    numbers = [number for name in SECTIONS for number in sections.get(name, ())]
+    words = 4 + len(SECTIONS) + len(numbers) + 1
+    return (b"zdblock\0" + struct.pack(f"<{3 + len(SECTIONS)}d", 1, words, 2, *(counts.get(name, 0) for name in SECTIONS))
+            + struct.pack(f"<{len(numbers)}d", *numbers) + b"bob" + bytes(5))
+
+
+def test_a_block_by_hand_swings_with_the_period_of_the_elliptic_integral():
+    mass, length, inertia, start = 2.0, 0.7, 0.1, 1.2
+    core = BlockCore(pendulum_by_hand(mass, length, inertia, start))
+    reduced = (inertia + mass * length**2) / (mass * length)
+    period = 4 * math.sqrt(reduced / 9.81) * ellipk(math.sin(start / 2)**2)
+    samples = run(core, period)
+    assert samples["p"][-1, 0] == pytest.approx(start - math.pi / 2, abs=1e-7)      # rk4 at its default step of 0.01 s
+    assert samples["v"][-1, 0] == pytest.approx(0, abs=1e-6)
