@@ -12,7 +12,7 @@ from pathlib import Path
 import zerodrift as zd
 from zerodrift import errors, gallery
 from zerodrift._gateway.base import statuses
-from zerodrift.explanations import classes, explanations
+from zerodrift.explanations import codes, explanations
 from zerodrift.mechanisms.elements.joints import JOINTS
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS
 
@@ -70,13 +70,13 @@ def messages() -> Iterable[str]:
                 "Errors of the package are {py:class}`zerodrift.ZerodriftError`; most carry the solution up to the place where it "
                 "stopped, as `error.solution`. Wrong arguments are `ValueError` and `TypeError`, whose message states the rule, the value "
                 "and a hint.", "")
-    codes, explained = classes(), explanations()
+    known, explained = codes(), explanations()
     yield from ("| code | class | meaning |", "|---|---|---|")
-    yield from (f"| [`{code}`](#{code}) | `{each.__name__}` | {first_sentence(each)} |" for code, each in codes.items())
-    for code, each in codes.items():
+    yield from (f"| [`{code}`](#{code}) | `{each.__name__}` | {first_clause(meaning)} |" for code, (each, meaning) in known.items())
+    for code, (each, meaning) in known.items():
         found = explained[code]
-        yield from ("", f"({code})=", f"## {code}", "", f"`zerodrift.{each.__name__}`. " + inspect.cleandoc(each.__doc__ or "").split("\n\n")[0], "")
-        if said := [row.sentence for row in statuses() if row.error == each.__name__]:
+        yield from ("", f"({code})=", f"## {code}", "", f"`zerodrift.{each.__name__}`. {meaning}", "")
+        if said := [row.sentence for row in statuses() if row.code == code]:
             yield from ("As printed:", "", *(f"* {sentence}" for sentence in said), "")
         for title, sentences in (("Causes", found.causes), ("Cures", found.cures)):
             yield from (f"**{title}**", "", *(f"* {sentence}" for sentence in sentences), "")
@@ -84,8 +84,8 @@ def messages() -> Iterable[str]:
             yield from ("These lines provoke it:", "", "```python", "import zerodrift as zd", "", found.snippet, "```", "")
 
 
-def first_sentence(cls: type) -> str:
-    return " ".join(inspect.cleandoc(cls.__doc__ or "").split("\n\n")[0].split()).split("; ")[0].rstrip(".")
+def first_clause(meaning: str) -> str:
+    return meaning.split("; ")[0].rstrip(".")
 
 
 KINDS = {

@@ -53,11 +53,11 @@ def _gallery(folder: Path) -> None:
 
 
 def _explain(code: str | None) -> int:
-    from .explanations import classes, explain
+    from .explanations import codes, explain
 
     if code is None:
-        for each, of in sorted(classes().items()):
-            print(f"{each:24}{of.__name__}")
+        for each, (of, _) in sorted(codes().items()):
+            print(f"{each:28}{of.__name__}")
         return 0
     try:
         print(explain(code))

@@ -23,6 +23,33 @@ def sentence(error: BaseException) -> str:
     return BaseException.__str__(error) if isinstance(error, _Coded) else str(error)
 
 
+def advised(error: Exception, advice: str) -> Exception:
+    """The same error, of the same code, with advice at the end of its message."""
+    found = type(error)(f"{sentence(error)}; {advice}")
+    if isinstance(error, _Coded):
+        found.code = error.code
+    return found
+
+
+# Codes of the core's statuses of which several raise the same exception, by their symbol; the others have the exception's code.
+OF_STATUS = {
+    "ZD_NOT_DEFINITE": "mass-not-definite",
+    "ZD_NOT_SYMMETRIC": "mass-not-symmetric",
+    "ZD_DEPENDENT_ROWS": "dependent-constraints",
+    "ZD_CONTRADICTION": "contradicting-constraints",
+    "ZD_SINGULAR": "singular-matrix",
+    "ZD_NO_STEP": "implicit-step",
+    "ZD_NO_EMBEDDING": "dependent-coordinates",
+    "ZD_TINY_STEP": "step-underflow",
+    "ZD_TOO_MANY_STEPS": "too-many-steps",
+    "ZD_BIFURCATION_PASSED": "bifurcation-passed",
+    "ZD_NOT_JACOBIAN": "wrong-jacobian",
+    "ZD_NOT_KEPT": "quaternion-length",
+    "ZD_BAD_TERM": "term-not-finite",
+    "ZD_CALLBACK": "evaluation-failed",
+}
+
+
 class ZerodriftError(_Coded, Exception):
     """Base of all errors of this package.
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from importlib import resources
 
 from . import errors
+from ._gateway.base import statuses
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,15 @@ def classes() -> dict[str, type[BaseException]]:
             if inspect.isclass(each) and issubclass(each, errors._Coded) and each is not errors._Coded}
 
 
+def codes() -> dict[str, tuple[type[BaseException], str]]:
+    """Exception and meaning of each code: of exceptions, and of the core's statuses of which several raise the same exception."""
+    found = {code: (each, " ".join(inspect.cleandoc(each.__doc__ or "").split("\n\n")[0].split()))
+             for code, each in classes().items()}
+    of_status = {row.code: (getattr(errors, row.error), f"{row.sentence[0].upper()}{row.sentence[1:]}.")
+                 for row in statuses() if row.code and row.code not in found}
+    return {code: {**found, **of_status}[code] for code in explanations()}
+
+
 def explain(code: str) -> str:
     """Meaning, causes and cures of a code, as plain text.
 
@@ -58,13 +68,13 @@ def explain(code: str) -> str:
         If there is no such code; the message has the closest.
     """
     code = code.strip().removeprefix("[").removesuffix("]").removeprefix("zd:")
-    known = classes()
+    known = codes()
     if code not in known:
         near = difflib.get_close_matches(code, known, n=3, cutoff=0.4) or sorted(known)
         raise ValueError(f"code must be one of the package, not {code!r}; the closest are {', '.join(near)}")
     found = explanations()[code]
-    meaning = " ".join(inspect.cleandoc(known[code].__doc__ or "").split("\n\n")[0].split())
-    parts = [f"{code} ({known[code].__name__})", *_wrapped(meaning, "")]
+    kind, meaning = known[code]
+    parts = [f"{code} ({kind.__name__})", *_wrapped(meaning, "")]
     for title, sentences in (("Causes", found.causes), ("Cures", found.cures)):
         parts += ["", title, *(line for each in sentences for line in _wrapped(each, "  "))]
     if found.snippet:

@@ -217,7 +217,7 @@ def test_a_jacobian_serves_for_many_steps(bar):
 
 
 def test_what_it_cannot_solve_is_said(bar):
-    with pytest.raises(zd.StepFailed, match=r"implicit 'radau' step were not solved; try a smaller step \[zd:step-failed\]$"):
+    with pytest.raises(zd.StepFailed, match=r"implicit 'radau' step were not solved; try a smaller step \[zd:implicit-step\]$"):
         zd.simulate(bar, 8.0, step=4.0, integrator="radau")
     chain = zd.Mechanism("chain")
     before = chain.ground

@@ -93,7 +93,7 @@ def test_a_step_far_too_large(bar):
 
 def test_an_implicit_step_far_too_large(bar):
     failed(zd.StepFailed,
-           r"^at t = .*: the equations of the implicit 'trapezoidal' step .*; try a smaller step \[zd:step-failed\]$",
+           r"^at t = .*: the equations of the implicit 'trapezoidal' step .*; try a smaller step \[zd:implicit-step\]$",
            lambda: zd.simulate(bar, 8.0, step=2.0, integrator="trapezoidal"))
 
 

@@ -180,7 +180,7 @@ def test_too_many_steps_end_a_run_and_it_says_where_they_lie(most):
     assert abs(low - partial.t[shortest]) < 0.1 * spans.min()
     returned = zd.simulate(spike(), 1.0, max_steps=most, on_failure="return", **options)
     assert not returned.success
-    assert str(failed.value) == f"{returned.message} [zd:step-failed]"
+    assert str(failed.value) == f"{returned.message} [zd:too-many-steps]"
     assert returned.p.tobytes() == partial.p.tobytes()
     assert returned.settings["max_steps"] == most
 

@@ -134,13 +134,16 @@ class Status(NamedTuple):
     status: int
     error: str      # name of the exception that stands for it
     sentence: str
+    code: str       # of that exception, where this status raises it; "" of exceptions of Python
 
 
 def statuses() -> list[Status]:
     """The core's list of statuses of failures."""
     rows: list[Status] = []
     while c := lib.zd_status_at(len(rows)):
-        rows.append(Status(c.status, text(c.error) or "ZerodriftError", text(c.sentence)))
+        error = text(c.error) or "ZerodriftError"
+        code = errors.OF_STATUS.get(text(c.symbol)) or getattr(getattr(errors, error, None), "code", "")
+        rows.append(Status(c.status, error, text(c.sentence), code))
     return [row for row in rows if row.status < 0]
 
 
@@ -151,6 +154,7 @@ def _errors() -> dict[int, type[Exception]]:
 
 
 ERRORS = _errors()
+CODES = {row.status: row.code for row in statuses() if row.code}
 
 
 class Term(NamedTuple):
@@ -217,5 +221,8 @@ def required(correction: str) -> int:
 
 
 def error_of(status: int, message: str) -> Exception:
-    """The exception that stands for a failed status."""
-    return ERRORS.get(status, errors.ZerodriftError)(message)
+    """The exception that stands for a failed status, with its code."""
+    error = ERRORS.get(status, errors.ZerodriftError)(message)
+    if status in CODES:
+        error.code = CODES[status]
+    return error

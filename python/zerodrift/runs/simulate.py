@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import CostWarning, Interrupted, SingularSystem, sentence
+from ..errors import CostWarning, Interrupted, SingularSystem, advised
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from . import diagnosis, evaluation_path, recording, settings
 from . import events as _events
@@ -329,7 +329,7 @@ def _created(system: BaseSystem, *given: Any) -> _gateway.Run:
         advice = system._advice(error)
         if advice is None:
             raise
-        raise type(error)(f"{sentence(error)}; {advice}") from None
+        raise advised(error, advice) from None
 
 
 def _message(run: _gateway.Run, outcome: _Outcome) -> str:
