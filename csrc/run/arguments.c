@@ -146,7 +146,7 @@ static const char *wrong_course(const zd_settings *settings)
     };
     const char *wrong = FIRST_BROKEN(times);
     if (wrong) return wrong;
-    return zd_count_steps(settings->t0, settings->t1, step) < (double)INT64_MAX ? NULL : "there are more steps than can be counted";
+    return zd_count_steps(settings->t0, settings->t1, step) < (double)INT64_MAX ? NULL : "the number of steps must be below 2^63";
 }
 
 int zd_check_system(const zd_system *system, char *message, int size)
@@ -165,12 +165,12 @@ int zd_check_methods_agree(const zd_settings *settings, char *message, int size)
     int said = 0;
     if (!integrator || !integrator->takes_series) return ZD_DONE;
     if (formulation->settle)
-        said = snprintf(message, room, "'%s' makes its steps in all of p and v, and the state of '%s' is part of them: 'schur', 'augmented' and "
-                        "'nullspace' follow the same motion", integrator->card.name, formulation->card.name);
+        said = snprintf(message, room, "'%s' must be run with 'schur', 'augmented' or 'nullspace', as it steps all of p and v, of which the "
+                        "state of '%s' is a part", integrator->card.name, formulation->card.name);
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS) && !said; row++)
         if (settings->correction[row].given && zd_correction_of(row)->stabilize)
-            said = snprintf(message, room, "'%s' has the series of constraints as they are, which '%s' changes: 'projection' does not",
-                            integrator->card.name, zd_correction_of(row)->card.name);
+            said = snprintf(message, room, "'%s' must be run without '%s', which changes the constraints of its series; 'projection' does "
+                            "not", integrator->card.name, zd_correction_of(row)->card.name);
     return said ? ZD_UNSUITED_INTEGRATOR : ZD_DONE;
 }
 
@@ -178,7 +178,7 @@ static int check_series(const zd_system *system, const zd_settings *settings, ch
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
     if (!integrator->takes_series || system->series) return zd_check_methods_agree(settings, message, size);
-    snprintf(message, (size_t)size, "'%s' takes systems that bring Taylor series, as compiled ones of expressions do, and this one brings none",
+    snprintf(message, (size_t)size, "'%s' must have a system that provides Taylor series, as compiled ones of expressions do",
              integrator->card.name);
     return ZD_UNSUITED_INTEGRATOR;
 }
@@ -191,8 +191,8 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     if (!status) status = check_series(system, settings, message, size);
     const zd_formulation *formulation = status ? NULL : zd_formulation_of(settings->formulation);
     if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_takes_many_rows(formulation, system)) {
-        snprintf(message, (size_t)size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: it takes such "
-                 "systems up to %d velocities, and here there are %d; 'schur', 'augmented', 'nullspace' and 'mixed' take them at a cost that "
+        snprintf(message, (size_t)size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: such a system "
+                 "must have at most %d velocities, not %d; 'schur', 'augmented', 'nullspace' and 'mixed' take them at a cost that "
                  "follows the bodies", formulation->card.name, ZD_MOST_IMPLICIT, system->nv);
         return ZD_UNSUITED;
     }
@@ -205,8 +205,8 @@ int zd_check_quaternions(const zd_system *system, const double *p, int any_lengt
     int wrong = zd_quaternions_wrong_length(system, p, any_length, &length);
     if (wrong < 0) return ZD_DONE;
     const int first = system->quaternion[wrong];
-    snprintf(message, (size_t)size, "p[%d] to p[%d] are a quaternion of length %.7g, and %s", first, first + 3, length,
-             any_length ? "no rotation has that" : "that of a rotation is 1 (to 1e-06): divide it by its length");
+    snprintf(message, (size_t)size, "p[%d] to p[%d] must be a quaternion of %s, not %.7g%s", first, first + 3,
+             any_length ? "positive length" : "length 1 (to 1e-06)", length, any_length ? "" : ": divide it by its length");
     return ZD_BAD_START;
 }
 

@@ -17,8 +17,8 @@
 static void describe_asymmetry(const zd_point *point, char *to, size_t size)
 {
     const int i = point->failed_index, j = point->failed_column;
-    snprintf(to, size, "%s: M[%d, %d] = %.9g, and M[%d, %d] = %.9g", zd_sentence(ZD_NOT_SYMMETRIC), i, j, zd_entry_of_M(point, i, j), j, i,
-             zd_entry_of_M(point, j, i));
+    snprintf(to, size, "%s: M[%d, %d] = %.9g, and M[%d, %d] = %.9g", zd_sentence(ZD_NOT_SYMMETRIC), i, j, zd_entry_of_M(point, i, j),
+             j, i, zd_entry_of_M(point, j, i));
 }
 
 static void describe_jacobian(const zd_run *run, char *to, size_t size)
@@ -27,7 +27,7 @@ static void describe_jacobian(const zd_run *run, char *to, size_t size)
     char of[48] = "Phi_t";
     if (found->column < run->motion.system.nv) snprintf(of, sizeof of, "the Jacobian, for velocity %d,", found->column);
     char row[ZD_ROW_NAME];
-    snprintf(to, size, "row %s of %s is not the derivative of the constraint: it is %.6g, and differences of the constraint give %.6g",
+    snprintf(to, size, "row %s of %s must be the derivative of the constraint: it is %.6g, and differences of the constraint give %.6g",
              zd_name_row(&run->motion.system, found->row, row), of, found->given, found->found);
 }
 
@@ -60,7 +60,7 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
         snprintf(to, size, "%s; a smaller step shows which, " ON_SINGULAR, zd_sentence(status));
         break;
     case ZD_CONTRADICTION:
-        snprintf(to, size, "the constraints contradict each other (%s from the others, but row %s asks for another acceleration at this "
+        snprintf(to, size, "the constraints contradict each other (%s from the others, but row %s requires another acceleration at this "
                  "velocity)", rows, zd_name_row(point->system, failed_index, row));
         break;
     case ZD_SINGULAR:
@@ -97,8 +97,8 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
     double a, b;
     zd_step_histogram_half(&run->loop.control.histogram, &a, &b);
     int digits = digits_of(a, b);
-    snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast there, "
-             "%s; max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b,
+    snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast "
+             "there, %s; max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b,
              run->stepper.integrator->decay == 0 ? "such as a force that jumps; a smooth force, or events at its jumps, take fewer"
                                                : "or the problem is stiff and needs an implicit method, such as 'radau'");
 }
@@ -107,8 +107,7 @@ static void describe_surplus(const zd_system *system, const char *formulation, c
 {
     char quaternions[96] = "";
     if (system->quaternions) snprintf(quaternions, sizeof quaternions, ", besides one for each of %d unit quaternions", system->quaternions);
-    snprintf(to, size, "'%s' needs as many coordinates as velocities%s, and there are %d and %d", formulation, quaternions, system->nq,
-             system->nv);
+    snprintf(to, size, "'%s' must have as many coordinates as velocities%s, not %d and %d", formulation, quaternions, system->nq, system->nv);
 }
 
 /* Describes a method that does not apply to this system, or cannot reach the tolerance; returns false for other statuses. */
@@ -125,14 +124,14 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
         break;
     case ZD_UNSUITED_INTEGRATOR:
         if (zd_is_too_large(system) && !run->stepper.integrator->step_of_motion)
-            snprintf(to, size, "'%s' solves its steps with dense matrices: it takes systems that declare their structure up to %d velocities, "
-                     "and here there are %d", integrator, ZD_MOST_IMPLICIT, system->nv);
-        else snprintf(to, size, "'%s' takes holonomic systems whose velocities are the rates of their coordinates, and here there %s", integrator,
-                 system->mn ? "are nonholonomic constraints" : "is a kinematic matrix");
+            snprintf(to, size, "'%s' solves its steps with dense matrices: a system that declares its structure must have at most %d "
+                     "velocities, not %d", integrator, ZD_MOST_IMPLICIT, system->nv);
+        else snprintf(to, size, "'%s' must have a holonomic system whose velocities are the rates of its coordinates; here there %s",
+                 integrator, system->mn ? "are nonholonomic constraints" : "is a kinematic matrix");
         break;
     case ZD_TINY_STEP:
-        snprintf(to, size, "step size underflow: rtol = %.3g, atol = %.3g require steps below the rounding of the time", run->settings.rtol,
-                 run->settings.atol);
+        snprintf(to, size, "step size underflow: rtol = %.3g, atol = %.3g require steps below the rounding of the time",
+                 run->settings.rtol, run->settings.atol);
         break;
     case ZD_TOO_MANY_STEPS: describe_steps(run, to, size); break;
     default: return 0;
@@ -165,7 +164,7 @@ void zd_say_event(char *to, size_t size, int event)
 static void describe_event(const zd_watch *watch, char *to, size_t size)
 {
     const int event = watch->failed - 1;
-    if (zd_is_known(watch->events, event)) snprintf(to, size, "event %d has no finite value", event);
+    if (zd_is_known(watch->events, event)) snprintf(to, size, "event %d must have a finite value", event);
     else snprintf(to, size, "the evaluation of an event failed");
 }
 
@@ -197,7 +196,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         else snprintf(to, size, "%s", failure ? failure : zd_sentence(status));
         break;
     case ZD_EVENT: zd_say_event(to, size, run->watch.ended - 1); break;
-    case ZD_BAD_TERM: snprintf(to, size, "the system's %s is not finite", zd_term_name(point->failed_index)); break;
+    case ZD_BAD_TERM: snprintf(to, size, "the system's %s must be finite", zd_term_name(point->failed_index)); break;
     default: snprintf(to, size, "%s", zd_sentence(status)); break;
     }
 }

@@ -155,7 +155,7 @@ def test_contradicting_constraints_are_named(formulation):
     def rows(order):
         return bar(lambda p, t: np.append(closure(p), closure(p)[0] - t**order))
 
-    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d follows from the others, but row \d asks"):
+    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d follows from the others, but row \d requires"):
         zd.simulate(rows(2), 1.0, step=0.01, formulation=formulation)
     with pytest.raises(zd.ZerodriftError, match=r"may contradict them|do not determine the others|contradict each other"):
         zd.simulate(rows(3), 1.0, step=0.01, formulation=formulation)

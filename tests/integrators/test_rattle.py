@@ -204,7 +204,7 @@ def test_steps_however_short(bar):
 ], ids=lambda value: getattr(value, "name", None))
 def test_what_it_refuses(mechanism, reason):
     assert "rattle" not in zd.integrators(mechanism)
-    with pytest.raises(zd.UnsuitedIntegrator, match=f"'rattle' takes holonomic systems .* here there {reason}"):
+    with pytest.raises(zd.UnsuitedIntegrator, match=f"'rattle' must have a holonomic system .* here there {reason}"):
         zd.simulate(mechanism, 1.0, step=0.1, integrator="rattle")
 
 

@@ -124,12 +124,12 @@ def test_a_start_of_another_length_is_refused(length):
     system, q = held_at_a_point(*TOP), np.array([length, 0, 0, 0])
     calls = [lambda p: zd.simulate(system, 0.1, p, step=STEP), lambda p: zd.acceleration(system, p, system.v0)]
     for call in calls:
-        with pytest.raises(zd.InconsistentStart, match=r"p\[3\] to p\[6\] are a quaternion of length .*divide it by its length"):
+        with pytest.raises(zd.InconsistentStart, match=r"p\[3\] to p\[6\] must be .* length 1 .*divide it by its length"):
             call(np.r_[system.p0[:3], q])
 
 
 def test_a_quaternion_of_no_length_is_no_attitude():
-    with pytest.raises(zd.InconsistentStart, match=r"p\[0\] to p\[3\] are a quaternion of length 0, and no rotation has that"):
+    with pytest.raises(zd.InconsistentStart, match=r"p\[0\] to p\[3\] must be a quaternion of positive length, not 0"):
         zd.project(about_a_point(*TOP), np.zeros(4), np.zeros(3))
 
 

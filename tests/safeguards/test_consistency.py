@@ -11,7 +11,7 @@ from native_systems import compile_text, needs_compiler
 from support import SYSTEMS, motion
 
 WAYS = {"fixed": {"step": 0.01}, "chosen": {"rtol": 1e-8, "atol": 1e-8, "integrator": "dop853"}}
-WRONG_ROW = r"row 0 of the Jacobian, for velocity 1, is not the derivative of the constraint"
+WRONG_ROW = r"row 0 of the Jacobian, for velocity 1, must be the derivative of the constraint"
 
 
 @pytest.fixture(params=WAYS)
@@ -179,7 +179,7 @@ int driven(const void *data, int want, double t, const double *p, const double *
 @needs_compiler
 @pytest.mark.parametrize(("wrong", "says"), [
     ({}, None), ({"slope": 0.2}, WRONG_ROW), ({"slope": 0.0}, WRONG_ROW),
-    ({"speed": 0.31}, r"row 0 of Phi_t is not the derivative of the constraint: it is -0\.3"),
+    ({"speed": 0.31}, r"row 0 of Phi_t must be the derivative of the constraint: it is -0\.3"),
 ])
 def test_of_native_systems_the_derivative_by_time_is_looked_at_too(tmp_path, wrong, says, way):
     library = compile_text(DRIVEN, tmp_path / "driven.so")

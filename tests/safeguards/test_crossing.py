@@ -219,7 +219,7 @@ def test_where_there_is_no_branch(name):
 def test_a_velocity_along_no_branch(formulation):
     """To first order it satisfies the constraints; to second order nothing does."""
     for on_singular in ("stop", "continue"):
-        with pytest.raises(zd.SingularSystem, match="row 1 asks for another acceleration at this velocity"):
+        with pytest.raises(zd.SingularSystem, match="row 1 requires another acceleration at this velocity"):
             zd.simulate(crank(*FLAT, [1.0, -1.0, 0.0]), 1.0, step=0.01, formulation=formulation, on_singular=on_singular)
 
 

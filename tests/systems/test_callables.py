@@ -204,7 +204,7 @@ def test_a_shape_that_changes_on_the_way_is_caught():
     ({"mass": lambda p: -np.eye(3)}, "not positive definite"),
     ({"mass": lambda p: np.eye(3) + np.triu(np.ones((3, 3)), 1)}, "not symmetric"),
     ({"constraints": lambda p, t, L: np.array([L @ np.sin(p), 2 * L @ np.sin(p) - t**2]), **DERIVED},
-     "contradict each other .row . follows from the others, but row . asks for another acceleration"),
+     "contradict each other .row . follows from the others, but row . requires another acceleration"),
 ])
 def test_what_cannot_be_simulated_is_said_at_the_start(formulation, changes, message):
     with pytest.raises(zd.SingularSystem, match=message) as caught:
