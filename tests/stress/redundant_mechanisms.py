@@ -28,31 +28,39 @@ def tried(seed):
         return "", [[f"unexpected: {type(error).__name__}", str(error)[:160]]]
 
 
+def page(found, commit, remark):
+    """Lines of the table, from findings (seed, formulation, [[finding, details], ...])."""
+    counts, listed, singular = Counter(), [], 0
+    for seed, formulation, words in found:
+        place = ("plane", "space")[seed % 2]
+        counts.update(f"{place}, {word}" for word, _ in words)
+        singular += any("singular" in details for _, details in words)
+        listed += [f"| {seed} | {place}, {formulation}, {word} | {details} |" for word, details in words
+                   if not word.endswith(FINE_WORDS)]
+    commit = f", commit {commit}" if commit else ""
+    return [f"# {len(found)} random mechanisms with redundant constraints", "",
+            f"Written by `tests/stress/redundant_mechanisms.py`, zerodrift {zd.__version__}{commit}, "
+            f"{time.strftime('%d %B %Y')}, {remark}.", "",
+            "| finding | how many |", "|---|---|", *(f"| {word} | {count} |" for word, count in sorted(counts.items())), "",
+            f"{singular} of the mechanisms come near a singular pose (smallest singular value below 1e-4 of the largest).", "",
+            "| seed | finding | what |", "|---|---|---|", *listed]
+
+
 def main():
     """Runs them and writes the table."""
     many, processes, seconds = (int(sys.argv[i]) if len(sys.argv) > i else default
                                 for i, default in ((1, 2000), (2, 1), (4, 10**6)))
-    begin, counts, listed, singular = time.time(), Counter(), [], 0
+    begin, found = time.time(), []
     with ProcessPoolExecutor(processes) as pool:
         for seed, (formulation, words) in enumerate(pool.map(tried, range(many), chunksize=5)):
-            place = ("plane", "space")[seed % 2]
-            counts.update(f"{place}, {word}" for word, _ in words)
-            singular += any("singular" in told for _, told in words)
-            listed += [f"| {seed} | {place}, {formulation}, {word} | {told} |" for word, told in words
-                       if not word.endswith(FINE_WORDS)]
+            found.append((seed, formulation, words))
             if seed % 50 == 49:
-                print(seed + 1, *listed[-3:], flush=True)
+                print(seed + 1, f"{time.time() - begin:.0f} s", flush=True)
             if time.time() > begin + seconds:
-                many = seed + 1
                 pool.shutdown(wait=False, cancel_futures=True)
                 break
-    commit = f", commit {sys.argv[3]}" if len(sys.argv) > 3 else ""
-    lines = [f"# {many} random mechanisms with redundant constraints", "",
-             f"Written by `tests/stress/redundant_mechanisms.py`, zerodrift {zd.__version__}{commit}, "
-             f"{time.strftime('%d %B %Y')}, {time.time() - begin:.0f} s in {processes} processes beside other work.", "",
-             "| finding | how many |", "|---|---|", *(f"| {word} | {count} |" for word, count in sorted(counts.items())), "",
-             f"{singular} of the mechanisms come near a singular pose (smallest singular value below 1e-4 of the largest).", "",
-             "| seed | finding | what |", "|---|---|---|", *listed]
+    commit = sys.argv[3] if len(sys.argv) > 3 else ""
+    lines = page(found, commit, f"{time.time() - begin:.0f} s in {processes} processes beside other work")
     TABLE.write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
 
