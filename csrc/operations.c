@@ -52,14 +52,14 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
     return status;
 }
 
-int zd_measure_states(const zd_system *system, int measure, int64_t rows, const double *t, const double *p, const double *v,
-                      const double *vdot, const double *multipliers, double *values, double *scratch)
+int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
+                      const double *v, const double *vdot, const double *multipliers, double *values, double *scratch)
 {
     const zd_measures *all = system->measures;
     int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = zd_constraints(system);
     int status = ZD_DONE;
     for (int64_t i = 0; i < rows && !status; i++)
-        status = all->evaluate(system->data, measure, t[i], p + i * nq, v + i * nv, vdot ? vdot + i * nv : NULL,
+        status = all->evaluate(system->data, inputs, measure, t[i], p + i * nq, v + i * nv, vdot ? vdot + i * nv : NULL,
                                multipliers ? multipliers + i * m : NULL, &(zd_measured){.value = values + i * size}, scratch);
     return status;
 }
@@ -77,8 +77,8 @@ int zd_evaluate_states(const zd_system *system, int want, int64_t states, const 
     return status;
 }
 
-int zd_measure_rates(const zd_system *system, int count, const int *measures, int64_t states, const double *t, const double *p,
-                     const double *v, const zd_measured *first, double *scratch)
+int zd_measure_rates(const zd_system *system, const double *inputs, int count, const int *measures, int64_t states, const double *t,
+                     const double *p, const double *v, const zd_measured *first, double *scratch)
 {
     const zd_measures *all = system->measures;
     zd_measured at = *first;
@@ -87,10 +87,11 @@ int zd_measure_rates(const zd_system *system, int count, const int *measures, in
         for (int j = 0; j < count && !status; j++) {
             int size = all->measure[measures[j]].size;
             at.is_same_state = j > 0;
-            status = all->evaluate(system->data, measures[j], t[i], p + i * system->nq, v + i * system->nv, NULL, NULL, &at, scratch);
+            status = all->evaluate(system->data, inputs, measures[j], t[i], p + i * system->nq, v + i * system->nv, NULL, NULL, &at,
+                                   scratch);
             at.value += size;
             at.rate += size;
-            at.row += size * system->nv;
+            at.jacobian += size * system->nv;
             at.bias += size;
         }
     }

@@ -163,9 +163,9 @@ int zd_check_given(enum zd_table table, int row, const zd_given *given, char *me
 enum zd_unit zd_processor_unit(void);       /* widest vector unit of this processor */
 int zd_processor_has(enum zd_unit unit);
 
-/* Sines and reductions of large arguments, passed to libraries compiled with ZD_FAR_SINES_OF_CORE: see zerodrift/sines.h. */
-void zd_far_sines(int n, const double *angle, double *s, double *c);
-void zd_far_reductions(int n, const double *angle, double *r, double *tail, uint64_t *quadrant);
+/* Sines and reductions of large arguments, passed to libraries compiled with ZD_LARGE_SINES_OF_CORE: see zerodrift/sines.h. */
+void zd_sines_of_large(int n, const double *angle, double *s, double *c);
+void zd_reductions_of_large(int n, const double *angle, double *r, double *tail, uint64_t *quadrant);
 
 /* ---- a run ---- */
 
@@ -345,18 +345,18 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
                      const double *p, const double *v, double *vdot, double *multipliers, char *message, int message_size);
 /* A measure at many states: values (rows, size); scratch of the size that the measures declare. vdot and multipliers may be NULL if the
  * measure does not depend on them. */
-int zd_measure_states(const zd_system *system, int measure, int64_t rows, const double *t, const double *p, const double *v,
-                      const double *vdot, const double *multipliers, double *values, double *scratch);
+int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
+                      const double *v, const double *vdot, const double *multipliers, double *values, double *scratch);
 
 /* The terms in `want` at many states t (states,), p (states, nq), v (states, nv): `first` has the memory of the first, the others follow
  * it, (states, size) of each term, with a single scratch. */
 int zd_evaluate_states(const zd_system *system, int want, int64_t states, const double *t, const double *p, const double *v,
                        const zd_terms *first);
 
-/* Values, rates, rows and biases, all requested, of several measures of positions or velocities at many states; their components follow
- * one another, (states, size of all) of each, of rows (states, size of all, nv). */
-int zd_measure_rates(const zd_system *system, int count, const int *measures, int64_t states, const double *t, const double *p,
-                     const double *v, const zd_measured *first, double *scratch);
+/* Values, rates, Jacobians and biases, all requested, of several measures of positions or velocities at many states; their components follow
+ * one another, (states, size of all) of each, of Jacobians (states, size of all, nv). */
+int zd_measure_rates(const zd_system *system, const double *inputs, int count, const int *measures, int64_t states, const double *t,
+                     const double *p, const double *v, const zd_measured *first, double *scratch);
 /* Projects p and v in place onto the constraints by the corrections of `settings`. Coordinates and velocities with nonzero hold_p, hold_v
  * are held fixed (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,

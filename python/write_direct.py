@@ -50,7 +50,7 @@ def header(name, size):
 /* Range of the constants of the closed-form functions among those of the system. */
 enum {{ {capitals}_BEGINS = {BEGINS[name]}, {capitals}_ENDS = {BEGINS[name] + size} }};
 
-extern const zd_direct zd_{name}_direct[];
+extern const zd_closed_form zd_{name}_direct[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_{name}_direct_constants(double *k);
 

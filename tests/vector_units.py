@@ -43,7 +43,7 @@ class DirectSet:
     def _called(self, function, inputs, sizes):
         arrays, memory = self._into(**sizes)
         given = [ffi.NULL if x is None else ffi.from_buffer("double[]", np.ascontiguousarray(np.transpose(x))) for x in inputs]
-        assert function(self.data, *given, *memory) == 0
+        assert function(self.data, ffi.NULL, *given, *memory) == 0
         return {name: array.T for name, array in arrays.items()}
 
     def accelerate(self, i, t, p, v, added=None):
@@ -68,13 +68,13 @@ def direct_sets(system):
         known = [f"ZD_SET_{name}" for of, name in SETS.items() if of[0] <= UNIT]
         direct = system._direct[1] if hasattr(system, "_written") else system._direct
         library = direct.library_of("|".join(known), QUICKLY)
-        table = ffi.cast("const zd_direct *", _gateway.address_of(library, "zd_symbolic_direct"))
+        table = ffi.cast("const zd_closed_form *", _gateway.address_of(library, "zd_symbolic_direct"))
         rows = [table[i] for i in range(len(known))]
         data = (doubles_of(system._written, direct, library) if hasattr(system, "_written") else
                 system._with_direct_data(library, direct))
     else:
         c, kind = system._core.c, _gateway.kinds()[system.name].c
-        rows = [c.direct[i] for i in range(c.directs)]
+        rows = [c.closed_form[i] for i in range(c.closed_forms)]
         data = np.frombuffer(ffi.buffer(ffi.cast("double *", c.data), 8 * kind.constants)).copy()
     sizes = system.nq, system.nv, system._core.c.mh, system.m
     return {(row.unit, row.lanes): row for row in rows}, sizes, data, system.p0

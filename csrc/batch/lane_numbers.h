@@ -29,7 +29,7 @@ typedef struct zd_watched {
 
 /* Numbers common to all lanes, then those of each lane. */
 typedef struct zd_lanes {
-    const zd_direct *direct;    /* closed-form functions; NULL: revolute joints are used instead */
+    const zd_closed_form *direct;   /* closed-form functions; NULL: revolute joints are used instead */
     zd_lane_pins *pins;     /* bodies joined by revolute joints; NULL: closed-form functions are used */
     zd_method method;
     int lanes, nq, nv, m, mh, size;     /* size: of the state y = p, v and, if required, the energy input */
@@ -51,6 +51,7 @@ typedef struct zd_lanes {
     double *first;          /* first number of all */
     int64_t count;          /* total number per lane */
     double *data;           /* (doubles,): data of the systems */
+    double *inputs;         /* (2 inputs + 1,): inputs of the systems; NULL without inputs */
     double *from_zero;      /* contiguous numbers that are 0 at the start of a run */
     int64_t numbers_from_zero;
     double *is_active;      /* 1: the lane has a run; 0: it makes steps of size 0 */

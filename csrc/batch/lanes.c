@@ -42,11 +42,11 @@ const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit)
     return all[unit];
 }
 
-const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_direct **direct)
+const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_closed_form **direct)
 {
     const zd_lane_functions *functions = all[unit];
-    for (int i = 0; i < system->directs && functions->lanes; i++) {
-        *direct = system->direct + i;
+    for (int i = 0; i < system->closed_forms && functions->lanes; i++) {
+        *direct = system->closed_form + i;
         if ((*direct)->unit == unit && (*direct)->lanes == functions->lanes) return functions;
     }
     return NULL;
@@ -75,12 +75,13 @@ static void take_zeros(zd_lanes *self, zd_arena *arena)
     for (int i = 0; i < count_parts; i++) *parts[i] = self->from_zero + (count + i * nv) * self->lanes;
 }
 
-static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles)
+static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles, int inputs)
 {
     const int nq = self->nq, nv = self->nv, size = self->size;
     double **const ones[] = {&self->is_active, &self->t, &self->h, &self->next_t, &self->t_before, &self->order, &self->speed,
                              &self->is_corrected, &self->next_check, &self->check_pause, &self->t_sample};
     self->data = take(self, arena, doubles);
+    self->inputs = inputs ? take(self, arena, 2 * inputs + 1) : NULL;
     take_zeros(self, arena);
     for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = take(self, arena, 1);
     self->y = take(self, arena, size);
@@ -138,7 +139,7 @@ static void take_events(zd_lanes *self, zd_arena *arena, const zd_events *events
     }
 }
 
-void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_direct *direct,
+void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_closed_form *direct,
                    const zd_pins_plan *pins, int64_t doubles)
 {
     const zd_settings *settings = &run->settings;
@@ -159,7 +160,7 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
         .astray = guard->astray, .nearby = guard->nearby, .limit = guard->limit,
         .weight = run->safeguards.resolution.weight, .order_of_method = run->stepper.integrator->card.order,
     };
-    take_states(self, arena, doubles);
+    take_states(self, arena, doubles, system->inputs);
     take_workspace(self, arena);
     self->count = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
     self->pins = pins ? zd_lane_pins_take(arena, pins, self->lanes) : NULL;
@@ -239,6 +240,7 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
 {
     clear(self, lane, self->numbers_from_zero, self->from_zero);
     load(self, lane, doubles, data, self->data);
+    if (self->inputs) load(self, lane, 2 * run->motion.system.inputs + 1, run->motion.point->inputs, self->inputs);
     load_state(self, lane, run);
     load_units(self, lane, run);
     if (self->direct) load_direct(self, lane, run);

@@ -28,7 +28,7 @@ int zd_lanes_serve(const zd_batch *batch)
 {
     const zd_system *system = batch->system;
     const zd_settings *settings = batch->settings;
-    const zd_direct *direct;
+    const zd_closed_form *direct;
     if (!batch->lanes || batch->settings_differ || batch->family || system->quaternions || settings->outputs || !are_known(settings->events)
         || settings->given_jacobian || settings->max_move > 0 || system->mh + system->mn > system->nv || !zd_takes_direct(settings)
         || zd_takes_embeddings(settings)
@@ -67,7 +67,7 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
 {
     const zd_system *system = batch->system;
     const size_t rows = pins ? 0 : (size_t)(zd_constraints(system) * system->nv);      /* pins do not use C */
-    const zd_direct *direct = NULL;
+    const zd_closed_form *direct = NULL;
     zd_lane_group group = {
         .batch = batch, .own = own, .run = run,
         .functions = pins ? zd_lane_functions_for(batch->settings->vector) : zd_lane_functions_of(system, batch->settings->vector, &direct),
@@ -75,10 +75,10 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .v = zd_take_doubles(arena, (size_t)system->nv),
         .C = zd_take_doubles(arena, rows),
-        .terms = {.scratch = zd_take_doubles(arena, (size_t)system->scratch)},
+        .terms = {.scratch = zd_take_doubles(arena, (size_t)system->scratch), .inputs = run->motion.point->inputs},
     };
     zd_lanes_take(&group.lanes, arena, run, group.functions, direct, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
-    group.reader = zd_reader_take(arena, batch->settings->events, system);
+    group.reader = zd_reader_take(arena, batch->settings->events, system, run->motion.point->inputs);
     for (int lane = 0; lane < ZD_MOST_LANES; lane++)
         group.run_of[lane] = (zd_lane_run){
             .number = -1,

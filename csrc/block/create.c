@@ -120,7 +120,7 @@ static int make(zd_block *self, const arrays *from, zd_complaint to)
         if (!zd_block_unpack(&self->layout, section, from->section[section], to)) return 0;
     if (!laws_suit(&self->layout, &elements, to) || !zd_block_names_check(&self->layout, to)) return 0;
     if (!(self->layout.dimension == 2 ? make_plane : make_space)(self, from, &elements, to)) return 0;
-    self->system.name_row = zd_block_name_row;
+    self->system.name_constraint = zd_block_name_row;
     self->system.names = &self->names;
     if (count_of(&self->layout, ZD_BLOCK_LAWS)) self->system.failure = "a user function of the mechanism is not defined here, as a table "
                                                                         "beyond its ends";

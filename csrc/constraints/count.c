@@ -48,6 +48,7 @@ static place take_place(zd_arena *arena, const zd_system *system)
     it.terms.M = zd_take_doubles(arena, (size_t)zd_size_of_M(system));
     it.terms.C = zd_take_doubles(arena, (size_t)zd_size_of_C(system));
     it.terms.scratch = zd_take_doubles(arena, (size_t)system->scratch);
+    it.terms.inputs = zd_take_inputs(arena, system);
     return it;
 }
 

@@ -242,7 +242,8 @@ static int direct_residual(void *context, double *size)
     zd_point *point = problem->motion->point;
     const zd_elimination *order = problem->motion->path.order;
     problem->motion->statistics.evaluations++;
-    int status = order->correct(point->system->data, &point->t, point->p, point->v, point->terms.Phi, problem->motion->path.dp, self->x);
+    int status = order->correct(point->system->data, point->terms.inputs, &point->t, point->p, point->v, point->terms.Phi,
+                                problem->motion->path.dp, self->x);
     if (status) return ZD_CALLBACK;
     *size = zd_point_violation(point);
     return ZD_DONE;

@@ -56,7 +56,8 @@ ZD_INLINE int zd_spread_directly(const int n, const zd_tableau *T, const zd_rung
         if (status) return ZD_CALLBACK;
         zd_add_stages(0, n, size, first + i, weight, h, self->k, y0, stage, NULL);
         zd_add_stages(n, n, size, first + i, weight, h, self->k, y0, stage, rates);
-        status = rate->direct->accelerate(rate->system->data, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL, NULL, NULL);
+        status = rate->direct->accelerate(rate->system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL, NULL,
+                                          NULL);
     }
     return status ? ZD_CALLBACK : ZD_DONE;
 }

@@ -100,7 +100,7 @@ ZD_INLINE int zd_runge_kutta_direct_step(const int n, const zd_tableau *T, const
         if (status) return status;
         zd_combine_pairs(0, n, 2 * n, i, T->a + i * T->stages, h, k, y, stage, NULL);
         zd_combine_pairs(n, n, 2 * n, i, T->a + i * T->stages, h, k, y, stage, rates);
-        status = rate->direct->accelerate(system->data, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL, NULL, NULL);
+        status = rate->direct->accelerate(system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL, NULL, NULL);
     }
     if (status) return ZD_CALLBACK;
     zd_combine_pairs(0, n, 2 * n, T->stages, T->b, h, k, y, y, NULL);

@@ -87,7 +87,7 @@ static int find_series(taylor *self, const zd_rate *rate, double t, const double
     if (self->is_known && t == self->t0 && !memcmp(y, self->y0, bytes)) return ZD_DONE;
     self->is_known = 0;
     self->found++;
-    int status = system->series->evaluate(system->data, self->order, t, y, y + system->nq, self->p, self->v,
+    int status = system->series->evaluate(system->data, rate->inputs, self->order, t, y, y + system->nq, self->p, self->v,
                                           has_work(self) ? self->work : NULL, self->scratch);
     if (status) return status;
     memcpy(self->y0, y, bytes);

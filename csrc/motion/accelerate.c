@@ -30,8 +30,8 @@ static int accelerate_directly(zd_motion *motion)
     if (path->embeds) status = zd_embed_accelerate(motion, added);
     else {
         motion->statistics.evaluations++;
-        status = path->order->accelerate(point->system->data, &point->t, point->p, point->v, added, path->pdot, point->vdot, point->lambda,
-                                         motion->balance.input ? &path->power : NULL, path->pivots);
+        status = path->order->accelerate(point->system->data, point->terms.inputs, &point->t, point->p, point->v, added, path->pdot,
+                                         point->vdot, point->lambda, motion->balance.input ? &path->power : NULL, path->pivots);
     }
     if (status) return ZD_CALLBACK;
     point->known |= ZD_ACCELERATED;
@@ -116,6 +116,7 @@ int zd_motion_direct_rate(void *context, double t, const double *y, double *ydot
     motion->statistics.evaluations++;
     if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);
     double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
-    int status = motion->path.order->accelerate(point->system->data, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power, NULL);
+    int status = motion->path.order->accelerate(point->system->data, point->terms.inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power,
+                                                NULL);
     return status ? ZD_CALLBACK : ZD_DONE;
 }

@@ -16,12 +16,12 @@
 #include "embed.h"
 #include "pivots.h"
 
-const zd_direct *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
+const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
 {
     if (zd_constraints(system) > system->nv || (formulation->settle && !formulation->may_have_entries(system))) return NULL;
-    const zd_direct *found = NULL;
-    for (int i = 0; i < system->directs; i++) {
-        const zd_direct *direct = &system->direct[i];
+    const zd_closed_form *found = NULL;
+    for (int i = 0; i < system->closed_forms; i++) {
+        const zd_closed_form *direct = &system->closed_form[i];
         if (!(formulation->settle ? direct->embeddings : direct->orders)) continue;
         if (direct->lanes == 1 && direct->unit <= unit && (!found || direct->unit > found->unit)) found = direct;
     }
@@ -31,7 +31,7 @@ const zd_direct *zd_direct_of(const zd_system *system, const zd_formulation *for
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
 {
     const zd_system *system = &motion->system;
-    const zd_direct *direct = zd_direct_of(system, motion->formulation, unit);
+    const zd_closed_form *direct = zd_direct_of(system, motion->formulation, unit);
     if (!direct) return;
     const int embeds = motion->formulation->settle != NULL, orders = embeds ? direct->embeddings : direct->orders;
     motion->path = (zd_path){
@@ -139,7 +139,7 @@ static void use(zd_motion *motion, const zd_elimination *order)
     motion->path.order = order;
     motion->path.continues = 0;
     if (order) forget_pivots(motion);
-    motion->path.lands = order && order->land && ends_with_projection(motion);
+    motion->path.lands = order && order->finish && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->path.allowed[k] = motion->target.tolerance * motion->point->size[k];
     const int embeds = motion->path.embeds;
     motion->rate.evaluate = !order ? zd_motion_rate : embeds ? zd_motion_embedded_rate : zd_motion_direct_rate;

@@ -149,7 +149,7 @@ int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *add
     double first = 0;
     for (int iteration = 0;; iteration++) {
         motion->statistics.evaluations++;
-        int status = path->order->embed(motion->system.data, &t, path->p, path->v, added, allowed, path->Phi, path->dp, to->D, to->pdot,
+        int status = path->order->embed(motion->system.data, motion->rate.inputs, &t, path->p, path->v, added, allowed, path->Phi, path->dp, to->D, to->pdot,
                                         to->vdot, to->lambda, to->power, to->pivots);
         if (finds_p && status == ZD_NO_CONVERGENCE) status = improve(motion, iteration, &first);
         else {

@@ -45,7 +45,7 @@ static int evaluate(zd_motion *motion, const double *p, const double *v, double 
 {
     const zd_system *system = &motion->system;
     motion->statistics.evaluations++;
-    return system->jacobian->evaluate(system->data, t, p, v, J, motion->chain.scratch);
+    return system->jacobian->evaluate(system->data, motion->rate.inputs, t, p, v, J, motion->chain.scratch);
 }
 
 /* T at the point, after it has been moved to the state */
@@ -60,7 +60,7 @@ static int find_tangents(zd_motion *motion, double t, const double *y)
     if (status) return status;
     if (zd_constraints(system)) {
         motion->statistics.evaluations++;
-        status = system->jacobian->constraints(system->data, t, point->p, point->v, chain->Psi_p, chain->scratch);
+        status = system->jacobian->constraints(system->data, point->terms.inputs, t, point->p, point->v, chain->Psi_p, chain->scratch);
     }
     return status ? status : motion->formulation->tangents(motion->solver, point, chain->Psi_p, chain->T);
 }

@@ -34,7 +34,7 @@ int zd_direct_land(zd_motion *motion, double t, double *p, double *v)
     double first = 0;
     int iterations = 0, status;
     for (;; iterations++) {
-        status = path->order->land(system->data, &t, p, v, path->allowed, point->terms.Phi, path->dp, path->pdot,
+        status = path->order->finish(system->data, point->terms.inputs, &t, p, v, path->allowed, point->terms.Phi, path->dp, path->pdot,
                                    point->vdot, point->lambda, NULL, path->pivots);
         if (status != ZD_NO_CONVERGENCE) break;
         status = improve(motion, iterations, &first, p);

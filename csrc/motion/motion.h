@@ -25,6 +25,7 @@ typedef struct zd_rate {
     /* The closed-form functions, if they alone give the rate of a state (p, v); otherwise NULL. */
     const zd_elimination *direct;
     const zd_system *system;
+    const double *inputs;   /* (2 inputs + 1,): of the system; NULL without inputs */
     const double *vdot;     /* (nv,): acceleration at the start of a step, if known; otherwise NULL */
     /* J (size, size) <- derivatives with respect to the state; nonzero: not available at this state. NULL: never available. */
     int (*jacobian)(void *context, double t, const double *y, double *J);
@@ -46,7 +47,7 @@ static inline int zd_rate_of_stage(const zd_rate *rate, double t, const double *
     const int nq = system->nq;
     if (!(system->provides & ZD_A))
         for (int i = 0; i < nq; i++) ydot[i] = y[nq + i];
-    int status = rate->direct->accelerate(system->data, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, NULL, NULL);
+    int status = rate->direct->accelerate(system->data, rate->inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, NULL, NULL);
     return status ? ZD_CALLBACK : ZD_DONE;
 }
 
@@ -72,7 +73,7 @@ typedef struct zd_range {
 /* Evaluation path of the current step. On the closed-form path accelerations and projections come from the system's closed-form functions; on
  * the matrix path, from the formulation's leading matrix. The latter always exists and is taken in any doubt: direct.c. */
 typedef struct zd_path {
-    const zd_direct *direct;
+    const zd_closed_form *direct;
     const zd_elimination *order;    /* elimination order of the current step; NULL: it takes the matrix path */
     int was_taken;          /* true if steps were made in closed form since the last checks of the matrix path */
     int continues;          /* true if the quick check has passed, so that the next step may reuse this elimination order */
@@ -190,7 +191,7 @@ int zd_motion_jacobian(void *motion, double t, const double *y, double *J);
 
 /* direct.c */
 /* Closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this formulation. */
-const zd_direct *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
+const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
 /* Initializes the closed-form path, if the system has one for the formulation and this vector unit or a narrower one. */
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
 /* Chooses the evaluation path of a step that begins at the point. */

@@ -47,6 +47,7 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
     zd_rank *rank = take_rank(motion, arena, independent);
     if (motion->point) motion->point->rank = rank;
     motion->rate = (zd_rate){
+        .inputs = motion->point ? motion->point->inputs : NULL,
         .evaluate = zd_motion_rate,
         .context = motion,
         .size = motion->formulation_size + zd_has_input(system),

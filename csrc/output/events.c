@@ -28,7 +28,7 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
     return (zd_watch){
         .events = events,
         .output = output,
-        .reader = zd_reader_take(arena, events, &motion->system),
+        .reader = zd_reader_take(arena, events, &motion->system, motion->rate.inputs),
         .before = zd_take_doubles(arena, count),
         .now = zd_take_doubles(arena, count),
         .bracket = zd_take(arena, count * sizeof(zd_bracket)),

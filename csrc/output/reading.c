@@ -10,7 +10,7 @@ static int largest_size(const zd_measures *measures)
     return largest;
 }
 
-zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run)
+zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs)
 {
     if (!events || !events->known) return (zd_reader){.events = events};
     const zd_system *of = events->of ? events->of : run;
@@ -20,6 +20,7 @@ zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_syst
     return (zd_reader){
         .events = events,
         .of = of,
+        .inputs = inputs,
         .x = zd_take_doubles(arena, (size_t)most),
         .measured = zd_take_doubles(arena, (size_t)largest_size(of->measures)),
         .scratch = zd_take_doubles(arena, of->measures ? (size_t)of->measures->scratch : 0),
@@ -64,7 +65,7 @@ static int read(const zd_reader *self, const void *data, const zd_argument *read
     case ZD_READS_NUMBER: *x = reading->number; break;
     case ZD_READS_MEASURE: {
         const zd_measured out = {.value = self->measured};
-        if (self->of->measures->evaluate(data, reading->index, t, p, v, NULL, NULL, &out, self->scratch)) return ZD_CALLBACK;
+        if (self->of->measures->evaluate(data, self->inputs, reading->index, t, p, v, NULL, NULL, &out, self->scratch)) return ZD_CALLBACK;
         *x = self->measured[reading->component];
     }
     }

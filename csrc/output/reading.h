@@ -8,12 +8,13 @@
 typedef struct zd_reader {
     const zd_events *events;    /* NULL: none */
     const zd_system *of;    /* system whose measures are read */
+    const double *inputs;   /* (2 inputs + 1,): of the simulated system */
     double *x;              /* arguments of an event function; size: the largest number of arguments */
     double *measured;       /* values of a measure; size: the largest one */
     double *scratch;        /* scratch memory of the measures */
 } zd_reader;
 
-zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run);
+zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs);
 /* The reason, in one sentence, for which the events cannot be evaluated; NULL: they can. */
 const char *zd_wrong_readings(const zd_events *events, const zd_system *run);
 /* True if the core evaluates the event itself, false if it calls the callback. */

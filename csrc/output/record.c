@@ -74,8 +74,8 @@ static int record_outputs(const zd_recorder *self, zd_record *record, int64_t ro
     int status = ZD_DONE;
     for (int i = 0; i < self->outputs->count && !status; i++) {
         const int measure = self->outputs->measure[i];
-        status = measures->evaluate(self->measured->data, measure, point->t, point->p, point->v, point->vdot, point->lambda,
-                                    &(zd_measured){.value = value, .is_same_state = i > 0}, self->scratch);
+        status = measures->evaluate(self->measured->data, point->terms.inputs, measure, point->t, point->p, point->v, point->vdot,
+                                    point->lambda, &(zd_measured){.value = value, .is_same_state = i > 0}, self->scratch);
         value += measures->measure[measure].size;
     }
     return status;

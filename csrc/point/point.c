@@ -40,7 +40,9 @@ zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics 
         .size = zd_take_doubles(arena, m),
         .inverse_size = zd_take_doubles(arena, m),
         .rounding = zd_take_doubles(arena, m),
+        .inputs = zd_take_inputs(arena, system),
     };
+    point.terms.inputs = point.inputs;
     return zd_take_filled(arena, &point, sizeof point);
 }
 

@@ -42,6 +42,14 @@ size_t zd_term_size(const zd_system *system, int row)
 
 double **zd_term_in(zd_terms *terms, int row) { return (double **)(void *)((char *)terms + rows[row].offset); }
 
+double *zd_take_inputs(zd_arena *arena, const zd_system *system)
+{
+    if (!system->inputs) return NULL;
+    double *inputs = zd_take_doubles(arena, 2 * (size_t)system->inputs + 1);
+    for (int i = 0; inputs && i < system->inputs; i++) inputs[i] = system->input[i].initial;
+    return inputs;
+}
+
 const char *zd_term_name(int term)
 {
     for (int i = 0; i < ROWS; i++)

@@ -2,6 +2,7 @@
 #ifndef ZD_TERMS_H
 #define ZD_TERMS_H
 
+#include "../workspace.h"
 #include "../zerodrift.h"
 
 static inline int zd_constraints(const zd_system *system) { return system->mh + system->mn; }
@@ -13,5 +14,6 @@ static inline int zd_needs_no_C(const zd_system *system) { return system->operat
 
 double **zd_term_in(zd_terms *terms, int row);      /* address of the member for an entry of the list of terms */
 const char *zd_term_name(int term);                 /* name of the term with this bit */
+double *zd_take_inputs(zd_arena *arena, const zd_system *system);   /* (2 inputs + 1,): initial values; NULL without inputs */
 
 #endif

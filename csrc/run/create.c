@@ -51,7 +51,7 @@ int zd_may_have_direct(const zd_system *system, const zd_settings *settings)
 int zd_direct_unit(const zd_system *system, const zd_settings *settings)
 {
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
-    const zd_direct *direct = zd_takes_direct(settings) ? zd_direct_of(system, formulation, settings->vector) : NULL;
+    const zd_closed_form *direct = zd_takes_direct(settings) ? zd_direct_of(system, formulation, settings->vector) : NULL;
     return direct ? (int)direct->unit : -1;
 }
 

@@ -145,12 +145,12 @@ static int is_an_elimination(const zd_system *system, const zd_elimination *orde
 
 static int check_orders(const zd_system *system, int set, text message)
 {
-    const zd_direct *direct = &system->direct[set];
+    const zd_closed_form *direct = &system->closed_form[set];
     for (int i = 0; i < direct->orders + direct->embeddings; i++) {
         const int embeds = i >= direct->orders;
         const zd_elimination *order = embeds ? direct->embedding + (i - direct->orders) : direct->order + i;
         if (!is_an_elimination(system, order, embeds))
-            return refuse(message, "direct: order %d of set %d must eliminate %d rows, each once, for as many of %d velocities", i, set,
+            return refuse(message, "closed_form: order %d of set %d must eliminate %d rows, each once, for as many of %d velocities", i, set,
                           system->mh + system->mn, system->nv);
     }
     return ZD_DONE;
@@ -164,21 +164,21 @@ static int is_no_number_of_orders(int count, const zd_elimination *order)
 static int check_direct(const zd_system *system, text message)
 {
     int known[ZD_AVX512 + 1] = {0};
-    if (system->directs < 0 || system->directs > 12 || (system->directs > 0) != (system->direct != NULL))
-        return refuse(message, "direct: there must be at most one set of functions for each vector unit and number of lanes, not %d sets",
-                      system->directs);
-    for (int i = 0; i < system->directs; i++) {
-        const zd_direct *direct = &system->direct[i];
+    if (system->closed_forms < 0 || system->closed_forms > 12 || (system->closed_forms > 0) != (system->closed_form != NULL))
+        return refuse(message, "closed_form: there must be at most one set of functions for each vector unit and number of lanes, not %d sets",
+                      system->closed_forms);
+    for (int i = 0; i < system->closed_forms; i++) {
+        const zd_closed_form *direct = &system->closed_form[i];
         if (is_no_number_of_orders(direct->orders, direct->order) || is_no_number_of_orders(direct->embeddings, direct->embedding))
-            return refuse(message, "direct: set %d must have arrays of up to 4 orders of elimination, and of up to 4 for independent "
+            return refuse(message, "closed_form: set %d must have arrays of up to 4 orders of elimination, and of up to 4 for independent "
                           "velocities, not of %d and %d", i, direct->orders, direct->embeddings);
-        if (!(direct->orders + direct->embeddings)) return refuse(message, "direct: set %d must have an order of elimination", i);
+        if (!(direct->orders + direct->embeddings)) return refuse(message, "closed_form: set %d must have an order of elimination", i);
         if (direct->lanes != 1 && direct->lanes != 2 && direct->lanes != 4 && direct->lanes != 8)
-            return refuse(message, "direct: set %d must have 1, 2, 4 or 8 lanes, not %d", i, direct->lanes);
+            return refuse(message, "closed_form: set %d must have 1, 2, 4 or 8 lanes, not %d", i, direct->lanes);
         if ((unsigned)direct->unit > ZD_AVX512)
-            return refuse(message, "direct: the vector unit of set %d must be from 0 to 2, not %d", i, (int)direct->unit);
+            return refuse(message, "closed_form: the vector unit of set %d must be from 0 to 2, not %d", i, (int)direct->unit);
         if (known[direct->unit] & direct->lanes)
-            return refuse(message, "direct: set %d must not be a second one of %d lanes for its vector unit", i, direct->lanes);
+            return refuse(message, "closed_form: set %d must not be a second one of %d lanes for its vector unit", i, direct->lanes);
         known[direct->unit] |= direct->lanes;
         int status = check_orders(system, i, message);
         if (status) return status;
@@ -223,8 +223,8 @@ static int check_jacobian(const zd_system *system, text message)
 static int check_residuals(const zd_system *system, text message)
 {
     const zd_residuals *residuals = system->residuals;
-    if (!residuals || (residuals->derivative && !is_no_size(residuals->scratch))) return ZD_DONE;
-    return refuse(message, "residuals: they must have derivative(), and a scratch that is a size, not %d", residuals->scratch);
+    if (!residuals || (residuals->evaluate && !is_no_size(residuals->scratch))) return ZD_DONE;
+    return refuse(message, "residuals: they must have evaluate(), and a scratch that is a size, not %d", residuals->scratch);
 }
 
 static int check_magnitudes(const zd_system *system, text message)
@@ -240,6 +240,7 @@ static int check_inputs(const zd_system *system, text message)
     for (int i = 0; i < system->inputs; i++) {
         const zd_input *input = &system->input[i];
         if (!input->name || !*input->name || !input->unit) return refuse(message, "inputs: input %d must have a name and a unit", i);
+        if (input->kind != ZD_EFFORT && input->kind != ZD_SPEED) return refuse(message, "inputs: %s must be an effort or a speed", input->name);
         if (!isfinite(input->initial)) return refuse(message, "inputs: the initial value of %s must be finite", input->name);
     }
     return ZD_DONE;
@@ -257,6 +258,8 @@ static int check_switched_groups(const zd_system *system, text message)
         if (group->rows < 1 || group->first < end || group->first > m - group->rows)
             return refuse(message, "groups: %s must have at least one of the %d rows, after those of the group before, not %d rows from "
                           "row %d on", group->name, m, group->rows, group->first);
+        if (group->kind != ZD_TWO_SIDED || !group->is_active)
+            return refuse(message, "groups: %s must be active and two-sided, as others are not simulated yet", group->name);
         end = group->first + group->rows;
     }
     return ZD_DONE;

@@ -104,7 +104,7 @@ const zd_kind zd_chaplygin_sleigh = {
         .provides = ZD_M | ZD_BIAS | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
-        .direct = zd_chaplygin_sleigh_direct, .directs = ZD_COUNT_OF_SETS,
+        .closed_form = zd_chaplygin_sleigh_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_CHAPLYGIN_SLEIGH_DIRECT_ENDS),
     .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,

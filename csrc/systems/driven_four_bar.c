@@ -101,7 +101,7 @@ const zd_kind zd_driven_four_bar = {
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI | ZD_POTENTIAL,
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = evaluate,
-        .direct = zd_driven_four_bar_direct, .directs = ZD_COUNT_OF_SETS,
+        .closed_form = zd_driven_four_bar_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_DRIVEN_FOUR_BAR_DIRECT_ENDS),
     .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,

@@ -236,7 +236,7 @@ const zd_kind zd_four_bar = {
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = zd_four_bar_evaluate,
-        .direct = zd_four_bar_direct, .directs = ZD_COUNT_OF_SETS,
+        .closed_form = zd_four_bar_direct, .closed_forms = ZD_COUNT_OF_SETS,
         .embed = embed,
         .independent = (const int[]){ALPHA_1},
     },

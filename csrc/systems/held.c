@@ -38,7 +38,7 @@ static void name_row(const void *names, int row, char *to, int size)
     const zd_system *inner = held->inner;
     const int rows = held->of_positions ? inner->mh : zd_constraints(inner);
     if (row < rows) {
-        if (inner->name_row) inner->name_row(inner->names, row, to, size);
+        if (inner->name_constraint) inner->name_constraint(inner->names, row, to, size);
         return;
     }
     int i = 0;
@@ -203,13 +203,14 @@ static void *take(zd_arena *arena, const void *of)
     self->held = (zd_held){.inner = inner, .hold = it->hold, .value = it->value, .of_positions = it->of_positions, .size_of_C = rows * inner->nv};
     self->system = *inner;
     self->system.data = self->system.names = &self->held;
-    self->system.name_row = name_row;
+    self->system.name_constraint = name_row;
     self->system.operations = NULL;         /* they do not know the added constraints */
     self->system.follow = inner->follow ? follow : NULL;
     self->system.magnitudes = inner->magnitudes ? magnitudes : NULL;
     self->system.magnitudes_scratch += 2 * zd_constraints(inner);
-    self->system.direct = NULL;
-    self->system.directs = 0;
+    self->system.closed_form = NULL;
+    self->system.closed_forms = 0;
+    self->system.residuals = NULL;
     if (!inner->structure) return here;
     self->held.structure = take_structure(arena, it, rows);
     self->held.size_of_C = size_of_groups(inner->structure, groups_of(inner->structure, rows));

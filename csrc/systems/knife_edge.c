@@ -98,7 +98,7 @@ const zd_kind zd_knife_edge = {
         .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
-        .direct = zd_knife_edge_direct, .directs = ZD_COUNT_OF_SETS,
+        .closed_form = zd_knife_edge_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_KNIFE_EDGE_DIRECT_ENDS),
     .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,

@@ -67,7 +67,7 @@ const zd_kind zd_oscillator = {
         .nq = 1, .nv = 1,
         .provides = ZD_M | ZD_FORCE | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
-        .direct = zd_oscillator_direct, .directs = ZD_COUNT_OF_SETS,
+        .closed_form = zd_oscillator_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_OSCILLATOR_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity,

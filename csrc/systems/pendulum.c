@@ -95,7 +95,7 @@ const zd_kind zd_pendulum = {
         .nq = N, .nv = N, .mh = 1,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
-        .direct = zd_pendulum_direct, .directs = ZD_COUNT_OF_SETS,
+        .closed_form = zd_pendulum_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_PENDULUM_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,

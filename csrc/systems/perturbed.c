@@ -60,10 +60,11 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     system.operations = system.followers && system.operations && system.operations->times_A ? &rates : NULL;
     system.follow = system.follow ? follow : NULL;
     system.magnitudes = system.magnitudes ? magnitudes : NULL;
-    system.direct = NULL;
-    system.directs = 0;
+    system.closed_form = NULL;
+    system.closed_forms = 0;
     system.series = perturbation->series;      /* Taylor series of the perturbed terms */
     system.jacobian = NULL;
+    system.residuals = NULL;
     system.embed = system.embed ? embed : NULL;
     system.data = perturbation;
     return system;

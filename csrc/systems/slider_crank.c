@@ -158,7 +158,7 @@ const zd_kind zd_slider_crank = {
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_POWER | ZD_TIMELESS,
         .scratch = sizeof(geometry) / sizeof(double),
         .evaluate = evaluate,
-        .direct = zd_slider_crank_direct, .directs = ZD_COUNT_OF_SETS,
+        .closed_form = zd_slider_crank_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_SLIDER_CRANK_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,

@@ -114,7 +114,7 @@ const zd_kind zd_vertical_disc = {
         .provides = ZD_M | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
-        .direct = zd_vertical_disc_direct, .directs = ZD_COUNT_OF_SETS,
+        .closed_form = zd_vertical_disc_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_VERTICAL_DISC_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,

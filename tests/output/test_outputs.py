@@ -182,11 +182,11 @@ def test_a_system_without_measures_has_no_outputs(bar):
 
 MEASURED = """
 /* data: mass, gravity, length and, where it fails, a time */
-static int measure(const void *data, int which, double t, const double *p, const double *v, const double *vdot,
-                   const double *lambda, const zd_measured *out, double *scratch)
+static int measure(const void *data, const double *inputs, int which, double t, const double *p, const double *v,
+                   const double *vdot, const double *lambda, const zd_measured *out, double *scratch)
 {
     const double *q = data;
-    (void)v, (void)scratch;
+    (void)inputs, (void)v, (void)scratch;
     if (which == 0 && out->value) for (int i = 0; i < 3; i++) out->value[i] = i < 2 ? p[i] : t;
     if (which == 1 && out->value) out->value[0] = lambda[0];
     if (which == 2 && out->value) out->value[0] = vdot[1] + q[1];

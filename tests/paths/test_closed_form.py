@@ -312,20 +312,20 @@ class Failing:
         embeds, functions = member == "embed", system("four_bar")._direct
         functions = functions.embedding if embeds else functions
         self.core = system("four_bar")._direct_core(embeds=embeds)
-        direct = self.core.c.direct[0]
+        direct = self.core.c.closed_form[0]
         order = (direct.embedding if embeds else direct.order)[0]
         self.order = ffi.new("zd_elimination[1]", [order])
         inner = getattr(order, member)
 
-        def function(data, t, *rest):
-            return fails(t[0]) or inner(data, t, *rest)
+        def function(data, inputs, t, *rest):
+            return fails(t[0]) or inner(data, inputs, t, *rest)
 
         self.function = ffi.callback(dict(ffi.typeof("zd_elimination").fields)[member].type, function)
-        if member == "correct":     # which is called where nothing lands
-            self.order[0].land = ffi.NULL
+        if member == "correct":     # which is called without finish()
+            self.order[0].finish = ffi.NULL
         setattr(self.order[0], member, self.function)
         orders = {"embeddings": 1, "embedding": self.order} if embeds else {"orders": 1, "order": self.order}
-        self.direct = ffi.new("zd_direct[1]", [{"lanes": 1} | orders])
+        self.direct = ffi.new("zd_closed_form[1]", [{"lanes": 1} | orders])
         self.system = system("four_bar").starting()
         address, data = int(ffi.cast("intptr_t", self.direct)), self.system._with_direct_data(functions.library(), functions)
         made = self.core.with_direct(address, data, self)
@@ -334,7 +334,7 @@ class Failing:
 
 @pytest.mark.parametrize("options", [
     {"step": 0.01}, {"step": 0.01, "t_eval": [0.103, 0.3]}, {"rtol": 1e-8, "integrator": "dop853"}], ids=str)
-@pytest.mark.parametrize("member", ["accelerate", "correct", "land"])
+@pytest.mark.parametrize("member", ["accelerate", "correct", "finish"])
 def test_functions_that_do_not_know_are_done_without(member, options):
     failing = Failing(member, lambda t: 0.1 < t < 0.2)
     sol = zd.simulate(failing.system, 0.4, **options)
@@ -357,7 +357,7 @@ def test_embeddings_that_do_not_know_are_done_without(equations, options):
     assert_close(sol.p, general.p, tol.STEPPED if "step" in options else 1e-7)
 
 
-@pytest.mark.parametrize("member", ["correct", "land"])
+@pytest.mark.parametrize("member", ["correct", "finish"])
 def test_a_single_step_does_without_them_too(member):
     failing = Failing(member, lambda t: t > 0.105)
     sol = zd.simulate(system("four_bar"), 0.2, step=0.01)
@@ -369,7 +369,7 @@ def test_a_single_step_does_without_them_too(member):
 def test_a_value_between_steps_does_without_them_too():
     """Neither the polynomial's value nor the shorter step can be landed: so it is made on the matrix path."""
     options = {"integrator": "dop853", "rtol": 1e-8, "t_eval": [0.1, 0.115, 0.2]}
-    sol = zd.simulate(Failing("land", lambda t: t == 0.115).system, 0.2, **options)
+    sol = zd.simulate(Failing("finish", lambda t: t == 0.115).system, 0.2, **options)
     assert sol.stats["direct_steps"] == sol.stats["steps"]
     knowing = zd.simulate(system("four_bar"), 0.2, **options)
     assert_close(sol.p, knowing.p, 1e-7)
@@ -378,4 +378,4 @@ def test_a_value_between_steps_does_without_them_too():
 
 def test_perturbed_systems_have_none():
     core = _gateway.perturbed(system("four_bar")._direct_core(), 1e-8, 1)
-    assert core.c.directs == 0
+    assert core.c.closed_forms == 0

@@ -72,7 +72,7 @@ def direct(*sets, **changed):
         functions = {name: made.function("zd_elimination", name) for name in ("accelerate", "correct") if name not in changed}
         order |= {"solves": changed.get("solves", 2)} | functions
         orders = made.array("zd_elimination", [order] * 4)
-        return made.array("zd_direct", [{"orders": 1, "lanes": 1, "order": orders} | each for each in sets])
+        return made.array("zd_closed_form", [{"orders": 1, "lanes": 1, "order": orders} | each for each in sets])
     return make
 
 
@@ -81,7 +81,7 @@ def embedding(function):
     def make(made):
         order = {"solves": 2} | {name: made.array("int", values) for name, values in ELIMINATION.items()}
         order |= {name: made.function("zd_elimination", name) for name in ("correct", function)}
-        return made.array("zd_direct", [{"lanes": 1, "embeddings": 1, "embedding": made.array("zd_elimination", [order])}])
+        return made.array("zd_closed_form", [{"lanes": 1, "embeddings": 1, "embedding": made.array("zd_elimination", [order])}])
     return make
 
 
@@ -94,14 +94,14 @@ def measures(*measures, **changed):
     return make
 
 
-def inputs(*initial, name="torque"):
+def inputs(*initial, name="torque", kind=lib.ZD_EFFORT):
     return lambda made: made.array("zd_input", [
-        {"name": made.text(name), "unit": made.text("N m"), "initial": value} for value in initial])
+        {"name": made.text(name), "unit": made.text("N m"), "kind": kind, "initial": value} for value in initial])
 
 
-def groups(*rows, name="lock"):
+def groups(*rows, name="lock", **changed):
     return lambda made: made.array("zd_group", [
-        {"name": made.text(name), "first": first, "rows": count} for first, count in rows])
+        {"name": made.text(name), "first": first, "rows": count, "is_active": 1} | changed for first, count in rows])
 
 
 def brought(kind, member, **changed):
@@ -118,12 +118,12 @@ FITTING = {
     "structure with a kinematic matrix": {"provides": lib.ZD_A, "nq": 7, "structure": {"coordinates": [2, 2, 3]}},
     "no constraints": {"mh": 0, "mn": 0, "structure": {"groups": 0}},
     "operations": {"operations": lambda made: made.of("zd_operations", {})},
-    "direct": {"directs": 3, "direct": direct({"lanes": 4}, {"orders": 4}, {"unit": 2})},
-    "direct, embedding": {"directs": 1, "direct": embedding("embed")},
+    "direct": {"closed_forms": 3, "closed_form": direct({"lanes": 4}, {"orders": 4}, {"unit": 2})},
+    "direct, embedding": {"closed_forms": 1, "closed_form": embedding("embed")},
     "series": {"series": brought("zd_series", "evaluate")},
     "jacobian": {"jacobian": brought("zd_jacobian", "evaluate", scratch=5)},
     "measures": {"measures": measures({}, {"size": 3, "depends": 2})},
-    "residuals": {"residuals": brought("zd_residuals", "derivative", scratch=5)},
+    "residuals": {"residuals": brought("zd_residuals", "evaluate", scratch=5)},
     "inputs": {"inputs": 2, "input": inputs(0.0, 3.0)},
     "groups": {"groups": 2, "group": groups((0, 1), (2, 2))},
     "quaternions": quaternions(2),
@@ -168,20 +168,20 @@ def in_structure(**changed):
      "operations: subtract_weighted and add_weighted must come together"),
     ({"operations": brought("zd_operations", "subtract_weighted")},
      "operations: subtract_weighted and add_weighted must come together"),
-    ({"directs": 1}, "direct: there must be at most one set .*, not 1 sets"),
-    ({"direct": direct({})}, "direct: there must be at most one set .*, not 0 sets"),
-    ({"directs": 13, "direct": direct(*[{}] * 13)}, "direct: there must be .*, not 13 sets"),
-    ({"directs": 1, "direct": direct({"orders": 5})},
+    ({"closed_forms": 1}, "closed_form: there must be at most one set .*, not 1 sets"),
+    ({"closed_form": direct({})}, "closed_form: there must be at most one set .*, not 0 sets"),
+    ({"closed_forms": 13, "closed_form": direct(*[{}] * 13)}, "closed_form: there must be .*, not 13 sets"),
+    ({"closed_forms": 1, "closed_form": direct({"orders": 5})},
      "set 0 must have arrays of up to 4 orders of elimination, .* not of 5 and 0"),
-    ({"directs": 1, "direct": direct({"orders": 0})}, "set 0 must have an order of elimination"),
-    ({"directs": 2, "direct": direct({}, {"lanes": 3})}, "set 1 must have 1, 2, 4 or 8 lanes, not 3"),
-    ({"directs": 2, "direct": direct({}, {})}, "set 1 must not be a second one of 1 lanes"),
-    ({"directs": 2, "direct": direct({}, {"unit": 3})}, "the vector unit of set 1 must be from 0 to 2, not 3"),
-    ({"directs": 1, "direct": direct({"order": ffi.NULL})}, "set 0 must have arrays .* not of 1 and 0$"),
-    ({"directs": 1, "direct": direct({"embeddings": 1})}, "set 0 must have arrays .* not of 1 and 1$"),
-    ({"directs": 1, "direct": direct({"embeddings": 5})}, "set 0 must have arrays .* not of 1 and 5$"),
-    ({"directs": 1, "direct": embedding("accelerate")}, "order 0 of set 0 must eliminate 4 rows"),
-    *[({"directs": 1, "direct": direct({}, **changed)}, "order 0 of set 0 must eliminate 4 rows") for changed in (
+    ({"closed_forms": 1, "closed_form": direct({"orders": 0})}, "set 0 must have an order of elimination"),
+    ({"closed_forms": 2, "closed_form": direct({}, {"lanes": 3})}, "set 1 must have 1, 2, 4 or 8 lanes, not 3"),
+    ({"closed_forms": 2, "closed_form": direct({}, {})}, "set 1 must not be a second one of 1 lanes"),
+    ({"closed_forms": 2, "closed_form": direct({}, {"unit": 3})}, "the vector unit of set 1 must be from 0 to 2, not 3"),
+    ({"closed_forms": 1, "closed_form": direct({"order": ffi.NULL})}, "set 0 must have arrays .* not of 1 and 0$"),
+    ({"closed_forms": 1, "closed_form": direct({"embeddings": 1})}, "set 0 must have arrays .* not of 1 and 1$"),
+    ({"closed_forms": 1, "closed_form": direct({"embeddings": 5})}, "set 0 must have arrays .* not of 1 and 5$"),
+    ({"closed_forms": 1, "closed_form": embedding("accelerate")}, "order 0 of set 0 must eliminate 4 rows"),
+    *[({"closed_forms": 1, "closed_form": direct({}, **changed)}, "order 0 of set 0 must eliminate 4 rows") for changed in (
         {"accelerate": None}, {"correct": None}, {"row": None}, {"solves": 0}, {"solves": 5}, {"solves": 1},
         {"row": [3, 0, 1, 4]}, {"row": [3, 0, 1, 1]}, {"column": [5, 0, 1, 6]}, {"column": [5, 0, 0, 1]},
         {"solve": [0, 1, 0, 1]}, {"solve": [0, 2, 2, 2]})],
@@ -195,16 +195,19 @@ def in_structure(**changed):
     ({"measures": measures({"name": ffi.NULL})}, "measure 0 must have a name and a unit"),
     ({"measures": measures({"size": 0})}, "x must have 1 to 8192 components, not 0"),
     ({"measures": measures({"depends": 3})}, "x must depend on positions, velocities or accelerations"),
-    ({"residuals": lambda made: made.of("zd_residuals", {})}, r"residuals: they must have derivative\(\)"),
+    ({"residuals": lambda made: made.of("zd_residuals", {})}, r"residuals: they must have evaluate\(\)"),
     ({"magnitudes": lambda made: ffi.cast("void *", 1), "magnitudes_scratch": -1}, "their scratch must be a size, not -1"),
     ({"inputs": 1}, "inputs: there must be 0 to 8192, .*, not 1"),
     ({"inputs": -1}, "inputs: there must be 0 to 8192, .*, not -1"),
     ({"inputs": 1, "input": inputs(0.0, name="")}, "input 0 must have a name"),
+    ({"inputs": 1, "input": inputs(0.0, kind=2)}, "torque must be an effort or a speed"),
     ({"inputs": 1, "input": inputs(np.nan)}, "the initial value of torque must be finite"),
     ({"groups": 65, "group": groups((0, 1))}, "groups: there must be 0 to 64, .*, not 65"),
     ({"groups": 1}, "groups: there must be 0 to 64, .*, not 1"),
     ({"groups": 1, "group": groups((0, 1), name="")}, "group 0 must have a name"),
     ({"groups": 1, "group": groups((2, 3))}, "lock must have at least one of the 4 rows, .*, not 3 rows from row 2 on"),
+    ({"groups": 1, "group": groups((0, 1), is_active=0)}, "lock must be active and two-sided"),
+    ({"groups": 1, "group": groups((0, 1), kind=lib.ZD_ONE_SIDED)}, "lock must be active and two-sided"),
     ({"groups": 2, "group": groups((0, 2), (1, 1))}, "lock must have .*, not 1 rows from row 1 on"),
     ({"quaternions": 1}, "quaternions: there must be 0 to 1, each with its first coordinate, not 1"),
     ({"quaternions": -1}, "quaternions: there must be .*, not -1"),
@@ -245,7 +248,26 @@ def test_a_library_that_describes_what_does_not_fit_is_refused(tmp_path):
 
 @needs_compiler
 def test_a_library_of_an_earlier_version_is_told_to_be_compiled_again(tmp_path):
-    text = PENDULUM.read_text().replace("ZD_INTERFACE_VERSION;", "2;")
+    text = PENDULUM.read_text().replace("ZD_INTERFACE_VERSION;", "3;")
     library = compile_text(text, tmp_path / "earlier.so")
-    with pytest.raises(ValueError, match=r"earlier\.so is 2, and this core has version 3 of the interface: compile it again"):
+    with pytest.raises(ValueError, match=r"earlier\.so is 3, and this core has version 4 of the interface: compile it again"):
         zd.native(library, ["x", "y"], symbol="pendulum", **GIVEN)
+
+
+INPUTS = """static const zd_input input[] = {{"wind", "N", ZD_EFFORT, 3.0}, {"lift", "N", ZD_EFFORT, 1.0}};
+const zd_kind zd_kind_pendulum"""
+DRIVEN = PENDULUM.read_text().replace("out->f[0] = 0;", "out->f[0] = out->inputs[0];").replace(
+    "out->f[1] = -m * g;", "out->f[1] = -m * g + 2 * out->inputs[1];").replace("const zd_kind zd_kind_pendulum", INPUTS).replace(
+    ".evaluate = pendulum,\n    },", ".evaluate = pendulum, .inputs = 2, .input = input,\n    },")
+
+
+@needs_compiler
+def test_inputs_have_their_initial_values(tmp_path):
+    """A constant force is the same as weight in its direction: m (x, y)'' = (3, 2 - m g) - C^T lambda."""
+    system = zd.native(compile_text(DRIVEN, tmp_path / "driven.so"), symbol="pendulum", parameters={})
+    x, y = 0.6, -0.8
+    vdot, multipliers = zd.acceleration(system, [x, y], [0.0, 0.0])
+    tangent = np.array([-y, x])
+    assert vdot == pytest.approx(tangent * (tangent @ [3.0, 2.0 - 9.81]), abs=1e-14)
+    assert multipliers == pytest.approx(x * 3.0 + y * (2.0 - 9.81), abs=1e-13)
+    assert system.evaluate([x, y], [0.0, 0.0]).f == pytest.approx([3.0, 2.0 - 9.81], abs=1e-15)

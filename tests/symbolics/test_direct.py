@@ -35,7 +35,7 @@ class Direct:
     def __init__(self, system, core=None):
         self.system = system
         self.core = core or system._direct_core()
-        self.direct = self.core.c.direct[0]
+        self.direct = self.core.c.closed_form[0]
         self.orders = range(self.direct.orders)
 
     def accelerate(self, i, t, p, v, added=None):
@@ -43,24 +43,26 @@ class Direct:
         order = self.direct.order[i]
         found = {"pdot": doubles(core.nq), "vdot": doubles(core.nv), "lambda": doubles(core.m), "power": doubles(1),
                  "pivots": doubles(order.solves + core.nv - core.m)}
-        status = order.accelerate(core.c.data, of(t), of(p), of(v), ffi.NULL if added is None else of(added),
-                                  *(memory for _, memory in found.values()))
+        status = order.accelerate(core.c.data, core.initial_inputs(), of(t), of(p), of(v),
+                                  ffi.NULL if added is None else of(added), *(memory for _, memory in found.values()))
         assert status == 0
         return {name: array for name, (array, _) in found.items()}
 
     def correct(self, i, t, p, v):
         found = {"Phi": doubles(self.core.mh), "dp": doubles(self.core.nq), "dv": doubles(self.core.nv)}
-        assert self.direct.order[i].correct(self.core.c.data, of(t), of(p), of(v), *(memory for _, memory in found.values())) == 0
+        status = self.direct.order[i].correct(self.core.c.data, self.core.initial_inputs(), of(t), of(p), of(v),
+                                              *(memory for _, memory in found.values()))
+        assert status == 0
         return {name: array for name, (array, _) in found.items()}
 
-    def land(self, i, t, p, v, allowed):
+    def finish(self, i, t, p, v, allowed):
         core = self.core
-        order, landed = self.direct.order[i], np.array(v)
+        order, finished = self.direct.order[i], np.array(v)
         found = {"Phi": doubles(core.mh), "dp": doubles(core.nq), "pdot": doubles(core.nq), "vdot": doubles(core.nv),
                  "lambda": doubles(core.m), "power": doubles(1), "pivots": doubles(order.solves + core.nv - core.m)}
-        status = order.land(core.c.data, ffi.new("double *", t), of(p), ffi.from_buffer("double[]", landed),
-                            of(np.full(core.mh, allowed)), *(memory for _, memory in found.values()))
-        return status, landed, {name: array for name, (array, _) in found.items()}
+        status = order.finish(core.c.data, core.initial_inputs(), of(t), of(p), ffi.from_buffer("double[]", finished),
+                              of(np.full(core.mh, allowed)), *(memory for _, memory in found.values()))
+        return status, finished, {name: array for name, (array, _) in found.items()}
 
     def embed(self, i, t, p, v, added, allowed):
         core = self.core
@@ -68,7 +70,7 @@ class Direct:
         r = core.nv - core.m
         found = {"Phi": doubles(core.mh), "dp": doubles(core.nq), "D": doubles(core.m, r), "pdot": doubles(core.nq),
                  "vdot": doubles(core.nv), "lambda": doubles(core.m), "power": doubles(1), "pivots": doubles(order.solves + r)}
-        status = order.embed(core.c.data, ffi.new("double *", t), of(p), ffi.from_buffer("double[]", embedded), of(added),
+        status = order.embed(core.c.data, core.initial_inputs(), of(t), of(p), ffi.from_buffer("double[]", embedded), of(added),
                              of(np.full(core.mh, allowed)), *(memory for _, memory in found.values()))
         return status, embedded, {name: array for name, (array, _) in found.items()}
 
@@ -101,17 +103,17 @@ def assert_near(found, expected, size):
 
 def assert_lands(direct, i, t, p, v, corrected):
     """A step ends with a correction, and then the acceleration at the corrected velocities."""
-    status, landed, found = direct.land(i, t, p, v, np.inf)
+    status, finished, found = direct.finish(i, t, p, v, np.inf)
     assert status == 0
-    assert_near(landed, v - corrected["dv"], tol.SAME)
-    expected = direct.accelerate(i, t, p, landed)
+    assert_near(finished, v - corrected["dv"], tol.SAME)
+    expected = direct.accelerate(i, t, p, finished)
     for name in ("vdot", "lambda", "power", "pivots"):
         assert_near(found[name], expected[name], tol.SAME)
     assert_near(found["Phi"], corrected["Phi"], tol.SAME)
     if corrected["Phi"].size:
-        status, landed, found = direct.land(i, t, p, v, -1.0)
+        status, finished, found = direct.finish(i, t, p, v, -1.0)
         assert status == lib.ZD_NO_CONVERGENCE
-        assert (landed == v).all()
+        assert (finished == v).all()
         assert_near(found["dp"], corrected["dp"], tol.SAME)
 
 

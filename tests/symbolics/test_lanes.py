@@ -124,5 +124,5 @@ def test_a_compiler_that_has_no_vectors_writes_the_plain_functions():
     """The compiler emits the requested sets that it supports, or else the baseline."""
     functions = random_system(2)._direct
     plain = functions.library_of("0x40000000")
-    table = ffi.cast("const zd_direct *", zd._gateway.address_of(plain, "zd_symbolic_direct"))
+    table = ffi.cast("const zd_closed_form *", zd._gateway.address_of(plain, "zd_symbolic_direct"))
     assert (table[0].unit, table[0].lanes) == (0, 1)

@@ -130,7 +130,7 @@ typedef uint64_t zd_vector_words __attribute__((vector_size(8 * ZD_WIDTH)));
 #include "sines_kernel.h"
 
 /* Reduces those angles of a vector again that are not within +-2^19, or NaN. */
-ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_reduce_far_lanes)(const zd_vector *angle, ZD_NAMED(zd_reduced) *a)
+ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_reduce_large_lanes)(const zd_vector *angle, ZD_NAMED(zd_reduced) *a)
 {
     double x[ZD_WIDTH], r[ZD_WIDTH], tail[ZD_WIDTH];
     uint64_t quadrant[ZD_WIDTH];
@@ -138,7 +138,7 @@ ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_reduce_far_lanes)(const zd_vector *ang
     memcpy(r, &a->r, sizeof r);
     memcpy(tail, &a->tail, sizeof tail);
     memcpy(quadrant, &a->quadrant, sizeof quadrant);
-    zd_reduce_those_far(ZD_WIDTH, x, r, tail, quadrant);
+    zd_reduce_large_ones(ZD_WIDTH, x, r, tail, quadrant);
     memcpy(&a->r, r, sizeof r);
     memcpy(&a->tail, tail, sizeof tail);
     memcpy(&a->quadrant, quadrant, sizeof quadrant);
@@ -148,13 +148,13 @@ ZD_ON_UNIT ZD_SINES_RARE void ZD_NAMED(zd_reduce_far_lanes)(const zd_vector *ang
 ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_vector_sines)(const zd_vector angle, zd_vector *s, zd_vector *c)
 {
     ZD_NAMED(zd_reduced) a;
-    ZD_NAMED(zd_reduce_near)(angle, &a);
+    ZD_NAMED(zd_reduce_moderate)(angle, &a);
     zd_vector size = (zd_vector)((zd_vector_words)angle & ~(UINT64_C(1) << 63));
-    if (ZD_ANY(~(size <= ZD_SINES_NEAR))) {
+    if (ZD_ANY(~(size <= ZD_SINES_LARGE))) {
         zd_vector given = angle;
-        ZD_NAMED(zd_reduced) far = a;
-        ZD_NAMED(zd_reduce_far_lanes)(&given, &far);
-        a = far;
+        ZD_NAMED(zd_reduced) large = a;
+        ZD_NAMED(zd_reduce_large_lanes)(&given, &large);
+        a = large;
     }
     ZD_NAMED(zd_sines_of_reduced)(&a, s, c);
 }
@@ -227,7 +227,7 @@ typedef int64_t zd_condition __attribute__((vector_size(8 * ZD_LANES)));
 #if ZD_UNIT || ZD_LANES > 1
 #if ZD_LANES == 1
 /* In halves, as compilers take the way through memory for a vector at once. */
-ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_take_apart)(const zd_vector x, double *to)
+ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_split)(const zd_vector x, double *to)
 {
     typedef double half __attribute__((vector_size(16)));
     const half low = ZD_HALF_OF_4(x, 0), high = ZD_HALF_OF_4(x, 1);
@@ -247,8 +247,8 @@ ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(zd_sines_of)(const int n, const zd_real
     for (int i = 0; i < n; i += ZD_WIDTH) {
         zd_vector sine, cosine;
         ZD_NAMED(zd_vector_sines)((zd_vector){angle[i], angle[i + 1], angle[i + 2], angle[i + 3]}, &sine, &cosine);
-        ZD_NAMED(zd_take_apart)(sine, s + i);
-        ZD_NAMED(zd_take_apart)(cosine, c + i);
+        ZD_NAMED(zd_split)(sine, s + i);
+        ZD_NAMED(zd_split)(cosine, c + i);
     }
 #endif
 }

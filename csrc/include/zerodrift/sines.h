@@ -48,7 +48,7 @@ ZD_SINES_INLINE double zd_double_of(uint64_t bits)
     return x;
 }
 
-#define ZD_SINES_NEAR 0x1p19    /* the largest angle that is reduced without branches */
+#define ZD_SINES_LARGE 0x1p19    /* the largest angle that is reduced without branches */
 
 #define ZD_OF_TYPE(name) name
 #define ZD_REAL double
@@ -87,20 +87,20 @@ typedef uint64_t zd_pair_of_words __attribute__((vector_size(16)));
 
 /* ---- the rare case: an angle is not within +-2^19, or NaN ---- */
 
-#ifdef ZD_FAR_SINES_OF_CORE
+#ifdef ZD_LARGE_SINES_OF_CORE
 
-/* Compilers take as long for it as for a quarter of a small system. So a library that is compiled when it is wanted is handed what the
- * core has, zd_far_sines and zd_far_reductions, before it is called. */
-static void (*zd_sines_far)(int n, const double *angle, double *s, double *c);
-static void (*zd_reduce_those_far)(int n, const double *angle, double *r, double *tail, uint64_t *quadrant);
+/* Compilers take as long for it as for a quarter of a small system. So a library that is compiled when it is wanted receives the
+ * functions of the core, zd_sines_of_large and zd_reductions_of_large, before it is called. */
+static void (*zd_large_sines)(int n, const double *angle, double *s, double *c);
+static void (*zd_reduce_large_ones)(int n, const double *angle, double *r, double *tail, uint64_t *quadrant);
 
-void zd_take_far_sines(void (*sines)(int, const double *, double *, double *),
-                       void (*reductions)(int, const double *, double *, double *, uint64_t *));
-void zd_take_far_sines(void (*sines)(int, const double *, double *, double *),
-                       void (*reductions)(int, const double *, double *, double *, uint64_t *))
+void zd_set_sines_of_large(void (*sines)(int, const double *, double *, double *),
+                           void (*reductions)(int, const double *, double *, double *, uint64_t *));
+void zd_set_sines_of_large(void (*sines)(int, const double *, double *, double *),
+                           void (*reductions)(int, const double *, double *, double *, uint64_t *))
 {
-    zd_sines_far = sines;
-    zd_reduce_those_far = reductions;
+    zd_large_sines = sines;
+    zd_reduce_large_ones = reductions;
 }
 
 #else
@@ -133,7 +133,7 @@ ZD_SINES_INLINE void zd_multiply_by_two_over_pi(double x, uint32_t *product)
 }
 
 /* Reduction of any finite |x| >= 2^19. None is closer to a multiple of pi/2 than 2^-62: at least 70 bits after the zeros are right. */
-ZD_SINES_RARE void zd_reduce_far(double x, zd_reduced *reduced)
+ZD_SINES_RARE void zd_reduce_large(double x, zd_reduced *reduced)
 {
     uint32_t y[7] = {0};
     zd_multiply_by_two_over_pi(x, y);
@@ -152,15 +152,15 @@ ZD_SINES_RARE void zd_reduce_far(double x, zd_reduced *reduced)
 /* Reduction of any number; NaN for infinities and NaN. */
 ZD_SINES_RARE void zd_reduce(double x, zd_reduced *reduced)
 {
-    if (ZD_SIZE_OF(x) <= ZD_SINES_NEAR)
-        zd_reduce_near(x, reduced);
+    if (ZD_SIZE_OF(x) <= ZD_SINES_LARGE)
+        zd_reduce_moderate(x, reduced);
     else if (ZD_SIZE_OF(x) <= 0x1.fffffffffffffp1023)
-        zd_reduce_far(x, reduced);
+        zd_reduce_large(x, reduced);
     else
         *reduced = (zd_reduced){x - x, 0, 0};
 }
 
-ZD_SINES_RARE void zd_sines_far(int n, const double *angle, double *s, double *c)
+ZD_SINES_RARE void zd_large_sines(int n, const double *angle, double *s, double *c)
 {
     for (int i = 0; i < n; i++) {
         zd_reduced reduced;
@@ -169,14 +169,14 @@ ZD_SINES_RARE void zd_sines_far(int n, const double *angle, double *s, double *c
     }
 }
 
-/* r, tail, quadrant (n,) of those that are far; of others they stay */
-ZD_SINES_RARE void zd_reduce_those_far(int n, const double *angle, double *r, double *tail, uint64_t *quadrant)
+/* r, tail, quadrant (n,) of large angles; those of others are unchanged */
+ZD_SINES_RARE void zd_reduce_large_ones(int n, const double *angle, double *r, double *tail, uint64_t *quadrant)
 {
     for (int i = 0; i < n; i++) {
-        if (ZD_SIZE_OF(angle[i]) <= ZD_SINES_NEAR) continue;
-        zd_reduced far;
-        zd_reduce(angle[i], &far);
-        r[i] = far.r, tail[i] = far.tail, quadrant[i] = far.quadrant;
+        if (ZD_SIZE_OF(angle[i]) <= ZD_SINES_LARGE) continue;
+        zd_reduced reduced;
+        zd_reduce(angle[i], &reduced);
+        r[i] = reduced.r, tail[i] = reduced.tail, quadrant[i] = reduced.quadrant;
     }
 }
 
@@ -187,14 +187,14 @@ ZD_SINES_RARE void zd_reduce_those_far(int n, const double *angle, double *r, do
 ZD_SINES_INLINE void zd_sines_of_two(const zd_pair angle, zd_pair *s, zd_pair *c)
 {
     zd_reduced_of_pair a;
-    zd_reduce_near_of_pair(angle, &a);
+    zd_reduce_moderate_of_pair(angle, &a);
     zd_sines_of_reduced_of_pair(&a, s, c);
     const zd_pair size = (zd_pair)((zd_pair_of_words)angle & ~(UINT64_C(1) << 63));
-    const zd_pair_of_words far = ~(zd_pair_of_words)(size <= ZD_SINES_NEAR);
-    if (far[0] | far[1]) {
+    const zd_pair_of_words is_large = ~(zd_pair_of_words)(size <= ZD_SINES_LARGE);
+    if (is_large[0] | is_large[1]) {
         const double given[] = {angle[0], angle[1]};
         double sine[2], cosine[2];
-        zd_sines_far(2, given, sine, cosine);
+        zd_large_sines(2, given, sine, cosine);
         *s = (zd_pair){sine[0], sine[1]};
         *c = (zd_pair){cosine[0], cosine[1]};
     }
@@ -215,14 +215,14 @@ ZD_SINES_INLINE void zd_sines(const int n, const double *restrict angle, double 
         if (i + 1 < n) s[i + 1] = sine[1], c[i + 1] = cosine[1];
     }
 #else
-    int far = 0;
-    for (int i = 0; i < n; i++) far |= !(ZD_SIZE_OF(angle[i]) <= ZD_SINES_NEAR);
+    int is_large = 0;
+    for (int i = 0; i < n; i++) is_large |= !(ZD_SIZE_OF(angle[i]) <= ZD_SINES_LARGE);
     for (int i = 0; i < n; i++) {
         zd_reduced reduced;
-        zd_reduce_near(angle[i], &reduced);
+        zd_reduce_moderate(angle[i], &reduced);
         zd_sines_of_reduced(&reduced, s + i, c + i);
     }
-    if (far) zd_sines_far(n, angle, s, c);
+    if (is_large) zd_large_sines(n, angle, s, c);
 #endif
 }
 

@@ -26,7 +26,7 @@
 #include <stdint.h>
 
 /* Changes with any declaration below that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 3 };
+enum { ZD_INTERFACE_VERSION = 4 };
 
 /* ---- statuses: 0 done; positive: stopped early, what was recorded is valid; negative: failed ---- */
 
@@ -107,7 +107,7 @@ enum zd_term {
 typedef struct zd_terms {
     ZD_TERM_LIST(ZD_TERM_MEMBER)    /* double *A; double *M; double *d; and so on */
     double *scratch;        /* (scratch,) memory of the system, for values that stay valid while (t, p) does not change, such as sines */
-    const double *inputs;   /* (inputs,) values to read: see zd_input; NULL without inputs */
+    const double *inputs;   /* (2 inputs + 1,) values to read: see zd_input; NULL without inputs */
 } zd_terms;
 
 /* Writes the terms in `want` and no others. Must be a pure function, except for out->scratch. Returns ZD_DONE; any other value: failed. */
@@ -182,21 +182,23 @@ typedef struct zd_elimination {
     const int *row, *column;    /* (m,) rows of C, and the velocities that they are solved for; each row once, each velocity at most once */
     /* vdot at the state, with `added` (m,) added to the right-hand side of (6), NULL: zero. pdot is written by systems with A only; lambda,
      * power and pivots may be NULL: not requested. The power is that of (28): ZD_POWER, and that of moving constraints, lambda^T Phi_t. */
-    int (*accelerate)(const void *data, const double *t, const double *p, const double *v, const double *added, double *pdot, double *vdot,
-                      double *lambda, double *power, double *pivots);
+    int (*accelerate)(const void *data, const double *inputs, const double *t, const double *p, const double *v, const double *added,
+                      double *pdot, double *vdot, double *lambda, double *power, double *pivots);
     /* Phi (3), and Newton corrections in the metric of M, dp (nq,) of (25a) ... (27a) and dv (nv,) of (25b) ... (27b), both at (t, p, v), to
      * be subtracted. NULL without constraints. */
-    int (*correct)(const void *data, const double *t, const double *p, const double *v, double *Phi, double *dp, double *dv);
+    int (*correct)(const void *data, const double *inputs, const double *t, const double *p, const double *v, double *Phi, double *dp,
+                   double *dv);
     /* Both at once, for the end of a step: Phi, and if every |Phi| is at most `allowed` (mh,), the corrected v - dv and the results of
      * accelerate() there with `added` zero. Otherwise dp only, with unchanged v and ZD_NO_CONVERGENCE. NULL: the core calls both other
      * functions. */
-    int (*land)(const void *data, const double *t, const double *p, double *v, const double *allowed, double *Phi, double *dp, double *pdot,
-                double *vdot, double *lambda, double *power, double *pivots);
+    int (*finish)(const void *data, const double *inputs, const double *t, const double *p, double *v, const double *allowed, double *Phi,
+                  double *dp, double *pdot, double *vdot, double *lambda, double *power, double *pivots);
     /* The same for formulations in independent velocities, which are those not solved for: corrections change the dependent coordinates and
      * velocities only, instead of being shortest in the metric of M; `added` as above. D (m, nv - m), written together with the pivots, NULL
      * without them: derivatives of the velocities solved for with respect to the others, in their order. */
-    int (*embed)(const void *data, const double *t, const double *p, double *v, const double *added, const double *allowed, double *Phi,
-                 double *dp, double *D, double *pdot, double *vdot, double *lambda, double *power, double *pivots);
+    int (*embed)(const void *data, const double *inputs, const double *t, const double *p, double *v, const double *added,
+                 const double *allowed, double *Phi, double *dp, double *D, double *pdot, double *vdot, double *lambda, double *power,
+                 double *pivots);
 } zd_elimination;
 
 /* Vector units: a processor that has one has all before it, too. */
@@ -207,32 +209,33 @@ enum zd_unit {
 };
 
 /* Functions for one unit and number of lanes. */
-typedef struct zd_direct {
+typedef struct zd_closed_form {
     enum zd_unit unit;      /* the unit that they are compiled for */
-    int lanes;              /* SIMD lanes, trajectories per call, 1, 2, 4 or 8: each number of every array, of t and of `data` is a group of so
-                             * many; the value returned has a bit for each trajectory that failed */
+    int lanes;              /* SIMD lanes, trajectories per call, 1, 2, 4 or 8: each number of every array, of t, inputs and `data` is a
+                             * group of so many; the value returned has a bit for each trajectory that failed */
     int orders;             /* at most 4: the first with sufficiently large pivots is used, which depends on the state only */
     const zd_elimination *order;    /* (orders,) */
     int embeddings;         /* at most 4, for independent velocities: the one that solves for the dependent ones is used */
-    const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and land(); for one lane only */
-} zd_direct;
+    const zd_elimination *embedding;    /* (embeddings,) with embed() instead of accelerate() and finish(); for one lane only */
+} zd_closed_form;
 
 /* Taylor coefficients of the motion from (t, p, v), up to the given order: p_series (order + 1, nq), v_series (order + 1, nv), the first
  * ones being p and v; and work (order + 1,), NULL: not requested, of the energy input in (28), the first one being 0. Returns 0; any other
  * value: not available at this state. */
 typedef struct zd_series {
     int scratch;            /* doubles of scratch memory per order; a call needs order + 1 times as many */
-    int (*evaluate)(const void *data, int order, double t, const double *p, const double *v, double *p_series, double *v_series,
-                    double *work, double *scratch);
+    int (*evaluate)(const void *data, const double *inputs, int order, double t, const double *p, const double *v, double *p_series,
+                    double *v_series, double *work, double *scratch);
 } zd_series;
 
 /* Jacobian of the rates of a state (p, v): J (nq + nv, nq + nv) <- derivatives of pdot = A v and of vdot by (2) and (6), with one more row
  * for the power of (28) if ZD_POWER or ZD_PHI_T is provided. Returns 0; any other value: not available at this state. */
 typedef struct zd_jacobian {
     int scratch;            /* doubles that a call needs */
-    int (*evaluate)(const void *data, double t, const double *p, const double *v, double *J, double *scratch);
+    int (*evaluate)(const void *data, const double *inputs, double t, const double *p, const double *v, double *J, double *scratch);
     /* Psi_p (m, nq) <- derivatives of C v + Phi_t, (5), with respect to p, needed by `mixed` and `independent`; NULL: by differences. */
-    int (*constraints)(const void *data, double t, const double *p, const double *v, double *Psi_p, double *scratch);
+    int (*constraints)(const void *data, const double *inputs, double t, const double *p, const double *v, double *Psi_p,
+                       double *scratch);
 } zd_jacobian;
 
 /* Named functions of the motion, such as the position of a point or the force in a joint. */
@@ -245,10 +248,10 @@ typedef struct zd_measure {
 
 typedef struct zd_measured {    /* memory for the results; NULL: not requested */
     double *value;          /* (size,) */
-    double *rate;           /* (size,) time derivative of a measure of positions: row v + explicit time derivative */
-    double *row;            /* (size, nv) for a measure of positions: d rate / d v; of velocities: d value / d v */
-    double *bias;           /* (size,) second (positions) or first (velocities) time derivative minus row vdot */
-    int is_same_state;      /* 1: t, p, v and scratch are those of the previous call, so that values in scratch may be reused */
+    double *rate;           /* (size,) time derivative of a measure of positions: jacobian v + explicit time derivative */
+    double *jacobian;       /* (size, nv) for a measure of positions: d rate / d v; of velocities: d value / d v */
+    double *bias;           /* (size,) second (positions) or first (velocities) time derivative minus jacobian vdot */
+    int is_same_state;      /* 1: inputs, t, p, v and scratch are those of the previous call, so that values in scratch may be reused */
 } zd_measured;
 
 typedef struct zd_measures {
@@ -256,29 +259,73 @@ typedef struct zd_measures {
     const zd_measure *measure;      /* (count,) */
     int scratch;            /* doubles that a call needs */
     /* vdot and lambda may be NULL if the measure does not depend on them */
-    int (*evaluate)(const void *data, int measure, double t, const double *p, const double *v, const double *vdot, const double *lambda,
-                    const zd_measured *out, double *scratch);
+    int (*evaluate)(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
+                    const double *lambda, const zd_measured *out, double *scratch);
 } zd_measures;
 
-/* An input: a number that the caller may set between steps, such as a control. Not a parameter. */
+/* An input: a number that the caller sets between steps, such as a control. It is not a parameter. Functions of the system receive the
+ * values of all n inputs as an array, inputs (2 n + 1,), that is constant in a step and NULL without inputs:
+ *
+ *     inputs[i]       value at the time inputs[2 n], at which the step begins
+ *     inputs[n + i]   rate; of an effort 0
+ *
+ * So the value at t is inputs[i] + inputs[n + i] * (t - inputs[2 n]), and that of an effort inputs[i] itself. Efforts may occur in f and
+ * power only, speeds also in Phi_t and xi; no other term depends on inputs. */
+enum zd_input_kind {
+    ZD_EFFORT,              /* force or torque: constant in a step */
+    ZD_SPEED                /* prescribed speed: linear in time in a step */
+};
+
 typedef struct zd_input {
-    const char *name;
+    const char *name;       /* "motor.torque" */
     const char *unit;
+    enum zd_input_kind kind;
     double initial;
 } zd_input;
 
-/* Constraints that are switched on and off together, such as those of a joint that is locked and released. */
+/* Constraints that are switched on and off together, such as those of a latch, a stop or a contact. Rows outside all groups are always
+ * active. Only groups that are active and ZD_TWO_SIDED are simulated as yet. */
+enum zd_group_kind {
+    ZD_TWO_SIDED,           /* rows of a latch or a lock */
+    ZD_ONE_SIDED,           /* one holonomic row: Phi >= 0, lambda <= 0, and one of them zero */
+    ZD_FRICTION             /* nonholonomic rows, the slip velocities: either C v + Phi_t = 0, or a force against the slip */
+};
+
 typedef struct zd_group {
     const char *name;
     int first, rows;        /* first row of C, and number of rows */
+    enum zd_group_kind kind;
+    int is_active;          /* at the start: 1: closed, sticking; 0: open, sliding */
+    int normal;             /* ZD_FRICTION: 1 + index of the ZD_ONE_SIDED group whose multiplier bounds the friction; 0: a fixed bound */
+    double restitution;     /* ZD_ONE_SIDED: coefficient of restitution, 0 to 1 */
+    double friction[2];     /* ZD_FRICTION: static and sliding; coefficients, or with a fixed bound in N or N m */
 } zd_group;
 
-/* Directional derivatives of the residuals of (2), M vdot + d - f + C^T lambda, and of (6), C vdot - xi, at constant vdot and lambda. */
+/* A direction in which residuals are differentiated; NULL: zero. */
+typedef struct zd_direction {
+    double t;
+    const double *p, *v;            /* (nq,), (nv,) */
+    const double *parameters;       /* all parameters in their order */
+    const double *inputs;           /* (2 inputs,) values and rates */
+} zd_direction;
+
+/* Derivatives in a direction, at constant vdot and lambda, p and v being independent of each other; NULL: not requested. */
+typedef struct zd_derivatives {
+    double *dynamics;       /* (nv,) of M vdot + d - f + C^T lambda, (2) */
+    double *accelerations;  /* (m,) of C vdot - xi, (6) */
+    double *velocities;     /* (m,) of C v + Phi_t, (5) */
+    double *positions;      /* (mh,) of Phi, (3) */
+    double *rates;          /* (nq,) of A v, (1) */
+    double *potential;      /* derivative of V */
+    double *power;          /* derivative of the power in (28), with that of moving constraints, lambda^T Phi_t */
+} zd_derivatives;
+
+/* Directional derivatives of the residuals. Returns 0; any other value: not available at this state. */
 typedef struct zd_residuals {
     int scratch;            /* doubles that a call needs */
-    int (*derivative)(const void *data, double t, const double *p, const double *v, const double *vdot, const double *lambda,
-                      const double *dp, const double *dv, const double *dparameters,    /* (nq,), (nv,), all parameters; NULL: zero */
-                      double *dynamics, double *constraints, double *scratch);          /* (nv,), (m,) */
+    int (*evaluate)(const void *data, const double *inputs, double t, const double *p, const double *v, const double *vdot,
+                    const double *lambda, int directions, const zd_direction *direction, const zd_derivatives *derivatives,
+                    double *scratch);       /* direction, derivatives: (directions,) */
 } zd_residuals;
 
 typedef struct zd_system {
@@ -294,13 +341,14 @@ typedef struct zd_system {
     double length;          /* m: lower bound of the characteristic length; 0: by coordinates and constraints at the start alone */
     const char *failure;    /* meaning of ZD_CALLBACK from evaluate(), in one sentence; may be NULL */
     /* Writes the name of a row of C into `to` (size,), "" without a name; NULL: no row has one. Used in messages only. */
-    void (*name_row)(const void *names, int row, char *to, int size);
+    void (*name_constraint)(const void *names, int row, char *to, int size);
     const void *names;
     const zd_structure *structure;  /* NULL: one block, one group, matrices dense */
     const zd_operations *operations;
     const zd_pinned *pinned;
-    const zd_direct *direct;        /* (directs,) at most one for each unit and number of lanes; those for one lane serve single runs */
-    int directs;
+    const zd_closed_form *closed_form;  /* (closed_forms,) at most one for each unit and number of lanes; those for one lane serve single
+                                         * runs */
+    int closed_forms;
     const zd_series *series;
     const zd_jacobian *jacobian;    /* for implicit integrators; NULL: differences */
     const zd_measures *measures;

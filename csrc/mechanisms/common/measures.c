@@ -33,7 +33,7 @@ static void measure_quantity(const zd_measuring *self, const zd_output_spec *mea
     }
     if (out->value) out->value[i] = s * (is_value ? zd_value_of(of, quantity) : rate);
     if (out->rate && is_value) out->rate[i] = s * rate;
-    if (out->row) self->numerics->write_row(of->mechanism, of->frame, quantity, s, out->row + i * self->nv);
+    if (out->jacobian) self->numerics->write_row(of->mechanism, of->frame, quantity, s, out->jacobian + i * self->nv);
     if (out->bias) out->bias[i] = s * bias;
 }
 

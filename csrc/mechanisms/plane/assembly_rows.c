@@ -47,9 +47,9 @@ void zd_assembly_weigh(zd_assembly *self, const double *p)
 double zd_assembly_measure(zd_assembly *self, const zd_target *target, const double *p, double *row)
 {
     double value[3] = {0};
-    const zd_measured out = {.value = value, .row = row};
+    const zd_measured out = {.value = value, .jacobian = row};
     const zd_measures *measures = self->system->measures;
-    measures->evaluate(self->system->data, target->measure, 0, p, self->at_rest, NULL, NULL, &out, self->scratch);
+    measures->evaluate(self->system->data, NULL, target->measure, 0, p, self->at_rest, NULL, NULL, &out, self->scratch);
     return value[target->component];
 }
 

@@ -70,9 +70,10 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
 
 static const zd_measure_numerics NUMERICS = {2, 1, place, move, bias_of, write_row, unit_wrench, reaction_of, apart_of};
 
-static int evaluate(const void *data, int measure, double t, const double *p, const double *v, const double *vdot, const double *lambda,
-                    const zd_measured *out, double *scratch)
+static int evaluate(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
+                    const double *lambda, const zd_measured *out, double *scratch)
 {
+    (void)inputs;
     const zd_plane *self = data;
     const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
     const zd_measured_state at = {t, p, v, vdot, lambda};

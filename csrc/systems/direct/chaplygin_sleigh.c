@@ -51,7 +51,7 @@ static const int column_1[] = {0};
 #include "chaplygin_sleigh.c"
 #endif
 
-const zd_direct zd_chaplygin_sleigh_direct[] = {
+const zd_closed_form zd_chaplygin_sleigh_direct[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 2, orders_0_1, 0, NULL},
 #endif
@@ -75,11 +75,12 @@ const zd_direct zd_chaplygin_sleigh_direct[] = {
 #else
 #include "../../include/zerodrift/lanes.h"
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -90,7 +91,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -132,10 +133,11 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -143,7 +145,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real angle5[ZD_PADDED(1)] = {p2};
@@ -173,11 +175,12 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -190,7 +193,7 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     const zd_real angle5[ZD_PADDED(1)] = {p2};
@@ -246,11 +249,12 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
 }
 #endif
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -261,7 +265,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -303,10 +307,11 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -314,7 +319,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_tim
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real angle5[ZD_PADDED(1)] = {p2};
@@ -344,11 +349,12 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_tim
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -361,7 +367,7 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     const zd_real angle5[ZD_PADDED(1)] = {p2};
@@ -418,15 +424,15 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
 #endif
 
 #if ZD_LANES == 1
-#define ZD_LANDING(name) ZD_NAMED(name)
+#define ZD_FINISH(name) ZD_NAMED(name)
 #else
-#define ZD_LANDING(name) NULL
+#define ZD_FINISH(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0), NULL},
-    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_LANDING(land_1), NULL},
+    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL},
+    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_FINISH(finish_1), NULL},
 };
-#undef ZD_LANDING
+#undef ZD_FINISH
 
 #undef ZD_UNIT
 #undef ZD_LANES

@@ -8,7 +8,7 @@
 /* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_CHAPLYGIN_SLEIGH_DIRECT_BEGINS = 0, ZD_CHAPLYGIN_SLEIGH_DIRECT_ENDS = 8 };
 
-extern const zd_direct zd_chaplygin_sleigh_direct[];
+extern const zd_closed_form zd_chaplygin_sleigh_direct[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_chaplygin_sleigh_direct_constants(double *k);
 

@@ -8,7 +8,7 @@
 /* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_FOUR_BAR_DIRECT_BEGINS = 14, ZD_FOUR_BAR_DIRECT_ENDS = 36 };
 
-extern const zd_direct zd_four_bar_direct[];
+extern const zd_closed_form zd_four_bar_direct[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_four_bar_direct_constants(double *k);
 

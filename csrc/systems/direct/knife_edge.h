@@ -8,7 +8,7 @@
 /* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_KNIFE_EDGE_DIRECT_BEGINS = 0, ZD_KNIFE_EDGE_DIRECT_ENDS = 3 };
 
-extern const zd_direct zd_knife_edge_direct[];
+extern const zd_closed_form zd_knife_edge_direct[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_knife_edge_direct_constants(double *k);
 

@@ -50,7 +50,7 @@ static const int column_1[] = {0};
 #include "oscillator.c"
 #endif
 
-const zd_direct zd_oscillator_direct[] = {
+const zd_closed_form zd_oscillator_direct[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 1, orders_0_1, 1, embeddings_0_1},
 #endif
@@ -74,11 +74,12 @@ const zd_direct zd_oscillator_direct[] = {
 #else
 #include "../../include/zerodrift/lanes.h"
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -89,7 +90,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0];
     vdot[0] = -((p0 * k[1]) * k[4]);
     if (power) {
@@ -102,11 +103,12 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
     double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -121,7 +123,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_time,
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0];
     const zd_real before0 = v[0];
     const zd_real v0 = before0;
@@ -138,14 +140,14 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_time,
 #endif
 
 #if ZD_LANES == 1
-#define ZD_LANDING(name) ZD_NAMED(name)
+#define ZD_FINISH(name) ZD_NAMED(name)
 #else
-#define ZD_LANDING(name) NULL
+#define ZD_FINISH(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
     {0, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), NULL, NULL, NULL},
 };
-#undef ZD_LANDING
+#undef ZD_FINISH
 #if ZD_LANES == 1
 static const zd_elimination ZD_NAMED(embeddings)[] = {
     {0, solve_1, row_1, column_1, NULL, NULL, NULL, ZD_NAMED(embed_1)},

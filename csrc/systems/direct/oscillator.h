@@ -8,7 +8,7 @@
 /* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_OSCILLATOR_DIRECT_BEGINS = 0, ZD_OSCILLATOR_DIRECT_ENDS = 5 };
 
-extern const zd_direct zd_oscillator_direct[];
+extern const zd_closed_form zd_oscillator_direct[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_oscillator_direct_constants(double *k);
 

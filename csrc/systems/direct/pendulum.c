@@ -59,7 +59,7 @@ static const int column_3[] = {1};
 #include "pendulum.c"
 #endif
 
-const zd_direct zd_pendulum_direct[] = {
+const zd_closed_form zd_pendulum_direct[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 2, orders_0_1, 2, embeddings_0_1},
 #endif
@@ -83,11 +83,12 @@ const zd_direct zd_pendulum_direct[] = {
 #else
 #include "../../include/zerodrift/lanes.h"
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -98,7 +99,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -124,10 +125,11 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -135,7 +137,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
@@ -158,11 +160,12 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -175,7 +178,7 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
@@ -223,11 +226,12 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
 }
 #endif
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -238,7 +242,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -264,10 +268,11 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_1)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -275,7 +280,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_tim
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
@@ -298,11 +303,12 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_tim
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -315,7 +321,7 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
@@ -364,10 +370,11 @@ ZD_ON_UNIT static int ZD_NAMED(land_1)(const void *data, const double *at_time, 
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(correct_2)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_2)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -375,7 +382,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_2)(const void *data, const double *at_tim
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
@@ -399,11 +406,12 @@ ZD_ON_UNIT static int ZD_NAMED(correct_2)(const void *data, const double *at_tim
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
     double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -418,7 +426,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_time,
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -465,10 +473,11 @@ ZD_ON_UNIT static int ZD_NAMED(embed_2)(const void *data, const double *at_time,
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(correct_3)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_3)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -476,7 +485,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_3)(const void *data, const double *at_tim
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real v0 = v[0], v1 = v[1];
     const zd_real x18 = ZD_FMA(p1, p1, ZD_FMS(p0, p0, k[8])) * k[7];
@@ -500,11 +509,12 @@ ZD_ON_UNIT static int ZD_NAMED(correct_3)(const void *data, const double *at_tim
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
     double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -519,7 +529,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_time,
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1];
     const zd_real before0 = v[0], before1 = v[1];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0);
@@ -566,15 +576,15 @@ ZD_ON_UNIT static int ZD_NAMED(embed_3)(const void *data, const double *at_time,
 #endif
 
 #if ZD_LANES == 1
-#define ZD_LANDING(name) ZD_NAMED(name)
+#define ZD_FINISH(name) ZD_NAMED(name)
 #else
-#define ZD_LANDING(name) NULL
+#define ZD_FINISH(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0), NULL},
-    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_LANDING(land_1), NULL},
+    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL},
+    {1, solve_1, row_1, column_1, ZD_NAMED(accelerate_1), ZD_NAMED(correct_1), ZD_FINISH(finish_1), NULL},
 };
-#undef ZD_LANDING
+#undef ZD_FINISH
 #if ZD_LANES == 1
 static const zd_elimination ZD_NAMED(embeddings)[] = {
     {1, solve_2, row_2, column_2, NULL, ZD_NAMED(correct_2), NULL, ZD_NAMED(embed_2)},

@@ -51,7 +51,7 @@ static const int column_1[] = {1, 2};
 #include "slider_crank.c"
 #endif
 
-const zd_direct zd_slider_crank_direct[] = {
+const zd_closed_form zd_slider_crank_direct[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 1, orders_0_1, 1, embeddings_0_1},
 #endif
@@ -75,11 +75,12 @@ const zd_direct zd_slider_crank_direct[] = {
 #else
 #include "../../include/zerodrift/lanes.h"
 
-ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,
     double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -90,7 +91,7 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)added, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0), added1 = added ? (zd_real)added[1] : ZD_SPLAT(0.0);
@@ -145,10 +146,11 @@ ZD_ON_UNIT static int ZD_NAMED(accelerate_0)(const void *data, const double *at_
     return ZD_DONE;
 }
 
-ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -156,7 +158,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real angle8[ZD_PADDED(2)] = {p0, p2};
@@ -193,11 +195,12 @@ ZD_ON_UNIT static int ZD_NAMED(correct_0)(const void *data, const double *at_tim
 }
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(finish_0)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,
     double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -210,7 +213,7 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)v, (void)Phi, (void)dp, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     const zd_real angle8[ZD_PADDED(2)] = {p0, p2};
@@ -297,10 +300,11 @@ ZD_ON_UNIT static int ZD_NAMED(land_0)(const void *data, const double *at_time, 
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     const double *at_v, double *to_Phi, double *to_dp, double *to_dv)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const v = (const zd_stored *)at_v;
@@ -308,7 +312,7 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_tim
     zd_stored *restrict const dp = (zd_stored *)to_dp;
     zd_stored *restrict const dv = (zd_stored *)to_dv;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)v, (void)Phi, (void)dp, (void)dv;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real v0 = v[0], v1 = v[1], v2 = v[2];
     const zd_real angle8[ZD_PADDED(2)] = {p0, p2};
@@ -345,11 +349,12 @@ ZD_ON_UNIT static int ZD_NAMED(correct_1)(const void *data, const double *at_tim
 #endif
 
 #if ZD_LANES == 1
-ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_time, const double *at_p,
+ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_inputs, const double *at_time, const double *at_p,
     double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,
     double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)
 {
     const zd_stored *restrict const k = (const zd_stored *)(data);
+    const zd_stored *restrict const input = (const zd_stored *)at_inputs;
     const zd_stored *restrict const time = (const zd_stored *)at_time;
     const zd_stored *restrict const p = (const zd_stored *)at_p;
     const zd_stored *restrict const allowed = (const zd_stored *)where_allowed;
@@ -364,7 +369,7 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_time,
     zd_stored *restrict const power = (zd_stored *)to_power;
     zd_stored *restrict const pivots = (zd_stored *)to_pivots;
     const zd_real t = *time;
-    (void)t, (void)k, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
+    (void)t, (void)k, (void)input, (void)time, (void)p, (void)allowed, (void)added, (void)v, (void)Phi, (void)dp, (void)D, (void)pdot, (void)vdot, (void)lambda, (void)power, (void)pivots;
     const zd_real p0 = p[0], p1 = p[1], p2 = p[2];
     const zd_real before0 = v[0], before1 = v[1], before2 = v[2];
     const zd_real added0 = added ? (zd_real)added[0] : ZD_SPLAT(0.0), added1 = added ? (zd_real)added[1] : ZD_SPLAT(0.0);
@@ -442,14 +447,14 @@ ZD_ON_UNIT static int ZD_NAMED(embed_1)(const void *data, const double *at_time,
 #endif
 
 #if ZD_LANES == 1
-#define ZD_LANDING(name) ZD_NAMED(name)
+#define ZD_FINISH(name) ZD_NAMED(name)
 #else
-#define ZD_LANDING(name) NULL
+#define ZD_FINISH(name) NULL
 #endif
 static const zd_elimination ZD_NAMED(orders)[] = {
-    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_LANDING(land_0), NULL},
+    {1, solve_0, row_0, column_0, ZD_NAMED(accelerate_0), ZD_NAMED(correct_0), ZD_FINISH(finish_0), NULL},
 };
-#undef ZD_LANDING
+#undef ZD_FINISH
 #if ZD_LANES == 1
 static const zd_elimination ZD_NAMED(embeddings)[] = {
     {2, solve_1, row_1, column_1, NULL, ZD_NAMED(correct_1), NULL, ZD_NAMED(embed_1)},

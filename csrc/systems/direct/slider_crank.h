@@ -8,7 +8,7 @@
 /* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_SLIDER_CRANK_DIRECT_BEGINS = 0, ZD_SLIDER_CRANK_DIRECT_ENDS = 13 };
 
-extern const zd_direct zd_slider_crank_direct[];
+extern const zd_closed_form zd_slider_crank_direct[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_slider_crank_direct_constants(double *k);
 

@@ -8,7 +8,7 @@
 /* Range of the constants of the closed-form functions among those of the system. */
 enum { ZD_VERTICAL_DISC_DIRECT_BEGINS = 0, ZD_VERTICAL_DISC_DIRECT_ENDS = 7 };
 
-extern const zd_direct zd_vertical_disc_direct[];
+extern const zd_closed_form zd_vertical_disc_direct[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_vertical_disc_direct_constants(double *k);
 

@@ -60,12 +60,13 @@ from .systems import CoreSystem, Kind, follow, kinds
 
 __all__ = [
     "CALLBACK", "CALLBACK_CODE", "CONSTANT", "COUNTS", "DIAGONAL", "DONE", "ERRORS", "EVENT", "FINGERPRINT", "FULL",
-    "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "TAKE_FAR_SINES", "TERMS", "VERSION", "Card",
+    "INTERRUPTED", "PACKED", "PAUSED", "PROCESSOR_UNIT", "ROW_VALUES", "SET_SINES_OF_LARGE", "TERMS", "VERSION", "Card",
     "CoreSystem", "Function", "InLibrary", "Kind", "KnownEvent", "NativeCore", "Outputs", "Packing", "Parameter",
     "PerturbedCore", "PythonCore", "Record", "Results", "Run", "Statistics", "Variable", "Watcher", "acceleration",
     "accelerations", "address_of", "cards", "clash", "count_steps", "default", "direct_unit", "disagreement", "doubles",
-    "error_of", "find", "follow", "hand_far_sines", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature",
-    "perturbed", "probe", "project", "required", "row_bytes", "row_takes_series", "settings", "states_between", "takes_direct",
+    "error_of", "find", "follow", "in_library", "is_length", "kind_at", "kinds", "load_data", "numba_signature",
+    "perturbed", "probe", "project", "required", "row_bytes", "row_takes_series", "set_sines_of_large",
+    "settings", "states_between", "takes_direct",
     "takes_embeddings", "takes_jacobian", "takes_series", "terms_of",
 ]
 
@@ -73,8 +74,8 @@ __all__ = [
 _LATER = {
     "batches": ("Assembly", "BY_ITSELF", "BatchResults", "IN_LANES", "NOT_BEGUN", "UNUSUAL", "Stop", "derive", "error_name",
                 "has_lanes", "run_batch", "tables_of_kind"),
-    "functions": ("Function", "InLibrary", "TAKE_FAR_SINES", "address_of", "find", "hand_far_sines", "in_library", "load_data",
-                  "numba_signature"),
+    "functions": ("Function", "InLibrary", "SET_SINES_OF_LARGE", "address_of", "find", "in_library", "load_data",
+                  "numba_signature", "set_sines_of_large"),
     "native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
 }
 

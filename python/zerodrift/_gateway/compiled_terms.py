@@ -25,8 +25,8 @@ def with_functions(core: MechanismCore | SpaceCore, numbers: np.ndarray, keep: A
                    direct: int | None = None, jacobian: int | None = None) -> MechanismCore | SpaceCore:
     """The same system, whose terms and direct functions are these, and whose measures are read as before.
 
-    The `data` of the functions begins with a pointer to `numbers`; `direct` is the address of a `zd_direct`, `jacobian` that of a
-    `zd_jacobian`. What is None stays.
+    The `data` of the functions begins with a pointer to `numbers`; `direct` is the address of a `zd_closed_form`, `jacobian`
+    that of a `zd_jacobian`. What is None stays.
     """
     mine = core._with_data(ffi.NULL, doubles(numbers, numbers.size))
     if terms is not None:
@@ -36,7 +36,7 @@ def with_functions(core: MechanismCore | SpaceCore, numbers: np.ndarray, keep: A
         mine.provides, mine.timeless = mine.c.provides & ~lib.ZD_TIMELESS, terms.timeless
         mine._has_written_terms = True
     if direct is not None:
-        mine.c.direct, mine.c.directs = ffi.cast("const zd_direct *", direct), 1
+        mine.c.closed_form, mine.c.closed_forms = ffi.cast("const zd_closed_form *", direct), 1
     if jacobian is not None:
         mine.c.jacobian = ffi.cast("const zd_jacobian *", jacobian)
     mine._data = (*mine._data, keep)

@@ -157,13 +157,13 @@ def address_of(library: ctypes.CDLL, symbol: str) -> int:
     return ctypes.addressof(ctypes.c_char.in_dll(library, symbol))
 
 
-TAKE_FAR_SINES = "zd_take_far_sines"    # of libraries that were compiled with ZD_FAR_SINES_OF_CORE
+SET_SINES_OF_LARGE = "zd_set_sines_of_large"    # of libraries that were compiled with ZD_LARGE_SINES_OF_CORE
 
 
-def hand_far_sines(library: ctypes.CDLL) -> None:
+def set_sines_of_large(library: ctypes.CDLL) -> None:
     """The core's sines of angles that are far, for a library that was compiled without: see zerodrift/sines.h."""
-    given = (ffi.addressof(lib, name) for name in ("zd_far_sines", "zd_far_reductions"))
-    library[TAKE_FAR_SINES](*(ctypes.c_void_p(int(ffi.cast("intptr_t", each))) for each in given))
+    given = (ffi.addressof(lib, name) for name in ("zd_sines_of_large", "zd_reductions_of_large"))
+    library[SET_SINES_OF_LARGE](*(ctypes.c_void_p(int(ffi.cast("intptr_t", each))) for each in given))
 
 
 def in_library(path: str | Path, symbol: Any) -> Function:

@@ -38,7 +38,8 @@ class Geometry:
         self._scratch = ffi.new("double[]", max(1, core.c.scratch))
         self._terms = ffi.new("zd_terms *", {"scratch": self._scratch, "Phi": _memory(self._Phi), "C": _memory(self._C)})
         largest = max((core.measure_size(each.measure) for each in components), default=1)
-        self._arrays = {name: np.zeros(largest) for name in ("value", "rate", "bias")} | {"row": np.zeros((largest, core.nv))}
+        self._arrays = {name: np.zeros(largest) for name in ("value", "rate", "bias")}
+        self._arrays["jacobian"] = np.zeros((largest, core.nv))
         self._measured = ffi.new("zd_measured *", {name: _memory(array) for name, array in self._arrays.items()})
         scratch = core.c.measures.scratch if components else 0
         self._measuring_scratch = ffi.new("double[]", max(1, scratch))
@@ -56,9 +57,9 @@ class Geometry:
             C = core.packing.expand("C", self._C) if core.packing else self._C
             values[:count], rows[:count] = self._Phi[self._rows], C[self._rows]
         for i, (measure, component) in enumerate(self._components, count):
-            core.c.measures.evaluate(core.c.data, measure, 0.0, at, _memory(self._rest), ffi.NULL, ffi.NULL, self._measured,
-                                     self._measuring_scratch)
-            values[i], rows[i] = self._arrays["value"][component], self._arrays["row"][component]
+            core.c.measures.evaluate(core.c.data, ffi.NULL, measure, 0.0, at, _memory(self._rest), ffi.NULL, ffi.NULL,
+                                     self._measured, self._measuring_scratch)
+            values[i], rows[i] = self._arrays["value"][component], self._arrays["jacobian"][component]
         return values, rows
 
 

@@ -42,6 +42,10 @@ class Measuring:
         """The system for one run."""
         raise NotImplementedError
 
+    def initial_inputs(self) -> Any:
+        """Its inputs with their initial values."""
+        raise NotImplementedError
+
     def measure_size(self, index: int) -> int:
         """Number of components of a measure."""
         return self.c.measures.measure[index].size
@@ -58,7 +62,8 @@ class Measuring:
         """
         core, k = self.for_run(), len(t)
         values, scratch = np.zeros((k, self.measure_size(index))), np.zeros(max(1, self.c.measures.scratch))
-        status = lib.zd_measure_states(core.c, index, k, doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv),
+        status = lib.zd_measure_states(core.c, core.initial_inputs(), index, k, doubles(t, k),
+                                       doubles(p, k * self.nq), doubles(v, k * self.nv),
                                        given(vdot, k * self.nv), given(multipliers, k * self.m),
                                        doubles(values, values.size, writable=True),
                                        doubles(scratch, scratch.size, writable=True))
@@ -67,17 +72,17 @@ class Measuring:
         return values
 
     def measure_at(self, index: int, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Value (size,), rate (size,), row (size, nv) and bias (size,) of a measure of positions or velocities at one state."""
+        """Value (size,), rate (size,), jacobian (size, nv), bias (size,) of a measure of positions or velocities."""
         return {name: array[0] for name, array in self.measure_rates((index,), np.array([float(t)]), p, v).items()}
 
     def measure_rates(self, indices: Sequence[int], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """The same of several of them, stacked, at many states: (k, size), with rows (k, size, nv)."""
+        """The same of several of them, stacked, at many states: (k, size), with Jacobians (k, size, nv)."""
         core, k, size = self.for_run(), len(t), sum(self.measure_size(index) for index in indices)
-        arrays = {name: np.zeros((k, size)) for name in ("value", "rate", "bias")} | {"row": np.zeros((k, size, self.nv))}
+        arrays = {name: np.zeros((k, size)) for name in ("value", "rate", "bias")} | {"jacobian": np.zeros((k, size, self.nv))}
         out = ffi.new("zd_measured *", {name: doubles(array, array.size, writable=True) for name, array in arrays.items()})
         scratch = ffi.new("double[]", max(1, self.c.measures.scratch))
-        status = lib.zd_measure_rates(core.c, len(indices), ffi.new("int[]", list(indices)), k, doubles(t, k),
-                                      doubles(p, k * self.nq), doubles(v, k * self.nv), out, scratch)
+        status = lib.zd_measure_rates(core.c, core.initial_inputs(), len(indices), ffi.new("int[]", list(indices)), k,
+                                      doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv), out, scratch)
         if status:
             raise core.error or self._lacks(indices[0])
         return arrays

@@ -52,9 +52,9 @@ class NativeCore(CoreSystem):
         return other
 
     def with_direct(self, address: int, data: np.ndarray, keep: Any) -> NativeCore:
-        """The same system with direct functions, a `zd_direct` at `address`; all its functions receive `data`."""
+        """The same system with direct functions, a `zd_closed_form` at `address`; all its functions receive `data`."""
         other = self.with_data(data)
-        other.c.direct, other.c.directs = ffi.cast("const zd_direct *", address), 1
+        other.c.closed_form, other.c.closed_forms = ffi.cast("const zd_closed_form *", address), 1
         other._data = (*other._data, keep)
         return other
 
@@ -74,15 +74,15 @@ class NativeCore(CoreSystem):
         return other
 
     def with_lanes(self, address: int, keep: Any) -> NativeCore:
-        """The same system with one `zd_direct` more, at `address`, behind the one that it has; not where that is for one
+        """The same system with one `zd_closed_form` more, at `address`, behind the one that it has; not where that is for one
         trajectory, too, as with compilers that have no vectors.
         """
-        more = ffi.cast("const zd_direct *", address)
+        more = ffi.cast("const zd_closed_form *", address)
         if more.lanes == 1:
             return self
-        other, both = copy.copy(self), ffi.new("zd_direct[]", [self.c.direct[0], more[0]])
+        other, both = copy.copy(self), ffi.new("zd_closed_form[]", [self.c.closed_form[0], more[0]])
         other.c = ffi.new("zd_system *", self.c[0])
-        other.c.direct, other.c.directs = both, 2
+        other.c.closed_form, other.c.closed_forms = both, 2
         other._data = (*self._data, both, keep)
         return other
 
@@ -96,7 +96,8 @@ def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
     if core.c.structure:        # then there is no D, which would be dense
         shapes["D"] = (0,)
     memory = {name: np.full(int(np.prod(shape)) + 2 * GUARD, UNWRITTEN) for name, shape in shapes.items()}
-    terms = ffi.new("zd_terms *")
+    terms, inputs = ffi.new("zd_terms *"), core.initial_inputs()
+    terms.inputs = inputs
     for name, array in memory.items():
         setattr(terms, name, doubles(array, array.size, writable=True) + GUARD)
     want = core.provides | lib.ZD_MOVED

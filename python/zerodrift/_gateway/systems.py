@@ -81,7 +81,7 @@ class CoreSystem(Measuring):
         """Has the core tell of rows of C by the names that they have in a system whose core this is."""
         if self.row_names is None:
             names = self.__dict__.setdefault("row_names", ConstraintNames())       # one, whichever thread comes first
-            self.c.name_row, self.c.names = lib.zd_name_row_in_python, names.handle
+            self.c.name_constraint, self.c.names = lib.zd_name_row_in_python, names.handle
         self.row_names.take_from(system)
 
     def structure_work(self, p: np.ndarray) -> Any:
@@ -100,11 +100,16 @@ class CoreSystem(Measuring):
     @property
     def has_direct(self) -> bool:
         """True if the system has closed-form functions."""
-        return self.c.directs > 0
+        return self.c.closed_forms > 0
 
     def for_run(self) -> CoreSystem:
         """The system for one run; one written in Python needs memory of its own for each."""
         return self
+
+    def initial_inputs(self) -> Any:
+        """Array of inputs (2 inputs + 1,) with their initial values; NULL without inputs."""
+        n = self.c.inputs
+        return ffi.new("double[]", [self.c.input[i].initial for i in range(n)] + [0.0] * (n + 1)) if n else ffi.NULL
 
     def series(self, order: int, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Taylor coefficients (order + 1, ...) of p, v, and of the energy that comes in, where the system has its series."""
@@ -112,7 +117,8 @@ class CoreSystem(Measuring):
         found = np.zeros((size, self.nq)), np.zeros((size, self.nv)), np.zeros(size)
         scratch = ffi.new("double[]", max(1, size * brought.scratch))
         to = [doubles(each, each.size, writable=True) for each in found]
-        status = brought.evaluate(self.c.data, order, t, doubles(p, self.nq), doubles(v, self.nv), *to, scratch)
+        status = brought.evaluate(self.c.data, self.initial_inputs(), order, t, doubles(p, self.nq), doubles(v, self.nv), *to,
+                                  scratch)
         if status:
             raise error_of(status, "the series failed")
         return found
@@ -122,7 +128,7 @@ class CoreSystem(Measuring):
         columns, brought = self.nq + self.nv, self.c.jacobian
         found = np.zeros((columns + bool(self.provides & (lib.ZD_POWER | lib.ZD_PHI_T)), columns))
         scratch = ffi.new("double[]", max(1, brought.scratch))
-        status = brought.evaluate(self.c.data, t, doubles(p, self.nq), doubles(v, self.nv),
+        status = brought.evaluate(self.c.data, self.initial_inputs(), t, doubles(p, self.nq), doubles(v, self.nv),
                                   doubles(found, found.size, writable=True), scratch)
         if status:
             raise error_of(status, "the Jacobian failed")
@@ -155,8 +161,8 @@ class CoreSystem(Measuring):
 
     def follower_rows(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """The rows of A (followers, nv) of coordinates that follow others, which are not stored: column by column."""
-        terms, scratch = ffi.new("zd_terms *"), ffi.new("double[]", max(1, self.c.scratch))
-        terms.scratch = scratch
+        terms, scratch, inputs = ffi.new("zd_terms *"), ffi.new("double[]", max(1, self.c.scratch)), self.initial_inputs()
+        terms.scratch, terms.inputs = scratch, inputs
         self.c.evaluate(self.c.data, lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
         columns = np.zeros((self.nv, self.nq))
         for x, column in zip(np.eye(self.nv), columns, strict=True):
@@ -203,8 +209,8 @@ class CoreSystem(Measuring):
         for name, size in zip(names, sizes, strict=True):
             setattr(terms, name, start + first)
             arrays[name], want, first = memory[first:first + size], want | TERMS[name].bit, first + size
-        scratch = ffi.new("double[]", max(1, self.c.scratch))
-        terms.scratch = scratch
+        scratch, inputs = ffi.new("double[]", max(1, self.c.scratch)), self.initial_inputs()
+        terms.scratch, terms.inputs = scratch, inputs
         status = lib.zd_evaluate_states(core.c, want, k, doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv), terms)
         if status:
             raise core.error or error_of(status, "the system's evaluation failed")

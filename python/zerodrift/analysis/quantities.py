@@ -78,7 +78,7 @@ def find(at: State, name: str, what: str) -> Found:
         found = watching.core.measure_at(place.number, at.t, np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
         part = slice(None) if place.component is None else slice(place.component, place.component + 1)
         is_velocity = watching.core.measure_depends(place.number) == "velocities"
-        return Found(*(found[key][part] for key in ("value", "rate", "row", "bias")), is_velocity)
+        return Found(*(found[key][part] for key in ("value", "rate", "jacobian", "bias")), is_velocity)
     coordinates, velocities = ([each.name for each in group] for group in (system.coordinates, system.velocities))
     if name in coordinates:
         return _coordinate(at, coordinates.index(name))
@@ -102,6 +102,7 @@ def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarra
         return {key: np.array([np.concatenate([getattr(one, key) for one in of_state]) for of_state in found]) for key in PARTS}
     core = watching.core
     rates = core.measure_rates([place.number for place in places], t, np.ascontiguousarray(p), np.ascontiguousarray(v))
+    rates["row"] = rates.pop("jacobian")
     if all(place.component is None for place in places):
         return rates
     ends = np.cumsum([core.measure_size(place.number) for place in places])

@@ -134,7 +134,7 @@ class Assembly:
         for target in targets:
             found = self.core.measure_at(target.measure, self.t, p, np.zeros(self.core.nv))
             values = np.append(values, found["value"][target.component] - target.value)
-            rows = np.vstack([rows, found["row"][target.component]])
+            rows = np.vstack([rows, found["jacobian"][target.component]])
         rows = rows * self.scale
         size = self._sizes(np.linalg.norm(rows, axis=1), targets)
         return values / size, rows / size[:, None]
@@ -383,7 +383,7 @@ class Assembly:
         right = [-terms["Phi_t"] if terms.get("Phi_t") is not None else np.zeros(m)] if m else []
         for target in held:
             found = self.core.measure_at(target.measure, self.t, p, zero)
-            rows.append(found["row"][target.component : target.component + 1] * self.scale)
+            rows.append(found["jacobian"][target.component : target.component + 1] * self.scale)
             right.append(np.array([target.value - found["value"][target.component]]))
         stacked = np.vstack(rows) if rows else np.zeros((0, self.core.nv))
         return stacked, np.concatenate([*right, []]), self._asked(held)[self.core.m - m:]

@@ -32,7 +32,7 @@ OPTIMIZED = ("-O3",)
 # same in a third to two thirds more time. Behind functions of vector units, one of GCC's expensive optimizations clears the upper
 # halves of registers; else all that follows them is several times as slow.
 QUICKLY = ("-O1", "-fexpensive-optimizations", "-fschedule-insns2")
-FAR_SINES_OF_CORE = "ZD_FAR_SINES_OF_CORE"      # see zerodrift/sines.h
+LARGE_SINES_OF_CORE = "ZD_LARGE_SINES_OF_CORE"      # see zerodrift/sines.h
 SYMBOLS = ("zd_symbolic_constants", "zd_symbolic_evaluate")     # of the library of a system's terms
 PATIENCE = 1800.0       # s, after which a compiler hangs: the largest sources take some minutes
 SOURCE, PRODUCT = "system.c", "system.dll" if cache.AS_WINDOWS else "system.so"
@@ -55,15 +55,15 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None,
     compiler = compilers.find()
     if compiler is None:
         return None
-    symbols = *symbols, _gateway.TAKE_FAR_SINES
+    symbols = *symbols, _gateway.SET_SINES_OF_LARGE
     source = compilers.exporting(source, symbols)
-    line = compiler.line(SOURCE, PRODUCT, get_include(), optimized, [FAR_SINES_OF_CORE, *defined])
+    line = compiler.line(SOURCE, PRODUCT, get_include(), optimized, [LARGE_SINES_OF_CORE, *defined])
     note = _note(source, line)
     found = _kept(note)
     if found is None:
         progress("compiling")
         found = _made(source, line, compiler.environment, note, symbols, meanwhile)
-    _gateway.hand_far_sines(found)
+    _gateway.set_sines_of_large(found)
     return found
 
 

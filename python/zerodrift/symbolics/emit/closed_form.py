@@ -39,7 +39,7 @@ def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any]
 
 def _projecting(of: Elimination) -> dict[str, dict[str, list[int]]]:
     """The functions of an order for formulations in dependent velocities."""
-    return {"accelerate": of.accelerations()} | ({"correct": of.corrections(), "land": of.landing()} if of.order else {})
+    return {"accelerate": of.accelerations()} | ({"correct": of.corrections(), "finish": of.landing()} if of.order else {})
 
 
 def _embedding(of: Elimination) -> dict[str, dict[str, list[int]]]:

@@ -13,17 +13,18 @@ from .writers import CWriter, indented
 MOST_OPERATIONS = 4000      # of the functions of one order
 TOO_LARGE = f"they would take more than {MOST_OPERATIONS} operations"
 MOST_STATEMENTS = 1000      # of one function
-AT = "ZD_ON_UNIT static int ZD_NAMED({name})(const void *data, const double *at_time, const double *at_p,"
+AT = ("ZD_ON_UNIT static int ZD_NAMED({name})(const void *data, const double *at_inputs, const double *at_time,"
+      " const double *at_p,")
 ACCELERATE = (AT, "    const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,",
               "    double *to_power, double *to_pivots)")
 CORRECT = (AT, "    const double *at_v, double *to_Phi, double *to_dp, double *to_dv)")
-LAND = (AT, "    double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,",
-        "    double *to_lambda, double *to_power, double *to_pivots)")
+FINISH = (AT, "    double *to_v, const double *where_allowed, double *to_Phi, double *to_dp, double *to_pdot, double *to_vdot,",
+          "    double *to_lambda, double *to_power, double *to_pivots)")
 OPTIONAL = ("lambda", "power"), ("pivots", "D")     # outputs that may not be wanted, those together that share something
 EMBED = (AT, "    double *to_v, const double *with_added, const double *where_allowed, double *to_Phi, double *to_dp,",
          "    double *to_D, double *to_pdot, double *to_vdot, double *to_lambda, double *to_power, double *to_pivots)")
-HEADS = {"accelerate": ACCELERATE, "correct": CORRECT, "land": LAND, "embed": EMBED}
-FOR_ONE = "land", "embed"       # of several trajectories, some may have to be iterated and others not
+HEADS = {"accelerate": ACCELERATE, "correct": CORRECT, "finish": FINISH, "embed": EMBED}
+FOR_ONE = "finish", "embed"     # of several trajectories, some may have to be iterated and others not
 
 
 class Bounded(Lowering):
@@ -68,7 +69,7 @@ def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]],
            symbol: str, heading: list[str], file: str, lanes_header: str, data: str) -> tuple[str, int]:
     """The C source, and the number of constants that it keeps behind the `offset` doubles before them.
 
-    `functions` has, for each order, the outputs of "accelerate", "correct" and "land", or of "correct" and "embed"; `data` is C
+    `functions` has, for each order, the outputs of "accelerate", "correct" and "finish", or of "correct" and "embed"; `data` is C
     for the doubles of a system, `file` what the source is called, which it includes again for each vector unit, and
     `lanes_header` where it finds zerodrift/lanes.h.
     """
@@ -81,7 +82,7 @@ def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]],
             if of.get(name):
                 signature = [line.format(name=f"{name}_{i}") for line in head]
                 program = _Program(lowering, of[name], stored)
-                lines = (_landing if name in FOR_ONE else _function)(program, signature, offset, data)
+                lines = (_finishing if name in FOR_ONE else _function)(program, signature, offset, data)
                 inside += ["", *(["#if ZD_LANES == 1", *lines, "#endif"] if "embed" in of or name in FOR_ONE else lines)]
     embed = [i for i, of in enumerate(functions) if "embed" in of]
     others = [i for i in range(len(functions)) if i not in embed]
@@ -94,7 +95,7 @@ def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]],
     rows = for_each_set(lambda unit, lanes: [f"    {{{unit}, {lanes}, {counted('orders', others, unit, lanes)}, "
                                              f"{counted('embeddings', embed, unit, lanes)}}},"])
     return "\n".join([*outside, "", "/* The functions below, for each vector unit. */", *sets, "",
-                      f"const zd_direct {symbol}[] = {{", *rows, "};", "",
+                      f"const zd_closed_form {symbol}[] = {{", *rows, "};", "",
                       "#else", *inside, "", "#undef ZD_UNIT", "#undef ZD_LANES", "#endif", ""]), len(stored)
 
 
@@ -167,7 +168,7 @@ def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[st
     return body
 
 
-def _landing(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
+def _finishing(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
     """Phi is looked at first; where it is small, velocities are corrected, and what follows depends on these."""
     writer, outputs, lowering = _writer(program, offset), program.outputs, program.lowering
     done = program.needed(["Phi"])
@@ -218,7 +219,8 @@ def _locals(program: _Program, data: str) -> list[str]:
     used = [operation.arguments for number, operation in enumerate(program.lowering.operations)
             if operation.code == "leaf" and program.users[number]]
     lands, embeds = ("Phi" in program.outputs and name in program.outputs for name in ("vdot", "D"))
-    inputs = {"k": f"({data})", "time": "at_time", "p": "at_p"} | ({"allowed": "where_allowed"} if lands else {"v": "at_v"})
+    inputs = {"k": f"({data})", "input": "at_inputs", "time": "at_time", "p": "at_p"}
+    inputs |= {"allowed": "where_allowed"} if lands else {"v": "at_v"}
     if "vdot" in program.outputs and (embeds or not lands):
         inputs["added"] = "with_added"
     outputs = ["v"] * lands + ["Phi", "dp"] * ("Phi" in program.outputs) + ["D"] * embeds + (
@@ -247,14 +249,14 @@ def _solves(orders: list[Order]) -> list[str]:
 
 
 def _table(orders: list[Order], numbers: list[int]) -> list[str]:
-    """The descriptors of one set: in lanes there is none that lands."""
+    """The descriptors of one set: in lanes there is no finish()."""
     if not numbers:
         return []
-    lines = ["#if ZD_LANES == 1", "#define ZD_LANDING(name) ZD_NAMED(name)", "#else", "#define ZD_LANDING(name) NULL", "#endif",
+    lines = ["#if ZD_LANES == 1", "#define ZD_FINISH(name) ZD_NAMED(name)", "#else", "#define ZD_FINISH(name) NULL", "#endif",
              "static const zd_elimination ZD_NAMED(orders)[] = {"]
     lines += [f"    {_head(orders, i)}, ZD_NAMED(accelerate_{i}), "
-              f"{f'ZD_NAMED(correct_{i}), ZD_LANDING(land_{i})' if orders[i] else 'NULL, NULL'}, NULL}}," for i in numbers]
-    return [*lines, "};", "#undef ZD_LANDING"]
+              f"{f'ZD_NAMED(correct_{i}), ZD_FINISH(finish_{i})' if orders[i] else 'NULL, NULL'}, NULL}}," for i in numbers]
+    return [*lines, "};", "#undef ZD_FINISH"]
 
 
 def _embedding_table(orders: list[Order], numbers: list[int]) -> list[str]:

@@ -21,8 +21,8 @@ from .writers import indented
 
 JACOBIAN = "zd_symbolic_jacobian"       # what the descriptor is called in its library
 MOST_STATEMENTS = 4000
-SIGNATURE = ["static int {0}(const void *data, double t, const double *restrict p, const double *restrict v,",
-             "    double *restrict {1}, double *restrict scratch)", "{{"]
+SIGNATURE = ["static int {0}(const void *data, const double *inputs, double t, const double *restrict p,",
+             "    const double *restrict v, double *restrict {1}, double *restrict scratch)", "{{"]
 
 Leaf = tuple[str, int]      # ("p", i) or ("v", j)
 
@@ -155,7 +155,8 @@ def write(program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data:
 
 
 def _function(name: str, result: str, body: list[str], data: str) -> list[str]:
-    lines = [f"const double *restrict const k = {data};", "(void)k, (void)t, (void)p, (void)v, (void)scratch;", *body]
+    lines = [f"const double *restrict const k = {data};", "(void)k, (void)inputs, (void)t, (void)p, (void)v, (void)scratch;",
+             *body]
     return [*(line.format(name, result) for line in SIGNATURE), *indented([*lines, "return ZD_DONE;"]), "}", ""]
 
 

@@ -27,9 +27,9 @@ HEAD = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <
         "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", "",
         "const int zd_interface_version = ZD_INTERFACE_VERSION;", ""]
 TOGETHER = 8                        # sums are formed of so many products: ZD_SERIES_TOGETHER
-SIGNATURE = ["ZD_SERIES_ON static int evaluate(const void *data, int orders, double t, const double *restrict p,",
-             "    const double *restrict v, double *restrict P, double *restrict V, double *restrict E,",
-             "    double *restrict scratch)"]
+SIGNATURE = ["ZD_SERIES_ON static int evaluate(const void *data, const double *inputs, int orders, double t,",
+             "    const double *restrict p, const double *restrict v, double *restrict P, double *restrict V,",
+             "    double *restrict E, double *restrict scratch)"]
 
 Row = tuple[str, int]       # of coefficients: ("jet", number), ("weighted", number), ("a", j), ("lambda", l), ("v", j)
 
@@ -294,7 +294,7 @@ def _of_beginning(writer: Writer) -> list[str]:
     size = n + m
     next_ones = [*(f"V[{n + i}] = x[{i}];" for i in range(n)), *writer.power(True), *writer.rates_of_positions(True)]
     return [f"double G[{size * size}] = {{0}}, right[{size}], x[{size}], first[{size}], sum[ROWS];",
-            "(void)k, (void)t, (void)sum;", *writer.values(), *writer.leading(),
+            "(void)k, (void)inputs, (void)t, (void)sum;", *writer.values(), *writer.leading(),
             f"if (zd_series_invert({n}, {m}, G, x)) return ZD_NOT_DEFINITE;", f"zd_series_solve({size}, G, right, x);",
             f"for (int i = 0; i < {size}; i++) first[i] = x[i];", f"for (int i = 0; i < {writer.nq}; i++) P[i] = p[i];",
             f"for (int i = 0; i < {n}; i++) V[i] = v[i];", "if (E) E[0] = 0;",
