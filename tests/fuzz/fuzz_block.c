@@ -67,7 +67,7 @@ static void read_measures(const zd_system *system, const double *p, const double
     double *zeros = calloc((size_t)(system->nv + m + 1), sizeof *zeros), *scratch = calloc((size_t)system->measures->scratch + 1, sizeof *scratch);
     for (int i = 0; i < count && i < 100; i++) {
         double *value = calloc((size_t)system->measures->measure[i].size, sizeof *value), t = 0;
-        zd_measure_states(system, i, 1, &t, p, v, zeros, zeros + system->nv, value, scratch);
+        zd_measure_states(system, NULL, i, 1, &t, p, v, zeros, zeros + system->nv, value, scratch);
         free(value);
     }
     free(zeros);
