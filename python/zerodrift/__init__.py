@@ -38,6 +38,7 @@ from .errors import (
     ZerodriftError,
 )
 from .runs.events import Event
+from .runs.instant import Instant
 from .runs.methods import corrections, formulations, integrators
 from .runs.operations import acceleration, assemble, project
 from .runs.simulate import simulate
@@ -48,7 +49,7 @@ __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
     "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "EquilibriumFailed", "Event", "InUse",
-    "InconsistentStart", "InconsistentSystem", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning",
+    "InconsistentStart", "InconsistentSystem", "Instant", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning",
     "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System",
     "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration",
     "assemble", "bias", "block", "check", "compare", "corrections", "ensemble", "equilibria", "equilibrium", "explore",

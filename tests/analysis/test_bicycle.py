@@ -84,3 +84,33 @@ def test_a_precessing_top_against_differences_of_certified_runs(layout):
     lin = zd.linearize(top.system(layout), outputs=["top.center.position.z", "top.angular_velocity.z"])
     assert not lin.rate.any()
     assert_motion_is_linear(lin, np.random.default_rng(4).standard_normal(len(lin.A)), 0.1)
+
+
+def test_the_steer_torque_that_holds_a_turn_is_that_of_the_published_stiffness():
+    """(g K0 + v^2 K2) (lean, steer) = (0, torque) in a wide turn; yaw rate = v cos(tilt) steer / wheel base."""
+    speed, yaw_rate = 4.6, 0.002
+    K0, K2 = (np.array(PUBLISHED[name], dtype=float) for name in ("K0", "K2"))
+    K = 9.81 * K0 + speed**2 * K2
+    bicycle = zd.models.whipple_bicycle(speed=speed)
+    eq = zd.equilibrium(bicycle, v={"rear axle.speed": -speed / 0.3, "frame.angular_velocity.z": yaw_rate}, hold=["steer.angle"])
+    assert eq["rear axle.speed"] == pytest.approx(-speed / 0.3, rel=1e-12)
+    assert abs(eq["steer.angle"]) == pytest.approx(yaw_rate * 1.02 / (speed * np.cos(np.pi / 10)), rel=1e-5)     # angles squared
+    assert eq.effort["steer.angle"] / eq["steer.angle"] == pytest.approx(K[1, 1] - K[1, 0] * K[0, 1] / K[0, 0], rel=1e-5)
+    lin = zd.linearize(bicycle, eq)
+    assert not lin.rate.any()
+    assert lin.rotation[2] == pytest.approx(yaw_rate, rel=1e-6)
+
+
+def test_hands_free_turns_have_one_speed_for_each_radius():
+    bicycle = zd.models.whipple_bicycle()
+    with pytest.raises(zd.EquilibriumFailed, match=r"most at '.*'; prescribe more speeds or fewer in v=, name in hold="):
+        zd.equilibrium(bicycle, v={"rear axle.speed": -4.6 / 0.3, "frame.angular_velocity.z": 0.2})
+
+
+def test_rotations_are_coordinates_of_a_linearization():
+    K0, K2, M, C1 = (np.array(PUBLISHED[name], dtype=float) for name in ("K0", "K2", "M", "C1"))
+    speed = 4.6
+    lin = zd.linearize(zd.models.whipple_bicycle(), v={"rear axle.speed": -speed / 0.3})
+    A = lin.in_coordinates(["frame rotation about x", "steer.angle"])
+    assert A[2:, :2].diagonal() == pytest.approx(-np.linalg.solve(M, 9.81 * K0 + speed**2 * K2).diagonal(), rel=1e-8)
+    assert A[2:, 2:].diagonal() == pytest.approx(-np.linalg.solve(M, speed * C1).diagonal(), rel=1e-8)

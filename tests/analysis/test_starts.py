@@ -98,3 +98,19 @@ def test_a_start_with_a_running_drive_meets_it():
     eq = zd.equilibrium(m)
     assert eq["bump.speed"] == 0.0      # drives stand in an equilibrium
     assert zd.simulate(m, 0.01, eq, step=0.01)["bump.speed"][0] == pytest.approx(0.3, abs=1e-12)
+
+
+def test_an_instant_of_a_run_is_read_by_name_started_from_and_linearized():
+    sol = zd.simulate(zd.models.four_bar(), 1.0, step=0.01, integrator="dop853")
+    now = sol.at(0.5)
+    assert now["A.force"] == pytest.approx(sol["A.force"][50], rel=1e-12)
+    assert now["crank.angle"] == sol["crank.angle"][50]
+    assert (now.t, now["crank.angular_velocity"]) == (0.5, pytest.approx(sol["crank.angular_velocity"][50], rel=1e-12))
+    on = zd.simulate(zd.models.four_bar(), 0.5, now, step=0.01, integrator="dop853")
+    assert on["crank.angle"][-1] == pytest.approx(sol["crank.angle"][-1], rel=1e-12)
+    with pytest.warns(zd.AccuracyWarning, match="not in an equilibrium"):
+        assert zd.linearize(zd.models.four_bar(), now).A.shape == (2, 2)
+    with pytest.raises(KeyError, match=r"'A\.forse'; the closest"):
+        _ = now["A.forse"]
+    with pytest.raises(TypeError, match="v0 must be left out"):
+        zd.simulate(zd.models.four_bar(), 0.5, now, now.v, step=0.01)

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..systems.base import BaseSystem, core_of
 from . import differences
+from .quantities import rates_of
 from .state import Scales, State, scales, state
 from .tangent import Tangent, multipliers
 
@@ -112,11 +113,13 @@ class Derivatives:
         The tangent space there.
     vdot, lam : ndarray (nv,), (m,)
         Accelerations and multipliers there.
+    efforts : dict of str to float, optional
+        Constant efforts along quantities, which act in addition to the system's forces.
     """
 
-    def __init__(self, tangent: Tangent, vdot: np.ndarray, lam: np.ndarray) -> None:
-        self.tangent, self.at, self.vdot, self.lam = tangent, tangent.at, vdot, lam
-        self._jacobian = jacobian(self.at)
+    def __init__(self, tangent: Tangent, vdot: np.ndarray, lam: np.ndarray, efforts: Mapping[str, float] | None = None) -> None:
+        self.tangent, self.at, self.vdot, self.lam, self._efforts = tangent, tangent.at, vdot, lam, efforts or {}
+        self._jacobian = None if efforts else jacobian(self.at)
 
     @property
     def is_exact(self) -> bool:
@@ -136,7 +139,17 @@ class Derivatives:
         return (dvdot, dlam) if dp.ndim > 1 else (dvdot[:, 0], dlam[:, 0])
 
     def _of_residuals(self, dp: np.ndarray, dv: np.ndarray, dt: float) -> np.ndarray:
-        return of_residuals_along(self.at, self.vdot, self.lam, dp, dv, dt)
+        found = of_residuals_along(self.at, self.vdot, self.lam, dp, dv, dt)
+        return found - np.vstack([self._of_efforts(dp, dt), np.zeros((self.at.system.m, len(dp)))]) if self._efforts else found
+
+    def _of_efforts(self, dp: np.ndarray, dt: float) -> np.ndarray:
+        """Derivatives (nv, k) of the generalized forces of the efforts."""
+        at, names, u = self.at, tuple(self._efforts), np.array(list(self._efforts.values()))
+
+        def force(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+            return u @ rates_of(at.system, names, "hold", at.t + h * dt, at.p + h[:, None] * dp[which])["row"]
+
+        return differences.each(force, sizes_of(at, dp, np.zeros((len(dp), at.system.nv)), dt), at.system.nv).T
 
     def solve(self, r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Changes of vdot and lambda that make up for changes r (nv,), s (m,) of the residuals, or (nv, k), (m, k)."""

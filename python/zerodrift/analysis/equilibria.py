@@ -8,10 +8,10 @@ import numpy as np
 
 from .. import _check
 from ..errors import EquilibriumFailed
+from ..runs.instant import KnownInstant
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium import equilibrium
 from .path import FIRST_STEP, LARGEST_STEP, Curve, Knot
-from .quantities import Reading
 
 MOST_STEPS = 5000
 
@@ -58,9 +58,9 @@ class EquilibriumPath:
                 f"{self.values[0]:g} ... {self.values[-1]:g}{f'; limit points at {limits}' if limits else ''}>")
 
 
-def _reading(knot: Knot) -> Reading:
+def _reading(knot: Knot) -> KnownInstant:
     at = knot.balance.at
-    return Reading(at.system, at.t, at.p, at.v, np.zeros_like(at.v), knot.balance.multipliers[:at.system.m])
+    return KnownInstant(at.system, at.t, at.p, at.v, np.zeros_like(at.v), knot.balance.multipliers[:at.system.m])
 
 
 def equilibria(system: Any, parameter: str, values: Any, *, near: Any = None, t: float = 0.0) -> EquilibriumPath:

@@ -14,7 +14,7 @@ from ..runs.settings import Projection
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion, of_many
 from .large import MANY, blocks_that_meet, found
-from .quantities import names_of, values_of
+from .quantities import components, names_of, values_of
 from .relaxation import settled
 from .rest import Balance, Search
 from .retraction import near_to, rows_of
@@ -43,6 +43,7 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
         Left out: the start.
     hold : sequence of measures, optional
         Quantities of positions that keep the values that they have there; `Equilibrium.effort` has the efforts that hold them.
+        In a steady motion they are constant, at values that it needs, such as the steering angle of a bicycle in a turn.
     v : dict of measure to value, optional
         A steady motion is found in place of a position of rest: speeds that are prescribed, with drives running. All bodies keep
         their rates in a frame that turns about the direction of gravity.
@@ -81,9 +82,7 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
         return of_many(*found(system, t, _first(system, near), meet))
     p = near_to(system, near, t)
     if v is not None:
-        if hold != ():
-            raise ValueError("hold must be left out where v prescribes the speeds of a steady motion")
-        return _steady(system, t, p, values_of(v, "v"))
+        return _steady(system, t, p, values_of(v, "v"), names_of(hold, "hold"))
     at = state(system, t, p, np.zeros(system.nv))
     held = {name: rows_of(at, {name: None})[0] for name in names_of(hold, "hold")}
     balance, iterations, how = _found(system, t, p, held, is_downhill=stability == "stable")
@@ -104,10 +103,13 @@ def balanced(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> tupl
     return project(system, balance.at.p, v, t, projection=Projection(tol=1e-11))
 
 
-def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, float]) -> Equilibrium:
+def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, float], hold: list[str]) -> Equilibrium:
     """The steady motion with given speeds."""
-    search = Steady(system, t, speeds)
-    return in_motion(search.run(p, np.array(system._state_or_start(None, None, "near", "v", t)[1])), search.iterations)
+    at = state(system, t, p, np.zeros(system.nv))
+    held = [part for name in hold for part in components(name, len(rows_of(at, {name: None})[0]))]
+    search = Steady(system, t, speeds, held)
+    found = search.run(p, np.array(system._state_or_start(None, None, "near", "v", t)[1]))
+    return in_motion(found.at, dict(zip(held, map(float, found.u), strict=True)), search.iterations)
 
 
 def _unmoved(system: BaseSystem, p: np.ndarray) -> np.ndarray:

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from ..errors import CorrectionFailed
+from ..runs.instant import Reading
 from ..systems.base import BaseSystem
 from .flow import Flow
 from .large import SparseBalance
 from .names import pivots
-from .quantities import Reading, components
+from .quantities import components
 from .rest import Balance
 from .retraction import moved, onto, rows_of
 from .spectrum import Spectrum, of_matrix
@@ -23,7 +24,7 @@ SHOWN = 8
 REACTIONS = (".force", ".torque", ".tension")
 
 
-class Equilibrium:
+class Equilibrium(Reading):
     """A position of rest, or a steady motion; ``eq["pin.force"]`` reads any measure there.
 
     Attributes
@@ -67,10 +68,6 @@ class Equilibrium:
         self.iterations, self.how = found["iterations"], found["how"]
         spectrum: Spectrum = found["spectrum"]
         self.eigenvalues, self.frequencies = spectrum.eigenvalues, spectrum.frequencies
-        self._reading = Reading(system, t, *state)
-
-    def __getitem__(self, name: Any) -> Any:
-        return self._reading[name]
 
     def __repr__(self) -> str:
         word = {True: "stable", False: "unstable", None: "stability not decided by the linearization"}[self.stable]
@@ -117,12 +114,12 @@ def at_rest(balance: Balance, iterations: int, how: str) -> Equilibrium:
                        iterations=iterations, how=how)
 
 
-def in_motion(at: State, iterations: int) -> Equilibrium:
-    """The result for a steady motion, whose stability is that of its linearization."""
-    flow = Flow(at)
+def in_motion(at: State, effort: dict[str, float], iterations: int) -> Equilibrium:
+    """The result for a steady motion, whose stability is that of its linearization, with constant efforts."""
+    flow = Flow(at, efforts=effort)
     spectrum = of_matrix(flow.A)
     stable = False if spectrum.grows else True if spectrum.decays else None
-    return Equilibrium(at.system, at.t, (at.p, at.v, flow.vdot, flow.lam), {}, stiffness=None, damping=None,
+    return Equilibrium(at.system, at.t, (at.p, at.v, flow.vdot, flow.lam), effort, stiffness=None, damping=None,
                        basis=flow.tangent.velocities, spectrum=spectrum, stable=stable,
                        free=tuple(pivots(at, flow.tangent.basis @ spectrum.removed)),
                        residual=float(np.linalg.norm(flow.unsteady)),

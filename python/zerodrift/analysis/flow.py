@@ -14,7 +14,7 @@ from ..systems.base import core_of
 from . import differences
 from .derivatives import Derivatives, sizes_of
 from .frames import STEADY, frame_of
-from .quantities import rates_of
+from .quantities import find
 from .state import State, state
 from .tangent import Tangent
 
@@ -36,39 +36,42 @@ class DerivativesAtRest(Derivatives):
     """Derivatives of accelerations at rest, with drives that stand still: C vdot = 0."""
 
     def __init__(self, tangent: Tangent, rest: Rest) -> None:
-        super().__init__(tangent, np.zeros(tangent.at.system.nv), rest.lam)
-        self._jacobian, self._rest = None, rest
+        super().__init__(tangent, np.zeros(tangent.at.system.nv), rest.lam, rest.efforts)
+        self._jacobian = None
 
     def _of_residuals(self, dp: np.ndarray, dv: np.ndarray, dt: float) -> np.ndarray:
-        at, system, efforts = self.at, self.at.system, self._rest.efforts
-        r = super()._of_residuals(dp, dv, dt)[:system.nv]
-        if efforts:
-            def held(which: np.ndarray, h: np.ndarray) -> np.ndarray:
-                rows = rates_of(system, tuple(efforts), "hold", at.t + h * dt, at.p + h[:, None] * dp[which])["row"]
-                return -np.array(list(efforts.values())) @ rows
-
-            r = r + differences.each(held, sizes_of(at, dp, dv, dt), system.nv).T
-        return np.vstack([r, np.zeros((system.m, len(dp)))])
+        found = super()._of_residuals(dp, dv, dt)
+        found[self.at.system.nv:] = 0.0
+        return found
 
 
 class Flow:
     """The linearized flow at a state, parts of which are computed when they are first read.
 
     z are coordinates on the tangent space, (p, v) = (p0, v0) + N z. `rest` is given where drives stand still and efforts hold
-    the system, otherwise the state moves on by its own equations.
+    the system, otherwise the state moves on by its own equations, and by constant efforts that are given.
     """
 
-    def __init__(self, at: State, rest: Rest | None = None) -> None:
+    def __init__(self, at: State, rest: Rest | None = None, efforts: Mapping[str, float] | None = None) -> None:
         self.at, self.tangent, self.frame = at, Tangent(at), frame_of(at.system)
         if rest is None:
             self.vdot, self.lam = accelerate(at)
-            self.derivatives = Derivatives(self.tangent, self.vdot, self.lam)
+            self.derivatives = Derivatives(self.tangent, self.vdot, self.lam, efforts)
+            if efforts:
+                self._accelerate_by(efforts)
         else:
             self.vdot, self.lam = np.zeros(at.system.nv), rest.lam
             self.tangent.followed = np.zeros_like(self.tangent.displacements)
             self.derivatives = DerivativesAtRest(self.tangent, rest)
         self.w = self.frame.rates(at)
         self.acc = self.frame.rows(at) @ self.vdot + self.frame.bias(at)
+
+    def _accelerate_by(self, efforts: Mapping[str, float]) -> None:
+        """Adds what efforts cause to the accelerations and multipliers."""
+        force = sum(find(self.at, name, "hold").row.T @ [u] for name, u in efforts.items())
+        _, vdot, lam = self.response(force[:, None])
+        self.vdot, self.lam = self.vdot + vdot[:, 0], self.lam + lam[:, 0]
+        self.derivatives.vdot, self.derivatives.lam = self.vdot, self.lam
 
     @functools.cached_property
     def jerk(self) -> np.ndarray:

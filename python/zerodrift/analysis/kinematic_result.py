@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..runs.instant import names_of_quantities
 from ..systems.base import BaseSystem
-from .quantities import known
 
 
 class Kinematics:
@@ -71,4 +71,4 @@ def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray,
         for i, variable in enumerate(variables):
             if variable.name == name:
                 return values[:, i].copy()
-    raise KeyError(f"nothing in {system.name} is called {name!r}; {_check.closest(name, known(system))}")
+    raise KeyError(f"nothing in {system.name} is called {name!r}; {_check.closest(name, names_of_quantities(system))}")

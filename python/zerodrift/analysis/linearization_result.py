@@ -11,10 +11,10 @@ from .. import _check
 from . import differences
 from .derivatives import Direction
 from .flow import Flow
-from .names import dominant, pivots
+from .names import dominant, labelled, pivots
 from .quantities import find, names_of
 from .spectrum import complement, of_matrix
-from .state import scales, state
+from .state import State, scales, state
 
 ROUNDING = 1e-12        # of an eigenvalue: a smaller real part is printed as zero
 
@@ -102,7 +102,8 @@ class Linearization:
         Parameters
         ----------
         names : sequence of str or measure
-            As many as half of the eigenvalues; they must not depend on ignorable coordinates.
+            As many as half of the eigenvalues; they must not depend on ignorable coordinates. The printed names of rotations,
+            such as ``"frame rotation about x"``, are among them.
 
         Raises
         ------
@@ -110,8 +111,7 @@ class Linearization:
             If they do not determine the motion.
         """
         wanted = names_of(names, "names")
-        rows = [np.vstack([find(self._at, name, "names").row]) for name in wanted]
-        J, nv = np.vstack(rows), self.system.nv
+        J, nv = np.vstack([_row(self._at, name) for name in wanted]), self.system.nv
         Q = complement(self._spectrum.removed)
         Y = np.vstack([J @ self._quasi[:nv], J @ self._quasi[nv:] + self._rates(wanted)]) @ Q
         if Y.shape[0] != Y.shape[1] or np.linalg.cond(Y) > 1e9:
@@ -130,7 +130,7 @@ class Linearization:
         for dp in self.basis[:self.system.nq].T:
             size = Direction(dp=dp).size(scales(at.system, at.p), at)
             columns.append(differences.along(lambda h, dp=dp: np.concatenate([
-                find(state(at.system, at.t, at.p + h * dp, at.v), name, "names").row @ at.v for name in names]), size))
+                _row(state(at.system, at.t, at.p + h * dp, at.v), name) @ at.v for name in names]), size))
         return np.array(columns).T
 
     def __repr__(self) -> str:
@@ -148,3 +148,11 @@ class Linearization:
         if np.any(self.rate):
             lines.append("  not a steady motion: A is that of an instant")
         return "\n".join(lines)
+
+
+def _row(at: State, name: str) -> np.ndarray:
+    """The derivative (size, nv) of the rate of a quantity, or of a rotation of a quaternion, with respect to the velocities."""
+    names, rows = labelled(at)
+    if " rotation about " in name and name in names:
+        return rows[[names.index(name)]] @ at.A
+    return find(at, name, "names").row

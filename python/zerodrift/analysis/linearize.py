@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import AccuracyWarning, InconsistentStart
+from ..runs.instant import names_of_quantities
 from ..systems.base import BaseSystem, core_of, system_of
 from . import differences
 from .derivatives import Direction
@@ -16,7 +17,7 @@ from .equilibrium import equilibrium
 from .equilibrium_result import Equilibrium
 from .flow import Flow, Rest
 from .linearization_result import Linearization
-from .quantities import components, effort, known, names_of
+from .quantities import components, effort, names_of
 from .state import State, scales, state
 
 VIOLATION = 1e-6        # of characteristic scales: a state that violates its constraints by more is refused
@@ -32,7 +33,7 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
     Parameters
     ----------
     system : system or Mechanism
-    at : Equilibrium, or (t, p, v), optional
+    at : Equilibrium, Instant, or (t, p, v), optional
         The state. In an equilibrium drives stand still, and efforts that hold it stay as they are. Left out: the start, or the
         steady motion with the speeds `v`.
     v : dict of measure to value, optional
@@ -75,7 +76,7 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
     if at is None and v is not None:
         at, v = equilibrium(system, v=v), None
     here, rest = _state(system, at, v), _rest(at)
-    flow = Flow(here, rest)
+    flow = Flow(here, rest, at.effort if isinstance(at, Equilibrium) else None)
     rate = float(np.abs(flow.unsteady).max(initial=0.0))
     if rate:
         warnings.warn(f"{system.name} is not in an equilibrium or a steady motion here: accelerations of {rate:.3g} m/s^2 "
@@ -95,7 +96,7 @@ def _state(system: BaseSystem, at: Any, v: Any) -> State:
         try:
             t, p, v = at
         except (TypeError, ValueError):
-            raise TypeError(f"at must be an equilibrium or a state (t, p, v), not {_check.shown(at)}") from None
+            raise TypeError(f"at must be an equilibrium, an instant such as sol.at(t), or (t, p, v), not {_check.shown(at)}") from None
     here = state(system, _check.number("t", t), _check.vector("p", p, system.nq), _check.vector("v", v, system.nv))
     scale = scales(system, here.p)
     speed = scale.length * (1.0 + np.abs(here.v / scale.v).max(initial=0.0))
@@ -170,6 +171,6 @@ class _Output:
                 if variable.name == self.name:
                     return np.array([value])
         raise ValueError(f"outputs names {self.name!r}, and nothing in {system.name} is called that; "
-                         f"{_check.closest(self.name, known(system))}")
+                         f"{_check.closest(self.name, names_of_quantities(system))}")
 
 

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
+from ..runs.instant import names_of_quantities
 from ..systems.base import BaseSystem
 from . import differences
 from .state import State, scales, state
@@ -55,12 +56,6 @@ def values_of(given: Any, what: str) -> dict[str, Any]:
     return {name_of(key, f"a key of {what}"): value for key, value in given.items()}
 
 
-def known(system: BaseSystem) -> list[str]:
-    """The names of all quantities of a system."""
-    variables = [each.name for group in (system.coordinates, system.velocities, system.constraints) for each in group]
-    return [*system._names_of_measures(), *variables]
-
-
 def find(at: State, name: str, what: str) -> Found:
     """A measure of positions or velocities, a coordinate or a velocity, at a state.
 
@@ -85,7 +80,8 @@ def find(at: State, name: str, what: str) -> Found:
     if name in velocities:
         row = np.eye(system.nv)[[velocities.index(name)]]
         return Found(row @ at.v, np.zeros(1), row, np.zeros(1), True)
-    raise ValueError(f"{what} names {name!r}, and nothing in {system.name} is called that; {_check.closest(name, known(system))}")
+    raise ValueError(f"{what} names {name!r}, and nothing in {system.name} is called that; "
+                     f"{_check.closest(name, names_of_quantities(system))}")
 
 
 def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarray, p: np.ndarray,
@@ -145,34 +141,3 @@ def components(name: str, size: int) -> list[str]:
     if size == 1:
         return [name]
     return [f"{name}.{AXES[i]}" if size <= 3 else f"{name}[{i}]" for i in range(size)]
-
-
-class Reading:
-    """Any quantity by its name at one state, reactions included.
-
-    Parameters
-    ----------
-    system : BaseSystem
-    t, p, v, vdot, multipliers : float, ndarray
-    """
-
-    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray, vdot: np.ndarray,
-                 multipliers: np.ndarray) -> None:
-        self.system, self.t, self.p, self.v, self.vdot, self.multipliers = system, t, p, v, vdot, multipliers
-
-    def __getitem__(self, given: Any) -> Any:
-        name = getattr(given, "name", given)
-        watching = self.system._watching
-        place = watching.find(name)
-        if place is not None:
-            states = [np.ascontiguousarray(each)[None] for each in (self.p, self.v, self.vdot, self.multipliers)]
-            values = watching.core.measure(place.number, np.array([float(self.t)]), *states)
-            value = place.pick(values)[0]
-            return float(value) if np.ndim(value) == 0 else value
-        of = self.system
-        groups = ((of.coordinates, self.p), (of.velocities, self.v), (of.constraints, self.multipliers))
-        for variables, values in groups:
-            for variable, value in zip(variables, values, strict=True):
-                if variable.name == name:
-                    return float(value)
-        raise KeyError(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, known(self.system))}")

@@ -8,7 +8,8 @@ start.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -55,73 +56,104 @@ def free_velocities(at: State, speeds: Mapping[str, float]) -> np.ndarray:
     return Tangent(at, np.vstack(rows) if rows else None).velocities
 
 
-class Steady:
-    """The search for a steady motion."""
+class Motion(NamedTuple):
+    """A state (t, p, v) and the efforts (j,) that act on it, with what a steady motion does not have, see `Flow.left`."""
 
-    def __init__(self, system: BaseSystem, t: float, speeds: Mapping[str, float]) -> None:
-        self.system, self.t, self.speeds = system, t, speeds
+    at: State
+    u: np.ndarray
+    left: np.ndarray
+    size: float
+
+    @property
+    def is_steady(self) -> bool:
+        """Nothing is left."""
+        return bool(np.abs(self.left).max(initial=0.0) <= STEADY * max(self.size, 1e-300))
+
+
+class Steady:
+    """The search for a steady motion.
+
+    Parameters
+    ----------
+    system : BaseSystem
+    t : float
+    speeds : dict of str to float
+        Rates that are prescribed.
+    held : list of str
+        Scalar quantities that efforts keep constant.
+    """
+
+    def __init__(self, system: BaseSystem, t: float, speeds: Mapping[str, float], held: Sequence[str]) -> None:
+        self.system, self.t, self.speeds, self.held = system, t, speeds, list(held)
         self.iterations = 0
 
-    def at(self, p: np.ndarray, v: np.ndarray) -> State:
-        """The state at a position with the prescribed speeds, its velocities otherwise near to v."""
-        return with_speeds(state(self.system, self.t, p, v), self.speeds)
+    def motion(self, p: np.ndarray, v: np.ndarray, u: np.ndarray) -> Motion:
+        """The motion at a position with the prescribed speeds, its velocities otherwise near to v."""
+        at = with_speeds(state(self.system, self.t, p, v), self.speeds)
+        return Motion(at, u, *Flow(at, efforts=dict(zip(self.held, u, strict=True))).left)
 
-    def residual(self, at: State) -> tuple[np.ndarray, float]:
-        """Differences of accelerations and their derivatives from a steady motion, (2 n,), and their size."""
-        return Flow(at).left
-
-    def run(self, p: np.ndarray, v: np.ndarray) -> State:
+    def run(self, p: np.ndarray, v: np.ndarray) -> Motion:
         """The steady motion that is found from a state.
 
         Raises
         ------
         EquilibriumFailed
         """
-        here = self.at(onto(self.system, self.t, p), v)
-        left, size = self.residual(here)
+        here = self.motion(onto(self.system, self.t, p), v, np.zeros(len(self.held)))
         for _ in range(ITERATIONS):
-            if np.abs(left).max(initial=0.0) <= 1e-12 * size:
+            if np.abs(here.left).max(initial=0.0) <= 1e-12 * here.size:
                 break
-            found = self._step(here, left)
+            found = self._step(here)
             if found is None:
                 break
-            here, left, size = found
+            here = found
             self.iterations += 1
-        if np.abs(left).max(initial=0.0) > STEADY * max(size, 1e-300):
-            raise EquilibriumFailed(f"{self.system.name} must have a steady motion with these speeds, and none was found near "
-                                    f"the start: accelerations of {np.abs(left).max():.3g} m/s^2 or rad/s^2 remain; prescribe "
-                                    "more speeds in v=, or start nearer with near=")
+        if not here.is_steady:
+            raise EquilibriumFailed(self._nothing(here))
         return here
 
-    def _step(self, here: State, left: np.ndarray) -> tuple[State, np.ndarray, float] | None:
-        """The state after a step that reduces the residual; None: no step does."""
-        scale, nv = scales(self.system, here.p), self.system.nv
-        W, Z = Tangent(here).displacements, free_velocities(here, self.speeds)
-        directions = np.block([[W, np.zeros((nv, Z.shape[1]))], [np.zeros_like(W), Z]])
-        sizes = np.maximum(np.abs(directions / np.tile(scale.v, 2)[:, None]).max(axis=0, initial=0.0), 1e-300)
-        ends = [[self._moved(here, d, h / size)[1] for h in (DIFFERENCE, -DIFFERENCE)]
+    def _nothing(self, here: Motion) -> str:
+        """The message of a search that found nothing."""
+        flow = Flow(here.at, efforts=dict(zip(self.held, here.u, strict=True)))
+        share = np.abs(flow.vdot) / scales(self.system, here.at.p).v
+        return (f"{self.system.name} must have a steady motion with these speeds, and none was found near the start: "
+                f"accelerations of {np.abs(here.left).max():.3g} m/s^2 or rad/s^2 remain, most at "
+                f"{self.system.velocities[int(share.argmax())].name!r}; prescribe more speeds or fewer in v=, name in hold= what "
+                "an effort keeps constant, or start nearer with near=")
+
+    def _step(self, here: Motion) -> Motion | None:
+        """The motion after a step that reduces what is left; None: no step does."""
+        scale, nv, j = scales(self.system, here.at.p), self.system.nv, len(self.held)
+        tangent = Tangent(here.at)
+        W, Z = tangent.displacements, free_velocities(here.at, self.speeds)
+        directions = np.zeros((2 * nv + j, W.shape[1] + Z.shape[1] + j))
+        directions[:nv, :W.shape[1]], directions[nv:2 * nv, W.shape[1]:W.shape[1] + Z.shape[1]] = W, Z
+        acting = [np.linalg.norm(tangent.velocities.T @ find(here.at, name, "hold").row.T) for name in self.held]
+        directions[2 * nv:, directions.shape[1] - j:] = np.diag(1 / np.maximum(acting, 1e-300))
+        units = np.concatenate([np.tile(scale.v, 2), 1 / np.maximum(acting, 1e-300)])
+        sizes = np.maximum(np.abs(directions / units[:, None]).max(axis=0, initial=0.0), 1e-300)
+        ends = [[self._moved(here, d, h / size).left for h in (DIFFERENCE, -DIFFERENCE)]
                 for d, size in zip(directions.T, sizes, strict=True)]
         if not ends:
             return None
         columns = [(ahead - back) / (2 * DIFFERENCE) for ahead, back in ends]
-        step = directions / sizes @ np.linalg.lstsq(np.array(columns).T, -left, rcond=RANK)[0]
-        return self._damped(here, left, step, LARGEST_STEP / max(float(np.abs(step[:nv] / scale.v).max(initial=0.0)), 1e-300))
+        step = directions / sizes @ np.linalg.lstsq(np.array(columns).T, -here.left, rcond=RANK)[0]
+        return self._damped(here, step, LARGEST_STEP / max(float(np.abs(step[:nv] / scale.v).max(initial=0.0)), 1e-300))
 
-    def _damped(self, here: State, left: np.ndarray, step: np.ndarray, most: float) -> tuple[State, np.ndarray, float] | None:
-        """The state after at most that part of a step, with a smaller residual."""
+    def _damped(self, here: Motion, step: np.ndarray, most: float) -> Motion | None:
+        """The motion after at most that part of a step, with less left."""
         part = min(1.0, most)
         while part > 1e-8:
             try:
-                there, now, size = self._moved(here, step, part)
-                if np.linalg.norm(now) < np.linalg.norm(left):
-                    return there, now, size
+                there = self._moved(here, step, part)
+                if np.linalg.norm(there.left) < np.linalg.norm(here.left):
+                    return there
             except ZerodriftError:
                 pass
             part /= 4
         return None
 
-    def _moved(self, here: State, step: np.ndarray, part: float) -> tuple[State, np.ndarray, float]:
-        """The state after a part of a step in displacements and velocities (2 nv,), with its residual and size."""
-        delta, dv = np.split(part * step, 2)
-        there = self.at(onto(self.system, self.t, moved(here, delta)), here.v + dv)
-        return there, *self.residual(there)
+    def _moved(self, here: Motion, step: np.ndarray, part: float) -> Motion:
+        """The motion after a part of a step in displacements, velocities (2 nv,) and efforts."""
+        delta, dv, du = np.split(part * step, [self.system.nv, 2 * self.system.nv])
+        return self.motion(onto(self.system, self.t, moved(here.at, delta)), here.at.v + dv, here.u + du)

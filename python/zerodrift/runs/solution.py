@@ -14,6 +14,7 @@ from .. import _check, _gateway
 from ..systems.base import BaseSystem, direct_core_of
 from ..systems.measure_values import AXES
 from .columns import to_csv, to_excel
+from .instant import Instant
 from .saving import write
 from .settings import core_settings
 from .stats import Stats
@@ -320,6 +321,35 @@ class Solution:
         p, v = self._states_at(each)
         places = places.reshape(times.shape)
         return p[places], v[places]
+
+    def at(self, t: float) -> Instant:
+        """The state at a time between the first and the last sample, from which any measure is read by its name.
+
+        It is a start of `simulate` and a state of `linearize`.
+
+        Parameters
+        ----------
+        t : float
+            Time in s.
+
+        Returns
+        -------
+        Instant
+
+        Raises
+        ------
+        ValueError
+            As a call of the solution.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> sol = zd.simulate(zd.systems.oscillator(), 1.0, step=0.1)
+        >>> bool(abs(sol.at(0.25)["x"] - sol(0.25)[0][0]) < 1e-15)
+        True
+        """
+        t = _check.number("t", t)
+        return Instant(self.system, t, *self(t))
 
     def _states_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities at increasing times (k,)."""

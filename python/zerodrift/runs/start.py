@@ -1,4 +1,4 @@
-"""Initial state of a run, given in coordinates or as an equilibrium."""
+"""Initial state of a run, given in coordinates, as an equilibrium or as the state at an instant."""
 
 from __future__ import annotations
 
@@ -7,34 +7,31 @@ from typing import Any
 import numpy as np
 
 from ..systems.base import BaseSystem, Makes, system_of
+from .instant import Reading
 from .operations import project
 
 
 def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any, Any]:
     """System and initial state (p0, v0) from the arguments of a run.
 
-    An equilibrium gives its position and velocities; these are projected onto drives that move at t0.
+    An equilibrium or a `zerodrift.Instant` gives its position and velocities; these are projected onto drives that move at t0.
 
     Raises
     ------
     TypeError
-        If velocities are given besides an equilibrium.
+        If velocities are given besides one.
     ValueError
-        If the equilibrium is that of a system with other coordinates.
+        If it is that of a system with other coordinates.
     """
-    if not _is_equilibrium(p0):
+    if not isinstance(p0, Reading):
         return system_of(system, p0, v0), p0, v0
     if v0 is not None:
-        raise TypeError("v0 must be left out where p0 is an equilibrium, which has its velocities")
+        raise TypeError("v0 must be left out where p0 is an equilibrium or an instant, which has its velocities")
     system = system.system(p0.system.layout) if isinstance(system, Makes) else system
     if [each.name for each in system.coordinates] != [each.name for each in p0.system.coordinates]:
-        raise ValueError(f"p0 must be an equilibrium of {system.name} in its coordinates, not of {p0.system.name} in others")
+        raise ValueError(f"p0 must be an equilibrium or an instant of {system.name} in its coordinates, not of {p0.system.name} "
+                         "in others")
     terms = p0.system.evaluate(p0.p, p0.v, t0)
     if terms.Phi_t is None or not np.any(terms.Phi_t):
         return system, p0.p, p0.v
     return system, *project(system, p0.p, p0.v, t0)
-
-
-def _is_equilibrium(given: Any) -> bool:
-    """Return whether an argument is a result of `zerodrift.equilibrium`; by its attributes, as its class imports this package."""
-    return isinstance(getattr(given, "system", None), BaseSystem) and hasattr(given, "stiffness")

@@ -1,0 +1,121 @@
+"""Any quantity by its name at one state (t, p, v), reactions included."""
+
+from __future__ import annotations
+
+import functools
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from ..systems.base import BaseSystem, core_of, system_of
+from .operations import acceleration
+
+
+def names_of_quantities(system: BaseSystem) -> list[str]:
+    """The names of all measures, coordinates, velocities and constraints of a system."""
+    variables = [each.name for group in (system.coordinates, system.velocities, system.constraints) for each in group]
+    return [*system._names_of_measures(), *variables]
+
+
+class Reading:
+    """Any quantity by its name at a state whose accelerations vdot (nv,) and multipliers (m,) are known."""
+
+    system: BaseSystem
+    t: float
+    p: np.ndarray
+    v: np.ndarray
+    vdot: Any
+    multipliers: Any
+
+    def __getitem__(self, given: Any) -> Any:
+        name, of = getattr(given, "name", given), self.system
+        if (place := of._watching.find(name)) is not None:
+            states = [np.ascontiguousarray(each)[None] for each in self._state_for(place.number)]
+            value = place.pick(of._watching.core.measure(place.number, np.array([float(self.t)]), *states))[0]
+            return float(value) if np.ndim(value) == 0 else value
+        for variables, values in ((of.coordinates, "p"), (of.velocities, "v"), (of.constraints, "multipliers")):
+            for i, variable in enumerate(variables):
+                if variable.name == name:
+                    return float(getattr(self, values)[i])
+        raise KeyError(f"nothing in {of.name} is called {name!r}; {_check.closest(name, names_of_quantities(of))}")
+
+    def _state_for(self, number: int) -> tuple[np.ndarray, ...]:
+        """The arguments of a measure: accelerations and multipliers for one that depends on them."""
+        if self.system._watching.core.measure_depends(number) != "accelerations":
+            return self.p, self.v
+        return self.p, self.v, self.vdot, self.multipliers
+
+
+class KnownInstant(Reading):
+    """A state whose accelerations and multipliers are given."""
+
+    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray, vdot: np.ndarray,
+                 multipliers: np.ndarray) -> None:
+        self.system, self.t, self.p, self.v, self.vdot, self.multipliers = system, t, p, v, vdot, multipliers
+
+
+class Instant(Reading):
+    """A state (t, p, v) of a system, from which any quantity is read by its name: ``zd.Instant(m, t, p, v)["pin.force"]``.
+
+    Accelerations and multipliers are those of the equations of motion, computed when they are first needed. `simulate` and
+    `linearize` start from it.
+
+    Parameters
+    ----------
+    system : system or Mechanism
+    t : float
+        Time in s.
+    p, v : array_like (nq,), (nv,), optional
+        Coordinates and velocities; left out: the start.
+
+    Attributes
+    ----------
+    system : system
+    t : float
+    p, v : ndarray (nq,), (nv,)
+
+    Raises
+    ------
+    KeyError
+        If nothing has the name by which it is read.
+    ValueError, TypeError
+        For a wrong argument.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+    >>> link = m.link("link", (0, 0), (1, 0), mass=2.0)
+    >>> pin = m.revolute("pin", m.ground, link.start)
+    >>> now = zd.Instant(m.system("joint"), 0.0, [0.0], [3.0])
+    >>> round(now["link.end.velocity.y"], 9), round(now["pin.force.x"], 9)       # m v, and m v^2 / 2
+    (3.0, -9.0)
+    """
+
+    def __init__(self, system: Any, t: float = 0.0, p: Any = None, v: Any = None) -> None:
+        self.system, self.t = system_of(system), _check.number("t", t)
+        core_of(self.system)
+        p, v = self.system._state_or_start(p, v, "p", "v", self.t)
+        self.p, self.v = np.array(p), np.array(v)
+
+    @functools.cached_property
+    def _moving(self) -> tuple[np.ndarray, np.ndarray]:
+        return acceleration(self.system, self.p, self.v, self.t, "augmented")
+
+    @property
+    def vdot(self) -> np.ndarray:
+        """Accelerations (nv,)."""
+        return self._moving[0]
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """Multipliers (m,) of the constraints, with the sign of (2)."""
+        return self._moving[1]
+
+    def __repr__(self) -> str:
+        named = [f"{variable.name} = {value:.6g}" for variables, values in ((self.system.coordinates, self.p),
+                                                                            (self.system.velocities, self.v))
+                 for variable, value in zip(variables, values, strict=True)]
+        shown = ", ".join(named[:8]) + (f" and {len(named) - 8} more" if len(named) > 8 else "")
+        return f"<{self.system.name} at t = {self.t:g} s: {shown}>"
