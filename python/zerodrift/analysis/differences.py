@@ -17,6 +17,8 @@ EIGHTH = np.array([4 / 5, -1 / 5, 4 / 105, -1 / 280])      # weights of f(k h) -
 SIXTH = np.array([3 / 4, -3 / 20, 1 / 60, 0.0])
 WEIGHTS = np.array([EIGHTH, SIXTH])
 FOURTH = np.array([2 / 3, -1 / 12, 0.0, 0.0])
+NODES = np.arange(9.0)     # of one-sided differences of eighth and of sixth order
+ONE_SIDED = np.array([np.append(np.linalg.inv(np.vander(NODES[:n], increasing=True))[1], np.zeros(9 - n)) for n in (9, 7)])
 STEPS = (2e-2, 2e-3, 5e-4)      # in characteristic scales
 ROUGH_STEP = 1e-4
 AGREE = 1e-10                   # of the size: accepted without a shorter step
@@ -48,8 +50,11 @@ def each_roughly(function: Function, sizes: np.ndarray, width: int) -> np.ndarra
     return np.where(sizes[:, None] > 0, (ahead - back) / (2 * h[:, None]), 0.0)
 
 
-def each_with_error(function: Function, sizes: np.ndarray, width: int) -> tuple[np.ndarray, np.ndarray]:
-    """The derivatives of `each`, and the differences (k,) to those of lower order, which estimate their errors."""
+def each_with_error(function: Function, sizes: np.ndarray, width: int, small: float = 1e-300) -> tuple[np.ndarray, np.ndarray]:
+    """The derivatives of `each`, and the differences (k,) to those of lower order, which estimate their errors.
+
+    Errors are compared with the derivative, or with `small` where that is larger.
+    """
     best, error = np.zeros((len(sizes), width)), np.where(sizes > 0, np.inf, 0.0)
     left = np.flatnonzero(sizes > 0)
     for step in STEPS:
@@ -65,7 +70,7 @@ def each_with_error(function: Function, sizes: np.ndarray, width: int) -> tuple[
         best[left[is_better]], error[left[is_better]] = derivative[is_better], found[is_better]
         if step == STEPS[-1] and np.isinf(error[left]).any():       # not a number at all steps
             best[np.isinf(error)] = (np.tensordot(FOURTH, ahead - back, (0, 1)) / h[:, None])[np.isinf(error[left])]
-        left = left[~(found <= AGREE * np.abs(derivative).max(axis=1, initial=1e-300))]
+        left = left[~(found <= AGREE * np.abs(derivative).max(axis=1, initial=small))]
     return best, error
 
 
@@ -74,12 +79,26 @@ def along(function: Callable[[float], np.ndarray], size: float) -> np.ndarray:
     return with_error(function, size)[0]
 
 
-def with_error(function: Callable[[float], np.ndarray], size: float) -> tuple[np.ndarray, float]:
+def with_error(function: Callable[[float], np.ndarray], size: float, small: float = 1e-300) -> tuple[np.ndarray, float]:
     """The derivative of `along`, and the difference to that of lower order, which estimates its error."""
     width = np.size(function(0.0))
 
     def values(_: np.ndarray, distances: np.ndarray) -> np.ndarray:
         return np.array([function(float(h)) for h in distances])
 
-    found, error = each_with_error(values, np.array([float(size)]), width)
+    found, error = each_with_error(values, np.array([float(size)]), width, small)
     return found[0], float(error[0])
+
+
+def one_sided_with_error(function: Callable[[float], np.ndarray], size: float, side: float,
+                         small: float = 1e-300) -> tuple[np.ndarray, float]:
+    """The same from values at h = 0 and on one side of it, 1 or -1: for functions that are not defined on the other."""
+    best, least = np.zeros(0), np.inf
+    for step in STEPS:
+        h = side * step / size
+        derivative, lower = ONE_SIDED @ np.array([function(float(k * h)) for k in NODES]) / h
+        error = float(np.abs(derivative - lower).max(initial=0.0))
+        best, least = (derivative, error) if not best.size or error < least else (best, least)
+        if error <= AGREE * np.abs(derivative).max(initial=small):
+            break
+    return best, least

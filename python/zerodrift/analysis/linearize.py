@@ -96,7 +96,8 @@ def _state(system: BaseSystem, at: Any, v: Any) -> State:
         try:
             t, p, v = at
         except (TypeError, ValueError):
-            raise TypeError(f"at must be an equilibrium, an instant such as sol.at(t), or (t, p, v), not {_check.shown(at)}") from None
+            raise TypeError(f"at must be an equilibrium, an instant such as sol.at(t), or (t, p, v), "
+                            f"not {_check.shown(at)}") from None
     here = state(system, _check.number("t", t), _check.vector("p", p, system.nq), _check.vector("v", v, system.nv))
     scale = scales(system, here.p)
     speed = scale.length * (1.0 + np.abs(here.v / scale.v).max(initial=0.0))

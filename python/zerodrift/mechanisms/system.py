@@ -348,14 +348,15 @@ def _is_right(path: str, value: float) -> bool:
     return True
 
 
-RULES = {"mass": 0, "inertia": 0, "stiffness": 0, "damping": 0, "torsion": 0, "torsion_damping": 0}
+NOT_NEGATIVE = {"mass", "inertia", "stiffness", "damping", "torsion", "torsion_damping"}
+PRODUCTS = (".xy", ".xz", ".yz")        # of inertia: of either sign
 
 
 def _checked(path: str, value: Any) -> float:
     """New value of a parameter, with the checks of the method that adds its element."""
     name = f"parameter {path!r}"
     quantity = path.split(".")[1] if "." in path else ""
-    if quantity in RULES:
+    if quantity in NOT_NEGATIVE and not path.endswith(PRODUCTS):
         return _check.number(name, value, least=0)
     if quantity in ("length", "radius"):
         return _check.number(name, value, above=0)

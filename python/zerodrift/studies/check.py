@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..analysis.comparison import derivatives_of_accelerations
+from ..analysis.comparison import Compared, derivatives_by_parameters, derivatives_of_accelerations
 from ..errors import ZerodriftError
 from ..runs.operations import acceleration, project
 from ..runs.settings import Projection
@@ -18,7 +18,6 @@ from ..systems.base import BaseSystem, Terms, system_of
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity
 AGREE = 1e-5                            # relative: far above the error 1e-10 of a difference, far below any mistake
 NEGLIGIBLE = 1e-9                       # relative: smaller eigenvalues and singular values are zero to rounding
-EXACT = 1e-7                            # relative: agreement of derivatives with differences of eighth order
 SPREAD = 0.1                            # relative distance of the sampled states from the start
 
 
@@ -83,10 +82,11 @@ def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, s
     system = system_of(system, p, v)
     p, v = system._state_or_start(p, v, "p", "v", t)
     t, problems, names, states = _check.number("t", t), {}, {}, 0
-    for p_now, v_now in [(p, v), *_samples(system, p, v, t, _check.count("samples", samples, least=0), seed)]:
+    samples = _check.count("samples", samples, least=0)
+    for p_now, v_now in [(p, v), *_samples(system, p, v, t, samples, seed)]:
         states += 1
         for compare in COMPARISONS:
-            for name, problem in compare(_State(system, t, p_now, v_now)):
+            for name, problem in compare(_State(system, t, p_now, v_now, in_full=states == min(samples, 1) + 1)):
                 names[name] = True
                 if problem:
                     problems.setdefault(name, f"{name}: {problem}")
@@ -96,8 +96,8 @@ def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, s
 class _State:
     """A state, its terms, and derivatives there by central differences."""
 
-    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> None:
-        self.system, self.t, self.p, self.v = system, t, p, v
+    def __init__(self, system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray, *, in_full: bool) -> None:
+        self.system, self.t, self.p, self.v, self.in_full = system, t, p, v, in_full
         self.terms: Terms = system.evaluate(p, v, t)
         self.pdot = self.rate(v)
 
@@ -243,25 +243,30 @@ def _power(state: _State) -> Iterator[tuple[str, str]]:
 
 
 def _derivatives(state: _State) -> Iterator[tuple[str, str]]:
-    """Derivatives of accelerations along a random tangent direction, where differences of accelerations are accurate."""
+    """Derivatives of accelerations where differences of accelerations are accurate: along all tangent directions and by all
+    parameters at one state, along a random direction at the others.
+    """
     system, terms = state.system, state.terms
     violated = [np.zeros(1) if each is None else each for each in (terms.Phi, _velocity_violation(terms, state.v)
                                                                    if terms.C is not None else None)]
     if max(np.abs(each).max(initial=0.0) for each in violated) > NEGLIGIBLE * (1 + np.abs(state.v).max(initial=0.0)):
         return      # sampled off the constraints, where redundant ones contradict each other
+    random = None if state.in_full else np.random.default_rng(len(terms.M))
     try:
-        compared = derivatives_of_accelerations(system, state.t, state.p, state.v, np.random.default_rng(len(terms.M)))
+        found = [("along a tangent direction", each)
+                 for each in derivatives_of_accelerations(system, state.t, state.p, state.v, random)]
+        if state.in_full:
+            by_name = derivatives_by_parameters(system, state.t, state.p, state.v)
+            found += [(f"with respect to {name}", each) for name, each in by_name.items() if isinstance(each, Compared)]
     except ZerodriftError:
         return      # said elsewhere, or a neighbouring state is singular
-    if compared is None or not np.isfinite(compared.expected).all():
-        return
-    given, expected, error = compared
-    size = max(np.abs(given).max(initial=0.0), np.abs(expected).max(initial=0.0), 1e-3)
-    worst = int(np.abs(given - expected).argmax())
-    agree = np.abs(given - expected).max() <= EXACT * size or error > EXACT * size / 10
-    yield "derivatives of accelerations", "" if agree else (
-        f"that of the acceleration of {system.velocities[worst].name!r} along a tangent direction is {given[worst]:.9g} and "
-        f"should be {expected[worst]:.9g}")
+    for along, compared in found:
+        if not np.isfinite(compared.expected).all():
+            continue
+        worst = int(np.abs(compared.given - compared.expected).argmax())
+        yield "derivatives of accelerations", "" if compared.agrees else (
+            f"that of the acceleration of {system.velocities[worst].name!r} {along} is {compared.given[worst]:.9g} and should be "
+            f"{compared.expected[worst]:.9g}")
 
 
 COMPARISONS = (_mass, _consistency, _jacobian, _xi, _quaternions, _complement, _power, _derivatives)
