@@ -1,4 +1,4 @@
-"""Derivatives by parameters beside differences of accelerations; `zd.check` compares them for every model, here is what it compares."""
+"""Derivatives by parameters beside differences of accelerations, as `zd.check` compares them for every model."""
 
 import numpy as np
 import pytest
