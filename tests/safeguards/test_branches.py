@@ -77,6 +77,19 @@ def test_motions_through_dead_points_stay_on_their_branch():
     assert passed >= 3
 
 
+@pytest.mark.parametrize("step", [0.1, 0.2, 0.5])
+@pytest.mark.parametrize("stabilization", [None, "baumgarte"])
+def test_samples_that_drift_off_the_constraints_are_on_no_branch(step, stabilization):
+    """A coarse pendulum drifts out of its circle; without a projection no correction can lead to another branch."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        sol = zd.simulate(zd.systems.pendulum(), 10.0, step=step, stabilization=stabilization, on_failure="return")
+    assert not any("assembly branch" in str(each.message) for each in caught)
+    if stabilization is None:
+        assert np.abs(sol.position_violation).max() > 1e-3      # otherwise there was nothing to mistake
+        assert any("energy balance" in str(each.message) for each in caught)
+
+
 # a, b, c, d, angle, bend and speed of crank-rockers, with steps that are too long
 ELSEWHERE = [
     ((0.2301980967052394, 1.6497441234101353, 0.9225342846813929, 1.2123196872010795, -2.2248183660035994, -1, 21.55987622184009),

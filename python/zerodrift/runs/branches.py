@@ -5,7 +5,8 @@ one of them is zero. So signs are compared at both ends of the steps whose displ
 velocities, and signs that differ between the first and the last sample are followed to two samples in succession
 between which they change. Either the motion passes a dead point there, or it is interrupted. A path along the
 constraints decides which: from one sample, steps are made towards the other, each projected onto the constraints. It
-arrives at a sample of the same branch, and is held up at a distance from one of another.
+arrives at a sample of the same branch, and is held up at a distance from one of another. Samples that do not satisfy the
+constraints, as those of runs without position corrections, are on no branch and are not compared.
 """
 
 from __future__ import annotations
@@ -115,7 +116,7 @@ class _Branch:
         target = self.solution.p[end]
         distance = np.abs((target - p) / self.scale_p).max()
         steps = max(FEWEST, int(np.ceil(distance / SMALL_STEP)))
-        if not distance > 0 or steps > MOST:
+        if not distance > 0 or steps > MOST or self._off(t[end], target) > ARRIVED * distance:
             return 0.0
         for step in range(steps + APPROACHES):
             share = 1 / max(steps - step, 2)
@@ -131,6 +132,11 @@ class _Branch:
             if left < ARRIVED:
                 break
         return float(left)
+
+    def _off(self, t: float, p: np.ndarray) -> float:
+        """Distance of p from the constraints, in characteristic scales, to first order."""
+        Phi, C, A = self._terms_at(t, p)
+        return float(np.abs(A @ (np.linalg.pinv(C, rcond=NEGLIGIBLE) @ Phi)).max())
 
     def _step(self, t: float, p: np.ndarray, wanted: np.ndarray) -> np.ndarray | None:
         """The part of a displacement that constraints allow, and a projection onto them; None: it does not converge."""
