@@ -12,11 +12,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.text import Text
 
 from ..systems.shapes import Shape
 from .annotations import Arrow, Arrows, Names, draw_path, hold
 from .glyphs import GLYPHS
 from .marks import SMOOTH, Mark, arc, hull
+from .names_apart import keep_apart
 
 SMALL = 0.017       # of the picture: the radius of a pin
 LEAST = 1.7         # points: no pin is smaller, however small the picture
@@ -54,6 +56,7 @@ class Picture:
         extent, per_point = self._scale(places)
         points = self.size / per_point
         self._arrows = self._names = None
+        self._are_apart = False
         if extras.arrows:
             self._arrows = Arrows(ax, extras.arrows, extent, self.size, self.line, points, extras.force_scale)
             places = np.vstack([places, self._arrows.ends()])
@@ -101,7 +104,11 @@ class Picture:
         for kind, those in marks.items():
             self._look(self._collection(kind), those)
         more = self._arrows.show(moment) if self._arrows else []
-        return [*self._drawn.values(), *more, *(self._names.show(self._moments[moment]) if self._names else [])]
+        names = self._names.show(self._moments[moment]) if self._names else []
+        if not self._are_apart:     # at the first moment: in a film names keep their side
+            keep_apart(self.ax, [*names, *(artist for artist in more if isinstance(artist, Text))])
+            self._are_apart = True
+        return [*self._drawn.values(), *more, *names]
 
     def _collection(self, kind: str) -> PathCollection:
         """Collection of matplotlib for all shapes of a kind."""

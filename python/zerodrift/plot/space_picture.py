@@ -17,9 +17,9 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from ..systems.shapes import Shape
 from .mechanism import NOTHING, Extras
+from .names_apart import keep_apart
 from .points import with_equal_scales
 from .space_arrows import SpaceArrows
-from .space_names import keep_apart
 from .style import COLOURS
 
 SIZE = 0.04         # of the picture: half the length of a pin

@@ -1,4 +1,4 @@
-"""Names in axes that show space, moved up or down where they would cover each other."""
+"""Names in pictures of mechanisms, moved up or down where they would cover each other."""
 
 from __future__ import annotations
 
@@ -16,24 +16,28 @@ LINES = 12          # by so many lines a name is moved at most
 
 
 def keep_apart(ax: Axes, texts: Sequence[Text]) -> None:
-    """Shift texts by whole lines of the picture as it is seen from where the axes look; they keep that when the view turns."""
+    """Shift texts by whole lines of the picture as it is seen; in space they keep that when the view turns."""
     placed: list[tuple[float, float, float, float]] = []
-    pixels = ax.figure.dpi / 72
-    projection = ax.get_proj()
-    for text in sorted((each for each in texts if each.get_visible()), key=lambda each: -_seen(ax, each, projection)[1]):
-        x, y = _seen(ax, text, projection)
-        height = LINE * text.get_fontsize() * pixels
-        width = LETTER * text.get_fontsize() * pixels * len(text.get_text())
+    projection = ax.get_proj() if ax.name == "3d" else None
+    if projection is None:
+        ax.apply_aspect()
+    boxes = [(text, _box(ax, text, projection)) for text in texts if text.get_visible()]
+    for text, (x, y, width, height) in sorted(boxes, key=lambda each: -each[1][1]):
         free = (k for k in _shifts() if not any(_overlap((x, y + k * height, width, height), other) for other in placed))
         shift = next(free, 0)
         placed.append((x, y + shift * height, width, height))
         text.set_transform(ax.transData + ScaledTranslation(0, shift * height / ax.figure.dpi, ax.figure.dpi_scale_trans))
 
 
-def _seen(ax: Axes, text: Text, projection: np.ndarray) -> np.ndarray:
-    """Lower left corner (2,) of a text, in pixels."""
-    x, y, _ = proj3d.proj_transform(*text.get_position_3d(), projection)
-    return ax.transData.transform((x, y))
+def _box(ax: Axes, text: Text, projection: np.ndarray | None) -> tuple[float, float, float, float]:
+    """Lower left corner, width and height of a text before it is shifted, in pixels."""
+    place = text.get_position() if projection is None else proj3d.proj_transform(*text.get_position_3d(), projection)[:2]
+    x, y = ax.transData.transform(place)
+    letter = text.get_fontsize() * ax.figure.dpi / 72
+    width, height = LETTER * letter * len(text.get_text()), LINE * letter
+    left = {"left": 0.0, "center": 0.5, "right": 1.0}[text.get_horizontalalignment()]
+    below = {"top": 1.0, "center": 0.5}.get(text.get_verticalalignment(), 0.0)
+    return x - left * width, y - below * height, width, height
 
 
 def _shifts() -> list[int]:
