@@ -41,7 +41,10 @@ html_theme = "pydata_sphinx_theme"
 html_title = "zerodrift"
 html_theme_options = {"show_prev_next": False, "navbar_align": "left", "secondary_sidebar_items": ["page-toc"]}
 html_copy_source = False
+html_domain_indices = False
 html_extra_path = ["generated/extra"]      # films of the gallery
+html_static_path, html_css_files = ["templates/site.css"], ["site.css"]
+html_context = {"default_mode": "auto"}
 
 
 def setup(app: object) -> None:

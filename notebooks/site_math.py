@@ -15,10 +15,12 @@ def inline(writer: object, node: nodes.math) -> None:
 
 
 def block(writer: object, node: nodes.math_block) -> None:
-    """An equation of its own, a target of links where it is labelled."""
+    """An equation of its own, a target of links where it is labelled or has a number, `\\tag{8}`."""
     for name in node.get("ids", []):
         writer.body.append(f'<span id="{name}"></span>')
-    writer.body.append(f'<div>{convert(node.astext(), display="block")}</div>')
+    text, number = re.subn(r"\s*\\tag\{([^}]*)\}", "", node.astext()), re.search(r"\\tag\{([^}]*)\}", node.astext())
+    target = f'<a class="number" id="equation-{number[1]}" href="#equation-{number[1]}">({number[1]})</a>' if number else ""
+    writer.body.append(f'<div class="equation">{convert(text[0], display="block")}{target}</div>')
     raise nodes.SkipNode
 
 
@@ -27,6 +29,7 @@ def offline(app: object, doctree: nodes.document) -> None:
     for each in doctree.findall(nodes.raw):
         text = re.sub(r'<link rel="stylesheet"\s+href="https://maxcdn[^>]*>', "", each.astext())
         text = re.sub(r'<img id="_anim_img', '<img alt="film of the motion" id="_anim_img', text)
+        text = re.sub(r'<input id="_anim_slider', '<input aria-label="Time" id="_anim_slider', text)
         if text != each.astext():
             each.children = [nodes.Text(text)]
             each.rawsource = text

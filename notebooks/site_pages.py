@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import html
 import inspect
+import json
 import warnings
 from collections.abc import Iterable
 from pathlib import Path
@@ -15,6 +16,7 @@ from zerodrift._gateway.base import statuses
 from zerodrift.explanations import codes, explanations
 from zerodrift.mechanisms.elements.joints import JOINTS
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS
+from zerodrift.paper import geometry
 
 WARNINGS = tuple(each for each in vars(errors).values() if inspect.isclass(each) and issubclass(each, Warning))
 ERRORS = tuple(each for each in vars(errors).values() if inspect.isclass(each) and issubclass(each, zd.ZerodriftError))
@@ -27,7 +29,8 @@ def write(folder: Path) -> None:
              "corrections": methods("Corrections", zd.corrections()), "elements": elements(), "errors": messages(),
              "reference": reference(), **dict(films(folder))}
     (folder / "models").mkdir(exist_ok=True)
-    for name, lines in {"front.html": front(), **{f"{page}.md": text for page, text in pages.items()}}.items():
+    figures(folder)
+    for name, lines in {"front.html": front(), "cards.html": cards(), **{f"{page}.md": text for page, text in pages.items()}}.items():
         path, text = folder / name, "\n".join(lines) + "\n"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
@@ -37,6 +40,28 @@ def front() -> Iterable[str]:
     """The film of the first page: what the code above it computes."""
     sol = zd.simulate(zd.models.jansen(), 6.0, step=0.01)
     yield zd.view(sol, path="F", forces=["Y bed", "W"], graphs=["F.position.y"])._repr_html_()
+
+
+CARDS = (("a_mechanism_in_ten_minutes", "slider_crank", "Ten minutes", "a mechanism of your own, a reaction, a film"),
+         ("generated/gallery", "stewart_platform", "Gallery", "36 known mechanisms, in the plane and in space"),
+         ("which_settings", "closed_pendulum", "Which settings", "none at first; then the error that you want"),
+         ("generated/errors", "four_bars", "When it stops", "each message: causes, cures, an example"))
+
+
+def cards() -> Iterable[str]:
+    """Four links of the first page, whose films play."""
+    yield '<div class="films">'
+    yield from (f'<a href="{page}.html" data-film="films/{film}.html" data-plays=""><span class="still"><img src="films/{film}.png" alt="" '
+                f'class="dark-light" loading="lazy"></span><b>{title}</b><small>{text}</small></a>' for page, film, title, text in CARDS)
+    yield from ("</div>", PLAYING)
+
+
+def figures(folder: Path) -> None:
+    """Figures 1 to 3 of the paper, drawn anew."""
+    for number in (1, 2, 3):
+        path = folder / f"figure_{number}.png"
+        if not path.exists():
+            getattr(geometry, f"figure_{number}")().savefig(path, dpi=100)
 
 
 def methods(title: str, rows: dict[str, object]) -> Iterable[str]:
@@ -97,14 +122,7 @@ KINDS = {
     "Tops and rolling": ("heavy_top", "gyroscope", "rolling_disc", "coin", "rattleback"),
     "Many bodies": ("closed_pendulum", "four_bars", "chain"),
 }
-PLAYING = """<style>
-.films { display: grid; grid-template-columns: repeat(auto-fill, minmax(190px, 1fr)); gap: 14px; margin: 0 0 1.5em; }
-.films a { display: block; border: 1px solid var(--pst-color-border); border-radius: 6px; overflow: hidden; text-decoration: none; }
-.films .still { display: block; position: relative; aspect-ratio: 4 / 3; background: #fff; }
-.films .still > * { position: absolute; inset: 0; width: 100%; height: 100%; border: 0; object-fit: contain; pointer-events: none; }
-.films b { display: block; padding: 5px 9px; font-weight: 500; }
-</style>
-<script>
+PLAYING = """<script>
 document.querySelectorAll(".films a").forEach(card => {
   const play = () => {
     if (card.querySelector("iframe")) return;
@@ -116,6 +134,7 @@ document.querySelectorAll(".films a").forEach(card => {
     card.firstElementChild.append(film);
   };
   const stop = () => card.querySelector("iframe")?.remove();
+  if ("plays" in card.dataset && !matchMedia("(prefers-reduced-motion: reduce)").matches) return play();
   card.addEventListener("pointerenter", play); card.addEventListener("focus", play);
   card.addEventListener("pointerleave", stop); card.addEventListener("blur", stop);
 });
@@ -125,14 +144,19 @@ document.querySelectorAll(".films a").forEach(card => {
 def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
     """The gallery, and a page for each model; films are files of their own, which are made once for a version of the package."""
     (folder / "extra" / "films").mkdir(parents=True, exist_ok=True)
+    kept = folder / "graphs.json"
+    known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
     shown = {each.name: each for each in gallery.exhibits()}
     for exhibit in shown.values():
         path = folder / "extra" / "films" / f"{exhibit.name}.html"
-        if not path.exists():
-            film = zd.view(exhibit.run(), path=list(exhibit.path), speed=exhibit.speed)
+        if not path.exists() or exhibit.name not in known:
+            sol = exhibit.run()
+            film = zd.view(sol, path=list(exhibit.path), speed=exhibit.speed, graphs=plotted(sol))
             path.with_suffix(".png").write_bytes(base64.b64decode(film._still()))
             film.save(path)
-        yield f"models/{exhibit.name}", model(exhibit)
+            known[exhibit.name] = plotted(sol)[0]
+            kept.write_text(json.dumps(known), encoding="utf-8")
+        yield f"models/{exhibit.name}", model(exhibit, known)
     yield "gallery", [
         "# Gallery", "", f"{len(shown)} mechanisms; pictures play when pointed at.", "",
         *(line for kind, names in KINDS.items() for line in (f"## {kind}", "", "```{raw} html", '<div class="films">',
@@ -140,22 +164,30 @@ def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
         "```{raw} html", PLAYING, "```", "", "```{toctree}", ":hidden:", "", *(f"models/{name}" for name in shown), "```"]
 
 
+def plotted(sol: zd.Solution) -> list[str]:
+    """The measure that a page plots: what drives the mechanism, otherwise the force of its first joint, or its first coordinate."""
+    driving = [name for name in sol.measures if name.endswith(".torque") and sol[name].ndim == 1 and abs(sol[name]).max() > 1e-9]
+    forces = [name for name in sol.measures if name.endswith(".force")]
+    return [next(iter([*reversed(driving), *forces]), sol.system.coordinates[0].name)]
+
+
 def card(exhibit: gallery.Exhibit) -> str:
     """A picture of the gallery."""
     name = exhibit.name
     return (f'<a href="models/{name}.html" data-film="../films/{name}.html"><span class="still"><img src="../films/{name}.png" '
-            f'alt="{html.escape(exhibit.see)}" loading="lazy"></span><b>{exhibit.title}</b></a>')
+            f'alt="{html.escape(exhibit.see)}" class="dark-light" loading="lazy"></span><b>{exhibit.title}</b></a>')
 
 
-def model(exhibit: gallery.Exhibit) -> Iterable[str]:
-    """The page of a model: film, lines, the mechanism in words, sources of its numbers, code."""
-    made, name = getattr(zd.models, exhibit.name), exhibit.name
+def model(exhibit: gallery.Exhibit, graphs: dict[str, str]) -> Iterable[str]:
+    """The page of a model: film with a plot, lines, the mechanism in words, sources of its numbers, code."""
+    made, name, graph = getattr(zd.models, exhibit.name), exhibit.name, graphs[exhibit.name]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         words = str(exhibit.made())
     text = inspect.cleandoc(made.__doc__ or "")
-    shown = f"zd.view(sol, speed={exhibit.speed:g}" + (f", path={list(exhibit.path)}" if exhibit.path else "") + ")"
-    yield from (f"# {exhibit.title}", "", exhibit.see, "", "```{raw} html", f'<iframe src="../../films/{name}.html" '
+    path = f", path={list(exhibit.path)}" if exhibit.path else ""
+    shown = f"zd.view(sol, speed={exhibit.speed:g}{path}, graphs=[{graph!r}])".replace("'", '"')
+    yield from (f"# {exhibit.title}", "", exhibit.see, "", f"Beside it: `{graph}`.", "", "```{raw} html", f'<iframe src="../../films/{name}.html" '
                 f'title="Film: {html.escape(exhibit.see)}" sandbox="allow-scripts" style="width:100%;height:460px;border:0"></iframe>', "```", "",
                 "```python", "import zerodrift as zd", "", *exhibit.lines[:-1], shown, "```", "", "## The mechanism", "",
                 text.split("\n\n")[0], "", "```text", words, "```", "")

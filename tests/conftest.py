@@ -44,6 +44,15 @@ def pytest_xdist_auto_num_workers(config):
     return min(8, len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()) if whole else 0
 
 
+def pytest_terminal_summary(terminalreporter):
+    """How many tests are skipped for lack of a browser or of node, which no extra of the package installs."""
+    skipped = [report.longrepr for report in terminalreporter.stats.get("skipped", [])]
+    reasons = [str(each[2]) for each in skipped if isinstance(each, tuple)]
+    for program in ("Chromium", "node"):
+        if count := sum(f"there is no {program}" in reason for reason in reasons):
+            terminalreporter.write_line(f"{count} tests skipped: there is no {program}")
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_make_collect_report(collector):
     """A file that needs a package of the extras which is not installed is left out."""

@@ -31,6 +31,7 @@ PIN = 0.017             # of the picture: a pin's radius
 SLENDER = 0.13          # of the short bars, the quarter of all: no pin is larger
 ROUND = ("wheel", "gear", "ring")       # kinds of shapes whose number is a radius
 ARROW = 0.22            # of the picture: the longest arrow
+NOTHING = 1e-9          # of the largest force or torque: torques of hinges are rounding below
 FAR = 0.4               # of all its motion: what is smaller than that is followed
 FOLLOWED = 1.6          # widths of it are seen then
 MOST_LOADS = 200        # measures of forces that a film contains for clicks; of more, those of arrows alone
@@ -173,9 +174,10 @@ def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
         values = np.asarray(sol[name], dtype=float)
         values = np.linalg.norm(values, axis=1) if values.ndim == 2 else values
         element, _, kind = name.rpartition(".")
-        if np.isfinite(values).all() and (kind == "force" or np.abs(values).max(initial=0.0) > 0):
+        if np.isfinite(values).all():
             found.append({"name": element, "unit": "N" if kind == "force" else "N m"} | _levels(np.interp(times, sol.t, values)))
-    return found
+    most = max((abs(each["least"]) + each["size"] for each in found), default=0.0)
+    return [each for each in found if each["unit"] == "N" or each["size"] + abs(each["least"]) > NOTHING * most]
 
 
 def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: str) -> dict[str, Any]:
@@ -222,8 +224,8 @@ def _path(path: np.ndarray) -> dict[str, Any]:
 
 def _levels(values: np.ndarray) -> dict[str, Any]:
     """Values as 16-bit integers between their least and greatest."""
-    low, size = float(values.min()), float(np.ptp(values)) or 1.0
-    return {"least": low, "size": size, "values": _text(np.round((values - low) / size * LEVELS).astype(np.uint16))}
+    low, size = float(values.min()), float(np.ptp(values))
+    return {"least": low, "size": size, "values": _text(np.round((values - low) / (size or 1.0) * LEVELS).astype(np.uint16))}
 
 
 def _graphs(sol: Solution, times: np.ndarray, names: Any, label: str) -> list[dict[str, Any]]:
