@@ -45,7 +45,7 @@ def pytest_xdist_auto_num_workers(config):
 
 
 def pytest_terminal_summary(terminalreporter):
-    """How many tests are skipped for lack of a browser or of node, which no extra of the package installs."""
+    """Count of tests skipped for lack of a browser or of node, which no extra of the package installs."""
     skipped = [report.longrepr for report in terminalreporter.stats.get("skipped", [])]
     reasons = [str(each[2]) for each in skipped if isinstance(each, tuple)]
     for program in ("Chromium", "node"):
