@@ -2,14 +2,7 @@
 
 #include <string.h>
 
-#define SYSTEMS(X) \
-    X(zd_four_bar) X(zd_oscillator) X(zd_pendulum) X(zd_slider_crank) X(zd_knife_edge) \
-    X(zd_chaplygin_sleigh) X(zd_rolling_disc) X(zd_vertical_disc) X(zd_driven_four_bar)
-#define FORMULATIONS(X) X(zd_augmented) X(zd_nullspace) X(zd_schur) X(zd_mixed) X(zd_independent)
-#define INTEGRATORS(X) \
-    X(zd_euler) X(zd_midpoint) X(zd_heun) X(zd_rk4) X(zd_dormand_prince) X(zd_dop853) X(zd_extrapolation) X(zd_trapezoidal) X(zd_radau) X(zd_rattle) \
-    X(zd_taylor)
-#define CORRECTIONS(X)  X(zd_baumgarte_row) X(zd_projection_row) X(zd_energy_row)    /* in the order they are applied */
+#include "methods.h"
 
 #define DECLARE_KIND(name) extern const zd_kind name;
 #define DECLARE_FORMULATION(name) extern const zd_formulation name;
@@ -17,17 +10,17 @@
 #define DECLARE_CORRECTION(name) extern const zd_correction name;
 #define ADDRESS(name) &name,
 
-SYSTEMS(DECLARE_KIND)
-FORMULATIONS(DECLARE_FORMULATION)
-INTEGRATORS(DECLARE_INTEGRATOR)
-CORRECTIONS(DECLARE_CORRECTION)
+ZD_SYSTEM_LIST(DECLARE_KIND)
+ZD_FORMULATION_LIST(DECLARE_FORMULATION)
+ZD_INTEGRATOR_LIST(DECLARE_INTEGRATOR)
+ZD_CORRECTION_LIST(DECLARE_CORRECTION)
 
-static const zd_kind *const kinds[] = {SYSTEMS(ADDRESS)};
-static const zd_formulation *const formulations[] = {FORMULATIONS(ADDRESS)};
-static const zd_integrator *const integrators[] = {INTEGRATORS(ADDRESS)};
-static const zd_correction *const corrections[] = {CORRECTIONS(ADDRESS)};
+static const zd_kind *const kinds[] = {ZD_SYSTEM_LIST(ADDRESS) NULL};
+static const zd_formulation *const formulations[] = {ZD_FORMULATION_LIST(ADDRESS) NULL};
+static const zd_integrator *const integrators[] = {ZD_INTEGRATOR_LIST(ADDRESS) NULL};
+static const zd_correction *const corrections[] = {ZD_CORRECTION_LIST(ADDRESS) NULL};
 
-#define COUNT(table) ((int)(sizeof(table) / sizeof(table)[0]))
+#define COUNT(table) ((int)(sizeof(table) / sizeof(table)[0]) - 1)     /* the last entry is NULL */
 _Static_assert(COUNT(corrections) <= ZD_CORRECTIONS_MAX, "settings have room for all corrections");
 #define PICK(table, row) ((row) >= 0 && (row) < COUNT(table) ? (table)[row] : NULL)
 
@@ -72,22 +65,10 @@ int zd_row_named(enum zd_table table, const char *name)
     return -1;
 }
 
-static int row_of(enum zd_table table, const zd_card *card)
-{
-    int row = 0;
-    while (zd_row(table, row) != card) row++;
-    return row;
-}
-
 int zd_default_row(enum zd_table table)
 {
-    switch (table) {
-    case ZD_SYSTEMS: return row_of(table, &zd_four_bar.card);
-    case ZD_FORMULATIONS: return row_of(table, &zd_schur.card);
-    case ZD_INTEGRATORS: return row_of(table, &zd_rk4.card);
-    case ZD_CORRECTIONS: return row_of(table, &zd_projection_row.card);
-    }
-    return 0;
+    static const char *const name[] = {"four_bar", "schur", "rk4", "projection"};
+    return zd_row_named(table, name[table]);
 }
 
 const zd_card *zd_row(enum zd_table table, int row)

@@ -4,7 +4,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../methods.h"
 #include "../workspace.h"
+
+#define DECLARE(name) extern const zd_block_dimension name;
+#define ADDRESS(name) &name,
+
+ZD_DIMENSION_LIST(DECLARE)
+
+static const zd_block_dimension *const dimensions[] = {ZD_DIMENSION_LIST(ADDRESS) NULL};
 
 /* Arrays of the tables, needed until the mechanism has its own. */
 typedef struct arrays {
@@ -15,7 +23,7 @@ static arrays take_tables(const zd_block_layout *layout, zd_arena *arena)
 {
     arrays taken = {{NULL}};
     for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++) {
-        const size_t size = zd_block_structure_of(layout->dimension, section)->size;
+        const size_t size = zd_block_structure_in(layout, section)->size;
         taken.section[section] = zd_take(arena, (size_t)layout->part[section].count * size);
     }
     return taken;
@@ -74,52 +82,13 @@ static zd_elements elements_of(zd_block *self, const arrays *from)
         .law = laws ? zd_block_law : NULL, .owner = &self->laws, .laws_know_time = laws_know_time(layout)};
 }
 
-static int make_plane(zd_block *self, const arrays *from, const zd_elements *elements, zd_complaint to)
-{
-    const zd_block_layout *layout = &self->layout;
-    const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
-    const zd_plane_tables tables = {
-        .gravity = {gravity[0], gravity[1]}, .bodies = count_of(layout, ZD_BLOCK_BODIES), .joints = count_of(layout, ZD_BLOCK_JOINTS),
-        .quantities = count_of(layout, ZD_BLOCK_QUANTITIES), .body = from->section[ZD_BLOCK_BODIES], .joint = from->section[ZD_BLOCK_JOINTS],
-        .quantity = from->section[ZD_BLOCK_QUANTITIES], .elements = *elements};
-    self->plane = zd_plane_create(&tables, to.message, to.size);
-    if (!self->plane) return 0;
-    const zd_plane_plan plan = zd_plane_planned(self->plane);
-    self->row = (zd_relation *)(uintptr_t)plan.row;
-    self->force = (zd_generalized_force *)(uintptr_t)plan.force;
-    self->names.owner = zd_plane_rows(self->plane);
-    self->system = *zd_plane_system(self->plane);
-    return 1;
-}
-
-static int make_space(zd_block *self, const arrays *from, const zd_elements *elements, zd_complaint to)
-{
-    const zd_block_layout *layout = &self->layout;
-    const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
-    const zd_space_tables tables = {
-        .gravity = {gravity[0], gravity[1], gravity[2]}, .bodies = count_of(layout, ZD_BLOCK_BODIES),
-        .joints = count_of(layout, ZD_BLOCK_JOINTS), .quantities = count_of(layout, ZD_BLOCK_QUANTITIES),
-        .body = from->section[ZD_BLOCK_BODIES], .joint = from->section[ZD_BLOCK_JOINTS], .quantity = from->section[ZD_BLOCK_QUANTITIES],
-        .elements = *elements};
-    int has_tree = 0;
-    for (int i = 0; i < tables.bodies; i++) has_tree |= tables.body[i].inboard >= 0;
-    self->space = (has_tree ? zd_space_tree_create : zd_space_create)(&tables, to.message, to.size);
-    if (!self->space) return 0;
-    const zd_space_plan plan = zd_space_planned(self->space);
-    self->row = (zd_relation *)(uintptr_t)plan.row;
-    self->force = (zd_generalized_force *)(uintptr_t)plan.force;
-    self->names.owner = zd_space_rows(self->space);
-    self->system = *zd_space_system(self->space);
-    return 1;
-}
-
 static int make(zd_block *self, const arrays *from, zd_complaint to)
 {
     const zd_elements elements = elements_of(self, from);
     for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++)
         if (!zd_block_unpack(&self->layout, section, from->section[section], to)) return 0;
     if (!laws_suit(&self->layout, &elements, to) || !zd_block_names_check(&self->layout, to)) return 0;
-    if (!(self->layout.dimension == 2 ? make_plane : make_space)(self, from, &elements, to)) return 0;
+    if (!self->layout.of->make(self, from->section, &elements, to)) return 0;
     self->system.name_constraint = zd_block_name_row;
     self->system.names = &self->names;
     if (count_of(&self->layout, ZD_BLOCK_LAWS)) self->system.failure = "a user function of the mechanism is not defined here, as a table "
@@ -142,7 +111,7 @@ static zd_block *take(zd_arena *arena, size_t size, const zd_block_layout *layou
 static zd_block *copy_of(const double *word, size_t size, zd_complaint to)
 {
     zd_block_layout layout;
-    if (!zd_block_split(word, size / sizeof *word, &layout, to)) return NULL;
+    if (!zd_block_split(word, size / sizeof *word, dimensions, &layout, to)) return NULL;
     const int longest = zd_block_laws_check(&layout, to);
     if (longest < 0) return NULL;
     zd_arena counting = {NULL, 0};
@@ -155,7 +124,7 @@ static zd_block *copy_of(const double *word, size_t size, zd_complaint to)
     zd_block *self = take(&arena, size, &layout, longest);
     memcpy(self->word, word, size);
     self->size = size;
-    zd_block_split(self->word, size / sizeof *word, &self->layout, to);
+    zd_block_split(self->word, size / sizeof *word, dimensions, &self->layout, to);
     self->laws.layout = self->names.layout = &self->layout;
     return self;
 }
@@ -186,8 +155,7 @@ zd_block *zd_block_create(const void *data, size_t size, char *message, int mess
 
 void zd_block_free(zd_block *block)
 {
-    if (block && block->plane) zd_plane_free(block->plane);
-    if (block && block->space) zd_space_free(block->space);
+    if (block && block->mechanism) block->layout.of->release(block->mechanism);
     zd_release(block);
 }
 

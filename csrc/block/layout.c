@@ -15,14 +15,19 @@ int zd_block_is_whole(double word, double low, double end)
     return word >= low && word < end && word == floor(word);
 }
 
-static int width_of(int dimension, int section)
+const zd_block_structure *zd_block_structure_in(const zd_block_layout *layout, int section)
+{
+    return section >= ZD_BLOCK_BODIES && section <= ZD_BLOCK_QUANTITIES ? layout->of->structure + section : zd_block_structure_of(section);
+}
+
+static int width_of(const zd_block_layout *layout, int section)
 {
     static const int width[ZD_BLOCK_SECTIONS] = {
         [ZD_BLOCK_GRAVITY] = 1, [ZD_BLOCK_LAWS] = 4, [ZD_BLOCK_INSTRUCTIONS] = 4, [ZD_BLOCK_SPLINES] = 2, [ZD_BLOCK_KNOTS] = 5,
         [ZD_BLOCK_START] = 1, [ZD_BLOCK_OUTPUTS] = 1, [ZD_BLOCK_INPUTS] = 4, [ZD_BLOCK_SETTINGS] = 9,
         [ZD_BLOCK_METHODS] = 2 + ZD_ROW_VALUES, [ZD_BLOCK_NAMES] = 1, [ZD_BLOCK_PARAMETERS] = 5, [ZD_BLOCK_EFFECTS] = 3,
         [ZD_BLOCK_PRODUCTS] = 7, [ZD_BLOCK_TEXTS] = 1};
-    const zd_block_structure *structure = zd_block_structure_of(dimension, section);
+    const zd_block_structure *structure = zd_block_structure_in(layout, section);
     if (!structure) return width[section];
     int words = 0;
     for (const zd_block_field *field = structure->field; field->member; field++) words += field->count;
@@ -35,7 +40,16 @@ static int header_is_right(const double *word, size_t words, zd_complaint to)
     if (memcmp(word, "zdblock", sizeof *word)) return zd_complain(to, "a block must begin with \"zdblock\"");
     if (word[1] != ZD_BLOCK_VERSION) return zd_complain(to, "the version of the block must be %d, not %g", ZD_BLOCK_VERSION, word[1]);
     if (word[2] != (double)words) return zd_complain(to, "the block must have the %g words that its header counts, not %g", word[2], (double)words);
-    return word[3] == 2 || word[3] == 3 || zd_complain(to, "the dimension of the block must be 2 or 3, not %g", word[3]);
+    return 1;
+}
+
+/* Mechanisms of the block's dimension; NULL: this core has none. */
+static const zd_block_dimension *dimension_of(const zd_block_dimension *const *known, double dimension, zd_complaint to)
+{
+    for (int i = 0; known[i]; i++)
+        if (known[i]->dimension == dimension) return known[i];
+    zd_complain(to, "the dimension of the block must be 2 or 3, and one that this core is built for, not %g", dimension);
+    return NULL;
 }
 
 static int place_sections(const double *word, size_t words, zd_block_layout *to, zd_complaint complaint)
@@ -43,7 +57,7 @@ static int place_sections(const double *word, size_t words, zd_block_layout *to,
     size_t at = ZD_BLOCK_HEADER;
     for (int section = 0; section < ZD_BLOCK_SECTIONS; section++) {
         const double count = word[4 + section];
-        const int width = width_of(to->dimension, section);
+        const int width = width_of(to, section);
         if (!zd_block_is_whole(count, 0, LARGEST) || (size_t)count * (size_t)width > words - at)
             return zd_complain(complaint, "the number of %s of the block must fit in it, and is %g", name_of_section[section], count);
         to->part[section] = (zd_block_part){(int)count, width, word + at};
@@ -64,12 +78,13 @@ static int numbers_are_finite(const zd_block_layout *layout, zd_complaint to)
     return 1;
 }
 
-int zd_block_split(const double *word, size_t words, zd_block_layout *to, zd_complaint complaint)
+int zd_block_split(const double *word, size_t words, const zd_block_dimension *const *known, zd_block_layout *to, zd_complaint complaint)
 {
     if (!header_is_right(word, words, complaint)) return 0;
-    to->dimension = (int)word[3];
-    if (!place_sections(word, words, to, complaint) || !numbers_are_finite(to, complaint)) return 0;
-    if (to->part[ZD_BLOCK_GRAVITY].count != to->dimension) return zd_complain(complaint, "gravity must have %d components", to->dimension);
+    to->of = dimension_of(known, word[3], complaint);
+    if (!to->of || !place_sections(word, words, to, complaint) || !numbers_are_finite(to, complaint)) return 0;
+    if (to->part[ZD_BLOCK_GRAVITY].count != to->of->dimension)
+        return zd_complain(complaint, "gravity must have %d components", to->of->dimension);
     const zd_block_part *texts = to->part + ZD_BLOCK_TEXTS;
     if (texts->count && ((const char *)(texts->word + texts->count))[-1])
         return zd_complain(complaint, "the texts of the block must end with a zero byte");
@@ -102,7 +117,7 @@ static int unpack_field(const zd_block_layout *layout, const zd_block_field *fie
 
 int zd_block_unpack(const zd_block_layout *layout, int section, void *to, zd_complaint complaint)
 {
-    const zd_block_structure *structure = zd_block_structure_of(layout->dimension, section);
+    const zd_block_structure *structure = zd_block_structure_in(layout, section);
     const zd_block_part *part = layout->part + section;
     const double *word = part->word;
     unsigned char *entry = to;

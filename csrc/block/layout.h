@@ -12,13 +12,28 @@ typedef struct zd_block_part {
     const double *word;         /* (count, width) */
 } zd_block_part;
 
+typedef struct zd_block_dimension zd_block_dimension;
+
 typedef struct zd_block_layout {
-    int dimension;
+    const zd_block_dimension *of;
     zd_block_part part[ZD_BLOCK_SECTIONS];
 } zd_block_layout;
 
-/* Splits (words,) into sections, and checks counts, numbers and texts; returns 0 with the reason otherwise. */
-int zd_block_split(const double *word, size_t words, zd_block_layout *to, zd_complaint complaint);
+/* Mechanisms of a dimension: an entry of ZD_DIMENSION_LIST. */
+struct zd_block_dimension {
+    int dimension;
+    const zd_block_structure *structure;    /* of bodies, joints and marker quantities, by section */
+    /* The mechanism and its system, from the unpacked entries of each section. Returns 0 with the reason on failure. */
+    int (*make)(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to);
+    void (*release)(void *mechanism);
+    void (*name_row)(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size);
+};
+
+/* Structure of the entries of a section; NULL: they are read as words. */
+const zd_block_structure *zd_block_structure_in(const zd_block_layout *layout, int section);
+/* Splits (words,) into sections, and checks counts, numbers and texts; returns 0 with the reason otherwise. `known` are the dimensions that
+ * a block may have; the last one is NULL. */
+int zd_block_split(const double *word, size_t words, const zd_block_dimension *const *known, zd_block_layout *to, zd_complaint complaint);
 /* to (count,) <- entries of a section. Returns 0 if a whole number is not one. */
 int zd_block_unpack(const zd_block_layout *layout, int section, void *to, zd_complaint complaint);
 /* True if the word is a whole number from `low` on and below `end`. */

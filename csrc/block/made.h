@@ -2,8 +2,6 @@
 #ifndef ZD_BLOCK_MADE_H
 #define ZD_BLOCK_MADE_H
 
-#include "../mechanisms/plane/tables.h"
-#include "../mechanisms/space_tree/tree.h"
 #include "laws.h"
 #include "names.h"
 
@@ -13,8 +11,7 @@ struct zd_block {
     zd_block_layout layout;
     zd_block_laws laws;
     zd_block_names names;
-    zd_plane *plane;            /* one of the two; NULL: the other */
-    zd_space *space;
+    void *mechanism;            /* zd_plane or zd_space */
     zd_relation *row;           /* (m,) planned rows of the mechanism */
     zd_generalized_force *force;
     int *output;                /* (outputs,) */

@@ -3,9 +3,6 @@
 
 #include <stdio.h>
 
-#include "../mechanisms/plane/joints/joint.h"
-#include "../mechanisms/space/joints/joint.h"
-
 static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
 
 int zd_block_names_check(const zd_block_layout *layout, zd_complaint to)
@@ -16,25 +13,6 @@ int zd_block_names_check(const zd_block_layout *layout, zd_complaint to)
     for (int i = 0; i < names; i++)
         if (!zd_block_text(layout, *zd_block_entry(layout, ZD_BLOCK_NAMES, i))) return zd_complain(to, "name %d: its text must exist", i);
     return 1;
-}
-
-static void name_in_plane(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
-{
-    static const char *const word[] = {"x", "y", "angle", "along", "across", "distance", "glide", "skid"};
-    const zd_plane_joint_kind *kind = zd_plane_joint_kind_of((int)*zd_block_entry(layout, ZD_BLOCK_JOINTS, joint));
-    if (kind->rows == 1) snprintf(to, size, "%s", name);
-    else snprintf(to, size, "%s.%s", name, word[kind->row[component].quantity]);
-}
-
-static void name_in_space(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
-{
-    static const char *const axis[] = {"x", "y", "z"}, *const direction[] = {"axis", "normal", "third"};
-    const zd_space_joint_kind *kind = zd_space_joint_kind_of((int)*zd_block_entry(layout, ZD_BLOCK_JOINTS, joint));
-    const zd_space_pick *pick = &kind->row[component].pick;
-    const int of = pick->quantity == ZD_SPACE_COSINE ? 3 - pick->of_first - pick->of_second : pick->of_first;
-    if (kind->rows == 1) snprintf(to, size, "%s", name);
-    else if (pick->quantity <= ZD_SPACE_Z) snprintf(to, size, "%s.%s", name, axis[pick->quantity]);
-    else snprintf(to, size, "%s.%s %s", name, pick->quantity == ZD_SPACE_COSINE ? "about" : "along", of >= 0 && of < 3 ? direction[of] : "");
 }
 
 void zd_block_name_row(const void *names, int row, char *to, int size)
@@ -48,6 +26,5 @@ void zd_block_name_row(const void *names, int row, char *to, int size)
     if (!count_of(layout, ZD_BLOCK_NAMES)) return;
     const char *name = zd_block_text(layout, *zd_block_entry(layout, ZD_BLOCK_NAMES, before + owner->index));
     if (!is_of_joint) snprintf(to, (size_t)size, "%s", name);
-    else if (layout->dimension == 2) name_in_plane(layout, owner->index, owner->component, name, to, (size_t)size);
-    else name_in_space(layout, owner->index, owner->component, name, to, (size_t)size);
+    else layout->of->name_row(layout, owner->index, owner->component, name, to, (size_t)size);
 }

@@ -18,7 +18,14 @@ typedef struct zd_block_structure {
     const zd_block_field *field;    /* ended by ZD_MEMBER_END */
 } zd_block_structure;
 
-/* Structure of the entries of a section; NULL: they are read as words. */
-const zd_block_structure *zd_block_structure_of(int dimension, int section);
+/* Structure of the terms, relations, forces or measures. */
+const zd_block_structure *zd_block_structure_of(int section);
+
+/* Members of a structure. */
+#define ZD_DOUBLES_FIELD(type, member, count) {ZD_MEMBER_DOUBLES, offsetof(type, member), count}
+#define ZD_INT_FIELD(type, member) {ZD_MEMBER_INT, offsetof(type, member), 1}
+#define ZD_TEXT_FIELD(type, member) {ZD_MEMBER_TEXT, offsetof(type, member), 1}
+#define ZD_END_FIELD {ZD_MEMBER_END, 0, 0}
+#define ZD_STRUCTURE(type, ...) {sizeof(type), (const zd_block_field[]){__VA_ARGS__, ZD_END_FIELD}}
 
 #endif

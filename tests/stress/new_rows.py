@@ -2,7 +2,7 @@
 
     python tests/stress/new_rows.py [FOLDER]        prints a table; some minutes
 
-A new entry is a new file and one word in `registry.c`, a new kind of joint a file and one word in `joints/table.c`, and a new
+A new entry is a new file and one word in `methods.h`, a new kind of joint a file and one word in `joints/table.c`, and a new
 term one line in `system.h`. The tests that run were not written for them: they are parametrized over the core's tables, and
 selected by the new names. The entries are small, but each one that can have parameters has one. The joints, in the plane and in
 space, are then used from Python, and compared with the same mechanism made of existing joints and constraints. The declarations
@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", "*.so", ".pytest_cache", ".hypothesis", ".venv")
 PLANE = "csrc/mechanisms/plane/joints"
 SPACE = "csrc/mechanisms/space/joints"
-REGISTRY, INTERFACE, JOINTS = "csrc/registry.c", "csrc/include/zerodrift/system.h", f"{PLANE}/table.c"
+REGISTRY, INTERFACE, JOINTS = "csrc/methods.h", "csrc/include/zerodrift/system.h", f"{PLANE}/table.c"
 
 INTEGRATOR = r"""
 /* Explicit Runge-Kutta methods with two stages, of which the second is a part theta of the step away. */

@@ -147,7 +147,7 @@ class BlockCore(CoreSystem):
         to = ffi.new("char[]", MESSAGE_SIZE)
 
         def name(row: int) -> str:
-            self.c.name_row(self.c.names, row, to, MESSAGE_SIZE)
+            self.c.name_constraint(self.c.names, row, to, MESSAGE_SIZE)
             return text(to)
 
         return [name(row) for row in range(self.m)]

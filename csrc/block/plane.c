@@ -1,0 +1,59 @@
+/* Blocks of mechanisms in the plane. */
+#include "made.h"
+
+#include <stdio.h>
+
+#include "../mechanisms/plane/tables.h"
+
+#define BODY(member, count) ZD_DOUBLES_FIELD(zd_plane_body, member, count)
+#define BODY_INT(member) ZD_INT_FIELD(zd_plane_body, member)
+#define JOINT(member, count) ZD_DOUBLES_FIELD(zd_plane_joint, member, count)
+#define JOINT_INT(member) ZD_INT_FIELD(zd_plane_joint, member)
+#define QUANTITY(member, count) ZD_DOUBLES_FIELD(zd_plane_quantity, member, count)
+#define QUANTITY_INT(member) ZD_INT_FIELD(zd_plane_quantity, member)
+
+static const zd_block_structure structure[] = {
+    [ZD_BLOCK_BODIES] = ZD_STRUCTURE(zd_plane_body,
+        BODY(mass, 1), BODY(inertia, 1), BODY_INT(is_particle), BODY_INT(inboard)),
+    [ZD_BLOCK_JOINTS] = ZD_STRUCTURE(zd_plane_joint,
+        JOINT_INT(kind), JOINT_INT(first), JOINT_INT(second), JOINT(point1, 2), JOINT(point2, 2), JOINT(axis, 2), JOINT(along, 1),
+        JOINT(across, 1), JOINT(angle, 1), JOINT(length, 1)),
+    [ZD_BLOCK_QUANTITIES] = ZD_STRUCTURE(zd_plane_quantity,
+        QUANTITY_INT(kind), QUANTITY_INT(first), QUANTITY_INT(second), QUANTITY(point1, 2), QUANTITY(point2, 2), QUANTITY(axis,
+        2), QUANTITY(zero, 1)),
+};
+
+static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
+
+static int make(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to)
+{
+    const zd_block_layout *layout = &self->layout;
+    const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
+    const zd_plane_tables tables = {
+        .gravity = {gravity[0], gravity[1]}, .bodies = count_of(layout, ZD_BLOCK_BODIES), .joints = count_of(layout, ZD_BLOCK_JOINTS),
+        .quantities = count_of(layout, ZD_BLOCK_QUANTITIES), .body = section[ZD_BLOCK_BODIES], .joint = section[ZD_BLOCK_JOINTS],
+        .quantity = section[ZD_BLOCK_QUANTITIES], .elements = *elements};
+    zd_plane *plane = zd_plane_create(&tables, to.message, to.size);
+    self->mechanism = plane;
+    if (!plane) return 0;
+    const zd_plane_plan plan = zd_plane_planned(plane);
+    self->row = (zd_relation *)(uintptr_t)plan.row;
+    self->force = (zd_generalized_force *)(uintptr_t)plan.force;
+    self->names.owner = zd_plane_rows(plane);
+    self->system = *zd_plane_system(plane);
+    return 1;
+}
+
+static void release(void *mechanism) { zd_plane_free(mechanism); }
+
+static void name_row(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
+{
+    static const char *const word[] = {"x", "y", "angle", "along", "across", "distance", "glide", "skid"};
+    const zd_plane_joint_kind *kind = zd_plane_joint_kind_of((int)*zd_block_entry(layout, ZD_BLOCK_JOINTS, joint));
+    if (kind->rows == 1) snprintf(to, size, "%s", name);
+    else snprintf(to, size, "%s.%s", name, word[kind->row[component].quantity]);
+}
+
+const zd_block_dimension zd_block_plane = {
+    .dimension = 2, .structure = structure, .make = make, .release = release, .name_row = name_row,
+};

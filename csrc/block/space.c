@@ -1,0 +1,65 @@
+/* Blocks of mechanisms in space. */
+#include "made.h"
+
+#include <stdio.h>
+
+#include "../mechanisms/space_tree/tree.h"
+
+#define BODY(member, count) ZD_DOUBLES_FIELD(zd_space_body, member, count)
+#define BODY_INT(member) ZD_INT_FIELD(zd_space_body, member)
+#define JOINT(member, count) ZD_DOUBLES_FIELD(zd_space_joint, member, count)
+#define JOINT_INT(member) ZD_INT_FIELD(zd_space_joint, member)
+#define QUANTITY(member, count) ZD_DOUBLES_FIELD(zd_space_quantity, member, count)
+#define QUANTITY_INT(member) ZD_INT_FIELD(zd_space_quantity, member)
+
+static const zd_block_structure structure[] = {
+    [ZD_BLOCK_BODIES] = ZD_STRUCTURE(zd_space_body,
+        BODY(mass, 1), BODY(inertia, 3), BODY_INT(is_particle), BODY_INT(inboard)),
+    [ZD_BLOCK_JOINTS] = ZD_STRUCTURE(zd_space_joint,
+        JOINT_INT(kind), JOINT_INT(first), JOINT_INT(second), JOINT(point1, 3), JOINT(point2, 3), JOINT(frame1, 9), JOINT(frame2,
+        9), JOINT(semiaxes, 3), JOINT(along, 1), JOINT(length, 1)),
+    [ZD_BLOCK_QUANTITIES] = ZD_STRUCTURE(zd_space_quantity,
+        QUANTITY_INT(kind), QUANTITY_INT(first), QUANTITY_INT(second), QUANTITY(point1, 3), QUANTITY(point2, 3), QUANTITY(a, 3),
+        QUANTITY(o, 3), QUANTITY(b, 3), QUANTITY(shape, 9), QUANTITY(zero, 1), QUANTITY_INT(counted)),
+};
+
+static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
+
+static int make(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to)
+{
+    const zd_block_layout *layout = &self->layout;
+    const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
+    const zd_space_tables tables = {
+        .gravity = {gravity[0], gravity[1], gravity[2]}, .bodies = count_of(layout, ZD_BLOCK_BODIES),
+        .joints = count_of(layout, ZD_BLOCK_JOINTS), .quantities = count_of(layout, ZD_BLOCK_QUANTITIES),
+        .body = section[ZD_BLOCK_BODIES], .joint = section[ZD_BLOCK_JOINTS], .quantity = section[ZD_BLOCK_QUANTITIES],
+        .elements = *elements};
+    int has_tree = 0;
+    for (int i = 0; i < tables.bodies; i++) has_tree |= tables.body[i].inboard >= 0;
+    zd_space *space = (has_tree ? zd_space_tree_create : zd_space_create)(&tables, to.message, to.size);
+    self->mechanism = space;
+    if (!space) return 0;
+    const zd_space_plan plan = zd_space_planned(space);
+    self->row = (zd_relation *)(uintptr_t)plan.row;
+    self->force = (zd_generalized_force *)(uintptr_t)plan.force;
+    self->names.owner = zd_space_rows(space);
+    self->system = *zd_space_system(space);
+    return 1;
+}
+
+static void release(void *mechanism) { zd_space_free(mechanism); }
+
+static void name_row(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
+{
+    static const char *const axis[] = {"x", "y", "z"}, *const direction[] = {"axis", "normal", "third"};
+    const zd_space_joint_kind *kind = zd_space_joint_kind_of((int)*zd_block_entry(layout, ZD_BLOCK_JOINTS, joint));
+    const zd_space_pick *pick = &kind->row[component].pick;
+    const int of = pick->quantity == ZD_SPACE_COSINE ? 3 - pick->of_first - pick->of_second : pick->of_first;
+    if (kind->rows == 1) snprintf(to, size, "%s", name);
+    else if (pick->quantity <= ZD_SPACE_Z) snprintf(to, size, "%s.%s", name, axis[pick->quantity]);
+    else snprintf(to, size, "%s.%s %s", name, pick->quantity == ZD_SPACE_COSINE ? "about" : "along", of >= 0 && of < 3 ? direction[of] : "");
+}
+
+const zd_block_dimension zd_block_space = {
+    .dimension = 3, .structure = structure, .make = make, .release = release, .name_row = name_row,
+};
