@@ -48,6 +48,7 @@ class BuildPy(build_py):
         super().run()
         if not self.editable_mode:      # there zerodrift.get_include() finds it where it is
             self.copy_tree("csrc/include", f"{self.build_lib}/zerodrift/include")
+            self.copy_tree("csrc", f"{self.build_lib}/zerodrift/csrc")      # of which zerodrift.c_source() takes files
 
 
 class SourceDistribution(sdist):

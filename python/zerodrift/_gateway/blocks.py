@@ -87,6 +87,13 @@ def methods(options: Any, texts: Texts) -> list[float]:
     return found
 
 
+def method_names(options: Any) -> dict[str, list[str]]:
+    """Names of the formulation, the integrator and the corrections of settings, by table."""
+    rows = {"formulations": [options.formulation], "integrators": [options.integrator],
+            "corrections": [row for row in range(len(cards("corrections"))) if options.correction[row].given]}
+    return {table: [text(lib.zd_row(TABLES[table], row).name) for row in found] for table, found in rows.items()}
+
+
 def settings(options: Any) -> list[float]:
     """Section with the steps of a run, from its settings."""
     names = ("t0", "step", "rtol", "atol", "first_step", "max_step", "max_move", "max_steps", "on_singular")

@@ -1,0 +1,101 @@
+"""`zd.c_source`: a mechanism as plain C, for embedded use and hardware in the loop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .. import _check
+from .._gateway import blocks
+from .block import Chosen, choose, written
+from .core_files import CoreFiles, entry
+
+
+def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[Any] = (), p0: Any = None, v0: Any = None,
+             t0: float = 0.0, inputs: Sequence[str] = (), **chosen: Any) -> Path:
+    """Write a mechanism as a folder of C11 sources, with a program that simulates it.
+
+    The folder has the files of the core that this mechanism and its methods need, the mechanism as one block (see `block`)
+    in ``data.h``, and a short ``main.c``. They need a C compiler and its standard library, and nothing else; all memory is
+    allocated before the first step. ``main T`` simulates T seconds and prints t and the outputs with 17 digits, one line for each
+    step. Compiled with ``-ffp-contract=off``, its numbers have the bits of `simulate` with ``vector="baseline"``.
+
+    Parameters
+    ----------
+    system : Mechanism or its system
+    folder : str or Path
+        It is made, and must be empty or not exist.
+    step : float
+        Size of fixed steps, in s.
+    outputs : list of measures or names
+        Measures to print, vectors with all components.
+    p0, v0, t0, inputs, **chosen
+        As in `block`. Inputs are set by ``zd_block_set_input``, between steps.
+
+    Returns
+    -------
+    Path
+        The folder.
+
+    Raises
+    ------
+    FileExistsError
+        If the folder has files.
+    ValueError
+        As `block`.
+
+    Examples
+    --------
+    >>> import tempfile, zerodrift as zd
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     made = zd.c_source(zd.models.four_bar(), folder, step=0.01, outputs=["crank.angle"])
+    ...     sorted(path.name for path in made.iterdir() if path.suffix in (".c", ".h"))[:3]
+    ['data.h', 'main.c', 'methods.h']
+    """
+    step = _check.number("step", step, above=0)
+    made = choose(system, p0, v0, t0, step, outputs, inputs, chosen)
+    folder = Path(folder)
+    if folder.exists() and any(folder.iterdir()):
+        raise FileExistsError(f"the folder must be empty or not exist, and {folder} has files")
+    write_core(made, folder)
+    (folder / "main.c").write_text(resources.files(__package__).joinpath("main.c").read_text(encoding="utf-8"), encoding="utf-8")
+    return folder
+
+
+def write_core(made: Chosen, folder: Path) -> None:
+    """Write the files of the core that these choices need, and the block."""
+    core_of(made).write(folder)
+    (folder / "data.h").write_text(data(made), encoding="utf-8")
+
+
+def core_of(made: Chosen) -> CoreFiles:
+    """Files of the core for the methods and the dimension of these choices."""
+    names = blocks.method_names(made.options)
+    dimension = {2: "zd_block_plane", 3: "zd_block_space"}[made.system._drawing.dimension]
+    return CoreFiles({
+        "SYSTEM": (), "FORMULATION": [entry("FORMULATION", *names["formulations"])],
+        "INTEGRATOR": [entry("INTEGRATOR", *names["integrators"])],
+        "CORRECTION": [entry("CORRECTION", name) for name in names["corrections"]], "DIMENSION": [dimension]})
+
+
+def data(made: Chosen) -> str:
+    """Header with the block and its sizes."""
+    system, words = made.system, np.frombuffer(written(made), "<u8")
+    sizes = [system._watching.core.measure_size(system._watching.number[name]) for name in made.outputs or ()]
+    counts = {"NQ": system.nq, "NV": system.nv, "M": system.m, "OUTPUTS": sum(sizes)}
+    names = " ".join(f"{name}[{size}]" if size > 1 else name for name, size in zip(made.outputs or (), sizes, strict=True))
+    lines = [", ".join(f"0x{word:016x}" for word in words[i:i + 6]) for i in range(0, len(words), 6)]
+    return "\n".join([
+        f"/* Mechanism {_words(system.name)} as words of eight bytes, see block/block.h. Outputs: {_words(names)} */",
+        "#include <stdint.h>", "",
+        f"enum {{ {', '.join(f'{name} = {count}' for name, count in counts.items())} }};", "",
+        f"static const uint64_t block_words[{len(words)}] = {{", *(f"    {line}," for line in lines), "};", ""])
+
+
+def _words(text: str) -> str:
+    """Text that cannot end a comment."""
+    return text.replace("*/", "* /").replace("/*", "/ *").replace("\\", "/").replace("\n", " ")

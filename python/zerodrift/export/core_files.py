@@ -1,0 +1,141 @@
+"""Files of the core that a program with few methods needs: all that its entry points use, found in their text."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Iterable, Mapping
+from pathlib import Path, PurePosixPath
+
+METHODS = "methods.h"       # the lists of the core's tables
+ENTRIES = ("block/create.c", "block/settings.c", "block/inputs.c", "simulate.c", "run/create.c", "operations.c")
+NAME = re.compile(r"\bzd_\w+")
+DEFINITION = re.compile(r"^(?!static|typedef|extern|#)[A-Za-z][\w *]*?\b(zd_\w+)(?:\(|(?:\[\w*\])? = )", re.MULTILINE)
+INCLUDE = re.compile(r'^#include "(.+)"', re.MULTILINE)
+DECLARATION = re.compile(r"^(?!static)[A-Za-z][^;{}=]*\([^;{}]*\);", re.MULTILINE)
+COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
+
+
+@functools.cache
+def folder() -> Path:
+    """Folder of the core's sources: in the package, or in the source tree."""
+    here = Path(__file__).resolve()
+    in_source_tree = here.parents[3] / "csrc"
+    found = in_source_tree if in_source_tree.is_dir() else here.parents[1] / "csrc"
+    if not (found / "zerodrift.h").is_file():
+        raise FileNotFoundError(f"the sources of the core must be in {found}: install zerodrift again")
+    return found
+
+
+@functools.cache
+def _texts() -> dict[str, str]:
+    """Text of each file without comments, by its path."""
+    top = folder()
+    return {path.relative_to(top).as_posix(): COMMENT.sub("", path.read_text(encoding="utf-8")) for path in top.rglob("*.[ch]")
+            if "python" not in path.relative_to(top).parts}
+
+
+@functools.cache
+def _definitions() -> dict[str, str]:
+    """File in which each function or table is defined."""
+    return {name: path for path, text in _texts().items() if path.endswith(".c") for name in DEFINITION.findall(text)}
+
+
+@functools.cache
+def _included(path: str) -> frozenset[str]:
+    """Headers that a file includes, and those that they include."""
+    found, waiting = set(), [path]
+    while waiting:
+        one = waiting.pop()
+        for name in INCLUDE.findall(_texts()[one]):
+            beside = _normal(PurePosixPath(one).parent / name)
+            header = beside if beside in _texts() else name
+            if header not in found:
+                found.add(header)
+                waiting.append(header)
+    return frozenset(found)
+
+
+def _normal(path: PurePosixPath) -> str:
+    parts: list[str] = []
+    for part in path.parts:
+        parts = parts[:-1] if part == ".." else [*parts, part]
+    return "/".join(parts)
+
+
+@functools.cache
+def _used(path: str) -> frozenset[str]:
+    """Names that a source uses, with those in inline functions of the headers it includes; declarations are no use."""
+    texts = [_texts()[path], *(DECLARATION.sub("", _texts()[header]) for header in _included(path) if header != METHODS)]
+    return frozenset(name for text in texts for name in NAME.findall(text))
+
+
+class CoreFiles:
+    """Core with some of its methods, and mechanisms of some dimensions.
+
+    Parameters
+    ----------
+    lists : dict of str to sequences of str
+        Entries of the lists of ``methods.h`` that are kept, such as ``{"INTEGRATOR": ["zd_rk4"]}``; others stay whole.
+    entries : sequence of str
+        Sources that the program needs.
+    """
+
+    def __init__(self, lists: Mapping[str, Iterable[str]], entries: Iterable[str] = ENTRIES) -> None:
+        self.lists = {**_lists(), **{name: tuple(kept) for name, kept in lists.items()}}
+        self.sources = self._closure(entries)
+
+    def _closure(self, entries: Iterable[str]) -> list[str]:
+        tables = {name for kept in self.lists.values() for name in kept}
+        defined, found = _definitions(), set()
+        waiting = [*entries, *(defined[name] for name in tables)]
+        while waiting:
+            path = waiting.pop()
+            if path not in found:
+                found.add(path)
+                waiting += [defined[name] for name in _used(path) if name in defined and defined[name] not in found]
+        return sorted(found)
+
+    @property
+    def methods(self) -> str:
+        """Text of ``methods.h`` with these lists."""
+        lines = [f"#define ZD_{name}_LIST(X) {' '.join(f'X({entry})' for entry in kept)}".rstrip()
+                 for name, kept in self.lists.items()]
+        return "\n".join(["/* Entries of the tables of this program. */", "#ifndef ZD_METHODS_H", "#define ZD_METHODS_H", "",
+                          *lines, "", "#endif", ""])
+
+    def write(self, to: Path) -> None:
+        """Write sources and headers into a folder."""
+        headers = {header for source in self.sources for header in _included(source)}
+        for path in sorted({*self.sources, *headers}):
+            target = to / path
+            target.parent.mkdir(parents=True, exist_ok=True)
+            text = self.methods if path == METHODS else (folder() / path).read_text(encoding="utf-8")
+            target.write_text(text, encoding="utf-8")
+
+
+@functools.cache
+def _lists() -> dict[str, tuple[str, ...]]:
+    """Lists of the core's tables."""
+    text = _texts()[METHODS].replace("\\\n", " ")
+    return {name: tuple(re.findall(r"X\((zd_\w+)\)", entries))
+            for name, entries in re.findall(r"^#define ZD_(\w+)_LIST\(X\)(.*)$", text, re.MULTILINE)}
+
+
+@functools.cache
+def _names() -> dict[str, dict[str, str]]:
+    """Entries of each list by the name on their card."""
+    defined, texts = _definitions(), _texts()
+    found: dict[str, dict[str, str]] = {}
+    for kind, entries in _lists().items():
+        for entry in entries:
+            text = texts[defined[entry]]
+            card = re.search(rf"\b{entry} = .*?\.name = \"(\w+)\"", text, re.DOTALL)
+            if card:
+                found.setdefault(kind, {})[card[1]] = entry
+    return found
+
+
+def entry(kind: str, name: str) -> str:
+    """Entry of a list, such as ``"INTEGRATOR"``, by the name of the method."""
+    return _names()[kind][name]

@@ -1,0 +1,96 @@
+"""`zd.c_source`: sources that compile without warnings, print the numbers of `simulate` to the bit, and allocate before the first step."""
+
+import os
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from core_objects import needs_compiler
+
+CC = os.environ.get("CC", "cc")
+STRICT = ("-std=c11", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wstrict-prototypes", "-Werror")
+ALLOCATED = """
+#include <stdio.h>
+#include <stdlib.h>
+static long count;
+void *__real_aligned_alloc(size_t alignment, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size) { count++; return __real_aligned_alloc(alignment, size); }
+static void report(void) { fprintf(stderr, "%ld allocations\\n", count); }
+__attribute__((constructor)) static void begin(void) { atexit(report); }
+"""
+
+
+def built(folder, *options, compiler=(CC,)):
+    """Program of all sources below a folder."""
+    sources = sorted(folder.rglob("*.c"))
+
+    def compile_one(source):
+        target = source.with_suffix(".o")
+        subprocess.run([*compiler, "-O0", *STRICT, "-c", "-I", folder, "-o", target, source], check=True)
+        return target
+
+    with ThreadPoolExecutor(2) as pool:
+        objects = list(pool.map(compile_one, sources))
+    subprocess.run([*compiler, "-o", folder / "main", *objects, *options, "-lm"], check=True)
+    return folder / "main"
+
+
+def printed(program, duration):
+    """Numbers that the program prints, one row for each sample, and what it writes besides."""
+    result = subprocess.run([program, str(duration)], capture_output=True, text=True, check=True)
+    return np.array([[float(word) for word in line.split()] for line in result.stdout.splitlines()]), result.stderr
+
+
+@needs_compiler
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="wraps the allocation by the linker of GNU")
+def test_a_crank_has_the_bits_of_simulate_and_allocates_before_its_steps(tmp_path):
+    names = ["crank.angle", "pin.force"]
+    folder = zd.c_source(zd.models.slider_crank(), tmp_path / "crank", step=1e-3, outputs=names, energy=True)
+    (folder / "allocated.c").write_text(ALLOCATED)
+    program = built(folder, "-Wl,--wrap=aligned_alloc")
+    sol = zd.simulate(zd.models.slider_crank(), 1.0, step=1e-3, outputs=names, energy=True, vector="baseline")
+    rows, told = printed(program, 1.0)
+    np.testing.assert_array_equal(rows, np.column_stack([sol.t, *(sol[name] for name in names)]))
+    assert told == printed(program, 0.01)[1] != "0 allocations\n"
+
+
+@needs_compiler
+def test_a_disc_in_space_has_the_bits_of_simulate(tmp_path):
+    folder = zd.c_source(zd.models.rolling_disc(), tmp_path / "disc", step=1e-3, outputs=["disc.position"], integrator="heun")
+    sol = zd.simulate(zd.models.rolling_disc(), 0.5, step=1e-3, outputs=["disc.position"], integrator="heun", vector="baseline")
+    rows, _ = printed(built(folder), 0.5)
+    np.testing.assert_array_equal(rows, np.column_stack([sol.t, sol["disc.position"]]))
+
+
+def test_clang_compiles_it_without_warnings(tmp_path):
+    """The first of the compilers `clang` and `zig cc` that is there."""
+    clang = shutil.which("clang")
+    if not clang:
+        pytest.importorskip("ziglang")
+    compiler = (clang,) if clang else (sys.executable, "-m", "ziglang", "cc")
+    folder = zd.c_source(zd.models.four_bar(), tmp_path / "bar", step=1e-2)
+    for source in ("main.c", "block/create.c", "block/laws.c", "simulate.c", "registry.c"):
+        subprocess.run([*compiler, *STRICT, "-c", "-I", folder, "-o", tmp_path / "one.o", folder / source], check=True)
+
+
+def test_the_folder_has_what_the_mechanism_needs_and_no_more(tmp_path):
+    folder = zd.c_source(zd.models.four_bar(), tmp_path / "bar", step=1e-2, integrator="rk4")
+    files = {path.relative_to(folder).as_posix() for path in folder.rglob("*.c")}
+    assert {"main.c", "block/plane.c", "integrators/rk4.c", "formulations/schur.c", "corrections/projection.c"} <= files
+    assert not files & {"block/space.c", "integrators/radau.c", "formulations/mixed.c", "batch/lanes.c", "systems/four_bar.c"}
+    with pytest.raises(FileExistsError, match="the folder must be empty or not exist"):
+        zd.c_source(zd.models.four_bar(), folder, step=1e-2)
+
+
+def test_names_of_the_mechanism_cannot_end_a_comment(tmp_path):
+    m = zd.Mechanism("a */ int x; /*")
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.revolute("pin", m.ground, link.start)
+    first, *_ = (zd.c_source(m, tmp_path / "named", step=1e-2) / "data.h").read_text().splitlines()
+    assert first.count("*/") == 1
+    assert first.endswith("*/")
