@@ -48,7 +48,10 @@ class BuildPy(build_py):
         super().run()
         if not self.editable_mode:      # there zerodrift.get_include() finds it where it is
             self.copy_tree("csrc/include", f"{self.build_lib}/zerodrift/include")
-            self.copy_tree("csrc", f"{self.build_lib}/zerodrift/csrc")      # of which zerodrift.c_source() takes files
+            for path in sorted(Path("csrc").rglob("*.[ch]")):      # of which zerodrift.c_source() takes files
+                if not {"batch", "direct", "python"} & set(path.parts):
+                    self.mkpath(str(Path(self.build_lib, "zerodrift", path).parent))
+                    self.copy_file(str(path), str(Path(self.build_lib, "zerodrift", path)))
 
 
 class SourceDistribution(sdist):

@@ -7,8 +7,8 @@
 static const double LARGEST = 0x1p24;       /* whole number: sums of two are far from the range of int */
 
 static const char *const name_of_section[ZD_BLOCK_SECTIONS] = {
-    "gravity", "bodies", "joints", "marker quantities", "terms", "relations", "forces", "measures", "laws", "instructions", "splines", "knots",
-    "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "texts"};
+    "gravity", "bodies", "joints", "marker quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
+    "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "texts"};
 
 int zd_block_is_whole(double word, double low, double end)
 {
@@ -39,7 +39,8 @@ static int header_is_right(const double *word, size_t words, zd_complaint to)
     if (words < ZD_BLOCK_HEADER) return zd_complain(to, "a block must have at least %d words, not %g", ZD_BLOCK_HEADER, (double)words);
     if (memcmp(word, "zdblock", sizeof *word)) return zd_complain(to, "a block must begin with \"zdblock\"");
     if (word[1] != ZD_BLOCK_VERSION) return zd_complain(to, "the version of the block must be %d, not %g", ZD_BLOCK_VERSION, word[1]);
-    if (word[2] != (double)words) return zd_complain(to, "the block must have the %g words that its header counts, not %g", word[2], (double)words);
+    if (word[2] != (double)words)
+        return zd_complain(to, "the block must have the %g words that its header counts, not %g", word[2], (double)words);
     return 1;
 }
 

@@ -22,7 +22,7 @@ typedef struct zd_block_layout {
 /* Mechanisms of a dimension: an entry of ZD_DIMENSION_LIST. */
 struct zd_block_dimension {
     int dimension;
-    const zd_block_structure *structure;    /* of bodies, joints and marker quantities, by section */
+    const zd_block_structure *structure;    /* structures of bodies, joints and marker quantities, by section */
     /* The mechanism and its system, from the unpacked entries of each section. Returns 0 with the reason on failure. */
     int (*make)(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to);
     void (*release)(void *mechanism);

@@ -12,7 +12,7 @@ typedef struct zd_block_names {
 
 /* 1 without names, or if there is one of each body, joint and relation. */
 int zd_block_names_check(const zd_block_layout *layout, zd_complaint to);
-/* zd_system.name_row; `names` is a zd_block_names. */
+/* zd_system.name_constraint; `names` is a zd_block_names. */
 void zd_block_name_row(const void *names, int row, char *to, int size);
 
 #endif

@@ -1,4 +1,4 @@
-"""`zd.c_source`: sources that compile without warnings, print the numbers of `simulate` to the bit, and allocate before the first step."""
+"""`zd.c_source`: sources without warnings whose numbers are those of `simulate` to the bit, and no allocation in steps."""
 
 import os
 import shutil

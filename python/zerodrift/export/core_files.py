@@ -22,7 +22,7 @@ def folder() -> Path:
     here = Path(__file__).resolve()
     in_source_tree = here.parents[3] / "csrc"
     found = in_source_tree if in_source_tree.is_dir() else here.parents[1] / "csrc"
-    if not (found / "zerodrift.h").is_file():
+    if not (found / METHODS).is_file():
         raise FileNotFoundError(f"the sources of the core must be in {found}: install zerodrift again")
     return found
 
@@ -65,7 +65,7 @@ def _normal(path: PurePosixPath) -> str:
 
 @functools.cache
 def _used(path: str) -> frozenset[str]:
-    """Names that a source uses, with those in inline functions of the headers it includes; declarations are no use."""
+    """Names that a source uses, with those in inline functions of the headers it includes, without declarations."""
     texts = [_texts()[path], *(DECLARATION.sub("", _texts()[header]) for header in _included(path) if header != METHODS)]
     return frozenset(name for text in texts for name in NAME.findall(text))
 
