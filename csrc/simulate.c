@@ -1,10 +1,13 @@
 /* The outer loop of a run: one step, events within it, samples that are due; again until the end. */
 #include "run/explain.h"
+#include "run/goal.h"
+#include "run/inputs.h"
 #include "run/run.h"
 #include "step/clock.h"
 #include "step/step.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between readings of the clock */
+static const double SLICE = 0.03;   /* s: time slice of zd_run_step() */
 
 static int take_step(zd_run *run)
 {
@@ -38,25 +41,49 @@ static int is_over(const zd_run *run)
 /* Saves the sample of the start, or the one for which the previous record had no room. */
 static int begin(zd_run *run, zd_record *record)
 {
-    if (run->tally.start_saved && !run->output.is_waiting) return ZD_DONE;
+    if (!record || (run->tally.start_saved && !run->output.is_waiting)) return ZD_DONE;
     run->tally.start_saved = 1;
     return save(run, record);
+}
+
+/* One step with what follows it. An open run can go on after a step that failed: it returns to the start of that step. */
+static int go_on(zd_run *run, zd_record *record)
+{
+    if (run->settings.is_open) zd_run_keep_good(run);
+    int status = run->settings.inputs ? zd_inputs_begin_step(run) : ZD_DONE;
+    if (!status) status = take_step(run);
+    return status || !record ? status : save(run, record);
+}
+
+/* Explains why the run ends, or why an open run stops before its goal. */
+static int finish(zd_run *run, int status)
+{
+    zd_outcome *outcome = &run->outcome;
+    if (!status && run->watch.ended) status = ZD_EVENT;
+    if (!status || outcome->status) return outcome->status;
+    outcome->status = zd_explain(run, status);
+    if (!run->settings.is_open || outcome->status > 0) return outcome->status;
+    status = outcome->status;
+    if (!zd_run_return_to_good(run)) outcome->status = ZD_DONE;
+    return status;
 }
 
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     double deadline = zd_seconds_now() + seconds;
     const int64_t first = run->loop.step;    /* each slice makes at least one step */
-    int status = run->outcome.status;
-    if (!status) status = begin(run, record);
-    while (!status && !is_over(run)) {
+    int status = run->outcome.status ? run->outcome.status : begin(run, record);
+    if (!status && zd_inputs_read(run)) return ZD_BAD_INPUT;
+    while (!status && !is_over(run) && run->loop.step < run->goal.step) {
         const int64_t step = run->loop.step;
         if (step > first && step % CLOCK_EVERY == 0 && zd_seconds_now() >= deadline) return ZD_PAUSED;
-        status = take_step(run);
-        if (!status) status = save(run, record);
+        status = go_on(run, record);
     }
-    if (status == ZD_FULL) return status;
-    if (!status && run->watch.ended) status = ZD_EVENT;
-    if (status && !run->outcome.status) run->outcome.status = zd_explain(run, status);
-    return run->outcome.status;
+    return status == ZD_FULL ? status : finish(run, status);
+}
+
+int zd_run_step(zd_run *run, int64_t steps, zd_record *record)
+{
+    const int status = zd_run_aim(run, steps, INFINITY);
+    return status ? status : zd_run_advance(run, record, SLICE);
 }

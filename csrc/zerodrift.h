@@ -118,6 +118,26 @@ typedef struct zd_outputs {
     const int *measure;     /* (count,) indices of measures; a sample holds their components in this order */
 } zd_outputs;
 
+/* ---- inputs: numbers that the caller sets between steps ---- */
+
+typedef struct zd_input_place {
+    int input;                  /* index of the input that is written there */
+    int is_speed;               /* false: place[0] is the input. True: the speed is place[0] + place[1] (t - place[2]); it follows the
+                                 * input linearly over one step of fixed size */
+    double *place;              /* in the data of the system, which belongs to this run */
+} zd_input_place;
+
+typedef struct zd_inputs {
+    int count;
+    const double *value;        /* (count,): read at the start of each advance; the places hold the initial ones already */
+    const double *lower, *upper;    /* (count,): limits */
+    int places;
+    const zd_input_place *place;    /* (places,) */
+    int derivations;            /* functions that recompute what the system derives from its data */
+    void (*const *derive)(double *data);    /* (derivations,) */
+    double *const *data;        /* (derivations,) */
+} zd_inputs;
+
 /* ---- settings of a run ---- */
 
 enum { ZD_CORRECTIONS_MAX = 8, ZD_ROW_VALUES = 16 };
@@ -145,12 +165,15 @@ typedef struct zd_settings {
     int64_t t_evals;
     const zd_events *events;        /* NULL: none */
     const zd_outputs *outputs;      /* NULL: none */
+    const zd_inputs *inputs;        /* NULL: none */
     zd_given of_formulation, of_integrator;
     zd_given correction[ZD_CORRECTIONS_MAX];        /* parameters of each correction, in the order of their table */
     enum zd_on_singular on_singular;
     int direct;                     /* true: the closed-form path is taken if the system provides applicable closed-form functions */
     enum zd_unit vector;            /* widest vector unit that these may use */
     int given_jacobian;             /* true if C and Phi_t are hand-written: they are compared with differences of Phi at intervals */
+    int is_open;                    /* true: the run has no end, and returns to the start of a step that fails; t1 only serves the
+                                     * checks of the start, as the time scale of the motion */
 } zd_settings;
 
 /* Default parameters of a card. */
@@ -245,8 +268,23 @@ int zd_direct_unit(const zd_system *system, const zd_settings *settings);
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,
                       int *status, char *message, int message_size);
 void zd_run_free(zd_run *run);
-/* Steps until the end, a full record, or about `seconds` have passed. Slicing does not change the bits of the result. */
+/* Steps until the end, the goal, a full record, or until about `seconds` have passed. Slicing does not change the bits of the result.
+ * record NULL: no samples are saved; t_eval must not be given then. */
 int zd_run_advance(zd_run *run, zd_record *record, double seconds);
+/* Sets the goal: so many steps from the present state, or the time t if that comes first (INFINITY: none). ZD_BAD_ARGUMENT: t is before the
+ * present time. Fixed steps reach a time within rounding of a whole number of steps as t0 + k step; otherwise the last one is shortened, and
+ * further steps are counted from there. Adaptive steps end at t. */
+int zd_run_aim(zd_run *run, int64_t steps, double t);
+/* zd_run_aim() at a number of steps, and zd_run_advance() for a time slice: ZD_PAUSED after that, to be advanced further. */
+int zd_run_step(zd_run *run, int64_t steps, zd_record *record);
+/* The present state: time, p (nq,), v (nv,). The pointers stay valid as long as the run. */
+double zd_run_time(const zd_run *run);
+const double *zd_run_p(const zd_run *run);
+const double *zd_run_v(const zd_run *run);
+int64_t zd_run_step_number(const zd_run *run);              /* steps made */
+int zd_run_ended_by(const zd_run *run);                     /* index of the terminal event at which it is; -1: none */
+/* Accelerations (nv,) and multipliers (m,) at the present state, which are those of the next step's start. */
+int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers);
 double zd_run_progress(const zd_run *run);                  /* 0 ... 1 */
 const char *zd_run_message(const zd_run *run);              /* the first failure, one sentence */
 const zd_statistics *zd_run_statistics(const zd_run *run);

@@ -11,6 +11,8 @@
 #include "../paths/variables.h"
 #include "arguments.h"
 #include "explain.h"
+#include "goal.h"
+#include "inputs.h"
 #include "start.h"
 
 /* Parameters as given, or the default ones. */
@@ -82,11 +84,15 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .safeguards = &run->safeguards,
         .sizes = settings->step > 0 ? &zd_fixed_sizes : &zd_adaptive_sizes,
         .end = settings->t1,
+        .t_begin = settings->t0,
     };
     if (zd_is_adaptive(&run->loop)) run->loop.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
     run->recorder = zd_recorder_take(arena, settings, motion);
     run->output = zd_output_take(arena, settings, &run->loop, &run->recorder);
     run->watch = zd_watch_take(arena, settings->events, &run->output);
+    run->goal.step = INT64_MAX;
+    run->held = zd_inputs_take(arena, settings->inputs);
+    if (settings->is_open) run->goal.good = zd_state_take(arena, motion);
     return here;
 }
 
@@ -176,5 +182,6 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     int why = zd_run_start(run, *status, p0, v0);
     if (!why && zd_output_looks_between(&run->output)) why = zd_spread_prepare(&run->stepper);
     *status = why;
+    if (settings->is_open) zd_run_leave_open(run);
     return why ? refuse(run, why, status, message, message_size) : run;
 }

@@ -17,6 +17,19 @@ typedef struct zd_outcome { /* the end of the run, once reached */
     char message[ZD_MESSAGE];
 } zd_outcome;
 
+typedef struct zd_goal {    /* end of the present advance of an open run */
+    int64_t step;           /* number of its last step; INT64_MAX: none */
+    zd_state good;          /* start of the present step, to which a failure returns; open runs only */
+    int64_t good_step;      /* number of steps made there */
+    double good_h;          /* s: adaptive steps: size of the next step there */
+} zd_goal;
+
+typedef struct zd_held_inputs {     /* inputs of the settings, as the present step has them */
+    double *value;          /* (count,) */
+    int is_new;             /* true if they changed since the last step */
+    int has_ramp;           /* true if the last step followed a speed, which is constant in the next */
+} zd_held_inputs;
+
 struct zd_run {
     zd_settings settings;
     zd_motion motion;
@@ -28,6 +41,8 @@ struct zd_run {
     zd_watch watch;
     zd_tally tally;
     zd_outcome outcome;
+    zd_goal goal;
+    zd_held_inputs held;
 };
 
 #endif

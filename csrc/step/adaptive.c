@@ -153,7 +153,7 @@ static int begin(zd_step_loop *loop)
     if (most && loop->step > most) return ZD_TOO_MANY_STEPS;
     loop->control.norm = 0;
     loop->control.largest_factor = ZD_MAX_FACTOR;
-    loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), fabs(loop->end));
+    loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), isfinite(loop->end) ? fabs(loop->end) : 0);
     return foresee(loop);
 }
 
@@ -170,8 +170,9 @@ static void accept(zd_step_loop *loop)
 {
     const zd_integrator *integrator = loop->stepper->integrator;
     zd_control *control = &loop->control;
-    const double h = control->bounded;
+    const double h = control->bounded, intended = control->h;
     control->h = by_move(loop, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
+    if (loop->stepper->t == loop->end) control->h = fmax(control->h, intended);     /* an open run goes on as if it had not been cut */
     if (integrator->fit) control->h = integrator->fit(loop->stepper->memory, control->h);
     zd_step_histogram_step(&control->histogram, loop->stepper->t);
 }

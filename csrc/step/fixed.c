@@ -2,7 +2,6 @@
  * fails.
  */
 #include "../linalg/small.h"
-#include "clock.h"
 #include "step_loop.h"
 
 enum { MOST_PARTS = 8 };    /* largest number of parts of a step that fails */
@@ -16,10 +15,16 @@ static int next_part(zd_step_loop *loop, zd_attempt *attempt, double t1)
     return ZD_DONE;
 }
 
+/* Time at the end of a fixed step; the last one ends at `end`. Never accumulated, so that slices of a run do not change it. */
+static double time_of_step(const zd_step_loop *loop, double size)
+{
+    return loop->step == loop->steps ? loop->end : loop->t_begin + (double)(loop->step - loop->steps_before) * size;
+}
+
 static int next(zd_step_loop *loop, zd_attempt *attempt)
 {
     const zd_settings *settings = loop->settings;
-    const double t1 = zd_time_of_step(settings->t0, settings->step, loop->step, loop->steps, loop->end);
+    const double t1 = time_of_step(loop, settings->step);
     if (loop->parts) return next_part(loop, attempt, t1);
     attempt->t1 = t1;
     attempt->h = loop->step == loop->steps ? t1 - loop->stepper->t : settings->step;

@@ -59,9 +59,11 @@ struct zd_step_loop {
     zd_stepper *stepper;
     zd_safeguards *safeguards;
     const zd_step_sizes *sizes;     /* fixed or adaptive */
-    double end;             /* s: t1 of the settings, or the time of a terminal event */
+    double end;             /* s: t1 of the settings, the time of a terminal event, or that to which an open run advances; INFINITY: none */
     int64_t step;           /* number of the current step, from 1 */
-    int64_t steps;          /* number of fixed steps of the run */
+    int64_t steps;          /* number of the fixed step that ends at `end`; 0: none */
+    double t_begin;         /* s: time from which fixed steps are counted */
+    int64_t steps_before;   /* number of steps before that time */
     zd_state *undivided;    /* start of a step that is repeated in parts; NULL until there is one */
     int parts, part;        /* number of these parts, 0: the step is not divided; the current one, from 1 */
     zd_control control;

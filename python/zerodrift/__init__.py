@@ -9,7 +9,7 @@
 import importlib
 from typing import Any
 
-from . import earlier_names, systems
+from . import systems
 from .errors import (
     AccuracyWarning,
     Bifurcation,
@@ -23,6 +23,7 @@ from .errors import (
     EquilibriumFailed,
     InconsistentStart,
     InconsistentSystem,
+    InputRefused,
     Interrupted,
     InUse,
     LockedWarning,
@@ -37,6 +38,7 @@ from .errors import (
     WorkerLost,
     ZerodriftError,
 )
+from .runs.control import every
 from .runs.events import Event
 from .runs.instant import Instant
 from .runs.methods import corrections, formulations, integrators
@@ -49,28 +51,28 @@ __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
     "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "EquilibriumFailed", "Event", "InUse",
-    "InconsistentStart", "InconsistentSystem", "Instant", "Interrupted", "LockedWarning", "Mechanism", "NoCompilerWarning",
-    "Projection", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed", "Structure", "System",
-    "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError", "acceleration",
-    "assemble", "bias", "block", "c_source", "check", "compare", "corrections", "ensemble", "equilibria", "equilibrium",
-    "explore", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators", "inverse_dynamics", "jacobian",
-    "kinematics", "linearize", "linkage", "load", "mass_matrix", "models", "native", "numba_signature", "plot", "project",
-    "reach", "record_size", "reference", "simulate", "stability_map", "symbolic", "systems", "table", "trace",
-    "transmission_angle", "tune", "view", "work_precision",
+    "InconsistentStart", "InconsistentSystem", "InputRefused", "Instant", "Interrupted", "LockedWarning", "Mechanism",
+    "NoCompilerWarning", "Projection", "Run", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed",
+    "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError",
+    "acceleration", "assemble", "bias", "block", "c_source", "check", "compare", "corrections", "ensemble", "equilibria",
+    "equilibrium", "every", "explore", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators",
+    "inverse_dynamics", "jacobian", "kinematics", "linearize", "linkage", "load", "mass_matrix", "models", "native",
+    "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map", "symbolic",
+    "systems", "table", "trace", "transmission_angle", "tune", "view", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.methods", "EnergyCorrection": "runs.methods", "Mechanism": "mechanisms.mechanism",
-    "Projection": "runs.methods", "System": "systems.callables", "bias": "analysis.matrices",
-    "block": "export.block", "c_source": "export.c_source", "check": "studies.check",
-    "ensemble": "ensembles.ensemble", "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium",
-    "explore": "player.explore", "from_mechanics": "symbolics.mechanics",
-    "get_include": "systems.native", "grid": "ensembles.runs", "inverse_dynamics": "analysis.inverse_dynamics",
-    "jacobian": "analysis.matrices", "kinematics": "analysis.kinematics", "linearize": "analysis.linearize",
-    "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices", "native": "systems.native",
-    "numba_signature": "systems.native", "reach": "tracing.trace", "record_size": "runs.record_size",
-    "reference": "studies.reference", "stability_map": "studies.stability_map", "symbolic": "symbolics.define",
-    "table": "mechanisms.elements.interpolation", "trace": "tracing.trace", "transmission_angle": "tracing.transmission",
-    "tune": "studies.tune", "view": "player.view", "work_precision": "studies.work_precision",
+    "Projection": "runs.methods", "Run": "runs.run", "System": "systems.callables", "bias": "analysis.matrices",
+    "block": "export.block", "c_source": "export.c_source", "check": "studies.check", "ensemble": "ensembles.ensemble",
+    "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium", "explore": "player.explore",
+    "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "grid": "ensembles.runs",
+    "inverse_dynamics": "analysis.inverse_dynamics", "jacobian": "analysis.matrices", "kinematics": "analysis.kinematics",
+    "linearize": "analysis.linearize", "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices",
+    "native": "systems.native", "numba_signature": "systems.native", "reach": "tracing.trace",
+    "record_size": "runs.record_size", "reference": "studies.reference", "stability_map": "studies.stability_map",
+    "symbolic": "symbolics.define", "table": "mechanisms.elements.interpolation", "trace": "tracing.trace",
+    "transmission_angle": "tracing.transmission", "tune": "studies.tune", "view": "player.view",
+    "work_precision": "studies.work_precision",
 }
 
 
@@ -79,7 +81,6 @@ def _shown(solution: Solution) -> str:
     return importlib.import_module(".player.view", __name__).of_solution(solution, repr(solution))
 
 
-earlier_names.register()
 Solution._repr_html_ = _shown       # here, as runs know nothing of films
 
 

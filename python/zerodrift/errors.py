@@ -133,6 +133,12 @@ class StepFailed(ZerodriftError):
     code = "step-failed"
 
 
+class InputRefused(ZerodriftError, ValueError):
+    """An input of a run is not a finite number, or beyond its limits; the run has made no step with it."""
+
+    code = "input-refused"
+
+
 class WorkerLost(ZerodriftError):
     """An executor did not return all runs of an ensemble; `solution` is the Ensemble of those that it did return."""
 

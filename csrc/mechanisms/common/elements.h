@@ -81,6 +81,10 @@ typedef int zd_law(void *owner, int law, double t, const double *x, const double
 /* Compiled user function, with its own parameters `numbers`. */
 typedef void zd_law_function(const double *numbers, double t, const double *x, const double *xdot, double *out);
 
+/* User functions that are inputs, see zd_input_place: a generalized force, numbers (1,), and the speed of a drive, numbers (3,). */
+void zd_effort_input(const double *numbers, double t, const double *x, const double *xdot, double *out);
+void zd_speed_input(const double *numbers, double t, const double *x, const double *xdot, double *out);
+
 typedef struct zd_compiled_law {
     zd_law_function *function;  /* NULL: there is none */
     const double *numbers;

@@ -86,10 +86,10 @@ class Watcher:
     evaluates itself, or `value(t, p, v)`. Measures are those of the system `of`, which has the equations of `core`.
     """
 
-    def __init__(self, core: CoreSystem, events: Sequence[Any], of: CoreSystem | None = None) -> None:
+    def __init__(self, core: CoreSystem, events: Sequence[Any], of: CoreSystem | None = None, *, is_own: bool = False) -> None:
         self.events, self._error = events, None
         is_measured = any(event.known and event.known.is_measured for event in events)
-        self._of = of.for_run() if is_measured and of is not core else None
+        self._of = None if not is_measured or of is core else of if is_own else of.for_run()
         self.found: tuple[list[tuple[float, np.ndarray, np.ndarray]], ...] = tuple([] for _ in events)
         self._shapes = (core.nq,), (core.nv,)
         self._kept = (ffi.new_handle(self), ffi.new("int[]", [event.direction for event in events]),

@@ -44,7 +44,8 @@ def compiled_table(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
     found = law.compiled(sizes) if hasattr(law, "compiled") else []
     if not any(found):
         return ffi.NULL, None
-    kept = [each and doubles(each[1], each[1].size) for each in found]
+    arrays = [each and each[1].copy() for each in found]      # inputs are written into those of one run
+    kept = [array if array is None else doubles(array, array.size) for array in arrays]
     rows = [(ffi.cast("zd_law_function *", each[0]), numbers) if each else (ffi.NULL, ffi.NULL)
             for each, numbers in zip(found, kept, strict=True)]
     return ffi.new("zd_compiled_law[]", rows), (kept, found)

@@ -122,8 +122,8 @@ def components(read: Any, mechanism: Any, core: Measuring, width: int, p: np.nda
 class Outputs:
     """Measures that a run records: their numbers, of the system that is run, or of one with the same equations."""
 
-    def __init__(self, measures: Sequence[int], of: Any, run: Any) -> None:
-        self._of, self.measures = None if of is run else of.for_run(), tuple(measures)
+    def __init__(self, measures: Sequence[int], of: Any, run: Any, *, is_own: bool = False) -> None:
+        self._of, self.measures = None if of is run else of if is_own else of.for_run(), tuple(measures)
         self.sizes = tuple(of.measure_size(index) for index in self.measures)
         self.width = sum(self.sizes)
         self._numbers = ffi.new("int[]", self.measures)

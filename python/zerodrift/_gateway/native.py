@@ -51,6 +51,12 @@ class NativeCore(CoreSystem):
         other._data = (memory, *self._data[1:])
         return other
 
+    def with_copied_data(self) -> tuple[NativeCore, Any, np.ndarray]:
+        """The same system with data of its own, a pointer to it, and its memory."""
+        memory = np.array(np.frombuffer(ffi.buffer(self._data[0])))
+        other = self.with_data(memory)
+        return other, other._data[0], memory
+
     def with_direct(self, address: int, data: np.ndarray, keep: Any) -> NativeCore:
         """The same system with direct functions, a `zd_closed_form` at `address`; all its functions receive `data`."""
         other = self.with_data(data)

@@ -15,6 +15,7 @@ import numpy as np
 from .._core import ffi, lib
 from .base import MESSAGE_SIZE, doubles, error_of, row_named, strided_doubles, text
 from .callbacks import Watcher
+from .inputs import Inputs
 from .measures import Outputs
 from .systems import CoreSystem
 
@@ -200,6 +201,12 @@ class Record:
         counts = memory[(self._layout.width - 1) * capacity:].view(np.intc)
         return columns | {"iterations": counts[:rows], "energy_skipped": counts[capacity:capacity + rows]}
 
+    def snapshot(self) -> Snapshot:
+        """Copy of the samples so far, for a run that goes on recording."""
+        first = self._of_first()
+        return Snapshot({name: np.concatenate([column, *(columns[name][: c.rows] for c, columns in self._further)])
+                         for name, column in first.items()})
+
     def join(self) -> None:
         """Makes one block of several, column by column, letting go of what is joined, as memory may be short."""
         if not self._further:
@@ -209,6 +216,19 @@ class Record:
             for _, columns in self._further:
                 del columns[name]
         self._further.clear()
+
+
+class Snapshot(NamedTuple):
+    """Samples of a run by name, as `Record` gives them."""
+
+    columns: dict[str, np.ndarray]
+
+    def join(self) -> None:
+        """Do nothing, as there is one block."""
+
+    def take(self) -> dict[str, np.ndarray]:
+        """The samples."""
+        return self.columns
 
 
 class Results(NamedTuple):
@@ -236,23 +256,25 @@ class Run:
     """A run of the core."""
 
     def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None,
-                 outputs: Outputs | None = None) -> None:
-        self._core = core = core.for_run()
+                 outputs: Outputs | None = None, inputs: Inputs | None = None) -> None:
+        self._core = core = core if inputs else core.for_run()      # with inputs, it is this run's own already
+        self.inputs = inputs
         self._watcher, self._outputs = watcher, outputs
         options.given_jacobian = core.given_jacobian
         if watcher:
             options.events = watcher.c
         if outputs:
             options.outputs = outputs.c
+        options.inputs = inputs.c if inputs else ffi.NULL
         status, message = ffi.new(INTEGERS), ffi.new(MESSAGE)
         run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
         if not run:
             raise self._raised or error_of(status[0], text(message))
         self._run = ffi.gc(run, lib.zd_run_free)
 
-    def advance(self, record: Record, seconds: float) -> int:
+    def advance(self, record: Record | None, seconds: float) -> int:
         """Steps for about that long; the status. The interpreter is free for other threads meanwhile."""
-        return lib.zd_run_advance(self._run, record.c, seconds)
+        return lib.zd_run_advance(self._run, ffi.NULL if record is None else record.c, seconds)
 
     def record_states(self, record: Record, columns: Mapping[str, np.ndarray]) -> None:
         """Records rows of which "t" (k,), "p", "v", and "input" (k,) are known; the run is of no other use then."""

@@ -160,6 +160,7 @@ class SpaceCore(CoreSystem):
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
         self._numbers, self._has_written_terms = ffi.NULL, False
+        self.written_inputs: Any = None
         self._mechanism, self._words = _create(tables, law is not None, laws_know_time, self._made_by)
         super().__init__(lib.zd_space_system(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)

@@ -10,8 +10,9 @@ import numpy as np
 from .. import _check, _gateway
 from ..runs import diagnosis, settings
 from ..runs import events as events_of
+from ..runs.ending import solution_of_rows
 from ..runs.operations import assembly
-from ..runs.simulate import simulate, solution_of_rows
+from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of, direct_core_of, with_what_it_takes
 from ..systems.parameter_tables import NumberTables

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .._gateway import Variable
+from .._gateway import Variable, law_inputs
 from .._gateway import is_length as is_length_of
 from .._gateway.mechanisms import MechanismCore
 from ..errors import ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import NO_COMPILER, ClosedFormFunctions
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, WithInputs
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
 from .assembly import space_advice
@@ -23,6 +23,7 @@ from .assembly.start import Starting
 from .assembly.variants import are_plain, varied
 from .building.start_verbs import targets
 from .elements.drawing import Drawing
+from .elements.forces import driven, inputs_of
 from .elements.numbers import Numbers
 from .elements.space_bodies import SpaceInertias
 from .equations.generated_code import Written
@@ -233,6 +234,14 @@ class MechanismSystem(BaseSystem):
             return None
         refused = refusals(self.with_parameters, parameters, wrong) if starts_are_known else {}
         return NumberTables(self._measuring, None, 0, None, None, refused, family)
+
+    def _with_inputs(self, names: Sequence[str]) -> WithInputs:
+        found = driven(self._drawing, names, self._changed)
+        system = MechanismSystem(found.drawing, self.layout, self._changed, self._is_written_out)
+        return WithInputs(system, found.initial, found.units, law_inputs.bound)
+
+    def _names_of_inputs(self) -> list[str]:
+        return list(inputs_of(self._drawing))
 
     def _with(self, changed: dict[str, Any]) -> MechanismSystem:
         numbers = {name: _checked(name, value) for name, value in changed.items()}

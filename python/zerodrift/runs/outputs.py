@@ -14,12 +14,12 @@ from ..systems.base import BaseSystem
 class Recorded:
     """Measures that a run records in addition to its state; vectors with all components."""
 
-    def __init__(self, names: tuple[str, ...], system: BaseSystem, core: _gateway.CoreSystem) -> None:
+    def __init__(self, names: tuple[str, ...], system: BaseSystem, core: _gateway.CoreSystem, measured: Any = None) -> None:
         watching = system._watching
         places = [place for name in names if (place := watching.find(name)) is not None]
         numbers = list(dict.fromkeys(place.number for place in places))     # without duplicates
         self.names = [list(watching.number)[number] for number in numbers]
-        self.core = _gateway.Outputs(numbers, watching.core, core) if numbers else None
+        self.core = _gateway.Outputs(numbers, measured or watching.core, core, is_own=measured is not None) if numbers else None
 
     def columns(self, rows: np.ndarray) -> dict[str, np.ndarray]:
         """Measures by name, (k,) or (k, size) each, from the recorded samples."""

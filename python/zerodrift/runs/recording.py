@@ -18,7 +18,7 @@ def record_of(core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows:
     """Record for the samples of a run: in the file `path`, or in memory if that is None."""
     if path:
         return file_of_samples().SampleFile(path, core, outputs, rows)
-    check_memory(rows or 0, _gateway.row_bytes(core, outputs), stacklevel=3)
+    check_memory(rows or 0, _gateway.row_bytes(core, outputs), stacklevel=4)
     return _gateway.Record(core, rows or FIRST_BLOCK, outputs)
 
 

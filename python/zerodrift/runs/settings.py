@@ -108,6 +108,10 @@ def on_singular_row(value: Any) -> int:
 
 MAX_STEPS = 1_000_000     # default limit of adaptive steps
 TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None, "max_move": None}     # defaults of adaptive steps
+ARGUMENTS_OF_PLAN = {   # arguments of `plan` besides step and t_eval, with their defaults
+    "save_every": 1, "rtol": None, "atol": None, "first_step": None, "max_step": None, "max_move": None, "max_steps": MAX_STEPS,
+    "formulation": FORMULATION, "integrator": None, "stabilization": STABILIZATION, "energy": None, "correction": None,
+    "on_singular": "stop", "direct": None, "vector": None}
 FINEST_RTOL = 100 * np.finfo(float).eps     # smallest rtol: below it, error estimates are rounding
 RESOLVED = 16 * float(np.finfo(float).eps)      # shortest step, relative to the time
 

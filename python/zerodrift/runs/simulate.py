@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-import contextlib
-import functools
-import itertools
 import time
-import warnings
 from collections.abc import Callable
-from typing import Any, NamedTuple
-
-import numpy as np
+from typing import Any
 
 from .. import _check, _gateway
-from ..errors import CostWarning, Interrupted, SingularSystem, advised
-from ..systems.base import BaseSystem, core_of, direct_core_of
-from . import diagnosis, evaluation_path, recording, settings
-from . import events as _events
-from . import outputs as _outputs
+from ..systems.base import BaseSystem
+from . import recording, settings
+from .ending import Outcome, finish_file, finished, solution_of
 from .keyboard import Keyboard
+from .opening import prepared
 from .progress import progress_of
-from .saving import EVENTS
 from .solution import Solution
-from .start import start_of
 
 SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
 
@@ -207,57 +198,26 @@ def simulate(
     >>> sol.t_events[1].round(4)
     array([0.1287, 0.6498, 1.4803, 2.0013])
     """
-    span = _check.span(t_span)
-    system, p0, v0 = start_of(system, p0, v0, span[0])
-    core_of(system)
-    plan = settings.plan(
-        system, span, t_eval, save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
-        stabilization, energy, correction, on_singular, direct, vector)
-    core = direct_core_of(system, plan.chosen["vector"], plan.options)
-    plan.chosen["vector"] = evaluation_path.unit(core, plan.options)
+    ready = prepared(system, _check.span(t_span), p0, v0, events, outputs, save_to, {
+        "t_eval": t_eval, "save_every": save_every, "step": step, "rtol": rtol, "atol": atol, "first_step": first_step,
+        "max_step": max_step, "max_move": max_move, "max_steps": max_steps, "formulation": formulation, "integrator": integrator,
+        "stabilization": stabilization, "energy": energy, "correction": correction, "on_singular": on_singular, "direct": direct,
+        "vector": vector})
     _check.choice("on_failure", on_failure, ("raise", "return"))
-    watched = _events.events(events, system)
-    recorded = None
-    if outputs is not None:
-        plan.chosen["outputs"] = _outputs.names(outputs, system)
-        recorded = _outputs.Recorded(plan.chosen["outputs"], system, core)
-    p0, v0 = system._state_or_start(p0, v0, t=span[0])
-    path = None if save_to is None else recording.file_of_samples().checked(save_to)
-    watcher = _gateway.Watcher(core, watched, system._watching.core) if watched is not None else None
-    if costs := system._what_it_costs(plan.steps):
-        warnings.warn(costs, CostWarning, stacklevel=2)
+    path = ready.path
     with recording.locked(path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
-        more = recorded.core if recorded else None
-        run = _created(system, core, plan.options, p0, v0, watcher, more)
-        record = recording.record_of(core, more, plan.rows, path)
+        run, record = ready.created(), ready.record()
         if path:
-            recording.begin_file(record, run, system, span, plan.chosen, recorded)
+            recording.begin_file(record, run, ready.system, ready.span, ready.chosen, ready.recorded)
         outcome = _drive(run, record, progress, keyboard)
         results = run.results()
-        solution = _solution(system, span, plan.chosen, run, record, results, watcher, outcome, recorded)
+        solution = solution_of(ready, run, record, results, outcome)
         if path:
-            _finish_file(record, solution, outcome)
-    return _finished(solution, run, results, outcome, on_failure, keyboard)
+            finish_file(record, solution, outcome)
+    return finished(solution, run, results, outcome, on_failure, keyboard)
 
 
-def _finish_file(record: Any, solution: Solution, outcome: _Outcome) -> None:
-    """Write the remaining fields of the solution to the file; a full disk is an error unless the run already has one."""
-    try:
-        record.finish(solution)
-    except OSError as error:
-        if outcome.error is None:
-            raise _with_solution(error, solution) from None
-
-
-class _Outcome(NamedTuple):
-    """Outcome of a run: status, duration, error."""
-
-    status: int
-    seconds: float
-    error: BaseException | None     # exception in Python that stopped the run: memory, Ctrl-C, or from the callable for progress
-
-
-def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: Keyboard) -> _Outcome:
+def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: Keyboard) -> Outcome:
     """Run the core in slices of time until the run ends, fails or is interrupted."""
     show, close = progress_of(progress)
     start, status, error = time.perf_counter(), _gateway.PAUSED, None
@@ -277,7 +237,7 @@ def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: 
         close()
     if status == _gateway.CALLBACK and not isinstance(run.error(status), Exception):     # Ctrl-C, SystemExit and the like
         status, error = _gateway.INTERRUPTED, run.error(status)
-    return _Outcome(status, time.perf_counter() - start, error)
+    return Outcome(status, time.perf_counter() - start, error)
 
 
 def _show(show: Callable[[float], None], part: float) -> None:
@@ -287,116 +247,3 @@ def _show(show: Callable[[float], None], part: float) -> None:
     except BaseException as error:
         _check.tell(error, f"in progress, called with {part:g}")
         raise
-
-
-def _solution(system, span, chosen, run, record, results, watcher, outcome, recorded) -> Solution:
-    """Solution of a run that has ended, with its arrays made at first use."""
-    record.join()
-    return Solution._of_run(
-        functools.partial(_arrays_and_stats, record, results, outcome.seconds, recorded, system, chosen), status=outcome.status,
-        success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=_message(run, outcome), settings=chosen,
-        system=system, t_span=span, **_events_found(watcher))
-
-
-def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: _gateway.Record,
-                     results: _gateway.Results, seconds: float, status: int, message: str,
-                     events: tuple[tuple[np.ndarray, ...], ...] | None) -> Solution:
-    """Solution of a completed run that the core made in a batch; `events` are the t, p and v of its events."""
-    return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
-                            status=status, success=True, message=message, settings=chosen, system=system, t_span=span,
-                            **({} if events is None else dict(zip(EVENTS, events, strict=True))))
-
-
-def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, seconds: float,
-                      recorded: _outputs.Recorded | None, system: BaseSystem, chosen: dict[str, Any]) -> dict[str, Any]:
-    """Arrays, statistics and outputs of a run under the names of the fields of `Solution`."""
-    arrays, stats = record.take(), results.as_stats() | {"seconds": seconds}
-    return {
-        "t": arrays["t"], "p": arrays["p"], "v": arrays["v"], "multipliers": arrays["multipliers"],
-        "position_violation": arrays["position_violation"], "velocity_violation": arrays["velocity_violation"],
-        "kinetic_energy": arrays["kinetic"], "potential_energy": arrays.get("potential"), "energy_input": arrays.get("input"),
-        "energy_violation": arrays.get("energy_violation"), "iterations": arrays["iterations"],
-        "energy_skipped": arrays["energy_skipped"], "position_size": results.sizes,
-        "stats": stats | {"matrix_path_reason": evaluation_path.matrix_path_reason(system, chosen, stats)},
-        "outputs": recorded.columns(arrays["outputs"]) if recorded and recorded.core else {}}
-
-
-def _created(system: BaseSystem, *given: Any) -> _gateway.Run:
-    """Create the run in the core; the error of a singular system is extended by the system's advice."""
-    try:
-        return _gateway.Run(*given)
-    except SingularSystem as error:
-        advice = system._advice(error)
-        if advice is None:
-            raise
-        raise advised(error, advice) from None
-
-
-def _message(run: _gateway.Run, outcome: _Outcome) -> str:
-    """Message of a run: "done", or the reason for its end."""
-    match outcome.status:
-        case _gateway.DONE:
-            return "done"
-        case _gateway.INTERRUPTED if not isinstance(outcome.error, KeyboardInterrupt):
-            return f"stopped by {_shown(outcome.error)}"
-        case _gateway.INTERRUPTED:
-            return "interrupted from the keyboard"
-        case _gateway.CALLBACK if run.has_raised:
-            return "; ".join([f"{run.message}: {_shown(run.error(outcome.status))}", *run.notes])
-        case _:
-            return run.message
-
-
-def _shown(error: BaseException) -> str:
-    """The `repr` of an error, or the name of its class if that fails."""
-    try:
-        return repr(error)
-    except Exception:
-        return type(error).__name__
-
-
-def _events_found(watcher: _gateway.Watcher | None) -> dict[str, tuple[np.ndarray, ...]]:
-    """Fields `t_events`, `p_events` and `v_events`, each with one array per event; empty without events."""
-    if watcher is None:
-        return {}
-    arrays = [watcher.arrays(event) for event in range(len(watcher.events))]
-    for array in itertools.chain(*arrays):
-        array.setflags(write=False)
-    return dict(zip(EVENTS, tuple(zip(*arrays, strict=True)) or ((), (), ()), strict=True))
-
-
-def _finished(solution: Solution, run, results, outcome, on_failure, keyboard) -> Solution:
-    """Return the solution, with warnings where it is doubtful; or raise an error that has it as an attribute."""
-    interrupted = isinstance(outcome.error, KeyboardInterrupt)
-    if keyboard.pressed and not interrupted:    # Ctrl-C came after the last slice, or while something else failed
-        raise Interrupted(f"interrupted from the keyboard, and: {solution.message}", solution) from outcome.error
-    if outcome.error is not None and not interrupted:
-        raise _with_solution(outcome.error, solution)
-    if on_failure == "raise" and not solution.success:
-        _raise_failure(run, solution)
-    if not diagnosis.is_beyond_doubt(results):
-        diagnosis.warn(solution, stacklevel=3)      # at the line that calls `simulate`
-    return solution
-
-
-def _raise_failure(run: _gateway.Run, solution: Solution) -> None:
-    if solution.status == _gateway.INTERRUPTED:
-        raise Interrupted(solution.message, solution) from None
-    note = run.message if solution.status == _gateway.CALLBACK else _advice(solution)
-    raise _with_solution(run.error(solution.status), solution, note)
-
-
-def _advice(solution: Solution) -> str | None:
-    """Advice of the system on the state at which its run failed; None if it has none."""
-    if not len(solution.t):
-        return None
-    return solution.system._advice_on_failure(float(solution.t[-1]), np.ascontiguousarray(solution.p[-1]))
-
-
-def _with_solution(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:
-    """The error with the solution as an attribute, if its class allows attributes."""
-    with contextlib.suppress(Exception):
-        error.solution = solution
-    if note:
-        _check.tell(error, note)
-    return error

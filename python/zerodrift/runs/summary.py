@@ -20,7 +20,7 @@ def summary(solution: Any) -> str:
     lines = [
         f"Solution of {solution.system.name}: {len(solution.t)} samples, t = {solution.t_span[0]:g} ... {solution._last_time:g} "
         f"s, {solution.message}",
-        f"  how         {s['formulation']}, {s['integrator']}, {_step_sizes(s)}, "
+        f"  how         {s['formulation']}, {s['integrator']}, {step_sizes(s)}, "
         + ", ".join(map(str, corrections_of(s) if s["stabilization"] else ["no stabilization", *corrections_of(s)])),
     ]
     if stats:       # absent for a killed run
@@ -57,7 +57,7 @@ def _duration(seconds: float) -> str:
     return f"{1e6 * seconds:.3g} us"
 
 
-def _step_sizes(settings: dict[str, Any]) -> str:
+def step_sizes(settings: dict[str, Any]) -> str:
     if settings["step"] is None:
         return f"rtol {settings['rtol']:g}, atol {settings['atol']:g}"
     return f"step {settings['step']:g} s"

@@ -31,6 +31,7 @@ def symbolic(
     nonholonomic: Any = (), speeds: Any = None, kinematics: Any = None, parameters: Mapping[Any, float] | None = None,
     time: sympy.Symbol | None = None, mass: Any = None, bias: Any = None, points: Iterable[Any] = (), quaternions: Any = (),
     units: Sequence[str] | None = None, p0: Any = None, v0: Any = None, name: str = "symbolic", progress: bool = True,
+    inputs: Sequence[Any] = (),
 ) -> SymbolicSystem:
     """System from SymPy expressions: its terms are derived, written as C, compiled and cached.
 
@@ -72,6 +73,8 @@ def symbolic(
         For tables and plots.
     progress : bool
         If True, report the current stage on stderr when it takes longer than two seconds.
+    inputs : sequence of Symbol or str
+        Symbols in `force` that a `Run` sets between steps; 0 before, unless `parameters` has other values.
 
     Returns
     -------
@@ -119,10 +122,20 @@ def symbolic(
     >>> sol.p[-1].round(5)
     array([-0.98629, -0.16501])
     """
+    values = _with_inputs({} if parameters is None else parameters, inputs)
     definition = Definition(coordinates, kinetic, potential, force, constraints, nonholonomic, speeds, kinematics,
-                            {} if parameters is None else parameters, time, mass, bias, points)
+                            values, time, mass, bias, points)
     with Progress(name, progress) as say:
-        return SymbolicSystem(_code(definition, say), definition.values, units, p0, v0, name, say, definition.named(quaternions))
+        return SymbolicSystem(_code(definition, say), definition.values, units, p0, v0, name, say, definition.named(quaternions),
+                              inputs=[str(each) for each in inputs])
+
+
+def _with_inputs(parameters: Any, inputs: Sequence[Any]) -> Any:
+    """Parameters and inputs, which are 0 where they have no value."""
+    if not inputs or not isinstance(parameters, Mapping):
+        return parameters
+    known = {str(name) for name in parameters}
+    return {**parameters, **{each: 0.0 for each in inputs if str(each) not in known}}
 
 
 def _code(definition: Definition, say: Progress) -> Code:

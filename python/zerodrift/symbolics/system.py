@@ -14,8 +14,9 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
+from .._gateway.inputs import Bound, Place
 from ..errors import NoCompilerWarning, UnsuitedIntegrator
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, WithInputs
 from ..systems.parameter_tables import NumberTables, not_finite, refusals
 from ..systems.structure import Structure, checked
 from ..systems.variables import quaternion_places, with_units
@@ -68,7 +69,9 @@ class SymbolicSystem(BaseSystem):
 
     def __init__(self, code: Code, parameters: Mapping[str, float], units: Sequence[str] | None = None, p0: Any = None,
                  v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None,
-                 quaternions: Sequence[int | str] = (), direct: ClosedFormFunctions | None = None) -> None:
+                 quaternions: Sequence[int | str] = (), direct: ClosedFormFunctions | None = None,
+                 inputs: Sequence[str] = ()) -> None:
+        self._inputs = tuple(inputs)
         self._code, self.name, self.parameters, self._units = code, name, dict(parameters), units
         self._places = quaternion_places(quaternions, code.coordinates, "A" in code.provides)
         self.coordinates, self.velocities = with_units(code.coordinates, code.velocities, units, "A" not in code.provides,
@@ -154,6 +157,28 @@ class SymbolicSystem(BaseSystem):
 
     def _functions(self, embeds: bool) -> ClosedFormFunctions:
         return self._direct.embedding if embeds else self._direct
+
+    def _with_inputs(self, names: Sequence[str]) -> WithInputs:
+        for name in names:
+            if name not in self._inputs:
+                known = f"; {_check.closest(name, self._inputs)}" if self._inputs else ""
+                raise ValueError(f"inputs of {self.name} must be declared, zd.symbolic(..., inputs=[...]), and {name!r} is not"
+                                 f"{known}")
+        if not self.compiled:
+            raise ValueError(f"inputs of {self.name} need a C compiler")
+        return WithInputs(self, [self.parameters[name] for name in names], [""] * len(names), self._bound)
+
+    def _names_of_inputs(self) -> list[str]:
+        return list(self._inputs)
+
+    def _bound(self, core: _gateway.NativeCore, names: Sequence[str]) -> Bound:
+        """The system of one run, with data of its own."""
+        libraries = [self._library, next((functions.library(vector) for (vector, embeds), known in self._with_direct.items()
+                                          for functions in [self._functions(embeds)] if known is core), None)]
+        derive = zip(libraries, ("zd_symbolic_constants", f"{DIRECT}_constants"), strict=True)
+        mine, pointer, memory = core.with_copied_data()
+        places = [Place(name, False, pointer + self._code.parameters.index(name)) for name in names]
+        return Bound(mine, places, [(_gateway.address_of(*each), pointer) for each in derive if each[0]], memory)
 
     def _core_in_lanes(self, vector: str, embeds: bool) -> _gateway.CoreSystem:
         """The same with functions for several trajectories at once, too, which do not embed."""
@@ -241,12 +266,13 @@ class SymbolicSystem(BaseSystem):
         return f"<zd.symbolic {self.name}: {self._sizes_in_words()}{how}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._direct)
+        return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._direct,
+                           self._inputs)
 
 
 def _restored(code: Code, parameters: dict[str, float], units: Any, p0: Any, v0: Any, name: str, places: tuple[int, ...],
-              direct: ClosedFormFunctions) -> SymbolicSystem:
-    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, direct=direct)
+              direct: ClosedFormFunctions, inputs: tuple[str, ...] = ()) -> SymbolicSystem:
+    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, direct=direct, inputs=inputs)
 
 
 # ---- without a compiler ----

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,15 @@ from .structure import Structure, of_core
 from .terms import Terms
 
 FIRST_PRINTED, LAST_PRINTED = 18, 6     # of many names, parameters and rows
+
+
+class WithInputs(NamedTuple):
+    """A system some of whose numbers are inputs of a run."""
+
+    system: BaseSystem
+    initial: list[float]
+    units: list[str]
+    bound: Any      # function of a core of this system and of the names: the core of one run, with the places of its inputs
 
 
 class BaseSystem:
@@ -304,6 +313,15 @@ class BaseSystem:
         """Unit of a measure, or of a component of it; "" if it has none."""
         place = self._watching.find(name)
         return "" if place is None else self._measuring.measures[place.number].unit
+
+    def _with_inputs(self, names: Sequence[str]) -> WithInputs:
+        """The system whose numbers of these names are inputs."""
+        raise ValueError(f"inputs are forces and speeds of a mechanism, or declared by zd.symbolic(inputs=) or "
+                         f"zd.System(inputs=), and {self.name} has none")
+
+    def _names_of_inputs(self) -> list[str]:
+        """Names of numbers that may be inputs."""
+        return []
 
     def _is_scalar_measure(self, name: str) -> bool:
         return name in self._watching.number and self._measuring.measure_size(self._watching.number[name]) == 1

@@ -12,8 +12,9 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
+from .._gateway.inputs import Bound, Place
 from . import autodiff
-from .base import BaseSystem
+from .base import BaseSystem, WithInputs
 from .declared_structure import PackedWriter
 from .structure import Structure, checked
 from .variables import quaternion_places, with_units
@@ -135,11 +136,47 @@ class System(BaseSystem):
     def _with(self, changed: dict[str, Any]) -> System:
         return type(self)(**(self._given | {"parameters": self.parameters | changed}))
 
+    def _with_inputs(self, names: Sequence[str]) -> WithInputs:
+        known = _numbers(self.parameters)
+        for name in names:
+            if name not in known:
+                raise ValueError(f"inputs must name numbers among the parameters of {self.name}, not {name!r}; "
+                                 f"{_check.closest(name, known) if known else 'it has none'}")
+        return WithInputs(self, [known[name] for name in names], [""] * len(names), self._bound)
+
+    def _bound(self, core: _gateway.CoreSystem, names: Sequence[str]) -> Bound:
+        """The system of one run, whose callables read memory that the core writes inputs to."""
+        owners = {name.partition("[")[0] for name in names}
+        memory = {owner: np.array(self.parameters[owner], dtype=float) for owner in sorted(owners)}
+        views = {owner: array.view(Live) for owner, array in memory.items()}
+        mine = self._with(views)._core.for_run()
+        places = [Place(name, False, _gateway.doubles(memory[owner], memory[owner].size) + int(index.strip("]") or 0))
+                  for name in names for owner, _, index in [name.partition("[")]]
+        return Bound(mine, places, (), memory)
+
+    def _names_of_inputs(self) -> list[str]:
+        return list(_numbers(self.parameters))
+
     def __repr__(self) -> str:
         return f"<zd.System {self.name}: {self._sizes_in_words()}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _rebuild, (type(self), self._given)
+
+
+class Live(np.ndarray):
+    """View of numbers that the core changes between steps: inputs."""
+
+
+def _numbers(parameters: dict[str, Any]) -> dict[str, float]:
+    """Numbers among parameters by name, and entries of vectors as "u[0]"."""
+    found: dict[str, float] = {}
+    for name, value in parameters.items():
+        if isinstance(value, int | float | np.number) and not isinstance(value, bool):
+            found[name] = float(value)
+        elif isinstance(value, np.ndarray) and value.ndim == 1 and value.dtype.kind in "fiu":
+            found |= {f"{name}[{i}]": float(each) for i, each in enumerate(value)}
+    return found
 
 
 def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
@@ -157,6 +194,9 @@ def _parameter(name: str, value: Any) -> Any:
         raise TypeError(f"parameter {name!r} must be a number, an array of numbers or an object except a string, not {value!r}")
     if _check.is_masked(value):
         raise ValueError(f"parameter {name!r} must have no masked entries, not {value!r}")
+    if isinstance(value, Live):
+        value.flags.writeable = False
+        return value
     return _check.frozen(value) if isinstance(value, np.ndarray) and value.dtype != object else value
 
 
@@ -233,7 +273,7 @@ class _Function:
 
 
 def _view(value: Any) -> Any:
-    return value.view() if isinstance(value, np.ndarray) else value
+    return value.view(np.ndarray) if isinstance(value, np.ndarray) else value
 
 
 def arguments(name: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:

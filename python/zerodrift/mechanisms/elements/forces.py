@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import copy
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
 import numpy as np
 
+from ... import _check
 from . import columns
 from .bodies import Body, Point
-from .immutable import Fixed
+from .immutable import Fixed, amend
 from .joints import Joint
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
-from .user_functions import Law
+from .user_functions import InputLaw, Law
 
 
 class Motor(Fixed):
@@ -235,3 +240,58 @@ class Torque(Fixed):
 
     def __repr__(self) -> str:
         return f"<torque {self.name} on {self.body.name}>"
+
+
+# ---- inputs ----
+
+UNITS = {"torque": "N m", "force": "N"}
+
+
+class Driven(NamedTuple):
+    """A drawing with inputs, their initial values and their units."""
+
+    drawing: Any
+    initial: list[float]
+    units: list[str]
+
+
+def driven(drawing: Any, names: Sequence[str], changed: Mapping[str, float]) -> Driven:
+    """The drawing whose user functions of these names are inputs; `changed` are parameters with other values."""
+    elements, parameters, initial, units = dict(drawing.elements), dict(drawing.parameters), [], []
+    known = inputs_of(drawing)
+    for name in names:
+        if name not in known:
+            raise ValueError(f"inputs must name a torque, force or speed of {drawing.name}, not {name!r}{_hint(drawing, name)}; "
+                             f"{_check.closest(name, known) if known else 'it has no motor, actuator or load'}")
+        element, quantity, path = known[name]
+        if element.law.constant is None:
+            raise ValueError(f"input {name!r} must begin with a number: give {element.kind} {element.name!r} one, such as 0.0, "
+                             "in the place of its function")
+        law = InputLaw(name, float(changed.get(path, element.law.constant)), is_speed=quantity == "speed")
+        elements[element.name] = mine = copy.copy(element)
+        amend(mine, law=law)
+        parameters |= law.numbers
+        initial.append(law.initial)
+        units.append(UNITS.get(quantity) or ("rad/s" if element.coordinate == "angle" else "m/s"))
+    return Driven(drawing._replace(elements=elements, parameters=parameters), initial, units)
+
+
+def inputs_of(drawing: Any) -> dict[str, tuple[Any, str, str]]:
+    """Possible inputs by name: the element, the quantity, and the path of the number."""
+    found = {}
+    for element in drawing.of((Motor, Actuator)):
+        if element.drives in ("torque", "force", "speed"):
+            path = f"{element.name}.{element.drives}"
+            found[path] = element, element.drives, path
+    for kind, quantity in ((Force, "force"), (Torque, "torque")):
+        for element in drawing.of(kind):
+            found[f"{element.name}.{quantity}"] = element, quantity, f"{element.name}.value"
+    return found
+
+
+def _hint(drawing: Any, name: str) -> str:
+    """Reason why a name is not that of an input, if its element exists."""
+    element = drawing.elements.get(name.partition(".")[0]) if isinstance(name, str) else None
+    if isinstance(element, Motor | Actuator) and element.prescribes:
+        return f": {element.kind} {element.name!r} prescribes its {element.drives}, and its force follows from that"
+    return ""

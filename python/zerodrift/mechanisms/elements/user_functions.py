@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ..._gateway.inputs import EFFORT_LAW, SPEED_LAW
 from ...symbolics.graph.smoothness import is_plain_expression
 from ...systems import autodiff
 from ...systems.callables import arguments
@@ -29,6 +30,9 @@ class Law:
     constant : float or None
         Its value where it is a plain number.
     """
+
+    input: str | None = None        # name of the input that takes its place in a run
+    is_speed = False
 
     def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None, parameters: Iterable[str] = ()) -> None:
         self.what, self.constant, self.expression, self._function = what, None, None, None
@@ -153,6 +157,64 @@ class Law:
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in vars(self).items() if name != "_call"}
+
+
+class InputLaw:
+    """The number that a run sets, in the place of a `Law`.
+
+    It has no `__dict__`, as generated code must not depend on `initial`.
+    """
+
+    __slots__ = ("initial", "input", "is_speed", "what")
+
+    measures: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+    kind: tuple[Any, ...] = ()
+    constant = expression = inner_expression = None
+    has_expression, is_plain = False, True
+
+    def __init__(self, name: str, initial: float, *, is_speed: bool) -> None:
+        self.what, self.input, self.initial, self.is_speed = f"input {name!r}", name, initial, is_speed
+
+    def __repr__(self) -> str:
+        return f"<input {self.input}>"
+
+    @property
+    def depends_on_time(self) -> bool:
+        """True of a speed, which follows the input linearly over a step."""
+        return self.is_speed
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Numbers that it is computed from, by name: the input, and of a speed its rate and the time from which it counts."""
+        more = {f"{self.input} rate": 0.0, f"{self.input} time": 0.0} if self.is_speed else {}
+        return {self.input: self.initial, **more}
+
+    @property
+    def compiled(self) -> tuple[int, np.ndarray, Any]:
+        """Address of the core's function, and its numbers."""
+        return SPEED_LAW if self.is_speed else EFFORT_LAW, np.array(list(self.numbers.values())), None
+
+    def check_written(self) -> None:
+        """Code can be generated."""
+
+    def written(self, equations: Any, x: Iterable[Any] = ()) -> Any:
+        """Node of its value."""
+        numbers = [equations.parameters[name] for name in self.numbers]
+        if not self.is_speed:
+            return numbers[0]
+        graph, (speed, rate, begin) = equations.graph, numbers
+        return graph.plus(speed, graph.times(rate, graph.plus(equations.t, graph.minus(begin))))
+
+    def number(self, t: float, x: Iterable[float], parameters: Mapping[str, Any]) -> float:
+        """Initial value, before a run sets others."""
+        return self.initial
+
+    def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> autodiff.Jet:
+        """The same with its derivatives."""
+        return autodiff.Jet(self.initial)
+
+    value = number
 
 
 def _of(what: str, of: Any) -> Mapping[str, Any]:

@@ -20,6 +20,8 @@ _functions: dict[Any, tuple[int, Any] | None] = {}      # by template and names;
 
 def compiled(row: Any, k: int) -> Compiled | None:
     """Compiled user function of k marker quantities; None if it has no expression, or if there is no compiler."""
+    if row.law.input is not None:
+        return row.law.compiled
     expression = row.law.inner_expression
     if expression is None:
         return None

@@ -23,6 +23,7 @@ import numpy as np
 from ... import _gateway
 from ..._gateway import space_plans
 from ..._gateway.compiled_terms import WrittenTerms, with_functions
+from ..._gateway.law_inputs import WrittenInputs
 from ..._gateway.mechanisms import MechanismCore
 from ..._gateway.plans import plan_of
 from ..._gateway.space import SpaceCore
@@ -83,6 +84,7 @@ class Written:
         number = nodes.Numbering(reader.graph)
         plan = (space_nodes.with_nodes(space_plans.plan_of(core), number) if is_in_space
                 else nodes.with_nodes(plan_of(core), number))
+        self._index = {key: len(number.values) + i for i, key in enumerate(parameters)}
         own = {key: number.new(value) for key, value in parameters.items()}
         self._values = np.array(number.values)
         self.key = kept.digest_of(_writing_code(type(reader)), repr(plan), repr(own), self._sizes, core.packing is None,
@@ -147,7 +149,10 @@ class Written:
             address = _gateway.address_of(libraries[1], DIRECT)
         numbers.flags.writeable = False
         rates = jacobian and _gateway.address_of(jacobian, JacobianFunctions.symbol)
-        return with_functions(self._interpreted, numbers, [*libraries, jacobian], terms=terms, direct=address, jacobian=rates)
+        core = with_functions(self._interpreted, numbers, [*libraries, jacobian], terms=terms, direct=address, jacobian=rates)
+        derive = zip(libraries, ("zd_symbolic_constants", f"{DIRECT}_constants"), strict=False)
+        core.written_inputs = WrittenInputs(numbers, self._index, [_gateway.address_of(*each) for each in derive if each[0]])
+        return core
 
     def with_jacobian(self, vector: str) -> MechanismCore | SpaceCore:
         """The same with derivatives of its rates for a vector unit, if it has them."""

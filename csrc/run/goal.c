@@ -1,0 +1,98 @@
+/* Open runs advance from goal to goal. Fixed steps stay at t_begin + k step, so that chained advances have the bits of one; t_begin and the
+ * count begin anew only where a step was shortened, to a time between two of these or to a terminal event.
+ */
+#include "goal.h"
+
+#include <math.h>
+
+#include "../constraints/rank.h"
+#include "../paths/variables.h"
+
+static int is_fixed(const zd_run *run) { return run->settings.step > 0; }
+
+static void remove_end(zd_run *run)
+{
+    run->loop.end = INFINITY;
+    run->loop.steps = 0;
+}
+
+void zd_run_leave_open(zd_run *run) { remove_end(run); }
+
+/* Counts steps from the present state if the last one ended elsewhere than where it is counted. */
+static void begin_anew(zd_run *run)
+{
+    zd_step_loop *loop = &run->loop;
+    if (!isfinite(loop->end) || run->stepper.t != loop->end) return;
+    loop->t_begin = run->stepper.t;
+    loop->steps_before = loop->step;
+}
+
+/* Steps to time t; the last one is shortened if t is between the ends of two. */
+static void aim_at_time(zd_run *run, double t)
+{
+    zd_step_loop *loop = &run->loop;
+    const double size = run->settings.step, steps = zd_count_steps(loop->t_begin, t, size), ratio = (t - loop->t_begin) / size;
+    const int64_t last = loop->steps_before + (int64_t)steps;
+    if (is_fixed(run) && last < run->goal.step) run->goal.step = last;
+    if (!run->settings.is_open && is_fixed(run)) return;
+    if (is_fixed(run) && (fabs(ratio - steps) <= 1e-9 * steps || last > run->goal.step)) return;
+    loop->end = run->settings.is_open ? t : fmin(t, run->settings.t1);
+    loop->steps = is_fixed(run) ? last : 0;
+}
+
+int zd_run_aim(zd_run *run, int64_t steps, double t)
+{
+    const int64_t made = run->loop.step;
+    if (!(t >= run->stepper.t) || steps < 0) return ZD_BAD_ARGUMENT;
+    if (run->settings.is_open) {
+        if (!run->outcome.status) run->outcome.message[0] = '\0';
+        else if (run->outcome.status == ZD_EVENT) run->outcome = (zd_outcome){.status = ZD_DONE};
+        begin_anew(run);
+        remove_end(run);
+        if (run->watch.ended) run->watch.found[run->watch.ended - 1] = 0;      /* it is terminal again */
+        run->watch.ended = 0;
+    }
+    run->goal.step = steps < INT64_MAX - made ? made + steps : INT64_MAX;
+    if (t < INFINITY) aim_at_time(run, t);
+    return ZD_DONE;
+}
+
+void zd_run_keep_good(zd_run *run)
+{
+    zd_stepper_keep_place(&run->stepper, &run->goal.good);
+    run->goal.good_step = run->loop.step;
+    run->goal.good_h = run->loop.control.h;
+}
+
+int zd_run_return_to_good(zd_run *run)
+{
+    zd_step_loop *loop = &run->loop;
+    zd_motion *motion = &run->motion;
+    zd_direct_leave(motion);
+    loop->parts = 0;
+    loop->step = run->goal.good_step;
+    loop->control.h = run->goal.good_h;
+    run->output.is_away = run->output.is_spread = run->output.is_short = run->watch.failed = 0;
+    motion->point->known = 0;
+    motion->point->rank->was_deficient = motion->point->rank->was_doubtful = 0;
+    int status = zd_variables_use_chosen(&run->stepper);
+    if (!status) status = zd_stepper_return_to(&run->stepper, &run->goal.good);
+    return status ? status : zd_safeguards_begin(&run->safeguards, loop->step + 1);
+}
+
+double zd_run_time(const zd_run *run) { return run->stepper.t; }
+const double *zd_run_p(const zd_run *run) { return run->motion.point->p; }
+const double *zd_run_v(const zd_run *run) { return run->motion.point->v; }
+int zd_run_ended_by(const zd_run *run) { return run->watch.ended - 1; }
+int64_t zd_run_step_number(const zd_run *run) { return run->loop.step; }
+
+int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers)
+{
+    zd_motion *motion = &run->motion;
+    const int status = zd_motion_accelerate(motion);
+    if (status) return status;
+    zd_rank_find_multipliers(motion->point);
+    for (int i = 0; i < motion->system.nv; i++) vdot[i] = motion->point->vdot[i];
+    for (int k = 0; k < zd_constraints(motion->point->system); k++) multipliers[k] = motion->point->lambda[k];
+    return ZD_DONE;
+}

@@ -1,0 +1,73 @@
+"""Inputs of a run: numbers that the caller sets, and their places in the data of the systems that the run evaluates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import doubles
+
+EFFORT_LAW = int(ffi.cast("intptr_t", ffi.addressof(lib, "zd_effort_input")))       # user functions that read an input
+SPEED_LAW = int(ffi.cast("intptr_t", ffi.addressof(lib, "zd_speed_input")))
+
+
+class Place(NamedTuple):
+    """Memory that the core writes an input to: a double, or the three doubles of a speed."""
+
+    name: str
+    is_speed: bool
+    address: Any
+
+
+class Bound(NamedTuple):
+    """A system with data of its own, in which inputs have places."""
+
+    core: Any
+    places: Sequence[Place]
+    derivations: Sequence[tuple[int, Any]]      # address of a function of the data, and the data
+    keep: Any
+
+
+class Inputs:
+    """Inputs of one run.
+
+    Parameters
+    ----------
+    names : sequence of str
+    initial, lower, upper : ndarray (k,)
+    bound : sequence of Bound
+        Systems with places of these inputs.
+
+    Attributes
+    ----------
+    values : ndarray (k,)
+        Writable; the core reads it at the start of each advance.
+    """
+
+    def __init__(self, names: Sequence[str], initial: np.ndarray, lower: np.ndarray, upper: np.ndarray,
+                 bound: Iterable[Bound]) -> None:
+        self.names, self.values, self.lower, self.upper = tuple(names), initial.copy(), lower, upper
+        self._bound = tuple(bound)
+        places = [place for each in self._bound for place in each.places]
+        derivations = [each for bound in self._bound for each in bound.derivations]
+        rows = ffi.new("zd_input_place[]", [(self.names.index(each.name), each.is_speed, each.address) for each in places])
+        functions = ffi.new("void (*[])(double *)", [ffi.cast("void (*)(double *)", address) for address, _ in derivations])
+        data = ffi.new("double *[]", [each for _, each in derivations])
+        k = len(names)
+        self._memory = rows, functions, data, places
+        self.c = ffi.new("zd_inputs *", {
+            "count": k, "value": doubles(self.values, k), "lower": doubles(lower, k), "upper": doubles(upper, k),
+            "places": len(places), "place": rows, "derivations": len(derivations), "derive": functions, "data": data})
+
+    def refused(self) -> str:
+        """Rule that an input violates; empty: none does."""
+        columns = (each.tolist() for each in (self.values, self.lower, self.upper))
+        for name, value, least, most in zip(self.names, *columns, strict=True):
+            if not np.isfinite(value):
+                return f"input {name!r} must be finite, not {value}"
+            if not least <= value <= most:
+                return f"input {name!r} must be between {least:g} and {most:g}, not {value:g}"
+        return ""

@@ -1,0 +1,48 @@
+"""Places of inputs in the data of a mechanism: in the numbers of its user functions, and in those of generated code."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .._core import ffi
+from .base import doubles
+from .element_tables import law_sizes
+from .inputs import Bound, Place
+from .law_owner import LawOwner, compiled_table
+
+
+class WrittenInputs(NamedTuple):
+    """Numbers of generated code: which of them inputs are, and the functions that derive others from them."""
+
+    numbers: np.ndarray
+    index: Mapping[str, int]            # of the first number of each input
+    derivations: Sequence[int]          # addresses
+
+
+def bound(core: Any, names: Sequence[str]) -> Bound:
+    """The core's system of a mechanism for one run, with the places of its inputs."""
+    laws, written = core._law, core.written_inputs
+    owner, sizes = LawOwner(laws, law_sizes(core.tables)), law_sizes(core.tables)
+    found = (ffi.NULL, None) if core._has_written_terms else compiled_table(laws, sizes)
+    numbers, pointer = None, core._numbers
+    if written is not None:
+        numbers = written.numbers.copy()
+        pointer = doubles(numbers, numbers.size)
+    mine = core._with_data(ffi.new_handle(owner), pointer, found)
+    mine._owner = owner
+    places = [*(_of_laws(laws, found[1][0], names) if found[1] else ()), *(_of_code(written, pointer, names) if written else ())]
+    derivations = [(address, pointer) for address in written.derivations] if written else []
+    return Bound(mine, places, derivations, (owner, numbers, found))
+
+
+def _of_laws(laws: Any, numbers: Sequence[Any], names: Sequence[str]) -> list[Place]:
+    wanted = {row.law.input: (row.law.is_speed, memory) for row, memory in zip(laws.rows, numbers, strict=True)
+              if row.law.input in names}
+    return [Place(name, is_speed, memory) for name, (is_speed, memory) in wanted.items()]
+
+
+def _of_code(written: WrittenInputs, pointer: Any, names: Sequence[str]) -> list[Place]:
+    return [Place(name, name.endswith(".speed"), pointer + written.index[name]) for name in names]

@@ -1,0 +1,93 @@
+"""Open runs of the core: advanced from goal to goal, read between them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from .._core import ffi, lib
+from .base import doubles
+from .runs import Run
+
+STEP = lib.zd_run_step      # status of so many steps of a run, with a record or NULL: the call that controllers make
+NO_RECORD = ffi.NULL
+MOST_STEPS = 2**62
+
+
+class OpenRun(Run):
+    """A run of the core without an end.
+
+    Attributes
+    ----------
+    c : pointer
+        The run, as `STEP` takes it.
+    """
+
+    def __init__(self, *given: Any) -> None:
+        super().__init__(*given)
+        self.c, core = self._run, self._core
+        self.sizes = core.nq, core.nv, core.m
+        self.c_p, self.c_v = lib.zd_run_p(self.c), lib.zd_run_v(self.c)
+        self._p, self._v = ffi.buffer(self.c_p, 8 * core.nq), ffi.buffer(self.c_v, 8 * core.nv)
+
+    @property
+    def t(self) -> float:
+        """Time of the present state, in s."""
+        return lib.zd_run_time(self.c)
+
+    @property
+    def p(self) -> np.ndarray:
+        """Copy of the coordinates (nq,), read-only."""
+        return np.frombuffer(self._p[:])
+
+    @property
+    def v(self) -> np.ndarray:
+        """Copy of the velocities (nv,), read-only."""
+        return np.frombuffer(self._v[:])
+
+    @property
+    def steps(self) -> int:
+        """Number of steps made."""
+        return lib.zd_run_step_number(self.c)
+
+    def aim(self, steps: int, t: float) -> int:
+        """Set the goal: so many steps, or a time; the status."""
+        return lib.zd_run_aim(self.c, steps, t)
+
+    @property
+    def ended_by(self) -> int:
+        """Index of the terminal event at which it stopped."""
+        return lib.zd_run_ended_by(self.c)
+
+    def accelerations(self) -> tuple[np.ndarray, np.ndarray]:
+        """Accelerations (nv,) and multipliers (m,) at the present state."""
+        _, nv, m = self.sizes
+        vdot, multipliers = np.empty(nv), np.empty(m)
+        self.accelerations_into(doubles(vdot, nv, writable=True), doubles(multipliers, m, writable=True))
+        return vdot, multipliers
+
+    def accelerations_into(self, vdot: Any, multipliers: Any) -> None:
+        """The same, into memory of C."""
+        if status := lib.zd_run_accelerations(self.c, vdot, multipliers):
+            raise self.error(status)
+
+    def entry_of_p(self, column: int) -> Callable[[], float]:
+        """Function that returns a coordinate at the present state."""
+        pointer = self.c_p
+        return lambda: pointer[column]
+
+    def entry_of_v(self, column: int) -> Callable[[], float]:
+        """Function that returns a velocity at the present state."""
+        pointer = self.c_v
+        return lambda: pointer[column]
+
+    def forget_errors(self) -> None:
+        """Forget exceptions of the user's functions, which were raised: the run may go on."""
+        for owner in (self._core, self._watcher, self._outputs):
+            for each in (owner, getattr(owner, "evaluator", None), getattr(owner, "_owner", None), getattr(owner, "_of", None)):
+                if each is not None and vars(each).get("error") is not None:
+                    each.error = None
+        if self._watcher:
+            self._watcher.error = None

@@ -1,0 +1,92 @@
+"""The argument `inputs` of a run: numbers that are set between steps, by name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _check, _gateway
+from ..systems.base import BaseSystem, WithInputs
+
+
+class Declared(NamedTuple):
+    """Inputs of a run, checked."""
+
+    names: tuple[str, ...]
+    lower: np.ndarray       # (k,) limits
+    upper: np.ndarray
+    of: WithInputs          # the system that has them
+
+    def bound(self, *cores: Any) -> tuple[_gateway.Inputs, list[Any]]:
+        """Inputs of one run, and its own systems in the place of these; None stays."""
+        found = [None if core is None else self.of.bound(core, self.names) for core in cores]
+        inputs = _gateway.Inputs(self.names, np.array(self.of.initial), self.lower, self.upper, [each for each in found if each])
+        return inputs, [each and each.core for each in found]
+
+
+def declared(given: Any, system: BaseSystem) -> Declared | None:
+    """Check the argument `inputs`: None, names, or a dict of names to limits (lower, upper), None for no limits."""
+    if given is None:
+        return None
+    limits = given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
+    names = tuple(map(_name, limits))
+    if not names:
+        raise ValueError("inputs must name at least one input")
+    bounds = np.array([_limits(name, each) for name, each in zip(names, limits.values(), strict=True)])
+    lower, upper = (np.ascontiguousarray(column) for column in bounds.T)
+    return Declared(names, lower, upper, system._with_inputs(names))
+
+
+def _names(given: Any) -> Sequence[Any]:
+    names = (given,) if isinstance(given, str) or hasattr(given, "name") else given
+    if not isinstance(names, Sequence):
+        raise TypeError(f"inputs must be names, or a dict of names to limits, not {_check.shown(given)}")
+    listed = list(map(_name, names))
+    for name in listed:
+        if listed.count(name) > 1:
+            raise ValueError(f"each input must be named once, and {name!r} is named more often")
+    return listed
+
+
+def _name(given: Any) -> str:
+    name = getattr(given, "name", given)
+    if not isinstance(name, str):
+        raise TypeError(f"an input must be a measure or its name, not {_check.shown(given)}")
+    return name
+
+
+def _limits(name: str, given: Any) -> tuple[float, float]:
+    if given is None:
+        return -math.inf, math.inf
+    bounds = _check.real(f"limits of input {name!r} must be (lower, upper)", given)
+    if bounds.shape != (2,) or not bounds[0] <= bounds[1]:
+        raise ValueError(f"limits of input {name!r} must be (lower, upper), not {_check.shown(given)}")
+    return float(bounds[0]), float(bounds[1])
+
+
+class History:
+    """Values of inputs over time, for a record: each from the time at which it was set."""
+
+    def __init__(self, t: float, values: np.ndarray) -> None:
+        self._t, self._values = [t], [values.copy()]
+
+    def note(self, t: float, values: np.ndarray) -> None:
+        """Note the values with which the run advances from t."""
+        if not np.array_equal(self._values[-1], values):
+            if self._t[-1] == t:
+                self._values[-1] = values.copy()
+            else:
+                self._t.append(t)
+                self._values.append(values.copy())
+
+    def columns(self, names: Sequence[str], t: np.ndarray) -> dict[str, np.ndarray]:
+        """Values (len(t),) of each input by name."""
+        return {name: np.ascontiguousarray(values) for name, values in zip(names, self.at(t).T, strict=True)}
+
+    def at(self, t: np.ndarray) -> np.ndarray:
+        """Values (len(t), k) in the steps that led to these times."""
+        last = np.searchsorted(np.array(self._t), t, side="left") - 1
+        return np.array(self._values)[np.maximum(last, 0)]

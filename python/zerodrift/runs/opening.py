@@ -1,0 +1,108 @@
+"""Beginning of a run: its arguments, checked, and the core's run and record that are made from them."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _gateway
+from ..errors import CostWarning, SingularSystem, advised
+from ..systems.base import BaseSystem, core_of, direct_core_of
+from . import evaluation_path, recording, settings
+from . import events as _events
+from . import outputs as _outputs
+from .inputs import Declared
+from .inputs import declared as declared_inputs
+from .start import start_of
+
+
+class Prepared(NamedTuple):
+    """Arguments of a run, checked and translated for the core."""
+
+    system: BaseSystem              # as given; that of the run has inputs in the place of numbers
+    span: tuple[float, float]       # s
+    chosen: dict[str, Any]          # settings by name, as in `Solution.settings`
+    options: Any                    # the same as a structure of the core
+    core: _gateway.CoreSystem
+    measured: _gateway.CoreSystem | None    # the system that has the measures
+    rows: int | None                # number of samples; None: not known in advance
+    p0: np.ndarray
+    v0: np.ndarray
+    events: Any
+    watcher: _gateway.Watcher | None
+    recorded: _outputs.Recorded | None
+    path: Any                       # of the file that samples are written to; None: memory
+    declared: Declared | None       # inputs
+    inputs: _gateway.Inputs | None
+
+    @property
+    def outputs(self) -> _gateway.Outputs | None:
+        """Measures that are recorded."""
+        return self.recorded.core if self.recorded else None
+
+    def created(self, kind: Any = _gateway.Run) -> Any:
+        """The core's run; the error of a singular system is extended by the system's advice."""
+        try:
+            return kind(self.core, self.options, self.p0, self.v0, self.watcher, self.outputs, self.inputs)
+        except SingularSystem as error:
+            advice = self.system._advice(error)
+            if advice is None:
+                raise
+            raise advised(error, advice) from None
+
+    def record(self) -> Any:
+        """New record for the samples, in memory or in the file."""
+        return recording.record_of(self.core, self.outputs, self.rows, self.path)
+
+
+def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: Any, outputs: Any, save_to: Any,
+             arguments: dict[str, Any], *, inputs: Any = None, is_open: bool = False, stacklevel: int = 2) -> Prepared:
+    """Check the arguments of a run; `arguments` are those of `settings.plan` from `t_eval` on.
+
+    `is_open`: the run has no end; `span` only serves the checks of its start.
+    """
+    system, p0, v0 = start_of(system, p0, v0, span[0])
+    core_of(system)
+    declared = declared_inputs(inputs, system)
+    of = declared.of.system if declared else system
+    plan = settings.plan(of, span, **arguments)
+    plan.options.is_open = is_open
+    core = direct_core_of(of, plan.chosen["vector"], plan.options)
+    plan.chosen["vector"] = evaluation_path.unit(core, plan.options)
+    if declared:
+        _check_speeds(declared, plan.chosen["step"])
+        plan.chosen["inputs"] = list(declared.names)
+    if outputs is not None:
+        plan.chosen["outputs"] = _outputs.names(outputs, of)
+    p0, v0 = of._state_or_start(p0, v0, t=span[0])
+    path = None if save_to is None else recording.file_of_samples().checked(save_to)
+    if not is_open and (told := system._what_it_costs(plan.steps)):
+        warnings.warn(told, CostWarning, stacklevel=stacklevel + 1)
+    rows = None if is_open else plan.rows
+    watched = _events.events(events, of)
+    ready = Prepared(system, span, plan.chosen, plan.options, core, of._watching.core, rows, p0, v0, watched, None, None, path,
+                     declared, None)
+    return with_own(ready, of)
+
+
+def with_own(ready: Prepared, of: BaseSystem) -> Prepared:
+    """The same with what belongs to one run: inputs, and records of events and outputs."""
+    core, measured, inputs = ready.core, ready.measured, None
+    if ready.declared:
+        inputs, (core, measured) = ready.declared.bound(core, measured)
+    names, recorded = ready.chosen.get("outputs"), None
+    if names is not None:
+        recorded = _outputs.Recorded(names, of, core, measured if inputs else None)
+    watcher = None
+    if ready.events is not None:
+        watcher = _gateway.Watcher(core, ready.events, measured, is_own=inputs is not None)
+    return ready._replace(core=core, measured=measured, inputs=inputs, recorded=recorded, watcher=watcher)
+
+
+def _check_speeds(declared: Declared, step: float | None) -> None:
+    """Check that speeds are inputs with fixed steps only, over one of which they are followed."""
+    for name in declared.names:
+        if step is None and name.endswith(".speed"):
+            raise ValueError(f"input {name!r} needs fixed steps, over one of which it is followed: give step=")

@@ -1,0 +1,404 @@
+"""`Run`: a run that stays open: it is stepped, read, and goes on."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import Any
+
+import numpy as np
+
+from .. import _check, _gateway
+from ..errors import InputRefused
+from ..systems.base import BaseSystem
+from . import diagnosis, recording
+from .control import Sampling, controls
+from .ending import Outcome, finish_file, solution_of, with_solution
+from .inputs import History
+from .opening import Prepared, prepared
+from .reading import Reading
+from .run_summary import run_summary
+from .settings import ARGUMENTS_OF_PLAN
+from .solution import Solution
+
+SLICE = 0.03            # seconds that the core runs between two looks at the keyboard
+NOMINAL_STEPS = 1000    # of the span that serves the checks of the start as a scale of time, with fixed steps
+NOMINAL_SPAN = 1.0      # s: the same with adaptive steps
+
+
+class Run:
+    """A run that stays open: advance it, read it, and go on.
+
+    Parameters
+    ----------
+    system : system
+        As of `simulate`.
+    p0, v0 : array_like (nq,), (nv,), optional
+        Start; by default that of the system.
+    t0 : float
+        Time of the start, in s.
+    step : float, optional
+        Size of fixed steps in s; left out: adaptive steps.
+    inputs : sequence of str or measures, or dict, optional
+        Numbers that are set between steps, by ``run[name] = value`` or ``run.inputs[:] = values``: torques, forces and speeds of
+        motors, actuators and loads of a mechanism, such as "drive.torque"; declared symbols of `symbolic`; numbers among the
+        parameters of a `System`, and entries of vectors, as "u[0]". A dict has limits (lower, upper) of each, or None. They begin
+        with the number that the system has. Forces are constant within a step, and their work is part of the energy balance. A
+        speed is followed linearly over one fixed step.
+    control : Every, or list of these, optional
+        Controllers, see `every`: each is called before the step that begins at one of its instants.
+    record : bool
+        True: every sample is kept in memory, for `solution`. A run that records nothing needs the same memory however long it is.
+    save_to : str or Path, optional
+        File to which samples are written, as of `simulate`; includes `record`.
+    **settings
+        As of `simulate`: `rtol`, `atol`, `first_step`, `max_step`, `max_move`, `max_steps`, `events`, `formulation`,
+        `integrator`, `stabilization`, `energy`, `correction`, `save_every`, `outputs`, `on_singular`, `direct`, `vector`.
+
+    Attributes
+    ----------
+    system : system
+    settings : dict
+        Settings by name.
+    inputs : ndarray (k,)
+        Inputs in the order of their names, in N m, N, m/s or rad/s; writable. They hold from the next step on.
+
+    Raises
+    ------
+    ZerodriftError, ValueError, TypeError
+        As `simulate` does for a start or an argument that is wrong.
+
+    See Also
+    --------
+    simulate : the shortest use of a run: to a given end, with a record of all samples.
+
+    Notes
+    -----
+    Chained advances have the bits of one: ``run.step(2); run.step(3)`` is ``run.step(5)``, and with fixed steps the k-th one ends
+    at ``t0 + k * step``, whatever the calls.
+
+    A step that fails raises the error that `simulate` raises, and leaves the run at the start of that step: it can be read and go
+    on, for example after another input. The same holds for Ctrl-C, and for what events and controllers raise.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> run = zd.Run(zd.models.slider_crank(), step=0.001)
+    >>> run.step(100)
+    >>> run.advance_to(0.25)
+    >>> round(run.t, 9), round(run["crank.angle"], 4)
+    (0.25, 2.4999)
+
+    A motor whose torque is set between steps:
+
+    >>> m = zd.Mechanism("arm")
+    >>> arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    >>> drive = m.motor("drive", m.revolute("pin", m.ground, arm.start), torque=0.0)
+    >>> run = zd.Run(m, step=0.001, inputs=["drive.torque"])
+    >>> run["drive.torque"] = 2.0
+    >>> run.advance_to(0.5)
+    >>> run["drive.torque"] = 0.0
+    >>> run.advance_to(1.0)
+    >>> round(run["pin.speed"], 6)
+    1.0
+    """
+
+    def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = None,
+                 inputs: Any = None, control: Any = None, record: bool = False, save_to: Any = None, events: Any = None,
+                 outputs: Any = None, **settings: Any) -> None:
+        t0 = _check.number("t0", t0)
+        nominal = NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0)
+        ready = prepared(system, (t0, t0 + nominal), p0, v0, events, outputs, save_to, {"step": step, **_known(settings)},
+                         inputs=inputs, is_open=True, stacklevel=2)
+        self._begin(ready, controls(control))
+        self._lock = recording.locked(ready.path)
+        self._lock.__enter__()
+        if _check.instance("record", record, bool, "True or False") or ready.path:
+            self._begin_record()
+
+    def _begin(self, ready: Prepared, of: Any) -> None:
+        """Create the core's run at the start of `ready`, without a record."""
+        self._ready, self.system, self.settings = ready, ready.system, ready.chosen
+        self._sampling = Sampling(of, ready.span[0], ready.chosen["step"]) if of else None
+        self._record, self._c_record, self._history, self._seconds = None, _gateway.NO_RECORD, None, 0.0
+        self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
+        self._places = {name: i for i, name in enumerate(ready.inputs.names)} if ready.inputs else {}
+        self._core = core = ready.created(_gateway.OpenRun)
+        self._c = core.c
+        self._reading = Reading(self._of, core, ready.measured)
+
+    @property
+    def _of(self) -> BaseSystem:
+        """The system that is run, with inputs in the place of numbers."""
+        return self._ready.declared.of.system if self._ready.declared else self.system
+
+    def _begin_record(self) -> None:
+        ready = self._ready
+        self._record = ready.record()
+        self._c_record = self._record.c
+        if ready.inputs:
+            self._history = History(self.t, self.inputs)
+        if ready.path:
+            recording.begin_file(self._record, self._core, ready.system, ready.span, ready.chosen, ready.recorded)
+
+    # ---- advance ----
+
+    def step(self, steps: int = 1) -> None:
+        """Make steps: fixed ones, or as many as the integrator chooses.
+
+        Parameters
+        ----------
+        steps : int
+            Their number, at least 0. A terminal event stops earlier, see `event`; the next call goes on from there, and the
+            event is terminal again.
+
+        Raises
+        ------
+        ZerodriftError
+            As `simulate` does; the run is then at the start of the step that failed.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> run = zd.Run(zd.systems.oscillator(), step=0.01)
+        >>> run.step(3)
+        >>> run.t, run.steps
+        (0.03, 3)
+        """
+        if self._sampling is not None:
+            self._sample(self.steps + _check.count("steps", steps, least=0), math.inf)
+        elif self._record is not None:
+            self._go(_check.count("steps", steps, least=0), math.inf)
+        elif status := _gateway.STEP(self._c, steps, self._c_record):
+            self._attend(status)
+
+    def advance_to(self, t: float) -> None:
+        """Advance to a time.
+
+        With fixed steps, a time within rounding of a whole number of steps is reached by these alone. Otherwise the last step is
+        shortened, and further steps are counted from there. Adaptive steps end at the time.
+
+        Parameters
+        ----------
+        t : float
+            In s, not before the present time.
+
+        Raises
+        ------
+        ValueError
+            If the time has passed.
+        ZerodriftError
+            As `step`.
+        """
+        t = _check.number("t", t, least=self.t)
+        if self._sampling is not None:
+            self._sample(_gateway.MOST_STEPS, t)
+        else:
+            self._go(_gateway.MOST_STEPS, t)
+
+    def _sample(self, last: int, t: float) -> None:
+        """Advance to a number of steps or to a time, with calls of the controllers that are due."""
+        sampling = self._sampling
+        while self._is_before(last, t):
+            sampling.call(self)
+            steps, instant = sampling.next(self)
+            left = last - self.steps
+            self._go(left if steps is None else min(steps, left), min(t, instant))
+            if self.event is not None:
+                return
+
+    def _is_before(self, last: int, t: float) -> bool:
+        step, now = self.settings["step"], self.t
+        rounding = 0.0 if step is None else 1e-9 * step
+        return self.steps < last and t - now > rounding
+
+    def _go(self, steps: int, t: float) -> None:
+        """Advance by a number of steps or to a time, whichever comes first."""
+        core, begin = self._core, time.perf_counter()
+        if self._history is not None:
+            self._history.note(core.t, self.inputs)
+        status = core.aim(steps, t) or core.advance(self._record, SLICE)
+        self._attend(status)
+        self._seconds += time.perf_counter() - begin
+
+    def _attend(self, status: int) -> None:
+        """Go on after a pause or with more memory; raise the error of a failure."""
+        core, record = self._core, self._record
+        while status in (_gateway.PAUSED, _gateway.FULL):
+            if status == _gateway.FULL:
+                recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
+                record.grow()
+                self._c_record = record.c
+            status = core.advance(record, SLICE)
+        if record is not None:
+            record.keep()
+        if status not in (_gateway.DONE, _gateway.EVENT):
+            self._fail(status)
+
+    def _fail(self, status: int) -> None:
+        """Raise the error of a failed step; the core has returned to its start."""
+        core = self._core
+        if status == _gateway.BAD_ARGUMENT:
+            raise ValueError("steps must be at least 0")
+        if status == _gateway.BAD_INPUT:
+            raise InputRefused(f"at t = {self.t:g}: {core.inputs.refused()}")
+        error = core.error(status)
+        core.forget_errors()
+        note = core.message if status == _gateway.CALLBACK else self.system._advice_on_failure(self.t, self.p)
+        if self._record is not None and self._ready.path is None and isinstance(error, Exception):
+            with_solution(error, self._solution(Outcome(status, self._seconds, None)))
+        if note:
+            _check.tell(error, note)
+        raise error
+
+    # ---- read ----
+
+    @property
+    def t(self) -> float:
+        """Present time, in s."""
+        return self._core.t
+
+    @property
+    def p(self) -> np.ndarray:
+        """Coordinates (nq,) at the present time, in their units; a copy."""
+        return self._core.p
+
+    @property
+    def v(self) -> np.ndarray:
+        """Velocities (nv,) at the present time, in their units; a copy."""
+        return self._core.v
+
+    @property
+    def steps(self) -> int:
+        """Number of steps made."""
+        return self._core.steps
+
+    @property
+    def event(self) -> int | None:
+        """Index of the terminal event at which the last advance stopped; None: it reached its goal."""
+        ended = self._core.ended_by
+        return None if ended < 0 else ended
+
+    @property
+    def vdot(self) -> np.ndarray:
+        """Accelerations (nv,) at the present state, with which the next step begins."""
+        return self._core.accelerations()[0]
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """Constraint reactions (m,) at the present state, with the sign of (7)."""
+        return self._core.accelerations()[1]
+
+    def __getitem__(self, name: Any) -> Any:
+        """Value of an input, coordinate, velocity, measure, or multiplier of a constraint at the present state, by name.
+
+        Parameters
+        ----------
+        name : str or measure
+            As of `Solution`.
+
+        Returns
+        -------
+        float, or ndarray (2,) or (3,) of a measure that is a vector
+
+        Raises
+        ------
+        KeyError
+            If nothing has this name, or several variables have.
+        """
+        place = self._places.get(name)
+        return self._reading(name) if place is None else float(self.inputs[place])
+
+    def __setitem__(self, name: Any, value: float) -> None:
+        """Set an input, from the next step on.
+
+        Raises
+        ------
+        KeyError
+            If the run has no input of this name.
+        """
+        try:
+            self.inputs[self._places[name]] = value
+        except KeyError:
+            self.inputs[self._place_of(name)] = value
+
+    def _place_of(self, name: Any) -> int:
+        """Index of an input, by its name or its measure."""
+        name = getattr(name, "name", name)
+        if name in self._places:
+            return self._places[name]
+        if name in self.system._names_of_inputs():
+            raise KeyError(f"{name!r} must be declared to be set: Run(..., inputs=[{name!r}])")
+        known = f"; {_check.closest(name, self._places)}" if self._places else ""
+        raise KeyError(f"nothing but inputs can be set, and {name!r} is none{known}")
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self._places, *self._reading.names()]
+
+    def __repr__(self) -> str:
+        return run_summary(self)
+
+    # ---- record ----
+
+    def solution(self) -> Solution:
+        """The samples recorded so far, as `simulate` returns them.
+
+        With `save_to`, the file is finished and closed, and further steps are not recorded.
+
+        Returns
+        -------
+        Solution
+
+        Raises
+        ------
+        ValueError
+            If the run does not record.
+
+        Warns
+        -----
+        AccuracyWarning, StabilityWarning, CorrectionWarning, LockedWarning
+            As `simulate` does.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> run = zd.Run(zd.systems.four_bar(), step=0.05, record=True)
+        >>> run.step(20)
+        >>> run.solution().p.shape
+        (21, 3)
+        """
+        if self._record is None:
+            raise ValueError("a solution needs samples: Run(..., record=True) keeps them, and save_to= writes them to a file")
+        outcome = Outcome(_gateway.DONE if self.event is None else _gateway.EVENT, self._seconds, None)
+        solution = self._solution(outcome)
+        if self._ready.path:
+            finish_file(self._record, solution, outcome)
+            self.close()
+        diagnosis.warn(solution, stacklevel=2)
+        return solution
+
+    def _solution(self, outcome: Outcome) -> Solution:
+        record = self._record if self._ready.path else self._record.snapshot()
+        span = self._ready.span[0], self.t
+        return solution_of(self._ready, self._core, record, self._core.results(), outcome, span, self._history)
+
+    def close(self) -> None:
+        """Stop recording, and let go of the file of `save_to`."""
+        self._record, self._c_record = None, _gateway.NO_RECORD
+        self._lock.__exit__(None, None, None)
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(self, *exception: Any) -> None:
+        if self._record is not None and self._ready.path:
+            finish_file(self._record, self._solution(Outcome(_gateway.DONE, self._seconds, None)), None)
+        self.close()
+
+
+def _known(settings: dict[str, Any]) -> dict[str, Any]:
+    """All settings of `simulate` besides the step: given ones, and the defaults."""
+    for name in settings:
+        if name not in ARGUMENTS_OF_PLAN:
+            raise TypeError(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}")
+    return {"t_eval": None, **ARGUMENTS_OF_PLAN, **settings}

@@ -1,0 +1,207 @@
+"""Inputs of runs: they hold from the next step on, do work, and are refused where they must not be used."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+
+def four_bar(**drives):
+    """A four-bar whose crank has a motor."""
+    m = zd.Mechanism("four-bar", gravity=(0, -9.81))
+    crank = m.link("crank", (0, 0), (0, 1), mass=1.0)
+    coupler = m.link("coupler", (0, 1), (2, 2), mass=2.0)
+    rocker = m.link("rocker", (3, 0), (2, 2), mass=2.0)
+    pin = m.revolute("A", m.ground, crank.start)
+    m.revolute("B", crank.end, coupler.start)
+    m.revolute("C", coupler.end, rocker.end)
+    m.revolute("D", m.ground, rocker.start)
+    m.motor("drive", pin, **drives)
+    return m
+
+
+def wheel(**drives):
+    """A wheel in space, whose motion under a torque is known."""
+    m = zd.Mechanism("wheel", dimension=3)
+    body = m.body("body", 2.0, (0.5, 0.5, 0.25))
+    hinge = m.revolute("hinge", m.ground, body, at=(0, 0, 0), axis=(0, 0, 1))
+    m.motor("drive", hinge, **drives)
+    return m
+
+
+LAYOUTS = [(layout, compiled) for layout in ("joint", "absolute") for compiled in (False, True)]
+
+
+@pytest.mark.parametrize(("layout", "compiled"), LAYOUTS)
+def test_an_input_at_its_first_value_has_the_bits_of_a_number(layout, compiled):
+    system = four_bar(torque=1.5).system(layout, compiled=compiled)
+    run, sol = zd.Run(system, step=2.0**-8, inputs=["drive.torque"]), zd.simulate(system, 0.5, step=2.0**-8)
+    run.step(128)
+    assert run["drive.torque"] == 1.5
+    exact = np.array_equal if not compiled else lambda a, b: np.allclose(a, b, rtol=1e-13, atol=1e-13)  # other code: rounding
+    assert exact(run.p, sol.p[-1])
+    assert exact(run.v, sol.v[-1])
+
+
+@pytest.mark.parametrize(("layout", "compiled"), LAYOUTS)
+def test_an_input_is_a_torque_that_is_a_function_of_time(layout, compiled):
+    """The same torque as a law: constant within each step, so that RK4 steps are the same to rounding."""
+    steps = [3.0, -2.0, 0.5, 7.0]
+    run = zd.Run(four_bar(torque=0.0).system(layout, compiled=compiled), step=2.0**-7, inputs=["drive.torque"], record=True)
+    for value in steps:
+        run["drive.torque"] = value
+        run.step(16)
+    parts = [zd.Run(four_bar(torque=value).system(layout, compiled=compiled), *state, step=2.0**-7) for value, state in
+             zip(steps[:1], [(None, None)], strict=True)]
+    parts[0].step(16)
+    for value in steps[1:]:
+        last = parts[-1]
+        parts.append(zd.Run(four_bar(torque=value).system(layout, compiled=compiled), last.p, last.v, t0=last.t, step=2.0**-7))
+        parts[-1].step(16)
+    assert np.allclose(run.p, parts[-1].p, rtol=1e-12, atol=1e-12)
+    assert np.allclose(run.v, parts[-1].v, rtol=1e-11, atol=1e-11)
+    sol = run.solution()
+    assert sol["drive.torque"].tolist() == [3.0, *np.repeat(steps, 16)]
+
+
+@pytest.mark.parametrize("form", ["schur", "augmented", "nullspace", "mixed", "independent"])
+@pytest.mark.parametrize("method", ["rk4", "radau", "rattle", "extrapolation"])
+def test_work_of_inputs_is_in_the_energy_balance(form, method):
+    run = zd.Run(four_bar(torque=0.0), step=0.001, formulation=form, integrator=method, inputs=["drive.torque"],
+                 record=True)
+    for value in (20.0, -15.0, 5.0):
+        run["drive.torque"] = value
+        run.step(100)
+    sol = run.solution()
+    assert np.ptp(sol.energy_input) > 1.0
+    size = 1e-3 if method == "rattle" else 1e-7      # of second order, and of the fourth and higher ones, at this step
+    assert abs(sol.energy_violation).max() < size * sol.kinetic_energy.max()
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_torque_in_space_turns_a_wheel(layout):
+    run = zd.Run(wheel(torque=0.0).system(layout), step=0.01, inputs=["drive.torque"])
+    run["drive.torque"] = 0.5
+    run.advance_to(1.0)
+    run["drive.torque"] = -0.25
+    run.advance_to(2.0)
+    assert run["hinge.angle"] == pytest.approx(0.5 * 2.0 + 2.0 - 0.5, rel=1e-9)     # accelerations 2 and -1 rad/s^2
+    assert run["drive.torque"] == -0.25
+    assert run["hinge.torque.z"] == pytest.approx(-0.25, abs=1e-9)
+
+
+@pytest.mark.parametrize(("layout", "compiled"), LAYOUTS)
+@pytest.mark.parametrize("made", [four_bar, wheel])
+def test_a_speed_is_followed_linearly_over_one_step(made, layout, compiled):
+    m = made(speed=0.0)
+    joint = "A" if made is four_bar else "hinge"
+    run = zd.Run(m.system(layout, compiled=compiled), step=0.002, inputs=["drive.speed"], record=True)
+    run["drive.speed"] = 2.0
+    run.step()
+    assert run[f"{joint}.speed"] == pytest.approx(2.0, rel=1e-10)
+    run.step(99)
+    run["drive.speed"] = -1.0
+    run.step(50)
+    sol = run.solution()
+    moved = 2.0 * 0.001 + 2.0 * 0.198 + 0.5 * 0.002 - 0.098     # two ramps, and constant speeds
+    angle = sol[f"{joint}.angle"]
+    assert angle[-1] - angle[0] == pytest.approx(moved, rel=1e-9)
+    assert abs(sol.velocity_violation).max() < 1e-9
+    assert abs(sol.energy_violation).max() < 1e-6 * max(1.0, sol.kinetic_energy.max())
+
+
+def test_every_kind_of_load_can_be_an_input():
+    m = zd.Mechanism("loads", gravity=(0, 0))
+    body = m.body("body", 2.0, 0.5)
+    m.force("thrust", body, along=(1, 0), value=0.0)
+    m.torque("spin", body, value=0.0)
+    other = m.particle("other", 1.0, at=(3, 0))
+    m.actuator("ram", body.point((0, 0)), other, force=0.0)
+    run = zd.Run(m, step=0.01, inputs=["thrust.force", "spin.torque", "ram.force"])
+    run.inputs[:] = 4.0, 1.0, 0.0
+    run.advance_to(1.0)
+    assert run["body.velocity.x"] == pytest.approx(2.0, rel=1e-9)
+    assert run["body.angular_velocity"] == pytest.approx(2.0, rel=1e-9)
+    run.inputs[:] = 0.0, 0.0, 3.0
+    before = run["other.velocity.x"]
+    run.advance_to(1.01)
+    assert run["other.velocity.x"] - before == pytest.approx(0.03, rel=1e-3)
+
+
+def test_symbols_that_are_declared_are_inputs():
+    sp = pytest.importorskip("sympy")
+    x, v, u, k = sp.symbols("x v u k")
+    system = zd.symbolic([x], speeds=[v], kinetic=v**2 / 2, potential=0, force=[k * u], inputs=[u], parameters={k: 2.0}, p0=[0.0])
+    run = zd.Run(system, step=0.01, inputs=["u"], record=True)
+    run["u"] = 3.0
+    run.advance_to(1.0)
+    assert run.p[0] == pytest.approx(3.0, rel=1e-12)
+    assert run.solution().energy_input[-1] == pytest.approx(18.0, rel=1e-12)
+    with pytest.raises(ValueError, match=r"must be declared, zd\.symbolic.*'k' is not"):
+        zd.Run(system, step=0.01, inputs=["k"])
+
+
+def test_numbers_among_the_parameters_of_a_system_are_inputs():
+    system = zd.System(2, mass=np.eye(2), force=lambda u, gain: gain * u, parameters={"u": np.zeros(2), "gain": 1.0},
+                       p0=[0.0, 0.0])
+    run, other = (zd.Run(system, step=0.01, inputs=["u[0]", "u[1]", "gain"]) for _ in range(2))
+    run.inputs[:] = 1.0, -1.0, 3.0
+    for each in (run, other):
+        each.step(100)
+    assert np.allclose(run.p, [1.5, -1.5], rtol=1e-12)
+    assert not other.p.any()
+    with pytest.raises(ValueError, match=r"must name numbers among the parameters of system, not 'w'"):
+        zd.Run(system, step=0.01, inputs=["w"])
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 5.5, -2.5])
+def test_an_input_that_must_not_be_used_makes_no_step(value):
+    run = zd.Run(four_bar(torque=0.0), step=0.01, inputs={"drive.torque": (-2.0, 5.0)})
+    run["drive.torque"] = 5.0
+    run.step(3)
+    p = run.p
+    run["drive.torque"] = value
+    rule = "between -2 and 5" if np.isfinite(value) else "finite"
+    with pytest.raises(zd.InputRefused, match=rf"at t = 0\.03: input 'drive\.torque' must be {rule}.*\[zd:input-refused\]"):
+        run.step()
+    assert run.steps == 3
+    assert np.array_equal(run.p, p)
+    run["drive.torque"] = -2.0
+    run.step()
+    assert run.steps == 4
+
+
+def test_wrong_inputs_say_what_is_allowed():
+    m = four_bar(speed=1.0)
+    with pytest.raises(ValueError, match=r"not 'drive\.torque': motor 'drive' prescribes its speed, and its force follows"):
+        zd.Run(m, step=0.01, inputs=["drive.torque"])
+    with pytest.raises(ValueError, match=r"'drive\.speed' needs fixed steps"):
+        zd.Run(m, inputs=["drive.speed"])
+    with pytest.raises(ValueError, match="must begin with a number"):
+        zd.Run(four_bar(torque=lambda t: t), step=0.01, inputs=["drive.torque"])
+    with pytest.raises(ValueError, match="named more often"):
+        zd.Run(m, step=0.01, inputs=["drive.speed", "drive.speed"])
+    with pytest.raises(ValueError, match=r"must be \(lower, upper\)"):
+        zd.Run(m, step=0.01, inputs={"drive.speed": (1.0, 0.0)})
+    with pytest.raises(ValueError, match="has none"):
+        zd.Run(zd.systems.four_bar(), step=0.01, inputs=["mass"])
+    run = zd.Run(m, step=0.01)
+    with pytest.raises(KeyError, match=r"'drive\.speed' must be declared to be set"):
+        run["drive.speed"] = 1.0
+    with pytest.raises(KeyError, match=r"nothing but inputs can be set, and 'A\.angle' is none"):
+        run["A.angle"] = 1.0
+
+
+def test_many_steps_with_changing_inputs_give_no_false_warning(recwarn):
+    run = zd.Run(four_bar(torque=0.0), step=0.001, inputs=["drive.torque"], record=True)
+    for k in range(500):
+        run["drive.torque"] = 30.0 * (-1) ** k
+        run.step()
+    run.solution()
+    assert not recwarn.list
+
+
+def test_a_run_prints_its_inputs():
+    run = zd.Run(four_bar(torque=0.0), step=0.01, inputs=["drive.torque"])
+    run["drive.torque"] = 2.5
+    assert "  inputs      drive.torque = 2.5 N m\n" in repr(run)

@@ -1,0 +1,288 @@
+"""Open runs: chained advances are one, failures leave the run where it was, and values are those of `simulate`."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+
+def dyadic(system, **settings):
+    """A run whose fixed step is exact in doubles, so that its times are those of `simulate`."""
+    return zd.Run(system, step=2.0**-6, **settings)
+
+
+@pytest.mark.parametrize("energy", [None, True])
+def test_chained_advances_have_the_bits_of_one_run(formulation, energy):
+    bar = zd.systems.four_bar()
+    sol = zd.simulate(bar, 2.0, step=2.0**-6, formulation=formulation, energy=energy)
+    run = dyadic(bar, formulation=formulation, energy=energy)
+    for steps in (1, 2, 30, 0, 31, 64):
+        run.step(steps)
+    assert run.steps == 128
+    assert run.t == 2.0
+    assert np.array_equal(run.p, sol.p[-1])
+    assert np.array_equal(run.v, sol.v[-1])
+    assert np.array_equal(run.multipliers, sol.multipliers[-1])
+
+
+@pytest.mark.parametrize("method", zd.integrators())
+def test_chains_and_times_are_alike_with_every_integrator(method):
+    system = zd.systems.slider_crank()
+    if method == "taylor":
+        pytest.skip("needs the series of a compiled system")
+    one, chain = (dyadic(system, integrator=method) for _ in range(2))
+    one.step(40)
+    for k in range(1, 41):
+        chain.advance_to(k * 2.0**-6)
+    assert np.array_equal(one.p, chain.p)
+    assert np.array_equal(one.v, chain.v)
+    assert one.t == chain.t
+
+
+def test_adaptive_steps_chain_too():
+    bar = zd.systems.four_bar()
+    one, chain = zd.Run(bar, rtol=1e-8), zd.Run(bar, rtol=1e-8)
+    one.step(12)
+    for _ in range(12):
+        chain.step()
+    assert np.array_equal(one.p, chain.p)
+    assert one.t == chain.t
+
+
+def test_adaptive_steps_end_at_the_time_and_are_not_shorter_for_it():
+    run = zd.Run(zd.systems.four_bar(), rtol=1e-8)
+    run.step(5)
+    size = run.t
+    run.step()
+    size = run.t - size
+    run.advance_to(run.t + 1e-3 * size)
+    before = run.t
+    run.step()
+    assert run.t - before > 0.3 * size
+
+
+def test_fixed_steps_are_counted_from_a_time_between_two_of_them():
+    run = zd.Run(zd.systems.oscillator(), step=0.1)
+    run.advance_to(0.25)
+    assert run.t == 0.25
+    assert run.steps == 3
+    run.step(2)
+    assert run.t == 0.25 + 2 * 0.1
+    assert run.steps == 5
+    run.advance_to(0.55)
+    assert run.t == 0.25 + 3 * 0.1
+    assert run.steps == 6
+    fine = zd.simulate(zd.systems.oscillator(), 0.55, step=0.001)
+    assert run.p[0] == pytest.approx(fine.p[-1, 0], abs=1e-4)       # of RK4 at this step
+
+
+def test_many_short_advances_do_not_add_up_rounding():
+    run = zd.Run(zd.systems.oscillator(), step=0.1, record=True)
+    for k in range(1, 301):
+        run.advance_to(k / 10)
+    assert run.steps == 300
+    assert np.array_equal(run.solution().t, 0.1 * np.arange(301))
+
+
+def test_what_is_read_is_what_a_solution_has():
+    m = zd.models.slider_crank()
+    sol = zd.simulate(m, 0.5, step=2.0**-8)
+    run = zd.Run(m, step=2.0**-8)
+    run.advance_to(0.5)
+    for name in ("crank.angle", "slide.force", "slide.force.x", "slider.position", "crank.angular_velocity",
+                 *(variable.name for variable in (*sol.system.coordinates, *sol.system.velocities))):
+        assert np.asarray(run[name]).shape == np.asarray(sol[name][-1]).shape
+        assert np.allclose(run[name], sol[name][-1], rtol=1e-13, atol=1e-13), name
+    assert isinstance(run["crank.angle"], float)
+
+
+def test_orientations_in_space_are_read():
+    m = zd.models.space.gyroscope()
+    sol, run = zd.simulate(m, 0.125, step=2.0**-8), zd.Run(m, step=2.0**-8)
+    run.advance_to(0.125)
+    names = [name for name in sol.measures if name.endswith(".rotation")]
+    assert names
+    for name in names:
+        assert np.array_equal(np.ravel(run[name]), np.ravel(sol[name][-1]))
+
+
+def test_names_that_nothing_has_are_refused():
+    run = zd.Run(zd.models.slider_crank(), step=0.01)
+    with pytest.raises(KeyError, match=r"nothing in .* is called 'crank\.angel'; .*crank\.angle"):
+        run["crank.angel"]
+    with pytest.raises(TypeError, match="Run has no setting 'formulations'"):
+        zd.Run(zd.systems.four_bar(), step=0.01, formulations="schur")
+
+
+def test_reading_does_not_change_the_bits_of_what_follows():
+    m = zd.models.slider_crank()
+    quiet, read = (zd.Run(m, step=0.01, formulation="augmented") for _ in range(2))
+    for _ in range(50):
+        quiet.step()
+        read.step()
+        _ = read["slide.force"], read.multipliers, read.vdot, repr(read)
+    assert np.array_equal(quiet.p, read.p)
+    assert np.array_equal(quiet.v, read.v)
+
+
+
+def test_a_failed_step_leaves_the_run_at_its_start():
+    system = zd.System(["x"], mass=np.eye(1), force=lambda t, p, v: np.array([np.nan]) if p[0] < -0.5 else np.array([-9.81]),
+                       p0=[0.0], v0=[0.0])
+    run = zd.Run(system, step=0.01, record=True)
+    with pytest.raises(ValueError, match="force") as caught:
+        run.step(1000)
+    t, p = run.t, run.p
+    assert 0.3 < t < 0.32
+    assert p[0] > -0.5
+    assert p[0] == pytest.approx(-9.81 / 2 * t**2, rel=1e-12)
+    assert caught.value.solution.t[-1] == t
+    with pytest.raises(ValueError, match="force"):
+        run.step()
+    assert run.t == t
+    assert np.array_equal(run.p, p)
+
+
+@pytest.mark.parametrize("method", ["rk4", "radau", "rattle", "trapezoidal"])
+def test_a_run_goes_on_after_a_failure_as_if_it_had_not_been_tried(method):
+    hot = {"is": False}
+
+    def force(t, p, v):
+        if hot["is"]:
+            raise RuntimeError("overheated")
+        return np.array([-p[0]])
+
+    system = zd.System(["x"], mass=np.eye(1), force=force, p0=[1.0], v0=[0.0])
+    run = zd.Run(system, step=0.01, integrator=method)
+    run.step(50)
+    hot["is"] = True
+    with pytest.raises(RuntimeError, match="overheated"):
+        run.step()
+    hot["is"] = False
+    assert run.t == 0.5
+    run.step(50)
+    assert run.t == 1.0
+    assert run.p[0] == pytest.approx(np.cos(1.0), abs=1e-4)
+
+
+def test_a_diverging_run_says_so_and_stays():
+    run = zd.Run(zd.systems.four_bar(), step=2.0, stabilization=None, integrator="euler")
+    with pytest.raises(zd.ZerodriftError) as caught:
+        run.step(1000)
+    assert np.isfinite(run.p).all()
+    assert run.steps < 1000
+    assert caught.value.code
+
+
+def test_events_are_found_and_a_terminal_one_stops():
+    event = zd.Event("x", value=0.0, terminal=True)
+    run = zd.Run(zd.systems.oscillator(), step=0.01, events=event)
+    run.step(10_000)
+    first = run.t
+    assert run.event == 0
+    assert run.p[0] == pytest.approx(0.0, abs=1e-9)
+    run.step(3)
+    assert run.event is None
+    assert run.t == pytest.approx(first + 0.03, rel=1e-14)
+    run.step(10_000)
+    assert run.event == 0
+    assert run.t > first + 0.1
+
+
+def test_ctrl_c_in_an_event_leaves_the_run_at_its_start():
+    def impatient(t, p, v):
+        if t > 0.1:
+            raise KeyboardInterrupt
+        return 1.0
+
+    run = zd.Run(zd.systems.oscillator(), step=0.01, events=impatient)
+    with pytest.raises(KeyboardInterrupt):
+        run.step(100)
+    assert run.t == pytest.approx(0.1, rel=1e-12)
+
+
+@pytest.mark.parametrize("steps", [-1, 1.5, "2", None])
+def test_steps_must_be_counted(steps):
+    for record in (False, True):
+        with pytest.raises((TypeError, ValueError)):
+            zd.Run(zd.systems.oscillator(), step=0.01, record=record).step(steps)
+
+
+def test_time_does_not_go_back():
+    run = zd.Run(zd.systems.oscillator(), step=0.01, t0=2.0)
+    run.advance_to(2.1)
+    with pytest.raises(ValueError, match=r"t must be at least 2\.1, not 2"):
+        run.advance_to(2.0)
+    run.advance_to(run.t)
+    assert run.steps == 10
+
+
+def test_a_record_grows_and_a_solution_is_a_copy_of_it():
+    bar = zd.systems.four_bar()
+    run, sol = dyadic(bar, record=True, save_every=2), zd.simulate(bar, 64.0, step=2.0**-6, save_every=2)
+    run.step(100)
+    first = run.solution()
+    run.step(64 * 64 - 100)
+    assert len(first.t) == 51
+    last = run.solution()
+    for name in ("t", "p", "v", "multipliers", "energy_violation", "position_violation"):
+        assert np.array_equal(getattr(last, name), getattr(sol, name)), name
+    assert last.t_span == (0.0, 64.0)
+    assert last.stats["steps"] == 64 * 64
+    assert np.array_equal(first.p, sol.p[:51])
+
+
+def test_samples_go_to_a_file(tmp_path):
+    bar = zd.systems.four_bar()
+    with zd.Run(bar, step=2.0**-6, save_to=tmp_path / "samples.npy") as run:
+        run.step(128)
+        with pytest.raises(zd.InUse):
+            zd.Run(bar, step=2.0**-6, save_to=tmp_path / "samples.npy")
+    sol = zd.simulate(bar, 2.0, step=2.0**-6)
+    assert np.array_equal(zd.load(tmp_path / "samples.npy").p, sol.p)
+
+
+def test_a_run_that_records_nothing_has_no_solution():
+    with pytest.raises(ValueError, match=r"record=True\) keeps them"):
+        zd.Run(zd.systems.oscillator(), step=0.01).solution()
+
+
+def test_a_run_prints_itself():
+    run = zd.Run(zd.systems.oscillator(), step=0.01)
+    run.step(3)
+    assert repr(run).startswith("Run of oscillator: t = 0.03 s after 3 steps\n")
+    assert "x = " in repr(run)
+
+
+@pytest.mark.parametrize("step", [0.002, None])
+def test_controllers_are_called_at_multiples_of_their_period(step):
+    called = {0.01: [], 0.03: []}
+    control = [zd.every(period, call=lambda run, times=times: times.append(run.t)) for period, times in called.items()]
+    run = zd.Run(zd.systems.oscillator(), step=step, control=control)
+    run.advance_to(0.05)
+    run.advance_to(0.12)
+    for period, times in called.items():
+        expected = period * np.arange(round(0.12 / period))
+        assert np.allclose(times, expected, rtol=1e-15, atol=1e-15), period
+
+
+def test_a_step_that_does_not_divide_the_period_is_refused_with_one_that_does():
+    with pytest.raises(ValueError, match=r"step must divide the period 0\.01 s of control, and 0\.003 s does not.* 0\.00333"):
+        zd.Run(zd.systems.oscillator(), step=0.003, control=zd.every(0.01, call=print))
+    with pytest.raises(TypeError, match=r"control must be zd\.every"):
+        zd.Run(zd.systems.oscillator(), step=0.003, control=print)
+    with pytest.raises(TypeError, match="call must be a function"):
+        zd.every(0.01, call=3)
+
+
+def test_what_a_controller_raises_says_when_and_leaves_the_run():
+    def broken(run):
+        if run.t > 0.045:
+            raise RuntimeError("no signal")
+
+    run = zd.Run(zd.systems.oscillator(), step=0.01, control=zd.every(0.01, call=broken))
+    with pytest.raises(RuntimeError, match="no signal") as caught:
+        run.step(100)
+    assert run.t == 0.05
+    assert run.steps == 5
+    assert any("every 0.01 s" in note and "t = 0.05" in note for note in caught.value.__notes__)
