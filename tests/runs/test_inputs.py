@@ -205,3 +205,38 @@ def test_a_run_prints_its_inputs():
     run = zd.Run(four_bar(torque=0.0), step=0.01, inputs=["drive.torque"])
     run["drive.torque"] = 2.5
     assert "  inputs      drive.torque = 2.5 N m\n" in repr(run)
+
+
+@pytest.mark.parametrize("steps", [{"step": 0.002}, {"rtol": 1e-9}])
+def test_simulate_with_a_controller_has_the_bits_of_a_run_with_it(steps):
+    """A spring and a damper that are sampled: each torque is that of the state at the instant before."""
+
+    @zd.every(0.01)
+    def spring(run):
+        run["drive.torque"] = 20.0 - 30.0 * run["A.angle"] - 4.0 * run["A.speed"]
+
+    m = four_bar(torque=0.0)
+    sol = zd.simulate(m, 0.5, inputs=["drive.torque"], control=spring, **steps)
+    run = zd.Run(m, inputs=["drive.torque"], control=spring, record=True, **steps)
+    run.advance_to(0.5)
+    assert np.array_equal(run.solution().p[:-1], sol.p[:-1])
+    for k in range(50):
+        at = np.searchsorted(sol.t, 0.01 * k - 1e-9)
+        wanted = 20.0 - 30.0 * sol["A.angle"][at] - 4.0 * sol["A.speed"][at]
+        held = sol["drive.torque"][(sol.t > 0.01 * k + 1e-9) & (sol.t < 0.01 * k + 0.0099)]
+        assert np.allclose(held, wanted, rtol=1e-9)
+    assert abs(sol.energy_violation).max() < 1e-7 * sol.kinetic_energy.max()
+
+
+def test_a_controller_that_raises_leaves_a_partial_solution():
+    def broken(run):
+        if run.t > 0.1:
+            raise RuntimeError("no signal")
+
+    with pytest.raises(RuntimeError, match="no signal") as caught:
+        zd.simulate(four_bar(torque=0.0), 1.0, step=0.01, inputs=["drive.torque"], control=zd.every(0.05, call=broken))
+    assert caught.value.solution.t[-1] == pytest.approx(0.15)
+    with pytest.raises(zd.InputRefused, match="must be finite") as caught:
+        zd.simulate(four_bar(torque=0.0), 1.0, step=0.01, inputs=["drive.torque"],
+                    control=zd.every(0.05, call=lambda run: run.inputs.fill(np.nan if run.t > 0.1 else 0.0)))
+    assert caught.value.solution.t[-1] == pytest.approx(0.15)

@@ -308,8 +308,9 @@ class Run:
 
     @property
     def message(self) -> str:
-        """The first failure, in one sentence."""
-        return text(lib.zd_run_message(self._run))
+        """The first failure, or the input that is refused, in one sentence."""
+        refused = self.inputs.refused() if self.inputs else ""
+        return text(lib.zd_run_message(self._run)) or (refused and f"at t = {lib.zd_run_time(self._run):g}: {refused}")
 
     def _redundant(self, rank: int) -> list[int]:
         """Indices of constraints that are redundant in all positions."""

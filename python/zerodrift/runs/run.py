@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import InputRefused
 from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
@@ -87,7 +86,7 @@ class Run:
     >>> run.step(100)
     >>> run.advance_to(0.25)
     >>> round(run.t, 9), round(run["crank.angle"], 4)
-    (0.25, 2.4999)
+    (0.25, 1.5548)
 
     A motor whose torque is set between steps:
 
@@ -126,6 +125,29 @@ class Run:
         self._core = core = ready.created(_gateway.OpenRun)
         self._c = core.c
         self._reading = Reading(self._of, core, ready.measured)
+
+    @classmethod
+    def of(cls, ready: Prepared, controllers: Any) -> Run:
+        """The run that controllers of `simulate` receive, which `simulate` advances and records."""
+        run = object.__new__(cls)
+        run._begin(ready, controllers)
+        if ready.inputs:
+            run._history = History(run.t, run.inputs)
+        return run
+
+    def _control(self) -> None:
+        """Call the controllers that are due, and aim at the next instant of one."""
+        core, sampling = self._core, self._sampling
+        if sampling is not None:
+            sampling.call(self)
+            steps, instant = sampling.next(self)
+            core.aim(_gateway.MOST_STEPS if steps is None else steps, instant)
+        if self._history is not None:
+            self._history.note(core.t, self.inputs)
+
+    def _goes_on(self) -> bool:
+        """True if a run with an end has reached an instant of a controller, not its end."""
+        return self._sampling is not None and self._core.t < self._ready.span[1] and self.event is None
 
     @property
     def _of(self) -> BaseSystem:
@@ -240,11 +262,11 @@ class Run:
         core = self._core
         if status == _gateway.BAD_ARGUMENT:
             raise ValueError("steps must be at least 0")
-        if status == _gateway.BAD_INPUT:
-            raise InputRefused(f"at t = {self.t:g}: {core.inputs.refused()}")
         error = core.error(status)
         core.forget_errors()
-        note = core.message if status == _gateway.CALLBACK else self.system._advice_on_failure(self.t, self.p)
+        note = core.message if status == _gateway.CALLBACK else None
+        if status not in (_gateway.CALLBACK, _gateway.BAD_INPUT):
+            note = self.system._advice_on_failure(self.t, self.p)
         if self._record is not None and self._ready.path is None and isinstance(error, Exception):
             with_solution(error, self._solution(Outcome(status, self._seconds, None)))
         if note:

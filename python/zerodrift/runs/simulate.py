@@ -9,10 +9,12 @@ from typing import Any
 from .. import _check, _gateway
 from ..systems.base import BaseSystem
 from . import recording, settings
+from .control import called, controls
 from .ending import Outcome, finish_file, finished, solution_of
 from .keyboard import Keyboard
 from .opening import prepared
 from .progress import progress_of
+from .run import Run
 from .solution import Solution
 
 SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
@@ -46,6 +48,8 @@ def simulate(
     direct: bool | None = None,
     vector: str | None = None,
     on_failure: str = "raise",
+    inputs: Any = None,
+    control: Any = None,
 ) -> Solution:
     """Simulate the motion of a constrained multibody system.
 
@@ -136,6 +140,10 @@ def simulate(
     on_failure : {"raise", "return"}
         For a run that fails or is interrupted: "raise" raises an error with the partial solution as its attribute `solution`;
         "return" returns that solution, with `success` False.
+    inputs : sequence of str or measures, or dict, optional
+        Numbers that `control` sets, as of `Run`. The solution has their values over time by name.
+    control : Every, or list of these, optional
+        Controllers, see `every`: each is called with the run at exact multiples of its period, and sets inputs.
 
     Returns
     -------
@@ -202,34 +210,40 @@ def simulate(
         "t_eval": t_eval, "save_every": save_every, "step": step, "rtol": rtol, "atol": atol, "first_step": first_step,
         "max_step": max_step, "max_move": max_move, "max_steps": max_steps, "formulation": formulation, "integrator": integrator,
         "stabilization": stabilization, "energy": energy, "correction": correction, "on_singular": on_singular, "direct": direct,
-        "vector": vector})
+        "vector": vector}, inputs=inputs)
+    of = controls(control)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     path = ready.path
-    with recording.locked(path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__) as keyboard:
-        run, record = ready.created(), ready.record()
+    with recording.locked(path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__, called.__code__) as keyboard:
+        controlled = Run.of(ready, of) if of or inputs else None
+        run, record = controlled._core if controlled else ready.created(), ready.record()
         if path:
             recording.begin_file(record, run, ready.system, ready.span, ready.chosen, ready.recorded)
-        outcome = _drive(run, record, progress, keyboard)
+        outcome = _drive(run, record, progress, keyboard, controlled)
         results = run.results()
-        solution = solution_of(ready, run, record, results, outcome)
+        solution = solution_of(ready, run, record, results, outcome, history=controlled._history if controlled else None)
         if path:
             finish_file(record, solution, outcome)
     return finished(solution, run, results, outcome, on_failure, keyboard)
 
 
-def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: Keyboard) -> Outcome:
-    """Run the core in slices of time until the run ends, fails or is interrupted."""
+def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: Keyboard, controlled: Run | None) -> Outcome:
+    """Run the core in slices of time, and to the instants of controllers, until it ends, fails or is interrupted."""
     show, close = progress_of(progress)
     start, status, error = time.perf_counter(), _gateway.PAUSED, None
     try:
         while status in (_gateway.PAUSED, _gateway.FULL):
             if keyboard.pressed:
                 raise KeyboardInterrupt
+            if controlled and status == _gateway.PAUSED:
+                controlled._control()
             if status == _gateway.FULL:
                 recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
                 record.grow()
             status = run.advance(record, SLICE)
             record.keep()
+            if controlled and status == _gateway.DONE and controlled._goes_on():
+                status = _gateway.PAUSED
             _show(show, run.progress)
     except BaseException as caught:
         status, error = _gateway.INTERRUPTED, caught
