@@ -22,7 +22,7 @@
  *     knots           abscissa, and coefficients of powers 3, 2, 1, 0 of the distance from it, valid to the next knot
  *     start           p, then v: one entry each; none if the start is not given
  *     outputs         index of a measure that a run records
- *     inputs          name, unit, and what it sets between steps: a enum zd_block_input_kind, and an index there
+ *     inputs          name, unit, enum zd_block_input_kind, index of a force or 0, and initial value
  *     settings        t0, step, rtol, atol, first step, maximum step, maximum move, maximum number of steps, 1 to continue at
  *                     bifurcations: one entry or none; as in zd_settings
  *     methods         table (enum zd_table), name, and ZD_ROW_VALUES values of its parameters: of the formulation, the integrator and
@@ -67,6 +67,7 @@ enum zd_block_code {
     ZD_CODE_LESS, ZD_CODE_LESS_EQUAL, ZD_CODE_GREATER, ZD_CODE_GREATER_EQUAL, ZD_CODE_EQUAL, ZD_CODE_UNEQUAL,     /* 1 if true, else 0 */
     ZD_CODE_AND, ZD_CODE_OR, ZD_CODE_NOT,
     ZD_CODE_CHOOSE,         /* b if a is not 0, otherwise c */
+    ZD_CODE_INPUT,          /* number b (0, 1 or 2) of the place of input a, see zd_input_place */
     ZD_CODE_SPLINE,         /* spline a (its number) at value b, derivative of order c (a number: 0, 1 or 2); fails beyond its ends */
     ZD_CODE_POWER, ZD_CODE_ROOT, ZD_CODE_SIN, ZD_CODE_COS, ZD_CODE_TAN, ZD_CODE_ASIN, ZD_CODE_ACOS, ZD_CODE_ATAN, ZD_CODE_ATAN2,
     ZD_CODE_SINH, ZD_CODE_COSH, ZD_CODE_TANH, ZD_CODE_ASINH, ZD_CODE_ACOSH, ZD_CODE_ATANH, ZD_CODE_EXP, ZD_CODE_LOG, ZD_CODE_ABS,
@@ -75,10 +76,10 @@ enum zd_block_code {
     ZD_CODES
 };
 
-/* Members that an input sets. */
+/* Numbers that are set between steps. */
 enum zd_block_input_kind {
-    ZD_INPUT_FORCE,        /* value of a generalized force of kind ZD_FORCE_CONSTANT */
-    ZD_INPUT_SPEED          /* slope of a relation without a user function: the speed of a motor; its value does not jump */
+    ZD_INPUT_FORCE,         /* value of a force of kind ZD_FORCE_CONSTANT */
+    ZD_INPUT_SPEED          /* a speed, linear in time within a step, that laws read by ZD_CODE_INPUT */
 };
 
 typedef struct zd_block zd_block;
@@ -96,8 +97,9 @@ int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int
 int zd_block_inputs(const zd_block *block);
 const char *zd_block_input_name(const zd_block *block, int input);
 double zd_block_input(const zd_block *block, int input);
-/* Sets an input from time t on. Returns ZD_DONE, or ZD_BAD_ARGUMENT for an input that does not exist or a value that is not finite. */
-int zd_block_set_input(zd_block *block, int input, double t, double value);
+/* Sets an input from the next advance of the run on. Returns ZD_DONE, or ZD_BAD_INPUT for an input that does not exist or a value that is
+ * not finite. */
+int zd_block_set_input(zd_block *block, int input, double value);
 
 int zd_block_parameters(const zd_block *block);
 const char *zd_block_parameter_name(const zd_block *block, int parameter);

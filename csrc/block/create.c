@@ -94,7 +94,9 @@ static int make(zd_block *self, const arrays *from, zd_complaint to)
     if (count_of(&self->layout, ZD_BLOCK_LAWS)) self->system.failure = "a user function of the mechanism is not defined here, as a table "
                                                                         "beyond its ends";
     self->outputs = (zd_outputs){NULL, count_of(&self->layout, ZD_BLOCK_OUTPUTS), self->output};
-    return fits(self, to);
+    if (!fits(self, to)) return 0;
+    zd_block_inputs_begin(self);
+    return 1;
 }
 
 /* ---- memory ---- */
@@ -104,6 +106,13 @@ static zd_block *take(zd_arena *arena, size_t size, const zd_block_layout *layou
     zd_block nowhere = {.size = 0}, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
     self->word = zd_take(arena, size);
     self->laws.value = zd_take_doubles(arena, (size_t)longest);
+    const size_t inputs = (size_t)count_of(layout, ZD_BLOCK_INPUTS);
+    zd_block_inputs_memory *memory = &self->inputs_memory;
+    memory->value = zd_take_doubles(arena, inputs);
+    memory->lower = zd_take_doubles(arena, inputs);
+    memory->upper = zd_take_doubles(arena, inputs);
+    self->laws.speed = memory->speed = zd_take_doubles(arena, 3 * inputs);
+    memory->place = zd_take(arena, inputs * sizeof *memory->place);
     self->output = zd_take(arena, (size_t)count_of(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
     return here;
 }

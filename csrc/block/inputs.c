@@ -7,20 +7,11 @@
 
 static const double *input_of(const zd_block *block, int input) { return zd_block_entry(&block->layout, ZD_BLOCK_INPUTS, input); }
 
-/* Planned row of a relation; NULL: there is none. */
-static zd_relation *row_of(const zd_block *block, int relation)
-{
-    for (int i = 0; i < block->system.mh + block->system.mn; i++)
-        if (block->names.owner[i].owner == ZD_OF_RELATION && block->names.owner[i].index == relation) return block->row + i;
-    return NULL;
-}
-
 static int is_settable(const zd_block *block, const double *input)
 {
-    const int is_force = input[2] == ZD_INPUT_FORCE;
-    const int count = block->layout.part[is_force ? ZD_BLOCK_FORCES : ZD_BLOCK_RELATIONS].count;
-    if ((!is_force && input[2] != ZD_INPUT_SPEED) || !zd_block_is_whole(input[3], 0, count)) return 0;
-    return is_force ? block->force[(int)input[3]].kind == ZD_FORCE_CONSTANT : row_of(block, (int)input[3])->law < 0;
+    if (input[2] == ZD_INPUT_SPEED) return input[3] == 0;
+    return input[2] == ZD_INPUT_FORCE && zd_block_is_whole(input[3], 0, block->layout.part[ZD_BLOCK_FORCES].count) &&
+           block->force[(int)input[3]].kind == ZD_FORCE_CONSTANT;
 }
 
 int zd_block_inputs_check(const zd_block *block, zd_complaint to)
@@ -31,9 +22,33 @@ int zd_block_inputs_check(const zd_block *block, zd_complaint to)
         if (!zd_block_text(layout, input[0]) || !zd_block_text(layout, input[1]))
             return zd_complain(to, "input %d: the texts of its name and unit must exist", i);
         if (!is_settable(block, input))
-            return zd_complain(to, "input %d: it must set an existing force or speed without a user function", i);
+            return zd_complain(to, "input %d: it must be a speed, or set an existing force without a user function", i);
     }
     return 1;
+}
+
+void zd_block_inputs_begin(zd_block *block)
+{
+    zd_block_inputs_memory *memory = &block->inputs_memory;
+    const int count = zd_block_inputs(block);
+    for (int i = 0; i < count; i++) {
+        const double *input = input_of(block, i);
+        double *place = input[2] == ZD_INPUT_SPEED ? memory->speed + 3 * i : &block->force[(int)input[3]].value;
+        memory->value[i] = *place = input[4];
+        memory->lower[i] = -INFINITY;
+        memory->upper[i] = INFINITY;
+        memory->place[i] = (zd_input_place){i, input[2] == ZD_INPUT_SPEED, place};
+    }
+    block->inputs = (zd_inputs){.count = count, .value = memory->value, .lower = memory->lower, .upper = memory->upper, .places = count,
+                                .place = memory->place};
+}
+
+void zd_block_inputs_write(zd_block *block)
+{
+    for (const zd_input_place *place = block->inputs.place; place < block->inputs.place + block->inputs.places; place++) {
+        place->place[0] = block->inputs.value[place->input];
+        if (place->is_speed) place->place[1] = place->place[2] = 0;
+    }
 }
 
 int zd_block_inputs(const zd_block *block) { return block->layout.part[ZD_BLOCK_INPUTS].count; }
@@ -45,22 +60,13 @@ const char *zd_block_input_name(const zd_block *block, int input)
 
 double zd_block_input(const zd_block *block, int input)
 {
-    if (!zd_is_in(input, zd_block_inputs(block))) return NAN;
-    const double *word = input_of(block, input);
-    return word[2] == ZD_INPUT_FORCE ? block->force[(int)word[3]].value : row_of(block, (int)word[3])->slope;
+    return zd_is_in(input, zd_block_inputs(block)) ? block->inputs_memory.value[input] : NAN;
 }
 
-int zd_block_set_input(zd_block *block, int input, double t, double value)
+int zd_block_set_input(zd_block *block, int input, double value)
 {
-    if (!zd_is_in(input, zd_block_inputs(block)) || !isfinite(value)) return ZD_BAD_ARGUMENT;
-    const double *word = input_of(block, input);
-    if (word[2] == ZD_INPUT_FORCE) {
-        block->force[(int)word[3]].value = value;
-        return ZD_DONE;
-    }
-    zd_relation *row = row_of(block, (int)word[3]);
-    if (!row->nonholonomic) row->constant += (row->slope - value) * t;     /* the driven value at t stays */
-    row->slope = value;
+    if (!zd_is_in(input, zd_block_inputs(block)) || !isfinite(value)) return ZD_BAD_INPUT;
+    block->inputs_memory.value[input] = value;
     return ZD_DONE;
 }
 

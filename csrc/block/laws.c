@@ -34,6 +34,7 @@ static int instruction_is_right(const zd_block_layout *layout, const double *wor
     case ZD_CODE_NUMBER: case ZD_CODE_TIME: return 1;
     case ZD_CODE_X: case ZD_CODE_XDOT: return zd_block_is_whole(word[1], 0, terms);
     case ZD_CODE_RESULT: return zd_block_is_whole(word[1], 0, results) && zd_block_is_whole(word[2], 0, number);
+    case ZD_CODE_INPUT: return zd_block_is_whole(word[1], 0, layout->part[ZD_BLOCK_INPUTS].count) && zd_block_is_whole(word[2], 0, 3);
     case ZD_CODE_SPLINE:
         return zd_block_is_whole(word[1], 0, layout->part[ZD_BLOCK_SPLINES].count) && zd_block_is_whole(word[2], 0, number) &&
                zd_block_is_whole(word[3], 0, 3);
@@ -199,6 +200,7 @@ int zd_block_law(void *owner, int law, double t, const double *x, const double *
         case ZD_CODE_X: value[i] = x[(int)word[1]]; break;
         case ZD_CODE_XDOT: value[i] = xdot[(int)word[1]]; break;
         case ZD_CODE_RESULT: out[(int)word[1]] = value[i] = value[(int)word[2]]; break;
+        case ZD_CODE_INPUT: value[i] = self->speed[3 * (int)word[1] + (int)word[2]]; break;
         case ZD_CODE_SPLINE:
             if (!spline_value(self->layout, (int)word[1], value[(int)word[2]], (int)word[3], value + i)) return ZD_CALLBACK;
             break;

@@ -6,6 +6,7 @@
 
 typedef struct zd_block_laws {
     const zd_block_layout *layout;
+    const double *speed;        /* (inputs, 3) */
     double *value;              /* values of instructions, as many as the longest law has */
 } zd_block_laws;
 

@@ -24,7 +24,7 @@ static int width_of(const zd_block_layout *layout, int section)
 {
     static const int width[ZD_BLOCK_SECTIONS] = {
         [ZD_BLOCK_GRAVITY] = 1, [ZD_BLOCK_LAWS] = 4, [ZD_BLOCK_INSTRUCTIONS] = 4, [ZD_BLOCK_SPLINES] = 2, [ZD_BLOCK_KNOTS] = 5,
-        [ZD_BLOCK_START] = 1, [ZD_BLOCK_OUTPUTS] = 1, [ZD_BLOCK_INPUTS] = 4, [ZD_BLOCK_SETTINGS] = 9,
+        [ZD_BLOCK_START] = 1, [ZD_BLOCK_OUTPUTS] = 1, [ZD_BLOCK_INPUTS] = 5, [ZD_BLOCK_SETTINGS] = 9,
         [ZD_BLOCK_METHODS] = 2 + ZD_ROW_VALUES, [ZD_BLOCK_NAMES] = 1, [ZD_BLOCK_PARAMETERS] = 5, [ZD_BLOCK_EFFECTS] = 3,
         [ZD_BLOCK_PRODUCTS] = 7, [ZD_BLOCK_TEXTS] = 1};
     const zd_block_structure *structure = zd_block_structure_in(layout, section);

@@ -37,7 +37,6 @@ static int make(zd_block *self, void *const *section, const zd_elements *element
     self->mechanism = plane;
     if (!plane) return 0;
     const zd_plane_plan plan = zd_plane_planned(plane);
-    self->row = (zd_relation *)(uintptr_t)plan.row;
     self->force = (zd_generalized_force *)(uintptr_t)plan.force;
     self->names.owner = zd_plane_rows(plane);
     self->system = *zd_plane_system(plane);

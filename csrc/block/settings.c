@@ -30,10 +30,12 @@ static int take_method(const zd_block *block, const double *method, zd_settings 
 int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int message_size)
 {
     const zd_complaint to = {message, message_size};
+    zd_block_inputs_write(block);
     const zd_block_part *methods = block->layout.part + ZD_BLOCK_METHODS, *given = block->layout.part + ZD_BLOCK_SETTINGS;
     *settings = (zd_settings){
         .formulation = zd_default_row(ZD_FORMULATIONS), .integrator = zd_default_row(ZD_INTEGRATORS), .step = 0.01, .save_every = 1,
-        .on_singular = ZD_STOP, .outputs = block->outputs.count ? &block->outputs : NULL, .vector = ZD_BASELINE};
+        .on_singular = ZD_STOP, .outputs = block->outputs.count ? &block->outputs : NULL,
+        .inputs = block->inputs.count ? &block->inputs : NULL, .vector = ZD_BASELINE};
     if (!methods->count) {
         const int correction = zd_default_row(ZD_CORRECTIONS);
         settings->correction[correction] = zd_initial(zd_row(ZD_CORRECTIONS, correction));

@@ -40,7 +40,6 @@ static int make(zd_block *self, void *const *section, const zd_elements *element
     self->mechanism = space;
     if (!space) return 0;
     const zd_space_plan plan = zd_space_planned(space);
-    self->row = (zd_relation *)(uintptr_t)plan.row;
     self->force = (zd_generalized_force *)(uintptr_t)plan.force;
     self->names.owner = zd_space_rows(space);
     self->system = *zd_space_system(space);

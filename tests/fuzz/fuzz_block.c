@@ -108,7 +108,7 @@ static void try_block(const unsigned char *data, size_t size)
     zd_settings settings;
     const zd_system *system = zd_block_system(block);
     for (int row = 0; row < system->mh + system->mn; row++) system->name_constraint(system->names, row, message, MESSAGE);
-    for (int i = 0; i < zd_block_inputs(block); i++) zd_block_set_input(block, i, 0.1, 0.3);
+    for (int i = 0; i < zd_block_inputs(block); i++) zd_block_set_input(block, i, 0.3);
     for (int i = 0; i < zd_block_parameters(block); i++) zd_block_set_parameter(block, i, 0.3);
     const double *p = zd_block_start(block);
     message[0] = 0;

@@ -23,6 +23,7 @@ OPERATIONS = {"+": lib.ZD_CODE_PLUS, "-": lib.ZD_CODE_MINUS, "*": lib.ZD_CODE_TI
               "<=": lib.ZD_CODE_LESS_EQUAL, ">": lib.ZD_CODE_GREATER, ">=": lib.ZD_CODE_GREATER_EQUAL, "==": lib.ZD_CODE_EQUAL,
               "!=": lib.ZD_CODE_UNEQUAL, "and": lib.ZD_CODE_AND, "or": lib.ZD_CODE_OR, "not": lib.ZD_CODE_NOT,
               "choose": lib.ZD_CODE_CHOOSE, "spline": lib.ZD_CODE_SPLINE, "number": lib.ZD_CODE_NUMBER, "t": lib.ZD_CODE_TIME,
+              "input": lib.ZD_CODE_INPUT,
               "p": lib.ZD_CODE_X, "v": lib.ZD_CODE_XDOT, "result": lib.ZD_CODE_RESULT}
 FUNCTIONS = {name: getattr(lib, f"ZD_CODE_{code or name.upper()}") for name, code in {
     "Pow": "POWER", "sin": "", "cos": "", "tan": "", "asin": "", "acos": "", "atan": "", "atan2": "", "sinh": "", "cosh": "",
@@ -100,7 +101,7 @@ def settings(options: Any) -> list[float]:
     return [float(getattr(options, name)) for name in names]
 
 
-WIDTHS = {"laws": 4, "instructions": 4, "splines": 2, "knots": 5, "inputs": 4, "settings": 9, "methods": 2 + lib.ZD_ROW_VALUES,
+WIDTHS = {"laws": 4, "instructions": 4, "splines": 2, "knots": 5, "inputs": 5, "settings": 9, "methods": 2 + lib.ZD_ROW_VALUES,
           "parameters": 5, "effects": 3, "products": 7}
 
 
@@ -165,9 +166,9 @@ class BlockCore(CoreSystem):
         return {text(lib.zd_block_input_name(self._block, i)): lib.zd_block_input(self._block, i)
                 for i in range(lib.zd_block_inputs(self._block))}
 
-    def set_input(self, name: str, value: float, t: float = 0.0) -> None:
-        """Sets an input from a time on."""
-        if lib.zd_block_set_input(self._block, list(self.inputs).index(name), t, value):
+    def set_input(self, name: str, value: float) -> None:
+        """Sets an input from the next advance on."""
+        if lib.zd_block_set_input(self._block, list(self.inputs).index(name), value):
             raise ValueError(f"input {name!r} must be a finite number, not {value!r}")
 
     def set_parameter(self, index: int, value: float) -> bool:

@@ -122,13 +122,13 @@ def written(chosen: Chosen) -> bytes:
     quantities, observed = read(tables)
     if chosen.outputs is not None:
         observed = [row for row in observed if row.name in chosen.outputs]
-    packed = tables.written(quantities, observed)
+    packed, inputs, programs = _with_inputs(chosen, tables.written(quantities, observed), texts)
     measures = [row.name for row in observed]
     if len(measures) > MOST_MEASURES:
         raise ValueError(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, as {system.name} has")
     sections = {
-        **blocks.tables(packed, texts), **_laws(tables, packed), "start": [*chosen.p.tolist(), *chosen.v.tolist()],
-        "outputs": [measures.index(name) for name in chosen.outputs or ()], "inputs": _input_section(chosen, tables, texts),
+        **blocks.tables(packed, texts), **vars(programs), "start": [*chosen.p.tolist(), *chosen.v.tolist()],
+        "outputs": [measures.index(name) for name in chosen.outputs or ()], "inputs": inputs,
         "settings": blocks.settings(chosen.options), "methods": blocks.methods(chosen.options, texts),
         "names": [texts.offset(name) for name in (*(body.name for body in tables.parts), *(joint.name for joint in tables.joints),
                                                   *tables.relation_names)]}
@@ -138,21 +138,21 @@ def written(chosen: Chosen) -> bytes:
     return blocks.assembled(system._drawing.dimension, sections, counts, texts)
 
 
-def _laws(tables: Any, packed: Any) -> dict[str, list[float]]:
-    """Sections of the user functions."""
-    programs, sizes = Programs(), law_sizes(packed)
+def _with_inputs(chosen: Chosen, packed: Any, texts: blocks.Texts) -> tuple[Any, list[float], Programs]:
+    """Tables whose driven speeds read inputs, the section of inputs, and the programs of all user functions."""
+    tables, programs, sizes = chosen.system._started_tables, Programs(), law_sizes(packed)
     for i, row in enumerate(tables.laws.rows):
         programs.add(row, *sizes[i])
-    return vars(programs)
-
-
-def _input_section(chosen: Chosen, tables: Any, texts: blocks.Texts) -> list[float]:
-    found: list[float] = []
-    for name in chosen.inputs:
+    relations, found = list(packed.relations), []
+    for number, name in enumerate(chosen.inputs):
         kind, index = _target(name, tables)
-        unit = next((row.unit for row in tables.observed if row.name == name), "")
-        found += [texts.offset(name), texts.offset(unit), blocks.INPUTS[kind], index]
-    return found
+        value = packed.forces[index].value if kind == "force" else relations[index].slope
+        if kind == "speed":
+            law = programs.add_speed(number)
+            relations[index] = relations[index]._replace(nonholonomic=True, constant=0.0, slope=0.0, law=law)
+        unit = next((row.unit for row in tables.observed if row.name == name), "rad/s" if kind == "speed" else "N")
+        found += [texts.offset(name), texts.offset(unit), blocks.INPUTS[kind], index if kind == "force" else 0, value]
+    return packed._replace(relations=relations), found, programs
 
 
 def _target(name: str, tables: Any) -> tuple[str, int]:

@@ -34,8 +34,22 @@ class Programs:
         """Add the program of a user function of k marker quantities."""
         table = row.law._function
         program = self._of_table(row, table, k) if isinstance(table, Table) else _Program(*_nodes(row, k)).instructions
+        self._append(program, k, results)
+
+    def _append(self, program: list[Instruction], k: int, results: int) -> None:
         self.laws += [len(self.instructions) // 4, len(program), k, results]
         self.instructions += [number for instruction in program for number in instruction]
+
+    def add_speed(self, number: int) -> int:
+        """Index of a new law: the drive xdot - speed(t) = 0, whose speed is an input, value + rate (t - begin)."""
+        program = _Instructions()
+        value, rate, begin = (program.add("input", number, part) for part in range(3))
+        elapsed = program.add("-", program.add("t"), begin)
+        speed = program.add("+", value, program.add("*", rate, elapsed))
+        results = [program.add("number", 0.0), program.add("number", 1.0), program.add("negative", speed),
+                   program.add("negative", rate)]
+        self._append(program.with_results(results), 1, 4)
+        return len(self.laws) // 4 - 1
 
     def _of_table(self, row: function_calls.Call, table: Table, k: int) -> list[Instruction]:
         """Program of a table: its value, or the constraint that prescribes it."""
