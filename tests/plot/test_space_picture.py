@@ -11,8 +11,12 @@ from zerodrift.mechanisms.elements.frames import about
 from zerodrift.plot.space_picture import DOTS, FACES, GLYPHS
 
 
+def artists(ax, kind):
+    return [each for each in [*ax.collections, *ax.lines] if each.get_label() == f"_{kind}" and each.get_visible()]
+
+
 def artist(ax, kind):
-    (found,) = [each for each in [*ax.collections, *ax.lines] if each.get_label() == f"_{kind}"]
+    (found,) = artists(ax, kind)
     return found
 
 
@@ -118,7 +122,8 @@ def test_a_motion_with_its_path_and_a_film():
     film = zd.plot.animate(sol, fps=20, names=True)
     film._init_draw()
     film._draw_frame(3)
-    bar = artist(film._fig.axes[0], "bar")._segments3d[0]
+    parts = np.concatenate([each._segments3d for each in artists(film._fig.axes[0], "bar")])
+    bar = parts[0, 0], parts[-1, 1]
     assert_close(np.sum(bar, axis=0), sol["top.center.position"][150] + sol["tip.position"][150], 1e-12, scale=1.0)
     plt.close(film._fig)
 
@@ -179,6 +184,31 @@ def test_names_do_not_cover_each_other(model):
     boxes = [(text.get_text(), text.get_window_extent()) for text in ax.texts if text.get_text()]
     assert len(boxes) > 5
     assert not [(one, other) for i, (one, box) in enumerate(boxes) for other, second in boxes[:i] if box.overlaps(second)]
+
+
+def test_what_is_near_covers_what_is_far():
+    """A small plate in front of a large one, and one behind it, whichever was drawn first."""
+    m = zd.Mechanism("plates", dimension=3)
+    for k, y in enumerate((0.0, -1.0, 1.0)):
+        body = m.body(f"plate {k}", 1.0, (0.1, 0.1, 0.1), at=(0, y, 0))
+        size = 1.0 if k == 0 else 0.3
+        for i, (x, z) in enumerate(((-1, -1), (1, -1), (1, 1), (-1, 1))):
+            m.point(f"{k}{i}", body, at=(size * x, y, size * z))
+            m.rod(f"rod {k}{i}", body.point(at=(size * x, y, size * z)), m.ground.point((size * x, y, 2.0)))
+    ax = zd.plot.mechanism(m)
+    ax.view_init(elev=0, azim=-90)
+    ax.figure.canvas.draw()
+    faces = sorted(artists(ax, "plate"), key=lambda each: each.zorder)
+    far, large, near = (each.get_paths()[0].get_extents().width for each in faces)      # of the two small ones the near seems wider
+    assert far < near < large
+    plt.close(ax.figure)
+
+
+def test_z_points_down_where_gravity_does():
+    axes = [zd.plot.mechanism(m) for m in (zd.models.whipple_bicycle(), zd.models.gyroscope())]
+    assert [(ax.zaxis_inverted(), ax.yaxis_inverted()) for ax in axes] == [(True, True), (False, False)]
+    for ax in axes:
+        plt.close(ax.figure)
 
 
 def test_faces_are_lit_by_their_normals():

@@ -15,7 +15,7 @@ import numpy as np
 
 from .. import _check
 from ..plot.dense_samples import dense
-from ..plot.drawing import moments_of, paths_of
+from ..plot.drawing import is_upside_down, moments_of, paths_of
 from ..plot.glyphs import GLYPHS
 from ..runs.columns import columns
 from ..runs.solution import Solution
@@ -71,7 +71,7 @@ def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) 
     low, high = places.min(axis=0), places.max(axis=0)
     box = every.min(axis=0), every.max(axis=0)
     labelled = list(zip(map(dense, solutions), labels, strict=True))
-    return {"name": first.system.name, "upside": _is_upside_down(first),
+    return {"name": first.system.name, "upside": is_upside_down(first.system),
             "span": [t0, t1], "samples": count, "speed": speed, "dimension": int(places.shape[1]),
             "low": low.tolist(), "high": high.tolist(), "follow": follow, "pin": _pin(layers[0], float(shown.max() or 1.0)),
             "arrow": arrow, "box": [side.tolist() for side in box], "names": wanted.names, "group": wanted.group,
@@ -94,11 +94,6 @@ def _follow(layers: Sequence[dict[str, Any]], places: np.ndarray) -> float:
     sizes = [np.ptp(layer["table"][:, layer["at"]], axis=1).max(initial=0.0) for layer in layers if len(layer["at"])]
     size = float(max(sizes, default=0.0))
     return FOLLOWED * size if 0 < size < FAR * float(np.ptp(places, axis=0).max()) else 0.0
-
-
-def _is_upside_down(sol: Solution) -> bool:
-    """True if gravity acts along +z, as where z points down."""
-    return float(sol.system.parameters.get("gravity.z", 0.0)) > 0
 
 
 def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:

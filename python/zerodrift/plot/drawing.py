@@ -97,7 +97,7 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
         return draw_in_space(drawing_axes(ax, 3), points, moving=sol is not None and p is None)
     if _is_in_space(moments):
         extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
-        picture = SpacePicture(drawing_axes(ax, 3), moments, extras)
+        picture = SpacePicture(drawing_axes(ax, 3), moments, extras, upside_down=is_upside_down(system))
     else:
         extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
         picture = Picture(drawing_axes(ax, 2), moments, extras)
@@ -195,7 +195,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
         return _film(ax, moved_in_space(ax, points), times, fps)
     if _is_in_space(moments):
         extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows), force_scale)
-        return _film(ax, SpacePicture(ax, moments, extras).show, times, fps)
+        return _film(ax, SpacePicture(ax, moments, extras, upside_down=is_upside_down(sol.system)).show, times, fps)
     extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows), force_scale)
     return _film(ax, Picture(ax, moments, extras).show, times, fps)
 
@@ -239,6 +239,11 @@ def _spread(sol: Solution, count: int) -> np.ndarray:
 def _is_in_space(moments: list[list[Shape]]) -> bool:
     """True if the shapes are three-dimensional."""
     return any(shape.points.shape[1] == 3 for shape in moments[0])
+
+
+def is_upside_down(system: Any) -> bool:
+    """True if gravity acts along +z, as where z points down."""
+    return float(getattr(system, "parameters", {}).get("gravity.z", 0.0)) > 0
 
 
 def paths_of(sol: Solution | None, points: Any) -> list[np.ndarray]:

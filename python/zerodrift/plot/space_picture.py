@@ -1,14 +1,17 @@
 """Pictures of mechanisms in space from the shapes of their parts, in axes of matplotlib that show space; `drawing` asks for them.
 
-All shapes of a kind are one collection, which films move instead of drawing anew. Bodies are grey, their joints dark.
+Collections are moved by films instead of drawn anew. Each face and each part of a bar is a collection of its own, as matplotlib
+orders these by depth; of many, all of a kind are one. Bodies are grey, their joints dark.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib import patheffects
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from matplotlib.text import Text
@@ -29,10 +32,21 @@ DARKEST, BRIGHTEST = 0.72, 1.08     # shares of a face's colour: edge-on to the 
 FACES = np.array([(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)])     # of a box's corners
 MOST_NAMES = 40     # more would hide the picture
 TICKS = 4           # of each axis, at most
+MOST_PIECES = 240   # of a picture that are ordered by depth individually
+PART = 3.0          # longest part of a bar, in sizes
+ROUND = [patheffects.Stroke(linewidth=5.4, foreground="#40505F"), patheffects.Stroke(linewidth=4.0, foreground="#8C9CAD"),
+         patheffects.Stroke(linewidth=1.2, foreground="#DCE3EA", offset=(0, 0.8))]     # a rod that is lit from above
 
 
 def _as_it_is(points: np.ndarray, size: float) -> list[np.ndarray]:
     return [points]
+
+
+def _bar(points: np.ndarray, size: float) -> list[np.ndarray]:
+    """A line in parts, each with a depth of its own."""
+    count = max(1, int(np.ceil(np.linalg.norm(points[1] - points[0]) / (PART * size))))
+    ends = points[0] + np.linspace(0, 1, count + 1)[:, None] * (points[1] - points[0])
+    return list(np.stack([ends[:-1], ends[1:]], axis=1))
 
 
 def _pin(points: np.ndarray, size: float) -> list[np.ndarray]:
@@ -54,11 +68,11 @@ def _box(points: np.ndarray, size: float) -> list[np.ndarray]:
     return list(points[FACES])
 
 
-def _shaded(colour: str, faces: Sequence[np.ndarray]) -> np.ndarray:
+def _shaded(colour: str, faces: Sequence[np.ndarray], light: np.ndarray = LIGHT) -> np.ndarray:
     """Colours (k, 4) of flat faces, by the angle of their normals to the light."""
     normals = np.array([np.cross(face[1] - face[0], face[2] - face[0]) for face in faces])
     lengths = np.linalg.norm(normals, axis=1)
-    towards = np.abs(normals @ LIGHT) / np.where(lengths > 0, lengths, 1.0)
+    towards = np.abs(normals @ light) / np.where(lengths > 0, lengths, 1.0)
     colours = np.tile(to_rgba(colour), (len(faces), 1))
     colours[:, :3] = np.minimum(colours[:, :3] * (DARKEST + (BRIGHTEST - DARKEST) * towards)[:, None], 1.0)
     return colours
@@ -87,9 +101,9 @@ class Glyph(NamedTuple):
 
 
 GLYPHS = {
-    "bar": Glyph(_as_it_is, {"colors": "#7A8CA0", "linewidths": 4.0}),
+    "bar": Glyph(_bar, {"colors": "#7A8CA0", "linewidths": 4.0, "path_effects": ROUND}),
     "plate": Glyph(_as_it_is, {"facecolors": "#C9D3DE", "edgecolors": "#40505F", "linewidths": 1.5}, True),
-    "box": Glyph(_box, {"facecolors": "#C9D3DE", "edgecolors": "#40505F", "linewidths": 0.8}, True),
+    "box": Glyph(_box, {"facecolors": "#C9D3DE90", "edgecolors": "#40505F", "linewidths": 0.8}, True),
     "disc": Glyph(_as_it_is, {"facecolors": "#C9D3DEE0", "edgecolors": "#40505F", "linewidths": 1.8}, True),
     "ring": Glyph(_as_it_is, {"colors": "#40505F", "linewidths": 1.2}),
     "patch": Glyph(_patch, {"facecolors": "#E69F0030", "edgecolors": "#E69F00", "linewidths": 0.8}, True),
@@ -110,8 +124,10 @@ FAINTLY = 0.36      # and how opaque they are
 class SpacePicture:
     """Shapes in axes that show space, all to the scale that holds every one of them; `show` draws those of one moment."""
 
-    def __init__(self, ax: Axes, moments: Sequence[list[Shape]], extras: Extras = NOTHING) -> None:
+    def __init__(self, ax: Axes, moments: Sequence[list[Shape]], extras: Extras = NOTHING, *, upside_down: bool = False) -> None:
+        """`upside_down`: z points down."""
         self.ax, self._moments, self._drawn, paths = ax, moments, {}, extras.paths
+        self._light = LIGHT * ((1, -1, -1) if upside_down else (1, 1, 1))
         places = np.vstack([*(_extent(shape) for shapes in moments for shape in shapes), *paths])
         extent = float(np.ptp(places, axis=0).max()) or 1.0
         self.size = SIZE * extent
@@ -126,6 +142,9 @@ class SpacePicture:
             getattr(ax, f"{axis}axis").set_pane_color((1, 1, 1, 0))
             getattr(ax, f"{axis}axis").line.set_color("#7A8CA0")
         with_equal_scales(ax)
+        if upside_down:         # and y turns with it, as the axes are right-handed
+            ax.invert_yaxis()
+            ax.invert_zaxis()
         for i, path in enumerate(paths):
             ax.plot(*path.T, color=COLOURS[(i + 3) % len(COLOURS)], linewidth=1.2)
         named = dict.fromkeys(shape.name for shape in moments[0] if shape.name) if extras.names else {}
@@ -144,33 +163,42 @@ class SpacePicture:
         for shape in self._moments[moment]:
             drawn = [shape.points] if shape.kind in DOTS else GLYPHS[shape.kind].draw(shape.points, self.size)
             of_kind.setdefault(shape.kind, []).extend(drawn)
-        for kind, those in of_kind.items():
-            artist = self._artist(kind)
-            if kind in DOTS:
-                artist.set_data_3d(*np.vstack(those).T)
-            elif GLYPHS[kind].is_face:
-                artist.set_verts(those)
-                artist.set_facecolor(_shaded(GLYPHS[kind].looks["facecolors"], those))
-            else:
-                artist.set_segments(those)
+        is_many = sum(map(len, of_kind.values())) > MOST_PIECES
+        for kind, pieces in of_kind.items():
+            groups = [pieces] if is_many or kind in DOTS else [[piece] for piece in pieces]
+            for artist, those in itertools.zip_longest(self._artists(kind, len(groups)), groups, fillvalue=[]):
+                self._move(kind, artist, those)
         for shape in self._moments[moment]:
             if text := self._texts.get(shape.name):
                 text.set_position_3d(_anchor(shape) + 0.5 * self.size)
         arrows = self._arrows.show(moment) if self._arrows else []
         keep_apart(self.ax, [*self._texts.values(), *(artist for artist in arrows if isinstance(artist, Text))])
-        return [*self._drawn.values(), *self._texts.values(), *arrows]
+        return [*itertools.chain(*self._drawn.values()), *self._texts.values(), *arrows]
 
-    def _artist(self, kind: str) -> Any:
-        """Artist of matplotlib for all shapes of a kind."""
-        if kind not in self._drawn:
+    def _move(self, kind: str, artist: Any, those: list[np.ndarray]) -> None:
+        """Give an artist the lines or faces of one moment; without any it is hidden."""
+        artist.set_visible(bool(those))
+        if not those:
+            return
+        if kind in DOTS:
+            artist.set_data_3d(*np.vstack(those).T)
+        elif GLYPHS[kind].is_face:
+            artist.set_verts(those)
+            artist.set_facecolor(_shaded(GLYPHS[kind].looks["facecolors"], those, self._light))
+        else:
+            artist.set_segments(those)
+
+    def _artists(self, kind: str, count: int) -> list[Any]:
+        """Artists of matplotlib for shapes of a kind, at least so many."""
+        found = self._drawn.setdefault(kind, [])
+        while len(found) < count:
             if kind in DOTS:
-                (self._drawn[kind],) = self.ax.plot([], [], [], linestyle="", label=f"_{kind}", **DOTS[kind])
+                found += self.ax.plot([], [], [], linestyle="", label=f"_{kind}", **DOTS[kind])
             else:
                 glyph = GLYPHS[kind]
                 collection = Poly3DCollection if glyph.is_face else Line3DCollection
-                made = collection([np.zeros((4, 3))], label=f"_{kind}", **glyph.looks)
-                self._drawn[kind] = self.ax.add_collection3d(made)
-        return self._drawn[kind]
+                found.append(self.ax.add_collection3d(collection([np.zeros((4, 3))], label=f"_{kind}", **glyph.looks)))
+        return found
 
 
 def _extent(shape: Shape) -> np.ndarray:
