@@ -199,7 +199,7 @@ def test_what_is_near_covers_what_is_far():
     ax.view_init(elev=0, azim=-90)
     ax.figure.canvas.draw()
     faces = sorted(artists(ax, "plate"), key=lambda each: each.zorder)
-    far, large, near = (each.get_paths()[0].get_extents().width for each in faces)      # of the two small ones the near seems wider
+    far, large, near = (each.get_paths()[0].get_extents().width for each in faces)      # the near one seems wider
     assert far < near < large
     plt.close(ax.figure)
 
