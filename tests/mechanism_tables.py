@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from zerodrift._gateway import Variable
-from zerodrift._gateway.mechanisms import (
+from zerodrift._gateway.mechanisms.plane import (
     Body,
     GeneralizedForce,
     Joint,

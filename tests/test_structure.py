@@ -191,3 +191,10 @@ def test_folders_of_tests_are_named_after_rooms():
     folders = {path.parent.relative_to(ROOT / "tests").as_posix() for path in ROOT.glob("tests/*/**/test_*.py")}
     assert rooms <= folders
     assert {folder for folder in folders - rooms if folder.count("/") == 0 or folder.startswith("mechanisms/")} == set()
+
+
+def test_the_gateway_has_small_rooms():
+    """The room of the core's systems and runs, and within it those of mechanisms and of compiled functions."""
+    rooms = {path.parent.name: len(list(path.parent.glob("*.py"))) for path in (PACKAGE / "_gateway").rglob("*.py")}
+    assert set(rooms) == {"_gateway", "compiled", "mechanisms"}
+    assert max(rooms.values()) <= 15

@@ -11,7 +11,7 @@ import pytest
 import zerodrift as zd
 from core_objects import linked, needs_compiler
 from support import ROOT
-from zerodrift._gateway.blocks import SECTIONS, BlockCore
+from zerodrift._gateway.mechanisms.blocks import SECTIONS, BlockCore
 
 CHANGES = 4000      # of each block; .ci/sanitize makes more, under sanitizers
 

@@ -12,7 +12,7 @@ from scipy.special import ellipk
 import zerodrift as zd
 from every_model import IN_SPACE, MECHANISMS
 from zerodrift import _gateway
-from zerodrift._gateway.blocks import SECTIONS, BlockCore
+from zerodrift._gateway.mechanisms.blocks import SECTIONS, BlockCore
 
 STEPS, STEP = 40, 1e-3
 t = sp.Symbol("t")

@@ -16,7 +16,7 @@ from mechanisms.every_joint_by_row import by_row
 from mechanisms.known import four_bar
 from mechanisms.random_mechanisms import Maker
 from tolerances import EPS
-from zerodrift._gateway.mechanisms import element_kinds, joint_kinds
+from zerodrift._gateway.mechanisms.plane import element_kinds, joint_kinds
 
 ROUNDING = 1024 * EPS       # the same sums in another order, of a chain of four bodies
 MOVED = 1e-10               # after 0.1 s: rounding, multiplied by the motion and by solves of condition 1e3

@@ -12,7 +12,7 @@ from every_model import IN_SPACE
 from mechanisms.plain_space import Plain
 from mechanisms.test_compiled import ROUNDING, differences
 from mechanisms.test_files_of_space import everything
-from zerodrift._gateway.space import joint_kinds
+from zerodrift._gateway.mechanisms.space import joint_kinds
 from zerodrift.mechanisms.elements.immutable import amend
 from zerodrift.mechanisms.equations import generated_code
 from zerodrift.symbolics.compile import shared_library

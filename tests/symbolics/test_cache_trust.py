@@ -199,7 +199,7 @@ def test_what_is_loaded_is_what_was_looked_at(tmp_path, cache_folder, monkeypatc
         return load(data, otherwise)
 
     monkeypatch.setattr(shared_library._gateway, "load_data", replacing)
-    monkeypatch.setattr(shared_library._gateway.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library._gateway.compiled.functions, "_loaded", {})
     made()
 
 
@@ -214,7 +214,7 @@ def test_a_file_under_the_name_of_another_is_not_taken(cache_folder):
 
 @needs_root
 def test_what_another_user_has_planted_is_not_executed(cache_folder, tmp_path, monkeypatch):
-    monkeypatch.setattr(shared_library._gateway.functions, "_loaded", {})
+    monkeypatch.setattr(shared_library._gateway.compiled.functions, "_loaded", {})
     made()
     planted = tmp_path / "planted"
     for path in cache_folder.glob("*.json"):

@@ -144,10 +144,10 @@ __all__ = [
 _LATER = {
     "batches": ("Assembly", "BY_ITSELF", "BatchResults", "IN_LANES", "NOT_BEGUN", "UNUSUAL", "Stop", "derive", "error_name",
                 "has_lanes", "run_batch", "tables_of_kind"),
-    "functions": ("Function", "InLibrary", "SET_SINES_OF_LARGE", "address_of", "find", "in_library", "load_data",
-                  "numba_signature", "set_sines_of_large"),
+    "compiled.functions": ("Function", "InLibrary", "SET_SINES_OF_LARGE", "address_of", "find", "in_library", "load_data",
+                           "numba_signature", "set_sines_of_large"),
     "open_runs": ("OpenRun", "STEP", "NO_RECORD", "MOST_STEPS"),
-    "native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
+    "compiled.native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
 }
 
 

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from .. import _check
-from .._gateway import blocks
-from .._gateway.element_tables import law_sizes
+from .._gateway.mechanisms import blocks
+from .._gateway.mechanisms.element_tables import law_sizes
 from ..mechanisms.equations.measure_tables import read
 from ..mechanisms.system import MechanismSystem
 from ..runs import outputs as _outputs

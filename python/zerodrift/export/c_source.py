@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .._gateway import blocks
+from .._gateway.mechanisms import blocks
 from .block import Chosen, choose, written
 from .core_files import CoreFiles, entry
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .._gateway.blocks import FUNCTIONS, OPERATIONS
+from .._gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
 from ..mechanisms.elements.interpolation import Table
 from ..mechanisms.equations import function_calls, function_code
 from ..symbolics.compile.law_terms import Leaves

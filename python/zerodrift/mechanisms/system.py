@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .._gateway import Variable, law_inputs
+from .._gateway import Variable
 from .._gateway import is_length as is_length_of
-from .._gateway.mechanisms import MechanismCore
+from .._gateway.mechanisms import law_inputs
+from .._gateway.mechanisms.plane import MechanismCore
 from ..errors import ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import NO_COMPILER, ClosedFormFunctions
 from ..systems.base import BaseSystem, WithInputs

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .._gateway.geometry import Component, Geometry
+from .._gateway.mechanisms.geometry import Component, Geometry
 from ..errors import SingularSystem
 from ..mechanisms.assembly.sparse import assembly_of
 from ..mechanisms.assembly.start import Starting, size_of

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from zerodrift._gateway import mechanisms as plane
-from zerodrift._gateway import space
-from zerodrift._gateway.element_tables import GeneralizedForce, OutputSpec, Relation
+from zerodrift._gateway.mechanisms import plane, space
+from zerodrift._gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec, Relation
 
 BODIES = {plane: plane.Body(1.5, 1.0), space: space.Body(1.5, (1.0, 1.0, 1.0))}
 CORES = {plane: plane.MechanismCore, space: space.SpaceCore}

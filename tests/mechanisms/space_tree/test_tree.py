@@ -7,9 +7,9 @@ from scipy.spatial.transform import Rotation
 from space_tables import KINDS, random_frame, unit
 from support import assert_close
 from zerodrift._gateway.base import doubles
-from zerodrift._gateway.mechanisms import GeneralizedForce, Relation
-from zerodrift._gateway.space import Body, Joint, Quantity, SpaceCore, Tables
-from zerodrift._gateway.space_tree import SpaceTreeCore
+from zerodrift._gateway.mechanisms.plane import GeneralizedForce, Relation
+from zerodrift._gateway.mechanisms.space import Body, Joint, Quantity, SpaceCore, Tables
+from zerodrift._gateway.mechanisms.space_tree import SpaceTreeCore
 from zerodrift._rotations import rotation_of, turn_between
 
 CARRYING = [name for name, kind in KINDS.items() if kind.freedoms is not None]

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway.mechanisms import MechanismCore
+from ..._gateway.mechanisms.plane import MechanismCore
 from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction, unit_of
 from .least_squares import least_along, nullspace, shortest, units

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.element_tables import OutputSpec
-from ..._gateway.space import Quantity
+from ..._gateway.mechanisms.element_tables import OutputSpec
+from ..._gateway.mechanisms.space import Quantity
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..._gateway.space import SpaceCore
+from ..._gateway.mechanisms.space import SpaceCore
 from ..._rotations import rotation_of
 from ..elements.bodies import Body
 from ..elements.joints import Joint

@@ -12,7 +12,7 @@ from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 
-from ..._gateway.mechanisms import MechanismCore
+from ..._gateway.mechanisms.plane import MechanismCore
 from ..._gateway.sparse_state import nearest_velocities
 from ...errors import InconsistentStart
 from .contradictions import contradiction

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..._gateway.measures import Components
-from ..._gateway.mechanisms import MechanismCore
+from ..._gateway.mechanisms.plane import MechanismCore
 from .sparse_least_squares import Rows, least_solution
 
 

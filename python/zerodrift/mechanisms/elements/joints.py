@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from ..._gateway.mechanisms import JointKind, joint_kinds
+from ..._gateway.mechanisms.plane import JointKind, joint_kinds
 from . import columns
 from .bodies import Point
 from .immutable import Fixed

@@ -7,7 +7,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..._gateway import Variable
-from ..._gateway.space import JointKind, joint_kinds
+from ..._gateway.mechanisms.space import JointKind, joint_kinds
 from ..._rotations import AXES
 from .bodies import Point
 from .joints import PLACE, Joint

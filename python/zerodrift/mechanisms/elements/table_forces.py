@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..._gateway.mechanisms import ElementKind, element_kinds
+from ..._gateway.mechanisms.plane import ElementKind, element_kinds
 from . import columns
 from .bodies import Point
 from .immutable import Fixed

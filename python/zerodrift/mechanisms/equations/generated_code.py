@@ -21,12 +21,12 @@ from typing import Any
 import numpy as np
 
 from ... import _gateway
-from ..._gateway import space_plans
-from ..._gateway.compiled_terms import WrittenTerms, with_functions
-from ..._gateway.law_inputs import WrittenInputs
-from ..._gateway.mechanisms import MechanismCore
-from ..._gateway.plans import plan_of
-from ..._gateway.space import SpaceCore
+from ..._gateway.mechanisms import space_plans
+from ..._gateway.mechanisms.compiled_terms import WrittenTerms, with_functions
+from ..._gateway.mechanisms.law_inputs import WrittenInputs
+from ..._gateway.mechanisms.plane import MechanismCore
+from ..._gateway.mechanisms.plans import plan_of
+from ..._gateway.mechanisms.space import SpaceCore
 from ...errors import NoCompilerWarning
 from ...symbolics.compile import cache as kept
 from ...symbolics.compile import compilers, shared_library

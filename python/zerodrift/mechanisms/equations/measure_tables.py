@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.element_tables import OutputSpec
-from ..._gateway.mechanisms import MechanismCore, Quantity
+from ..._gateway.mechanisms.element_tables import OutputSpec
+from ..._gateway.mechanisms.plane import MechanismCore, Quantity
 from ..._rotations import angles_of, quaternions_of
 from ...systems.measure_values import Watching
 from ..elements.bodies import Body, Link, Point

@@ -10,10 +10,10 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from ..._gateway import plans
-from ..._gateway.element_tables import GeneralizedForce, Relation
-from ..._gateway.mechanisms import Quantity
-from ..._gateway.plans import Link, Plan
+from ..._gateway.mechanisms import plans
+from ..._gateway.mechanisms.element_tables import GeneralizedForce, Relation
+from ..._gateway.mechanisms.plane import Quantity
+from ..._gateway.mechanisms.plans import Link, Plan
 from ...symbolics.graph.derivation import Derivation, Given
 from ...symbolics.graph.graph import Graph, Node
 from .function_calls import Laws

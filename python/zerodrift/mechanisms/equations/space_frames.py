@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from ..._gateway.space_plans import Link, Way
+from ..._gateway.mechanisms.space_plans import Link, Way
 from ...symbolics.graph.graph import Graph, Node
 
 Vector = tuple[Node, Node, Node]

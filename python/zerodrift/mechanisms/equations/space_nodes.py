@@ -17,8 +17,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import pi
 from typing import Any, NamedTuple
 
-from ..._gateway.space import Quantity
-from ..._gateway.space_plans import Angle, Link, SpacePlan
+from ..._gateway.mechanisms.space import Quantity
+from ..._gateway.mechanisms.space_plans import Angle, Link, SpacePlan
 from ...symbolics.graph.gradient import Gradient
 from ...symbolics.graph.graph import Node
 from . import nodes

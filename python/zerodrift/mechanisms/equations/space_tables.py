@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ..._gateway import Variable, space
-from ..._gateway import mechanisms as entries
-from ..._gateway.space import AS_DRAWN, Quantity, SpaceCore
-from ..._gateway.space_tree import SpaceTreeCore
+from ..._gateway import Variable
+from ..._gateway.mechanisms import plane as entries
+from ..._gateway.mechanisms import space
+from ..._gateway.mechanisms.space import AS_DRAWN, Quantity, SpaceCore
+from ..._gateway.mechanisms.space_tree import SpaceTreeCore
 from ..._rotations import AXES, quaternion_of
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..._gateway import Variable
-from ..._gateway import mechanisms as entries
-from ..._gateway.element_tables import OutputSpec
-from ..._gateway.mechanisms import MechanismCore, Quantity
+from ..._gateway.mechanisms import plane as entries
+from ..._gateway.mechanisms.element_tables import OutputSpec
+from ..._gateway.mechanisms.plane import MechanismCore, Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing, Inertias

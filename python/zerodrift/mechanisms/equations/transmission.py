@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..._gateway.mechanisms import Quantity
+from ..._gateway.mechanisms.plane import Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint, is_hinge

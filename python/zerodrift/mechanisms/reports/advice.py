@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from ..._gateway import Variable
-from ..._gateway.mechanisms import MechanismCore
+from ..._gateway.mechanisms.plane import MechanismCore
 from ..assembly import space_advice
 from ..assembly.nudge import OTHERWISE
 from ..assembly.start import Starting

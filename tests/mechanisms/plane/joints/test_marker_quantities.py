@@ -6,7 +6,7 @@ import pytest
 import tolerances as tol
 from mechanism_tables import KINDS, TREE, Body, OutputSpec, Quantity, Tabled, Tables, rotation
 from support import along, assert_close
-from zerodrift._gateway.mechanisms import QUANTITY_KINDS, element_kinds
+from zerodrift._gateway.mechanisms.plane import QUANTITY_KINDS, element_kinds
 
 FIRST, SECOND, AXIS, ZERO = (0.3, -0.4), (-0.2, 0.7), (0.6, 0.8), 0.25
 INTEGRABLE = sorted(QUANTITY_KINDS.keys() - {"glide", "skid"})

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from .._core import ffi, lib
-from .base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, set_quaternions, text
-from .packed_layout import Packing, declare
-from .systems import CoreSystem, Kind
+from ..._core import ffi, lib
+from ..base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, set_quaternions, text
+from ..packed_layout import Packing, declare
+from ..systems import CoreSystem, Kind
 
 VERSION = lib.ZD_INTERFACE_VERSION
 FAILURE = ffi.new("char[]", b"the native function reported a failure")

@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core import ffi, lib
-from .._rotations import product, turn, turn_between
-from .base import MESSAGE_SIZE, Card, card_of, doubles, text
+from ..._core import ffi, lib
+from ..._rotations import product, turn, turn_between
+from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
+from ..measures import Components, components
+from ..systems import CoreSystem
 from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, compiled_table
-from .measures import Components, components
-from .mechanisms import Coordinate
-from .systems import CoreSystem
+from .plane import Coordinate
 
 QUANTITY_KINDS = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
                   "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE, "distance": lib.ZD_SPACE_DISTANCE,

@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._core import ffi, lib
-from .base import doubles, error_of
-from .mechanisms import MechanismCore
+from ..._core import ffi, lib
+from ..base import doubles, error_of
+from .plane import MechanismCore
 
 
 class Component(NamedTuple):

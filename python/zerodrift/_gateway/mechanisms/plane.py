@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core import ffi, lib
-from .base import MESSAGE_SIZE, Card, card_of, doubles, text
+from ..._core import ffi, lib
+from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
+from ..measures import Components, components, given
+from ..systems import CoreSystem
 from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, compiled_table
-from .measures import Components, components, given
-from .systems import CoreSystem
 
 QUANTITY_KINDS = {"x": lib.ZD_PLANE_X, "y": lib.ZD_PLANE_Y, "angle": lib.ZD_PLANE_ANGLE, "along": lib.ZD_PLANE_ALONG,
                   "across": lib.ZD_PLANE_ACROSS, "distance": lib.ZD_PLANE_DISTANCE, "glide": lib.ZD_PLANE_GLIDE,

@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core import ffi, lib
-from .base import doubles
-from .mechanisms import Tables, written_tables
+from ..._core import ffi, lib
+from ..base import doubles
+from .plane import Tables, written_tables
 
 
 class Held(NamedTuple):

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .._core import lib
-from .._rotations import quaternion_of, rotation_of
-from .base import doubles
-from .measures import given
+from ..._core import lib
+from ..._rotations import quaternion_of, rotation_of
+from ..base import doubles
+from ..measures import given
 from .space import SpaceCore
 
 POSE, TWIST = 12, 6     # doubles of a body as the core tells it

@@ -10,8 +10,8 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .._core import ffi, lib
-from .._fingerprint import fingerprint
+from ..._core import ffi, lib
+from ..._fingerprint import fingerprint
 from .native import VERSION
 
 SIGNATURE = "int (const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)"

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core import ffi, lib
-from .base import TERMS, doubles
-from .mechanisms import MechanismCore
+from ..._core import ffi, lib
+from ..base import TERMS, doubles
+from .plane import MechanismCore
 from .space import SpaceCore
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .._core import ffi, lib
-from .base import CALLBACK, DONE, doubles
+from ..._core import ffi, lib
+from ..base import CALLBACK, DONE, doubles
 
 Law = Callable[[int, float, np.ndarray, np.ndarray], Any]
 

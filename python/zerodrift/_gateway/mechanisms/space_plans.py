@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core import lib
+from ..._core import lib
 from .element_tables import GeneralizedForce, Relation
 from .plans import forces_of, rows_of_plan
 from .space import NAMES, Freedom, Joint, Quantity, SpaceCore, coordinate_quantity, joint_kinds

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from .._core import ffi, lib
+from ..._core import ffi, lib
 
 FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW}
 OUTPUT_KINDS = {

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from .._core import ffi, lib
+from ..._core import ffi, lib
 from .element_tables import FORCE_KINDS, GeneralizedForce, Relation
-from .mechanisms import QUANTITY_KINDS, MechanismCore, Quantity
+from .plane import QUANTITY_KINDS, MechanismCore, Quantity
 
 FREE, FREE_POINT, TURNING = lib.ZD_HANGS_FREE, lib.ZD_HANGS_FREE_POINT, lib.ZD_HANGS_TURNING
 SLIDING, FIXED, PINNED = lib.ZD_HANGS_SLIDING, lib.ZD_HANGS_FIXED, lib.ZD_HANGS_PINNED

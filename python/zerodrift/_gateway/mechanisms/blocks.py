@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from .._core import ffi, lib
-from . import mechanisms, space
-from .base import MESSAGE_SIZE, cards, error_of, text
-from .systems import CoreSystem
+from ..._core import ffi, lib
+from ..base import MESSAGE_SIZE, cards, error_of, text
+from ..systems import CoreSystem
+from . import plane, space
 
 SECTIONS = ("gravity", "bodies", "joints", "quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
             "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products",
@@ -52,9 +52,9 @@ class Texts:
         return np.frombuffer(bytes(self._bytes) + b"\0" * (-len(self._bytes) % 8), "<f8")
 
 
-def tables(written: mechanisms.Tables | space.Tables, texts: Texts) -> dict[str, list[float]]:
+def tables(written: plane.Tables | space.Tables, texts: Texts) -> dict[str, list[float]]:
     """Sections with the tables of a mechanism: the members of the core's structures in their order."""
-    packed, _words = (space if isinstance(written, space.Tables) else mechanisms).written_tables(written, False, False)
+    packed, _words = (space if isinstance(written, space.Tables) else plane).written_tables(written, False, False)
     elements = packed["elements"]
     arrays = {"bodies": packed["body"], "joints": packed["joint"], "quantities": packed["quantity"], "terms": elements["term"],
               "relations": elements["relation"], "forces": elements["force"], "measures": elements["measure"]}

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core import ffi
-from .base import doubles
+from ..._core import ffi
+from ..base import doubles
+from ..inputs import Bound, Place
 from .element_tables import law_sizes
-from .inputs import Bound, Place
 from .law_owner import LawOwner, compiled_table
 
 
