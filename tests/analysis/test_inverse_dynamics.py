@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from analysis.random_efforts import largest_error
+from analysis.random_efforts import Driven, largest_error
 from zerodrift.analysis.quantities import find
 from zerodrift.analysis.state import state
 
@@ -197,3 +197,17 @@ def test_efforts_of_random_mechanisms_give_the_accelerations(layout, in_space):
     errors = np.array([largest_error(seed, in_space, layout) for seed in range(100)], dtype=float)
     assert (errors < 1e-11).sum() >= 99
     assert errors.max() < 1e-10
+
+
+FOLLOWED = [*((seed, False, layout) for seed in (2, 3, 4) for layout in LAYOUTS), (1, True, "joint"), (2, True, "joint"),
+            (5, True, "joint"), (6, True, "joint"), (1, True, "absolute"), (4, True, "absolute")]
+
+
+@pytest.mark.parametrize(("seed", "in_space", "layout"), FOLLOWED)
+def test_random_mechanisms_follow_a_motion_whose_efforts_are_computed_in_each_stage(seed, in_space, layout):
+    """Independent velocities are prescribed; positions after 0.2 s beside their integral by another program."""
+    driven = Driven(seed, in_space, layout)
+    sol = zd.simulate(driven.system(), 0.2, step=0.01, integrator="dop853", formulation="augmented")
+    assert np.abs(sol.p[-1] - sol.p[0]).max() > 0.01
+    assert sol.v[-1] == pytest.approx(driven.velocities(0.2, sol.p[-1]), abs=1e-9)
+    assert sol.p[-1] == pytest.approx(driven.positions(0.2), abs=1e-9)

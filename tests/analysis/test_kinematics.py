@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import make_interp_spline
 
 import zerodrift as zd
+from zerodrift.analysis.prescribed import prescribed
 
 LAYOUTS = ["joint", "absolute"]
 
@@ -129,3 +131,33 @@ def test_what_is_wrong_is_refused():
         zd.kinematics(bar, {"crank.angle": [1.6, 1.7]})["A.force"]
     with pytest.warns(zd.LockedWarning, match="2 samples beyond it are NaN"):      # both together have no position
         zd.kinematics(bar, {"crank.angle": [1.6, 1.7], "rocker.angle": [-1.0, -1.0]})
+
+
+def test_arrays_over_time_become_quintic_splines():
+    """Beside SciPy's spline with the same derivatives at both ends, at samples with unequal distances."""
+    t = np.sort(np.random.default_rng(2).uniform(0, 3, 40))
+    given = np.column_stack([np.sin(2 * t), np.exp(-t)])
+    found = prescribed("path", given, t, None)
+    ends = [[(1, found.rate[i]), (2, found.second[i])] for i in (0, -1)]
+    spline = make_interp_spline(t, given, 5, bc_type=tuple(ends))
+    assert found.rate == pytest.approx(spline(t, 1), abs=1e-9)         # distances of 1e-3 amplify rounding
+    assert found.second == pytest.approx(spline(t, 2), abs=1e-6)
+
+
+def test_errors_of_arrays_over_time_are_reported_and_of_fourth_order():
+    errors = []
+    for count in (21, 41, 81):
+        t = np.linspace(0, 2 * np.pi, count)
+        found = prescribed("path", np.sin(t), t, None)
+        errors.append(np.abs(found.second[:, 0] + np.sin(t)).max())
+        assert errors[-1] < 2 * found.error < 1000 * errors[-1]
+    assert np.log2(errors[0] / errors[1]) > 3.5
+    assert np.log2(errors[1] / errors[2]) > 3.5
+
+
+def test_a_quintic_is_its_own_spline():
+    t, quintic = np.linspace(-1, 1, 12), np.polynomial.Polynomial([1.0, -2.0, 0.5, 3.0, -1.0, 2.0])
+    found = prescribed("path", quintic(t), t, None)
+    assert found.rate[:, 0] == pytest.approx(quintic.deriv()(t), abs=1e-11)
+    assert found.second[:, 0] == pytest.approx(quintic.deriv(2)(t), abs=1e-9)
+    assert found.error < 1e-9

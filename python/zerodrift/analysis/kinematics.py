@@ -37,8 +37,8 @@ def kinematics(system: Any, motion: Mapping[Any, Any], t: Any = None, *, speed: 
         Quantities of positions that are prescribed: arrays (k,) or (k, size) over the samples, callables of t in NumPy's
         functions, or SymPy expressions in t. Together with the constraints they must determine all positions.
     t : array_like (k,), optional
-        Times of the samples in s, increasing. Arrays are differentiated by polynomials through the seven nearest samples;
-        `Kinematics.errors` estimates what that leaves.
+        Times of the samples in s, increasing. Arrays become quintic splines; `Kinematics.errors` estimates the errors of their
+        second derivatives.
     speed : float, optional
         In place of t: the constant rate of the one scalar that is prescribed. Without both, only positions are determined, at
         t = 0, and rates are NaN.
@@ -183,5 +183,5 @@ def _warn_of_errors(wanted: Mapping[str, Prescribed]) -> None:
     for name, each in wanted.items():
         if each.error > INACCURATE * np.abs(each.second).max(initial=0.0) and each.error > 0:
             warnings.warn(f"the samples of {name} must be closer for accurate accelerations: these differ by up to "
-                          f"{each.error:.3g} between polynomials of degree four and six; a callable or an expression is exact",
+                          f"{each.error:.3g} between a quintic spline and polynomials; a callable or an expression is exact",
                           AccuracyWarning, stacklevel=3)

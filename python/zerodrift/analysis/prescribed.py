@@ -1,8 +1,9 @@
 """Prescribed quantities over time: values, rates and second rates at samples, from arrays, callables or SymPy expressions.
 
-Arrays over time are differentiated by polynomials of degree six through the seven nearest samples; the difference to degree
-four is the estimate of their error. Callables of NumPy functions are differentiated by forward mode, expressions by SymPy, both
-exactly.
+Arrays over time become splines of degree five, whose fourth derivative is continuous, with the derivatives at both ends of
+polynomials through the seven nearest samples. The estimate of the error is the largest difference of its second derivatives to
+those of such polynomials, and at the ends of these to those through six samples. Callables of NumPy functions are differentiated
+by forward mode, expressions by SymPy, both exactly.
 """
 
 from __future__ import annotations
@@ -94,17 +95,51 @@ def _of_expression(name: str, given: Any) -> Callable[[Any], Any]:
 
 def _of_array(values: np.ndarray, t: np.ndarray) -> Prescribed:
     """Derivatives of an array over time."""
-    rate, second, coarse = (np.zeros_like(values) for _ in range(3))
-    for i in range(len(t)):
-        fine, rough = (_weights(t, i, count) for count in (NEAREST, NEAREST - 2))
-        rate[i], second[i] = (np.tensordot(each, values[fine[0]], 1) for each in fine[1:])
-        coarse[i] = np.tensordot(rough[2], values[rough[0]], 1)
-    return Prescribed(values, rate, second, float(np.abs(second - coarse).max(initial=0.0)))
+    rates, seconds = _of_polynomials(values, t, NEAREST)
+    _, coarse = _of_polynomials(values, t, NEAREST - 1)
+    if len(t) < NEAREST:        # a single polynomial
+        return Prescribed(values, rates, seconds, float(np.abs(seconds - _of_polynomials(values, t, len(t) - 1)[1]).max()))
+    rate, second = _spline(values, np.diff(t), rates[[0, -1]], seconds[[0, -1]])
+    at_ends = float(np.abs(seconds - coarse)[[0, -1]].max())
+    return Prescribed(values, rate, second, max(at_ends, float(np.abs(second - seconds).max())))
+
+
+def _of_polynomials(values: np.ndarray, t: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """First and second derivatives (k, size) of polynomials through so many nearest samples."""
+    local = [_weights(t, i, count) for i in range(len(t))]
+    rates, seconds = (np.array([weights[order] @ values[weights[0]] for weights in local]) for order in (1, 2))
+    return rates, seconds
+
+
+def _spline(values: np.ndarray, h: np.ndarray, rates: np.ndarray, seconds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """First and second derivatives (k, size) at the samples of the quintic spline with these derivatives at both ends, (2, size).
+
+    Between two samples the polynomial of degree five follows from values and both derivatives at its ends. Its third and fourth
+    derivatives are continuous at each inner sample: a block tridiagonal system for x = (rate, second), solved by elimination.
+    """
+    k, steps = len(values), np.diff(values, axis=0)
+    x = np.zeros((k, 2, values.shape[1]))
+    x[0], x[-1] = (np.stack([rates[i], seconds[i]]) for i in (0, 1))
+    factor, right = [np.zeros((2, 2))], [x[0]]
+    for i in range(1, k - 1):
+        before, after = h[i - 1], h[i]
+        lower = np.array([[-24 / before**2, -3 / before], [-168 / before**3, -24 / before**2]])
+        middle = np.array([[-36 / before**2 + 36 / after**2, 9 / before + 9 / after],
+                           [-192 / before**3 - 192 / after**3, 36 / before**2 - 36 / after**2]])
+        upper = np.array([[24 / after**2, -3 / after], [-168 / after**3, 24 / after**2]])
+        jump = np.stack([60 * (steps[i] / after**3 - steps[i - 1] / before**3),
+                         -360 * (steps[i] / after**4 + steps[i - 1] / before**4)])
+        pivot = np.linalg.inv(middle - lower @ factor[-1])
+        factor.append(pivot @ upper)
+        right.append(pivot @ (jump - lower @ right[-1]))
+    for i in range(k - 2, 0, -1):
+        x[i] = right[i] - factor[i] @ x[i + 1]
+    return x[:, 0], x[:, 1]
 
 
 def _weights(t: np.ndarray, i: int, count: int) -> tuple[slice, np.ndarray, np.ndarray]:
-    """The samples next to one, and their weights in its first and second derivative."""
-    count = min(count, len(t))
+    """So many samples next to one, and their weights in its first and second derivative."""
+    count = max(1, min(count, len(t)))
     first = min(max(0, i - count // 2), len(t) - count)
     near = slice(first, first + count)
     offset = t[near] - t[i]
