@@ -211,3 +211,24 @@ def test_random_mechanisms_follow_a_motion_whose_efforts_are_computed_in_each_st
     assert np.abs(sol.p[-1] - sol.p[0]).max() > 0.01
     assert sol.v[-1] == pytest.approx(driven.velocities(0.2, sol.p[-1]), abs=1e-9)
     assert sol.p[-1] == pytest.approx(driven.positions(0.2), abs=1e-9)
+
+
+def test_masses_are_those_of_the_system_that_is_given():
+    bar = zd.models.four_bar()
+    kin = zd.kinematics(bar.system("joint"), {"crank.angle": np.linspace(1.6, 2.0, 20)}, speed=1.0)
+    masses = {name: 2 * value for name, value in bar.system("joint").parameters.items() if name.endswith((".mass", ".inertia"))}
+    light, heavy = (zd.inverse_dynamics(each, kin)["crank.angle"] for each in (bar, bar.with_parameters(masses)))
+    assert heavy == pytest.approx(2 * light, rel=1e-9)
+    with pytest.raises(ValueError, match="motion must be one of slider_crank in its coordinates, not of four_bar"):
+        zd.inverse_dynamics(zd.models.slider_crank(), kin)
+
+
+def test_an_effort_along_nothing_is_refused():
+    bar = zd.models.four_bar()
+    kin = zd.kinematics(bar, {"crank.angle": [1.6, 1.7]}, speed=1.0)
+    with pytest.raises(ValueError, match=r"'A\.force' depends on accelerations or reactions"):
+        zd.inverse_dynamics(bar, kin, efforts=["A.force"])      # a revolute joint: a torque acts along its angle, no force
+    with pytest.warns(zd.AccuracyWarning, match="nothing drives this motion of four_bar: .* is missing at crank.angle"):
+        zd.inverse_dynamics(bar, kin, efforts=[])
+    with pytest.raises(ValueError, match="p must be finite, not nan"):
+        zd.inverse_dynamics(bar, 0.0, [np.nan] * 3, [0.0] * 3, [0.0] * 3, efforts=["crank.angle"])

@@ -129,8 +129,6 @@ def test_what_is_wrong_is_refused():
     bar = zd.models.four_bar()
     with pytest.raises(KeyError, match="needs forces"):
         zd.kinematics(bar, {"crank.angle": [1.6, 1.7]})["A.force"]
-    with pytest.warns(zd.LockedWarning, match="2 samples beyond it are NaN"):      # both together have no position
-        zd.kinematics(bar, {"crank.angle": [1.6, 1.7], "rocker.angle": [-1.0, -1.0]})
 
 
 def test_arrays_over_time_become_quintic_splines():
@@ -161,3 +159,13 @@ def test_a_quintic_is_its_own_spline():
     assert found.rate[:, 0] == pytest.approx(quintic.deriv()(t), abs=1e-11)
     assert found.second[:, 0] == pytest.approx(quintic.deriv(2)(t), abs=1e-9)
     assert found.error < 1e-9
+
+
+def test_quantities_that_contradict_each_other_are_refused():
+    with pytest.raises(zd.InconsistentStart, match=r"must agree with each other .* crank\.angle, rocker\.angle differ by"):
+        zd.kinematics(zd.models.four_bar(), {"crank.angle": [1.6, 1.7], "rocker.angle": [1.6, 1.7]}, [0.0, 1.0])
+
+
+def test_a_constant_rate_over_time_is_no_reason_for_a_warning(recwarn):
+    zd.kinematics(zd.models.four_bar(), {"crank.angle": np.linspace(1.6, 2.0, 200)}, np.linspace(0, 1, 200))
+    assert not recwarn.list

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import AccuracyWarning, InconsistentStart
-from ..systems.base import BaseSystem, core_of, system_of
+from ..systems.base import BaseSystem, Makes, core_of, system_of
 from .effort_result import Efforts
 from .kinematic_result import Kinematics
 from .names import dominant
@@ -73,19 +73,33 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
     >>> inv["pin.angle"].round(9)       # 3 * 2**2 / 3 * 1.5 + 3 * 9.81
     array([35.43])
     """
-    system = system_of(system)
+    given, system = system, system_of(system)
     core_of(system)
     names = None if efforts is None else names_of(efforts, "efforts")
     if isinstance(motion, Kinematics):
         if any(each is not None for each in (p, v, vdot)):
             raise TypeError("p, v and vdot must be left out with what zd.kinematics returned")
-        system, names = motion.system, list(motion.prescribed) if names is None else names
+        system, names = _in_coordinates_of(motion, given), list(motion.prescribed) if names is None else names
         samples = motion.t, motion.p, motion.v, motion.vdot
     else:
         samples = _samples(system, motion, p, v, vdot)
     if names is None:
         raise ValueError("efforts must be given with a motion in coordinates: where it is driven")
     return _solved(system, samples, names, _weights(weights, names))
+
+
+def _in_coordinates_of(motion: Kinematics, given: Any) -> BaseSystem:
+    """The given system in the coordinates of a motion: its masses and forces may differ from those that were tracked.
+
+    Raises
+    ------
+    ValueError
+        If it has others.
+    """
+    system = given.system(motion.system.layout) if isinstance(given, Makes) else given
+    if [each.name for each in system.coordinates] != [each.name for each in motion.system.coordinates]:
+        raise ValueError(f"motion must be one of {system.name} in its coordinates, not of {motion.system.name} in others")
+    return system
 
 
 def _samples(system: BaseSystem, t: Any, p: Any, v: Any, vdot: Any) -> tuple[np.ndarray, ...]:
@@ -96,8 +110,10 @@ def _samples(system: BaseSystem, t: Any, p: Any, v: Any, vdot: Any) -> tuple[np.
         if given is None:
             raise TypeError(f"{name} must be given with times")
         array = np.atleast_2d(_check.real(f"{name} must hold", given).astype(float))
-        if array.shape != (len(t), size) or not np.isfinite(array).all():
-            raise ValueError(f"{name} must be finite, of shape ({len(t)}, {size}), not {array.shape}")
+        if array.shape != (len(t), size):
+            raise ValueError(f"{name} must have shape ({len(t)}, {size}), not {array.shape}")
+        if not np.isfinite(array).all():
+            raise ValueError(f"{name} must be finite, not {array[~np.isfinite(array)][0]}")
         found.append(array)
     return t, *found
 
@@ -128,7 +144,8 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
             undriven[dominant(at, at.A @ (Tangent(at).velocities @ left))] = residual[i]
         found.append(np.split(u, np.cumsum([len(each) for each in rows])[:-1]))
     if undriven:
-        warnings.warn(f"the efforts {', '.join(names)} cannot drive this motion of {system.name}: a force of up to "
+        subject = f"the efforts {', '.join(names)} cannot drive" if names else "nothing drives"
+        warnings.warn(f"{subject} this motion of {system.name}: a force of up to "
                       f"{max(undriven.values()):.3g} N/sqrt(kg) in the mass metric is missing at {', '.join(undriven)}",
                       AccuracyWarning, stacklevel=3)
     return Efforts(system, samples, lam, _by_name(names, found, k), residual=residual, power=power, rank=rank)

@@ -136,6 +136,7 @@ def _tracked(tracker: Tracker, p: np.ndarray, times: np.ndarray, wanted: Mapping
         try:
             p = tracker.follow(p, here, there)
         except DeadPoint as dead:
+            _check_agreement(tracker, dead, there)
             limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}"
                               for name, value in dead.reached.values.items())
             warnings.warn(f"the motion of {tracker.system.name} ends at a dead point, {limit}: {len(times) - i} samples beyond "
@@ -143,6 +144,19 @@ def _tracked(tracker: Tracker, p: np.ndarray, times: np.ndarray, wanted: Mapping
             break
         found[i], here = p, there
     return found
+
+
+def _check_agreement(tracker: Tracker, dead: DeadPoint, there: Target) -> None:
+    """Refuses quantities that determine the positions more than once, and contradict each other.
+
+    Raises
+    ------
+    InconsistentStart
+    """
+    if (off := tracker.contradiction(dead.p, dead.reached, there)) > 0:
+        raise InconsistentStart(f"the prescribed quantities must agree with each other and with the constraints of "
+                                f"{tracker.system.name}: at t = {there.t:g} {', '.join(tracker.names)} differ by {off:.3g} of "
+                                "their changes from what the others determine")
 
 
 def _rates(system: BaseSystem, times: np.ndarray, positions: np.ndarray, wanted: Mapping[str, Prescribed], *,
@@ -181,7 +195,7 @@ def _solved(system: BaseSystem, p: np.ndarray, rows: np.ndarray, right: np.ndarr
 
 def _warn_of_errors(wanted: Mapping[str, Prescribed]) -> None:
     for name, each in wanted.items():
-        if each.error > INACCURATE * np.abs(each.second).max(initial=0.0) and each.error > 0:
+        if each.error > INACCURATE * np.abs(each.second).max(initial=0.0) + each.rounding:
             warnings.warn(f"the samples of {name} must be closer for accurate accelerations: these differ by up to "
                           f"{each.error:.3g} between a quintic spline and polynomials; a callable or an expression is exact",
                           AccuracyWarning, stacklevel=3)

@@ -14,8 +14,9 @@ from . import differences
 from .state import State, scales, state
 
 AXES = "xyz"
-# Coordinates or speeds of a joint or motor that its efforts act along
+# Coordinates or speeds of a joint or motor that its efforts act along, and their units
 EFFORTS = {"torque": ("angle", "speed"), "force": ("displacement", "length", "speed")}
+UNITS = {"torque": ("rad", "rad/s"), "force": ("m", "m/s")}
 PARTS = ("value", "rate", "bias", "row")
 
 
@@ -125,8 +126,9 @@ def effort(at: State, name: str, what: str) -> np.ndarray:
     owner, _, quantity = name.rpartition(".")
     for conjugate in EFFORTS.get(quantity, ()):
         for base in (owner, _driven(at.system, owner)):
-            if at.system._watching.find(f"{base}.{conjugate}") is not None:
-                return find(at, f"{base}.{conjugate}", what).row
+            along = f"{base}.{conjugate}"
+            if at.system._watching.find(along) is not None and at.system._watching.unit(along) in UNITS[quantity]:
+                return find(at, along, what).row
     return find(at, name, what).row
 
 

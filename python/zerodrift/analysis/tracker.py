@@ -23,6 +23,8 @@ from .tangent import DEPENDENT, null_space, scaled_rows
 LARGEST_STEP = 0.25         # of a part, in characteristic scales
 LARGEST_CORRECTION = 0.2    # of the predictor's step
 SMALLEST_PART = 1e-9        # of the way between two samples
+NEAR_SINGULAR = 1e-3        # of the largest singular value: a dead point may be what ends the way
+CONTRADICTING = 1e-3        # of the changes of targets
 SINGULAR = 1e-6             # of the largest singular value of scaled rows: next to a dead point
 
 
@@ -96,6 +98,26 @@ class Tracker:
             p, done, part = found, done + part, 2 * part
         return p
 
+    def contradiction(self, p: np.ndarray, here: Target, there: Target) -> float:
+        """Part of the changes between targets that no displacement has; zero next to a dead point, where rows are singular."""
+        rows, change = self._rows(p, here, there)
+        scale = scales(self.system, p).v
+        values = np.linalg.svd(scaled_rows(rows, scale), compute_uv=False)
+        if len(rows) <= self.system.nv or values[self.system.nv - 1] < NEAR_SINGULAR * values[0]:
+            return 0.0
+        length = np.maximum(np.linalg.norm(rows * scale, axis=1), 1e-300)
+        rows, change = rows * scale / length[:, None], change / length
+        left = np.abs(rows @ np.linalg.lstsq(rows, change, rcond=DEPENDENT)[0] - change).max(initial=0.0)
+        off = float(left / max(np.abs(change).max(initial=0.0), 1e-300))
+        return off if off > CONTRADICTING else 0.0
+
+    def _rows(self, p: np.ndarray, here: Target, there: Target) -> tuple[np.ndarray, np.ndarray]:
+        """Rows (mh + size, nv) of the constraints and prescribed quantities, and their changes between targets."""
+        at, m, dt = state(self.system, here.t, p, self._rest), self.system.mh, there.t - here.t
+        found = [find(at, name, "prescribed") for name in self.names]
+        changes = [there.values[name] - here.values[name] for name in self.names]
+        return np.vstack([at.holonomic, *(each.row for each in found)]), np.concatenate([-at.Phi_t[:m] * dt, *changes])
+
     def _part(self, p: np.ndarray, here: Target, there: Target) -> np.ndarray | None:
         """The position after a part of the way; None where that is too long to be sure of it."""
         delta = self._predicted(p, here, there)
@@ -112,10 +134,7 @@ class Tracker:
 
     def _predicted(self, p: np.ndarray, here: Target, there: Target) -> np.ndarray | None:
         """The displacement (nv,) that the rates of the targets determine; None where they do not."""
-        at, m, dt = state(self.system, here.t, p, self._rest), self.system.mh, there.t - here.t
-        found = [find(at, name, "prescribed") for name in self.names]
-        rows = np.vstack([at.holonomic, *(each.row for each in found)])
-        change = np.concatenate([-at.Phi_t[:m] * dt, *(there.values[name] - here.values[name] for name in self.names)])
+        rows, change = self._rows(p, here, there)
         scale = scales(self.system, p).v
         length = np.maximum(np.linalg.norm(rows * scale, axis=1), 1e-300)
         values = np.linalg.svd(scaled_rows(rows, scale), compute_uv=False)
