@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..._gateway import VERSION
 from ..graph.plain_functions import NAMED
 from . import cache as kept
 from . import shared_library
@@ -116,7 +117,13 @@ class ClosedFormFunctions:
 
     def __getstate__(self) -> dict[str, Any]:
         self._write()
-        return vars(self) | {"_libraries": {}}
+        return vars(self) | {"_libraries": {}, "_interface": VERSION}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """As pickled; a source for another version of the core's interface is written again."""
+        vars(self).update(state)
+        if vars(self).pop("_interface", None) != VERSION and self._written:
+            self._written, self._is_written = None, False
 
 
 @cache
