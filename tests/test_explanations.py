@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 import warnings
+from pathlib import Path
 
 import pytest
 
@@ -14,6 +15,7 @@ from zerodrift.__main__ import main
 from zerodrift.explanations import classes, codes, explain, explanations
 
 EXPLANATIONS = explanations()
+ARGUMENTS = (zd.errors.WrongValue, zd.errors.WrongType, zd.errors.WrongName)       # whose messages end without a code
 PROVOKED = [code for code, each in EXPLANATIONS.items() if each.snippet]
 
 
@@ -45,10 +47,10 @@ def test_the_example_provokes_it(code, monkeypatch):
         warnings.simplefilter("ignore")
         if issubclass(codes()[code][0], Warning):
             warnings.simplefilter("error", codes()[code][0])
-        with pytest.raises((zd.ZerodriftError, Warning)) as caught:
+        with pytest.raises((zd.ZerodriftError, Warning, *ARGUMENTS)) as caught:
             exec(lines, {"zd": zd})
     assert caught.value.code == code
-    assert str(caught.value).endswith(f" [zd:{code}]")
+    assert str(caught.value).endswith(f" [zd:{code}]") != isinstance(caught.value, ARGUMENTS)
 
 
 @pytest.mark.parametrize("code", codes())
@@ -63,6 +65,19 @@ def test_a_message_within_another_has_no_code():
     assert zd.errors.sentence(error) == "sentence"
     assert zd.errors.sentence(ValueError("x")) == "x"
     assert str(pickle.loads(pickle.dumps(error))) == str(error) == "sentence [zd:branch-jump]"
+
+
+def test_arguments_are_refused_with_a_code():
+    """No module raises Python's own ValueError or TypeError for an argument, so that `error.code` is always there."""
+    package = Path(zd.__file__).parent
+    plain = re.compile(r"\b(raise|return) (ValueError|TypeError)\(|\braise KeyError\(f")
+    sources = {path.relative_to(package).as_posix(): path.read_text(encoding="utf-8") for path in package.rglob("*.py")}
+    found = [name for name, source in sources.items() if plain.search(source)]
+    assert found == []
+    for kind, error in zip((ValueError, TypeError, KeyError), ARGUMENTS, strict=True):
+        assert issubclass(error, kind)
+        assert zd.errors.described(error("x")) == f"{kind.__name__}: {error('x')}"
+        assert str(pickle.loads(pickle.dumps(error("x")))) == str(kind("x"))
 
 
 def test_the_command_explains(capsys):

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from .errors import WrongType, WrongValue
+
 
 def shown(value: Any) -> str:
     """A value in a message: in one line, and not all of what is long."""
@@ -20,7 +22,7 @@ def shown(value: Any) -> str:
 def instance(name: str, value: Any, kinds: type | tuple[type, ...], allowed: str) -> Any:
     """An object of one of these kinds."""
     if not isinstance(value, kinds):
-        raise TypeError(f"{name} must be {allowed}, not {shown(value)}")
+        raise WrongType(f"{name} must be {allowed}, not {shown(value)}")
     return value
 
 
@@ -28,14 +30,14 @@ def number(name: str, value: Any, *, above: float | None = None, least: float | 
     """A finite real number, more than `above` or at least `least`."""
     if type(value) is not float:        # as most are: the questions take longer than all else here
         if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
-            raise TypeError(f"{name} must be a real number, not {value!r}")
+            raise WrongType(f"{name} must be a real number, not {value!r}")
         value = _double(value)
     if not math.isfinite(value):
-        raise ValueError(f"{name} must be finite, not {value}")
+        raise WrongValue(f"{name} must be finite, not {value}")
     if above is not None and not value > above:
-        raise ValueError(f"{name} must be greater than {above:g}, not {value:g}")
+        raise WrongValue(f"{name} must be greater than {above:g}, not {value:g}")
     if least is not None and not value >= least:
-        raise ValueError(f"{name} must be at least {least:g}, not {value:g}")
+        raise WrongValue(f"{name} must be at least {least:g}, not {value:g}")
     return value
 
 
@@ -49,9 +51,9 @@ def _double(value: Real) -> float:
 def count(name: str, value: Any, *, least: int = 1) -> int:
     """A whole number, at least `least`."""
     if type(value) is not int and (isinstance(value, bool | np.bool_) or not isinstance(value, Integral)):
-        raise TypeError(f"{name} must be a whole number, not {value!r}")
+        raise WrongType(f"{name} must be a whole number, not {value!r}")
     if not least <= value < 2**31:
-        raise ValueError(f"{name} must be between {least} and {2**31 - 1}, not {value}")
+        raise WrongValue(f"{name} must be between {least} and {2**31 - 1}, not {value}")
     return int(value)
 
 
@@ -60,7 +62,7 @@ def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
     words = allowed if isinstance(allowed, tuple | dict) else list(allowed)
     if isinstance(value, str) and value in words:
         return value
-    raise ValueError(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}")
+    raise WrongValue(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}")
 
 
 def closest(name: Any, known: Iterable[str], most: int = 5) -> str:
@@ -84,7 +86,7 @@ def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
         return [f"{prefix}{i}" for i in range(count(name, value, least=least))]
     words = list(value)
     if len(words) < least or not all(isinstance(word, str) and word for word in words) or len(set(words)) != len(words):
-        raise ValueError(f"{name} must be a number or different names, not {words!r}")
+        raise WrongValue(f"{name} must be a number or different names, not {words!r}")
     return words
 
 
@@ -104,7 +106,7 @@ def vector(name: str, value: Any, size: int) -> np.ndarray:
     shape = f"{name} must have shape ({size},), not"
     array = real(f"{name} must hold", value, ragged=f"{shape} be")
     if array.shape != (size,):
-        raise ValueError(f"{shape} {array.shape}")
+        raise WrongValue(f"{shape} {array.shape}")
     return _finite(name, array)
 
 
@@ -113,7 +115,7 @@ def times(name: str, value: Any, first: float, last: float) -> np.ndarray:
     array = _finite(name, real(f"{name} must hold", value, ragged=f"{name} must be a regular array of times, not be"))
     outside = (array < first) | (array > last)
     if outside.any():
-        raise ValueError(f"{name} must be between {first:g} and {last:g}, not {_at(array, outside)}")
+        raise WrongValue(f"{name} must be between {first:g} and {last:g}, not {_at(array, outside)}")
     return array
 
 
@@ -124,12 +126,12 @@ def increasing(name: str, value: Any, first: float, last: float) -> np.ndarray:
         return value.copy()
     array = times(name, value, first, last)
     if array.ndim != 1:
-        raise ValueError(f"{name} must have shape (k,), not {array.shape}")
+        raise WrongValue(f"{name} must have shape (k,), not {array.shape}")
     if not array.size:
-        raise ValueError(f"{name} must increase, and needs at least one time")
+        raise WrongValue(f"{name} must increase, and needs at least one time")
     falls = np.diff(array, prepend=-np.inf) <= 0
     if falls.any():
-        raise ValueError(f"{name} must increase, but {_at(array, falls)} comes after {float(array[falls.argmax() - 1])}")
+        raise WrongValue(f"{name} must increase, but {_at(array, falls)} comes after {float(array[falls.argmax() - 1])}")
     return array
 
 
@@ -137,7 +139,7 @@ def _finite(name: str, array: np.ndarray) -> np.ndarray:
     array = np.array(array, dtype=np.float64, order="C")
     infinite = ~np.isfinite(array)
     if infinite.any():
-        raise ValueError(f"{name} must be finite, not {_at(array, infinite)}")
+        raise WrongValue(f"{name} must be finite, not {_at(array, infinite)}")
     return array
 
 
@@ -154,15 +156,15 @@ def real(must: str, value: Any, where: str = "", *, objects: bool = False, ragge
     `must` says whose it is and begins the error, "p0 must hold", and `where` ends it; `ragged` begins that of no array at all.
     """
     if is_masked(value):
-        raise ValueError(f"{must} real numbers, none of them masked, not {shown(value)}{where}")
+        raise WrongValue(f"{must} real numbers, none of them masked, not {shown(value)}{where}")
     try:
         array = np.asarray(value)
     except ValueError as error:
-        raise ValueError(f"{ragged or f'{must} an array of real numbers, not'} a ragged sequence{where}") from error
+        raise WrongValue(f"{ragged or f'{must} an array of real numbers, not'} a ragged sequence{where}") from error
     if array.dtype.kind == "O" and objects:
         return _as_floats(array, must, value, where)
     if array.dtype.kind not in "fiu":
-        raise TypeError(f"{must} real numbers, not {array.dtype}: {shown(value)}{where}")
+        raise WrongType(f"{must} real numbers, not {array.dtype}: {shown(value)}{where}")
     return array
 
 
@@ -177,11 +179,11 @@ def _as_floats(array: np.ndarray, must: str, value: Any, where: str) -> np.ndarr
     numbers = np.empty(array.shape)
     for place, entry in np.ndenumerate(array):
         if isinstance(entry, str | bytes | bool | np.bool_):
-            raise TypeError(f"{must} real numbers, not {entry!r}{where}")
+            raise WrongType(f"{must} real numbers, not {entry!r}{where}")
         try:
             numbers[place] = float(entry)
         except (TypeError, ValueError) as error:
-            raise TypeError(f"{must} real numbers, not {shown(value)}{where}") from error
+            raise WrongType(f"{must} real numbers, not {shown(value)}{where}") from error
         except OverflowError:       # whole numbers may be larger than doubles
             numbers[place] = np.inf
     return numbers
@@ -200,12 +202,12 @@ def parameters(given: Any) -> dict[str, Any]:
     if given is None:
         return {}
     if not isinstance(given, Mapping):
-        raise TypeError(f"parameters must be a dict of values by name, not {given!r}")
+        raise WrongType(f"parameters must be a dict of values by name, not {given!r}")
     for name in given:
         if not isinstance(name, str):
-            raise TypeError(f"parameters must have strings for names, not {name!r}")
+            raise WrongType(f"parameters must have strings for names, not {name!r}")
         if name in STATE:
-            raise ValueError(f"parameters cannot have {name!r}: {', '.join(STATE)} are time, coordinates and velocities")
+            raise WrongValue(f"parameters cannot have {name!r}: {', '.join(STATE)} are time, coordinates and velocities")
     return dict(given)
 
 
@@ -224,9 +226,9 @@ def span(value: Any) -> tuple[float, float]:
         try:
             t0, t1 = value
         except (TypeError, ValueError):
-            raise TypeError(f"t_span must be an end time or a pair (t0, t1), not {value!r}") from None
+            raise WrongType(f"t_span must be an end time or a pair (t0, t1), not {value!r}") from None
         t0, t1 = number("t_span[0]", t0), number("t_span[1]", t1)
     if not t1 > t0:
-        raise ValueError(f"t_span must run forwards: {t1:g} is not after {t0:g}")
+        raise WrongValue(f"t_span must run forwards: {t1:g} is not after {t0:g}")
     number("the length of t_span", t1 - t0)
     return t0, t1

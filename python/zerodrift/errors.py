@@ -1,7 +1,8 @@
 """Errors and warnings of the package.
 
 Each has a short stable code, which ends its message, ``[zd:branch-jump]``; ``python -m zerodrift explain branch-jump`` prints
-its causes and cures.
+its causes and cures. Errors of arguments are Python's ValueError, TypeError and KeyError, with a code and without it in the
+message, which states the rule.
 """
 
 from __future__ import annotations
@@ -63,6 +64,37 @@ class ZerodriftError(_Coded, Exception):
 
     code = "zerodrift-error"
     solution: Any = None
+
+
+class _Argument(_Coded):
+    """Base of errors of arguments, whose message states the rule and the value, without the code."""
+
+    def __str__(self) -> str:
+        return super(_Coded, self).__str__()
+
+
+class WrongValue(_Argument, ValueError):
+    """An argument has a value that the function does not take; the message states the rule, the value and a hint."""
+
+    code = "wrong-value"
+
+
+class WrongType(_Argument, TypeError):
+    """An argument is of a type that the function does not take; the message states what it must be."""
+
+    code = "wrong-type"
+
+
+class WrongName(_Argument, KeyError):
+    """Nothing has this name; the message has the closest ones."""
+
+    code = "wrong-name"
+
+
+def described(error: BaseException) -> str:
+    """Name of an exception and its message; of an error of an argument, the name of the exception of Python that it is."""
+    name = type(error).__bases__[-1].__name__ if isinstance(error, _Argument) else type(error).__name__
+    return f"{name}: {error}"
 
 
 class InconsistentStart(ZerodriftError, ValueError):

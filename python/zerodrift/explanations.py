@@ -10,6 +10,7 @@ from importlib import resources
 
 from . import errors
 from ._gateway.base import statuses
+from .errors import WrongValue
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ def _section(text: str) -> tuple[str, Explanation]:
 def classes() -> dict[str, type[BaseException]]:
     """Errors and warnings of the package by code."""
     return {each.code: each for each in vars(errors).values()
-            if inspect.isclass(each) and issubclass(each, errors._Coded) and each is not errors._Coded}
+            if inspect.isclass(each) and issubclass(each, errors._Coded) and "code" in vars(each)}
 
 
 def codes() -> dict[str, tuple[type[BaseException], str]]:
@@ -71,7 +72,7 @@ def explain(code: str) -> str:
     known = codes()
     if code not in known:
         near = difflib.get_close_matches(code, known, n=3, cutoff=0.4) or sorted(known)
-        raise ValueError(f"code must be one of the package, not {code!r}; the closest are {', '.join(near)}")
+        raise WrongValue(f"code must be one of the package, not {code!r}; the closest are {', '.join(near)}")
     found = explanations()[code]
     kind, meaning = known[code]
     parts = [f"{code} ({kind.__name__})", *_wrapped(meaning, "")]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from . import _check
+from .errors import WrongValue
 from .runs import mapped_samples
 from .runs.saving import read
 from .runs.solution import Solution
@@ -60,7 +61,7 @@ def load(path: str | Path) -> Any:
         description = _module("files.from_json").parsed(content.decode(errors="replace"), str(path))
         if description is not None:
             return _mechanism(description, str(path))
-    raise ValueError(f"{path} must be a solution, an ensemble or a mechanism saved by zerodrift")
+    raise WrongValue(f"{path} must be a solution, an ensemble or a mechanism saved by zerodrift")
 
 
 def _as_written_now(path: Path) -> Path:
@@ -74,7 +75,7 @@ def _check_whole(path: str | Path, values: dict[str, Any]) -> None:
     lacking = [each.name for each in fields(Solution)
                if each.name not in values and each.default is MISSING and each.default_factory is MISSING]
     if lacking:
-        raise ValueError(f"{path} must contain a whole solution, and lacks {', '.join(lacking)}: it was not written to its end, "
+        raise WrongValue(f"{path} must contain a whole solution, and lacks {', '.join(lacking)}: it was not written to its end, "
                          "or was changed")
 
 

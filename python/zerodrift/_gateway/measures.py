@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._core import ffi, lib
+from ..errors import WrongValue
 from .base import doubles, text
 
 DEPENDS = {lib.ZD_OF_POSITIONS: "positions", lib.ZD_OF_VELOCITIES: "velocities", lib.ZD_OF_ACCELERATIONS: "accelerations"}
@@ -88,7 +89,7 @@ class Measuring:
         return arrays
 
     def _lacks(self, index: int) -> ValueError:
-        return ValueError(f"measure {text(self.c.measures.measure[index].name)} needs accelerations and multipliers")
+        return WrongValue(f"measure {text(self.c.measures.measure[index].name)} needs accelerations and multipliers")
 
 
 class Components(NamedTuple):

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
+from ..errors import WrongValue
 
 PACKED = ("A", "M", "C")        # the terms that are packed
 CONSTANT, DIAGONAL = lib.ZD_CONSTANT, lib.ZD_DIAGONAL
@@ -77,7 +78,7 @@ class Packing:
         packed = dense[self._places[name]]
         if np.count_nonzero(packed) != np.count_nonzero(dense):
             i, j = map(int, np.argwhere((dense != 0) & (self.expand(name, np.ones(packed.size)) == 0))[0])
-            raise ValueError(f"[{i}, {j}] is {dense[i, j]:g}, where the structure has nothing")
+            raise WrongValue(f"[{i}, {j}] is {dense[i, j]:g}, where the structure has nothing")
         return packed
 
     def times(self, name: str, packed: np.ndarray, x: np.ndarray, *, transposed: bool = False) -> np.ndarray:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._core import ffi, lib
+from ..errors import WrongValue
 from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
 from .constraint_names import ConstraintNames
 from .measures import Measuring
@@ -38,7 +39,7 @@ class Kind:
         constants = ffi.new("double[]", max(1, self.c.constants))
         reason = self.c.prepare(given, constants)
         if reason:
-            raise ValueError(f"{self.card.name}: {text(reason)}")
+            raise WrongValue(f"{self.card.name}: {text(reason)}")
         system = ffi.new("zd_system *", self.c.system)
         system.data = constants
         system.lengths = dimensions = lengths((*self.coordinates, *self.velocities))
@@ -151,7 +152,7 @@ class CoreSystem(Measuring):
         """All terms the system has, at (t, p, v), with matrices that are dense."""
         largest = max(self.nq, self.nv, self.m)
         if self.packing and largest > MOST_ROWS:
-            raise ValueError(f"evaluate() makes dense matrices of up to {MOST_ROWS} rows, and here these would have {largest}: "
+            raise WrongValue(f"evaluate() makes dense matrices of up to {MOST_ROWS} rows, and here these would have {largest}: "
                              "sol[...] has coordinates, velocities and multipliers, and product() multiplies by A, M and C")
         arrays = self.evaluate_stored(t, p, v)
         packed = {name: self.packing.expand(name, arrays[name]) for name in PACKED if name in arrays} if self.packing else {}

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import ZerodriftError, sentence
+from ..errors import WrongValue, ZerodriftError, sentence
 from ..runs.operations import acceleration, project
 from ..runs.settings import Projection
 from ..systems.base import BaseSystem
@@ -116,7 +116,7 @@ class _Varied:
         at, size = self.at, abs(self.value) or 1.0
         there = state(at.system.with_parameters({self.name: self.value + h * size}), at.t, at.p, at.v)
         if self.is_redundant and h and not np.array_equal(there.C, at.C):
-            raise ValueError("it changes constraints that are redundant, which then contradict each other")
+            raise WrongValue("it changes constraints that are redundant, which then contradict each other")
         vdot = acceleration(there.system, at.p, at.v, at.t, "augmented")[0]
         return np.concatenate([residuals(there, *self.moving), vdot])
 
@@ -147,7 +147,7 @@ def _varied(along: _Varied) -> tuple[np.ndarray, float]:
         best, least = (found, error) if error < least else (best, least)
         h = sides[0] * scale * differences.STEPS[-1]
         if np.abs(along(h) - along(0.0)).max() > JUMP * abs(h) * np.abs(found).max() + REDUNDANT:
-            raise ValueError("the coordinates themselves depend on it")
+            raise WrongValue("the coordinates themselves depend on it")
         if error <= ACCURATE * np.abs(found).max(initial=small):
             break
     if not best.size:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
-from ..errors import EquilibriumFailed
+from ..errors import EquilibriumFailed, WrongValue
 from ..runs.instant import KnownInstant
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium import equilibrium
@@ -113,9 +113,9 @@ def equilibria(system: Any, parameter: str, values: Any, *, near: Any = None, t:
 def _values(given: Any) -> np.ndarray:
     values = _check.real("values must hold", given).astype(float)
     if values.ndim != 1 or len(values) < 2 or not np.isfinite(values).all():
-        raise ValueError(f"values must be at least two finite numbers, not {_check.shown(given)}")
+        raise WrongValue(f"values must be at least two finite numbers, not {_check.shown(given)}")
     if not ((np.diff(values) > 0).all() or (np.diff(values) < 0).all()):
-        raise ValueError("values must increase or decrease")
+        raise WrongValue("values must increase or decrease")
     return values
 
 

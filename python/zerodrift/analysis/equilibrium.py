@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..errors import EquilibriumFailed, ZerodriftError
+from ..errors import EquilibriumFailed, WrongValue, ZerodriftError
 from ..runs.operations import project
 from ..runs.settings import Projection
 from ..systems.base import BaseSystem, core_of, system_of
@@ -92,7 +92,7 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
 def _first(system: BaseSystem, near: Any) -> np.ndarray:
     """The position (nq,) from which the search begins, of a system of many bodies."""
     if isinstance(near, Mapping):
-        raise ValueError(f"near must hold coordinates, not values of quantities, where there are more than {MANY} velocities")
+        raise WrongValue(f"near must hold coordinates, not values of quantities, where there are more than {MANY} velocities")
     return np.array(system._state_or_start(None, None, "near", "v", 0.0)[0]) if near is None else (
         _check.vector("near", near, system.nq))
 

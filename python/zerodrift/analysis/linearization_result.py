@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from . import differences
 from .derivatives import Direction
 from .flow import Flow
@@ -115,7 +116,7 @@ class Linearization:
         Q = complement(self._spectrum.removed)
         Y = np.vstack([J @ self._quasi[:nv], J @ self._quasi[nv:] + self._rates(wanted)]) @ Q
         if Y.shape[0] != Y.shape[1] or np.linalg.cond(Y) > 1e9:
-            raise ValueError(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {_check.shown(wanted)}")
+            raise WrongValue(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {_check.shown(wanted)}")
         return Y @ (Q.T @ self.A @ Q) @ np.linalg.inv(Y)
 
     @property

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..errors import AccuracyWarning, InconsistentStart
+from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
 from ..runs.instant import names_of_quantities
 from ..systems.base import BaseSystem, core_of, system_of
 from . import differences
@@ -87,7 +87,7 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
 def _state(system: BaseSystem, at: Any, v: Any) -> State:
     """The terms at the state that is given."""
     if v is not None:
-        raise ValueError("v must be left out where the state is given")
+        raise WrongValue("v must be left out where the state is given")
     if at is None:
         t, p, v = 0.0, *system._state_or_start(None, None, "p", "v", 0.0)
     elif hasattr(at, "p") and hasattr(at, "v"):
@@ -96,7 +96,7 @@ def _state(system: BaseSystem, at: Any, v: Any) -> State:
         try:
             t, p, v = at
         except (TypeError, ValueError):
-            raise TypeError(f"at must be an equilibrium, an instant such as sol.at(t), or (t, p, v), "
+            raise WrongType(f"at must be an equilibrium, an instant such as sol.at(t), or (t, p, v), "
                             f"not {_check.shown(at)}") from None
     here = state(system, _check.number("t", t), _check.vector("p", p, system.nq), _check.vector("v", v, system.nv))
     scale = scales(system, here.p)
@@ -171,7 +171,7 @@ class _Output:
             for variable, value in zip(variables, values, strict=True):
                 if variable.name == self.name:
                     return np.array([value])
-        raise ValueError(f"outputs names {self.name!r}, and nothing in {system.name} is called that; "
+        raise WrongValue(f"outputs names {self.name!r}, and nothing in {system.name} is called that; "
                          f"{_check.closest(self.name, names_of_quantities(system))}")
 
 

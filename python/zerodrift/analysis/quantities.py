@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
+from ..errors import WrongType, WrongValue
 from ..runs.instant import names_of_quantities
 from ..systems.base import BaseSystem
 from . import differences
@@ -38,7 +39,7 @@ def name_of(given: Any, what: str) -> str:
     """The name of a measure or variable that is given as such or by name."""
     name = getattr(given, "name", given)
     if not isinstance(name, str):
-        raise TypeError(f"{what} must be a measure, such as crank.angle, or its name, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be a measure, such as crank.angle, or its name, not {_check.shown(given)}")
     return name
 
 
@@ -46,14 +47,14 @@ def names_of(given: Any, what: str) -> list[str]:
     """The names of one or several of them."""
     single = isinstance(given, str) or hasattr(given, "name")
     if not single and not isinstance(given, Iterable):
-        raise TypeError(f"{what} must be measures or their names, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be measures or their names, not {_check.shown(given)}")
     return [name_of(each, f"an entry of {what}") for each in ((given,) if single else given)]
 
 
 def values_of(given: Any, what: str) -> dict[str, Any]:
     """A dictionary of values by measure, by names."""
     if not isinstance(given, Mapping):
-        raise TypeError(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
     return {name_of(key, f"a key of {what}"): value for key, value in given.items()}
 
 
@@ -69,7 +70,7 @@ def find(at: State, name: str, what: str) -> Found:
     place = watching.find(name)
     if place is not None:
         if watching.core.measure_depends(place.number) == "accelerations":
-            raise ValueError(f"{what} must be a quantity of positions or velocities, and {name!r} depends on accelerations or "
+            raise WrongValue(f"{what} must be a quantity of positions or velocities, and {name!r} depends on accelerations or "
                              "reactions")
         found = watching.core.measure_at(place.number, at.t, np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
         part = slice(None) if place.component is None else slice(place.component, place.component + 1)
@@ -81,7 +82,7 @@ def find(at: State, name: str, what: str) -> Found:
     if name in velocities:
         row = np.eye(system.nv)[[velocities.index(name)]]
         return Found(row @ at.v, np.zeros(1), row, np.zeros(1), True)
-    raise ValueError(f"{what} names {name!r}, and nothing in {system.name} is called that; "
+    raise WrongValue(f"{what} names {name!r}, and nothing in {system.name} is called that; "
                      f"{_check.closest(name, names_of_quantities(system))}")
 
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import Interrupted, WorkerLost
+from ..errors import Interrupted, WorkerLost, WrongValue
 from ..runs.progress import progress_of
 from ..runs.solution import Solution
 from ..runs.threads import Threads, processors
@@ -138,7 +138,7 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     threads = min(runs.count, processors() if threads is None else _check.count("threads", threads))
     chunk = None if chunk is None else _check.count("chunk", chunk)
     if store is not None and keeps:
-        raise ValueError('keep must be left out with a store, which has outputs only; ens[i] repeats run i, with bitwise the '
+        raise WrongValue('keep must be left out with a store, which has outputs only; ens[i] repeats run i, with bitwise the '
                          "same result")
     if store is not None:
         options["vector"] = options.get("vector") or stores.vector_of(store)

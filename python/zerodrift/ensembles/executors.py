@@ -14,7 +14,7 @@ from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 from .. import _check, _gateway
-from ..errors import WorkerLost, sentence
+from ..errors import WorkerLost, WrongType, described, sentence
 from ..runs.settings import VECTOR_UNITS
 from ..runs.threads import LOOK
 from .identity import version
@@ -34,7 +34,7 @@ def checked(executor: Any) -> Any:
     """Check the argument `executor` of `ensemble`."""
     if executor is None or executor == "processes" or callable(getattr(executor, "submit", None)):
         return executor
-    raise TypeError('executor must be None, for the threads of this process, "processes", or an Executor, which has submit() as '
+    raise WrongType('executor must be None, for the threads of this process, "processes", or an Executor, which has submit() as '
                     "those of concurrent.futures, loky, mpi4py.futures and dask's client.get_executor() have, not "
                     f"{_check.shown(executor)}")
 
@@ -125,7 +125,7 @@ class Elsewhere:
         (first, last), error = min(self._lost.items(), key=lambda pair: pair[0])
         if isinstance(error, WorkerLost | TypeError):
             return error
-        why = f"{type(error).__name__}: {error}".rstrip(": ")
+        why = described(error).rstrip(": ")
         others = f", nor {len(self._lost) - 1} other portions" if len(self._lost) > 1 else ""
         hint = "" if self._has_received or not isinstance(error, BrokenExecutor) else (
             '; a script that starts processes needs `if __name__ == "__main__":` around what does')

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from ..errors import WrongValue
 from ..systems.base import BaseSystem
 from . import saving, store
 from .part import filled
@@ -18,6 +19,6 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> E
         found = saving.read(path, rebuilt)
         return None if found is None else Ensemble(*found, 0.0, f"as {Path(path).name} has it")
     if not store.is_one(path):
-        raise ValueError(f"{path} is a folder, and no store of an ensemble")
+        raise WrongValue(f"{path} is a folder, and no store of an ensemble")
     plan, parts = store.load(path, rebuilt)
     return Ensemble(plan, filled(parts, plan.runs.count), 0.0, f"as {Path(path).name} has it")

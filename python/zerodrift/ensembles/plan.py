@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import ZerodriftError
+from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
 from ..runs import events as events_of
 from ..runs import settings
@@ -21,7 +21,7 @@ from ..systems.base import BaseSystem, core_of
 from .runs import NoSystem, Runs, named
 
 # Arguments of `simulate` that are not options of an ensemble.
-OWN = ("system", "t_span", "p0", "v0", "outputs", "progress", "on_failure", "save_to")
+OWN = ("system", "t_span", "p0", "v0", "outputs", "inputs", "control", "progress", "on_failure", "save_to")
 OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simulate).parameters.items() if name not in OWN}
 
 
@@ -91,10 +91,10 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
     """Plan whose arguments are checked, with the first system that can be built; nothing is simulated."""
     for name in options:
         if name not in OPTIONS:
-            raise TypeError(f"ensemble has no argument {name!r}; simulate, which has the options, takes {', '.join(OPTIONS)}")
+            raise WrongType(f"ensemble has no argument {name!r}; simulate, which has the options, takes {', '.join(OPTIONS)}")
     options = options | {"vector": settings.vector_unit(options.get("vector"))}
     if reduce is not None and not callable(reduce):
-        raise TypeError(f"reduce must be a function of a solution, not {_check.shown(reduce)}")
+        raise WrongType(f"reduce must be a function of a solution, not {_check.shown(reduce)}")
     names = _names(outputs)
     run, system = _first_system(runs)
     if system is not None:
@@ -149,7 +149,7 @@ def _check_signature(runs: Runs) -> None:
     try:
         signature.bind(**runs.parameters_of(0))
     except TypeError as error:
-        raise TypeError(f"{named(runs.made)}{signature} does not take the parameters {', '.join(runs.parameters) or '()'}: "
+        raise WrongType(f"{named(runs.made)}{signature} does not take the parameters {', '.join(runs.parameters) or '()'}: "
                         f"{error}") from None
 
 
@@ -174,7 +174,7 @@ def _check_names(system: BaseSystem, names: list[str]) -> None:
     known = [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
     for name in names:
         if name not in known and system._watching.find(name) is None:
-            raise ValueError(f"no output is called {name!r} in {system.name}; "
+            raise WrongValue(f"no output is called {name!r} in {system.name}; "
                              f"{_check.closest(name, [*system._names_of_measures(), *known])}")
 
 
@@ -190,7 +190,7 @@ def _check_starts(runs: Runs, first: int, system: BaseSystem, t0: float) -> None
     for name, size in (("p0", system.nq), ("v0", system.nv)):
         array = runs.states.get(name)
         if array is not None and array.shape[-1] != size:
-            raise ValueError(f"{name} must have {size} entries for each run of {system.name}, not shape {array.shape}")
+            raise WrongValue(f"{name} must have {size} entries for each run of {system.name}, not shape {array.shape}")
     errors = []
     for run in range(first, runs.count):
         try:

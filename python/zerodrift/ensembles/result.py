@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import WrongName, WrongType
 from ..systems.measure_values import AXES
 from . import exporting, saving
 from .batch import made_again
@@ -86,10 +87,10 @@ class Ensemble:
             if (component := self._component(name)) is not None:
                 return component
             if name not in self._names:
-                raise KeyError(f"no output is called {name!r}; {_check.closest(name, self._names) if self._names else 'none'}")
+                raise WrongName(f"no output is called {name!r}; {_check.closest(name, self._names) if self._names else 'none'}")
             return self._stacked(name)
         if isinstance(key, bool | np.bool_) or not isinstance(key, int | np.integer):
-            raise TypeError(f"the key of an ensemble must be an output's name or a run's index, not {_check.shown(key)}")
+            raise WrongType(f"the key of an ensemble must be an output's name or a run's index, not {_check.shown(key)}")
         if not -len(self) <= key < len(self):
             raise IndexError(f"the index of a run must be below {len(self)}, not {key}")
         run = int(key) % len(self)
@@ -192,7 +193,7 @@ class Ensemble:
         return exporting.to_pandas(self, self._part)
 
     def __iter__(self) -> Any:
-        raise TypeError("an ensemble must not be iterated, which would repeat all runs: use ens['name'], or ens[i]")
+        raise WrongType("an ensemble must not be iterated, which would repeat all runs: use ens['name'], or ens[i]")
 
     def _ipython_key_completions_(self) -> list[str]:
         return list(self._names)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .. import _gateway
+from ..errors import described
 from ..runs import diagnosis
 from ..runs.solution import Solution
 from .batch import Batch, batch_of, batch_range
@@ -53,7 +54,7 @@ def _one_or_its_error(plan: Plan, run: int, is_cancelled: Callable[[], bool]) ->
     except Cancelled:
         raise
     except Exception as error:      # it could not begin, or its own functions raised: the others go on
-        return single(np.zeros(0), {}, f"{type(error).__name__}: {error}", failed=True)
+        return single(np.zeros(0), {}, described(error), failed=True)
 
 
 def _in_batches(plan: Plan, batch: Batch, first: int, last: int, is_cancelled: Callable[[], bool]) -> Part:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..errors import ZerodriftError
+from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
 from ..runs.operations import assemble
@@ -71,13 +71,13 @@ def grid(values: Mapping[str, Any] | None = None, /, **named: Any) -> Grid:
     <grid of 2 crank.mass x 3 damping>
     """
     if values is not None and not isinstance(values, Mapping):
-        raise TypeError(f"values must be a dict of values by name, not {_check.shown(values)}")
+        raise WrongType(f"values must be a dict of values by name, not {_check.shown(values)}")
     for name in named:
         if name in (values or {}):
-            raise TypeError(f"{name!r} is given twice")
+            raise WrongType(f"{name!r} is given twice")
     columns = {name: _column(name, each) for name, each in {**(values or {}), **named}.items()}
     if not columns or any(each.ndim == 0 or not len(each) for each in columns.values()):
-        raise ValueError("a grid needs parameters, and at least one value of each, in an array or a list")
+        raise WrongValue("a grid needs parameters, and at least one value of each, in an array or a list")
     return Grid(columns)
 
 
@@ -229,7 +229,7 @@ class Runs:
 
 def _dict(name: str, given: Any) -> Mapping:
     if not isinstance(given, Mapping):
-        raise TypeError(f"{name} must be a dict of values by name, not {_check.shown(given)}")
+        raise WrongType(f"{name} must be a dict of values by name, not {_check.shown(given)}")
     return given
 
 
@@ -250,10 +250,10 @@ def _rows(what: str, given: Sequence) -> tuple[dict[str, tuple[np.ndarray, bool]
     """The same for a list of dicts, one for each run."""
     rows = [_dict(f"{what}[{i}]", each) for i, each in enumerate(given)]
     if not rows:
-        raise ValueError(f"{what} must have at least one run")
+        raise WrongValue(f"{what} must have at least one run")
     for i, row in enumerate(rows):
         if differing := set(row) ^ set(rows[0]):
-            raise ValueError(f"{what}[{i}] and {what}[0] must have the same names, and differ by {', '.join(sorted(differing))}")
+            raise WrongValue(f"{what}[{i}] and {what}[0] must have the same names, and differ by {', '.join(sorted(differing))}")
     columns = {name: (_check.real(f"{what} {name!r} must hold", [row[name] for row in rows]), True) for name in rows[0]}
     return columns, {what: len(rows)}
 
@@ -261,7 +261,7 @@ def _rows(what: str, given: Sequence) -> tuple[dict[str, tuple[np.ndarray, bool]
 def _state(name: str, given: Any) -> np.ndarray:
     array = np.array(_check.real(f"{name} must hold", given), dtype=float)
     if array.ndim not in (1, 2):
-        raise ValueError(f"{name} must have one axis, or a first axis for the runs and one more, not shape {array.shape}")
+        raise WrongValue(f"{name} must have one axis, or a first axis for the runs and one more, not shape {array.shape}")
     return array
 
 
@@ -272,8 +272,8 @@ def _common(counts: dict[str, int]) -> int:
     first = next(iter(counts))
     for name, count in itertools.islice(counts.items(), 1, None):
         if count != counts[first]:
-            raise ValueError(f"{first} has {counts[first]} values and {name} has {count}: there must be one for each run, or one "
+            raise WrongValue(f"{first} has {counts[first]} values and {name} has {count}: there must be one for each run, or one "
                              "for all; zd.grid(...) takes the product")
     if not counts[first]:
-        raise ValueError(f"{first} has no values, so there are no runs")
+        raise WrongValue(f"{first} has no values, so there are no runs")
     return counts[first]

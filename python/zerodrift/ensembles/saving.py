@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _check
 from .._writing import write_whole
-from ..errors import ZerodriftError
+from ..errors import WrongType, ZerodriftError
 from ..runs import saving
 from ..systems.base import BaseSystem
 from .part import Part
@@ -91,7 +91,7 @@ def value_as_json(value: Any) -> Any:
         return {"tuple": [value_as_json(each) for each in value]}
     if isinstance(value, dict) and all(isinstance(key, str) for key in value):
         return {"dict": {key: value_as_json(each) for key, each in value.items()}}
-    raise TypeError(f"reduce must return what a file keeps: numbers, strings, arrays of numbers, and lists, tuples and dicts of "
+    raise WrongType(f"reduce must return what a file keeps: numbers, strings, arrays of numbers, and lists, tuples and dicts of "
                     f"these, not {_check.shown(value)}")
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._locking import Lock
 from .._writing import is_temporary, sweep, write_whole
+from ..errors import WrongValue
 from ..runs.saving import read_arrays
 from ..runs.settings import VECTOR_UNITS
 from ..systems.base import BaseSystem
@@ -46,7 +47,7 @@ def vector_of(folder: str | Path) -> str | None:
         return None
     unit, units = _manifest(Path(folder)).get("vector"), VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
     if unit not in units:
-        raise ValueError(f"store {str(folder)!r} was begun with {unit}, and the processor of {platform.node()} has "
+        raise WrongValue(f"store {str(folder)!r} was begun with {unit}, and the processor of {platform.node()} has "
                          f'{" and ".join(units)}: it goes on where that is, or elsewhere from the beginning with vector="avx2" | '
                          '"baseline"')
     return unit
@@ -98,7 +99,7 @@ class Store:
             _check_same(self.folder, self._manifest, self._plan)
             return True
         if not is_new:
-            raise ValueError(f"store {str(self.folder)!r} must be a new or an empty folder, or that of an ensemble, and it is "
+            raise WrongValue(f"store {str(self.folder)!r} must be a new or an empty folder, or that of an ensemble, and it is "
                              "neither")
         return False
 
@@ -186,12 +187,12 @@ def _check_same(folder: Path, now: dict[str, Any], plan: Plan) -> None:
     """Check that a store belongs to this study."""
     then = _manifest(folder)
     if then.get("format") != FORMAT:
-        raise ValueError(f"store {str(folder)!r} has format {then.get('format')!r}, and format {FORMAT} is known here")
+        raise WrongValue(f"store {str(folder)!r} has format {then.get('format')!r}, and format {FORMAT} is known here")
     numbers = _other_runs(folder, plan) if then["numbers"] != now["numbers"] and then["runs"] == now["runs"] else []
     others = {name: value for name, value in now.items() if name != "numbers"}
     found = differences("", {name: value for name, value in then.items() if name != "numbers"}, others) + numbers
     if found or then["numbers"] != now["numbers"]:
-        raise ValueError(f"store {str(folder)!r} belongs to another study: {'; '.join(found) or 'its numbers differ'}. Take "
+        raise WrongValue(f"store {str(folder)!r} belongs to another study: {'; '.join(found) or 'its numbers differ'}. Take "
                          "another folder, or call as it was called")
 
 
@@ -225,9 +226,9 @@ def _manifest(folder: Path) -> dict[str, Any]:
     try:
         found = json.loads((folder / MANIFEST).read_bytes())
     except (OSError, ValueError) as error:
-        raise ValueError(f"{folder / MANIFEST} cannot be read: {error}") from None
+        raise WrongValue(f"{folder / MANIFEST} cannot be read: {error}") from None
     if not isinstance(found, dict) or found.get("what") != WHAT:
-        raise ValueError(f"{folder / MANIFEST} is that of no {WHAT}")
+        raise WrongValue(f"{folder / MANIFEST} is that of no {WHAT}")
     return found
 
 

@@ -9,6 +9,7 @@ import sys
 from types import FunctionType, ModuleType
 from typing import Any
 
+from ..errors import WrongType, described
 from .runs import named
 from .unpicklable import unpicklable
 
@@ -31,10 +32,10 @@ def packed(what: Any, name: str = "this", *, shares_main: bool = False) -> bytes
     try:
         return _dumped(what, shares_main)
     except _Stuck as error:
-        raise TypeError(f"{name} cannot travel to another process: {error}") from None
+        raise WrongType(f"{name} cannot travel to another process: {error}") from None
     except Exception as error:
         holder = unpicklable(what, lambda part: _fits(part, shares_main))
-        raise TypeError(f"{name} cannot travel to another process: {holder}{type(error).__name__}: {error}") from error
+        raise WrongType(f"{name} cannot travel to another process: {holder}{described(error)}") from error
 
 
 def _dumped(what: Any, shares_main: bool) -> bytes:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from .. import _check
 from .._gateway.mechanisms import blocks
 from .._gateway.mechanisms.element_tables import law_sizes
+from ..errors import WrongType, WrongValue
 from ..mechanisms.equations.measure_tables import read
 from ..mechanisms.system import MechanismSystem
 from ..runs import outputs as _outputs
@@ -88,7 +89,7 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
                                                  "correction")}
     unknown = set(chosen) - {*given, "formulation", "stabilization", "on_singular", "max_steps"}
     if unknown:
-        raise TypeError(f"block() has no argument {sorted(unknown)[0]!r}")
+        raise WrongType(f"block() has no argument {sorted(unknown)[0]!r}")
     options = settings.plan(
         system, (t0, t0 + 1), None, 1, step, formulation=chosen.get("formulation", settings.FORMULATION),
         stabilization=chosen.get("stabilization", settings.STABILIZATION), on_singular=chosen.get("on_singular", "stop"),
@@ -104,14 +105,14 @@ def _measures(names: Sequence[str], system: MechanismSystem) -> tuple[str, ...]:
     for name in names:
         place = system._watching.find(name)
         if place is None:
-            raise ValueError(f"outputs of a block must be measures of the mechanism, not {name!r}")
+            raise WrongValue(f"outputs of a block must be measures of the mechanism, not {name!r}")
         found.append(known[place.number])
     return tuple(dict.fromkeys(found))
 
 
 def _inputs(inputs: Any) -> tuple[str, ...]:
     if isinstance(inputs, str) or not isinstance(inputs, Sequence) or not all(isinstance(name, str) for name in inputs):
-        raise TypeError(f"inputs must be a list of names, not {_check.shown(inputs)}")
+        raise WrongType(f"inputs must be a list of names, not {_check.shown(inputs)}")
     return tuple(inputs)
 
 
@@ -125,7 +126,7 @@ def written(chosen: Chosen) -> bytes:
     packed, inputs, programs = _with_inputs(chosen, tables.written(quantities, observed), texts)
     measures = [row.name for row in observed]
     if len(measures) > MOST_MEASURES:
-        raise ValueError(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, as {system.name} has")
+        raise WrongValue(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, as {system.name} has")
     sections = {
         **blocks.tables(packed, texts), **vars(programs), "start": [*chosen.p.tolist(), *chosen.v.tolist()],
         "outputs": [measures.index(name) for name in chosen.outputs or ()], "inputs": inputs,
@@ -167,5 +168,5 @@ def _target(name: str, tables: Any) -> tuple[str, int]:
         relation = tables.relations[index]
         if relation.law < 0 and len(relation.quantities) == 1 and tables.drawing.elements[owner].drives == "speed":
             return "speed", index
-    raise ValueError("inputs must name forces, torques and speeds that are given as numbers, such as 'motor.torque', "
+    raise WrongValue("inputs must name forces, torques and speeds that are given as numbers, such as 'motor.torque', "
                      f"not {name!r}")

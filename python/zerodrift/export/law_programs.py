@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from .._gateway.mechanisms.blocks import FUNCTIONS, OPERATIONS
+from ..errors import WrongValue
 from ..mechanisms.elements.interpolation import Table
 from ..mechanisms.equations import function_calls, function_code
 from ..symbolics.compile.law_terms import Leaves
@@ -72,7 +73,7 @@ class Programs:
             slope = program.add("*", first, rate)
             results = [zero, one, *[zero] * (k - 1), program.add("negative", value), program.add("negative", slope)]
         else:
-            raise ValueError(f"{row.law.what} is a table in a constraint, which a block cannot hold: give an expression of SymPy")
+            raise WrongValue(f"{row.law.what} is a table in a constraint, which a block cannot hold: give an expression of SymPy")
         return program.with_results(results)
 
     def _spline(self, table: Table) -> int:
@@ -134,7 +135,7 @@ class _Program:
             return function
         found = FUNCTIONS.get(function.__name__)
         if found is None:
-            raise ValueError(f"{self._what} has the function {function.__name__}, which a block does not know; there are "
+            raise WrongValue(f"{self._what} has the function {function.__name__}, which a block does not know; there are "
                              f"{', '.join(FUNCTIONS)}")
         return found
 
@@ -168,7 +169,7 @@ def _nodes(row: function_calls.Call, k: int) -> tuple[str, Any, Any, Any]:
     if law.inner_expression is not None:
         return law.what, *function_code.nodes_of(row, k)
     if law.constant is None and not hasattr(law._function, "written"):
-        raise ValueError(f"{law.what} is a callable, which a block cannot hold: give a number, an expression of SymPy "
+        raise WrongValue(f"{law.what} is a callable, which a block cannot hold: give a number, an expression of SymPy "
                          "or zd.table(x, y)")
     equations = _Equations(row.parameters, k)
     nodes = row.said(equations.leaves, row.written(equations, equations.leaves.x, equations.leaves.xdot))

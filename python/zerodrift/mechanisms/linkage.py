@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..errors import SingularSystem
+from ..errors import SingularSystem, WrongType, WrongValue
 from .assembly.start import Starting
 from .building.link_shape import Shape, on_sides
 from .elements.bodies import Point
@@ -135,7 +135,7 @@ def _read_points(points: Any, scale: float) -> dict[str, np.ndarray]:
     _check.instance("points", points, Mapping, "a dict of places by name")
     for name in points:
         if not isinstance(name, str):
-            raise TypeError(f"points must have strings for names, not {_check.shown(name)}")
+            raise WrongType(f"points must have strings for names, not {_check.shown(name)}")
     return {name: scale * _check.vector(f"points[{name!r}]", place, 2) for name, place in points.items()}
 
 
@@ -143,29 +143,29 @@ def _read_links(links: Any, points: Mapping[str, Any]) -> dict[str, tuple[str, .
     """Points of each link, the ground's first."""
     _check.instance("links", links, Mapping, "a dict of points by link")
     if GROUND not in links:
-        raise ValueError(f"links must have {GROUND!r}, the points that do not move; there are {', '.join(map(repr, links))}")
+        raise WrongValue(f"links must have {GROUND!r}, the points that do not move; there are {', '.join(map(repr, links))}")
     read = {link: _names(f"links[{link!r}]", names, points) for link, names in links.items()}
     for link, names in read.items():
         if len(names) < 2 - (link == GROUND):
-            raise ValueError(f"links[{link!r}] must have two points or more, not {_check.shown(links[link])}")
+            raise WrongValue(f"links[{link!r}] must have two points or more, not {_check.shown(links[link])}")
         if len(set(names)) < len(names):
-            raise ValueError(f"links[{link!r}] must have each of its points once, not {_check.shown(links[link])}")
+            raise WrongValue(f"links[{link!r}] must have each of its points once, not {_check.shown(links[link])}")
         if link in points:
-            raise ValueError(f"{link!r} is a link and a point: each needs a name of its own")
+            raise WrongValue(f"{link!r} is a link and a point: each needs a name of its own")
     used = {name for names in read.values() for name in names}
     for name in points:
         if name not in used:
-            raise ValueError(f"point {name!r} belongs to no link: put it on one, or leave it out")
+            raise WrongValue(f"point {name!r} belongs to no link: put it on one, or leave it out")
     return {GROUND: read.pop(GROUND), **read}
 
 
 def _names(argument: str, given: Any, points: Mapping[str, Any]) -> tuple[str, ...]:
     """Names of points: the letters of a string, or a sequence of names."""
     if not isinstance(given, Sequence) or not all(isinstance(name, str) for name in given):
-        raise TypeError(f"{argument} must be a string of one-letter points or a sequence of names, not {_check.shown(given)}")
+        raise WrongType(f"{argument} must be a string of one-letter points or a sequence of names, not {_check.shown(given)}")
     for name in given:
         if name not in points:
-            raise ValueError(f"{argument} names {name!r}, which is none of the points; {_check.closest(name, points)}")
+            raise WrongValue(f"{argument} names {name!r}, which is none of the points; {_check.closest(name, points)}")
     return tuple(given)
 
 
@@ -176,7 +176,7 @@ def _read_lengths(lengths: Any, links: Mapping[str, tuple[str, ...]], scale: flo
     for given, length in (lengths or {}).items():
         pair = _pair(given, links)
         if pair in read:
-            raise ValueError(f"lengths has {' and '.join(map(repr, sorted(pair)))} twice")
+            raise WrongValue(f"lengths has {' and '.join(map(repr, sorted(pair)))} twice")
         read[pair] = scale * _check.number(f"lengths[{given!r}]", length, above=0)
     return read
 
@@ -185,12 +185,12 @@ def _pair(given: Any, links: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     """Pair of points of a length."""
     points = dict.fromkeys(name for names in links.values() for name in names)
     if given in links and not set(given) <= set(points):
-        raise ValueError(f"lengths are between two points, and {given!r} is a link: it has {', '.join(links[given])}")
+        raise WrongValue(f"lengths are between two points, and {given!r} is a link: it has {', '.join(links[given])}")
     pair = frozenset(_names("lengths", given, points))
     if len(pair) != 2 or len(given) != 2:
-        raise ValueError(f"lengths must be between two points, such as {''.join(list(points)[:2])!r}, not {_check.shown(given)}")
+        raise WrongValue(f"lengths must be between two points, such as {''.join(list(points)[:2])!r}, not {_check.shown(given)}")
     if not any(pair <= set(names) for names in links.values()):
-        raise ValueError(f"lengths[{given!r}] must name two points of one link, and no link has both")
+        raise WrongValue(f"lengths[{given!r}] must name two points of one link, and no link has both")
     return pair
 
 
@@ -201,6 +201,6 @@ def _read_masses(mass: Any, links: Mapping[str, Any]) -> dict[str, float]:
         return {link: 0.0 if link == GROUND else mass for link in links}
     for link in mass:
         if link not in links or link == GROUND:
-            raise ValueError(f"mass names {link!r}, which is not a link that moves; "
+            raise WrongValue(f"mass names {link!r}, which is not a link that moves; "
                              f"{_check.closest(link, [each for each in links if each != GROUND])}")
     return {link: _check.number(f"mass[{link!r}]", mass.get(link, 0.0), least=0) for link in links}

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import _check
 from .._writing import write_whole
+from ..errors import WrongType, WrongValue
 from ..systems.base import Makes, Terms
 from .building.body_verbs import BodyVerbs
 from .building.coupling_verbs import CouplingVerbs
@@ -74,9 +75,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     def __init__(self, name: str, *, dimension: int = 2, gravity: Any = None,
                  parameters: Mapping[str, float] | None = None) -> None:
         if not isinstance(name, str) or not name:
-            raise TypeError(f"name must be a string that is not empty, not {_check.shown(name)}")
+            raise WrongType(f"name must be a string that is not empty, not {_check.shown(name)}")
         if dimension not in (2, 3) or isinstance(dimension, bool):
-            raise ValueError(f"dimension must be 2, the plane, or 3, space, not {_check.shown(dimension)}")
+            raise WrongValue(f"dimension must be 2, the plane, or 3, space, not {_check.shown(dimension)}")
         self.name, self.dimension = name, int(dimension)
         self.gravity = np.zeros(self.dimension) if gravity is None else _check.vector("gravity", gravity, self.dimension)
         super().__init__(parameters)
@@ -190,7 +191,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         (11, 3)
         """
         if self.dimension == 3:
-            raise ValueError(f"{self.name!r} is in space already: lifted() is for mechanisms in the plane")
+            raise WrongValue(f"{self.name!r} is in space already: lifted() is for mechanisms in the plane")
         made = Mechanism(self.name, dimension=3, gravity=(*self.gravity, 0.0), parameters=self.parameters)
         lift(self._drawing(), made)
         return made

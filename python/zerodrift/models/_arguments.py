@@ -8,6 +8,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .. import _check
+from ..errors import WrongType
 from ..mechanisms.mechanism import Mechanism
 
 NOT_NEGATIVE = ("mass", "inertia", "stiffness", "damping", "density")      # quantities, as the last word of an argument's name
@@ -24,7 +25,7 @@ def checked(model: Callable[..., Mechanism]) -> Callable[..., Mechanism]:
         try:
             taken = signature.bind(*given, **named)
         except TypeError as error:
-            raise TypeError(f"{model.__name__}(): {error}") from None
+            raise WrongType(f"{model.__name__}(): {error}") from None
         for name in numbers:
             if name in taken.arguments and not (taken.arguments[name] is None and signature.parameters[name].default is None):
                 least = 0 if name.rpartition("_")[2] in NOT_NEGATIVE else None

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, inertia
+from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 from ._swing import sympy
@@ -65,7 +66,7 @@ def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.p
     rise, dwell, fall = (_check.number(name, value, above=0) for name, value in
                          (("rise", rise), ("dwell", dwell), ("fall", fall)))
     if not rise + dwell + fall < 2 * np.pi:
-        raise ValueError(f"rise, dwell and fall must be less than a turn together, {2 * np.pi:g}, not {rise + dwell + fall:g}")
+        raise WrongValue(f"rise, dwell and fall must be less than a turn together, {2 * np.pi:g}, not {rise + dwell + fall:g}")
     m = Mechanism("cam_follower", gravity=(0.0, -_check.number("gravity", gravity)))
     cam = m.body("cam", *inertia.disc(mass=_check.number("cam_mass", cam_mass, above=0), radius=base))
     follower = m.body("follower", follower_mass, at=(0, base))

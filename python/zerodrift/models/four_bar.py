@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 
@@ -57,7 +58,7 @@ def four_bar(*, lengths: Any = (1.0, 0.3, 1.0, 0.6), masses: Any = (1.5, 5.0, 3.
     at = crank * np.array([np.cos(crank_angle), np.sin(crank_angle)])
     apart = np.hypot(*(at - (ground, 0)))
     if not abs(coupler - rocker) < apart < coupler + rocker:
-        raise ValueError(f"coupler and rocker, of {coupler:g} and {rocker:g} m, do not meet: with the crank at {crank_angle:g} "
+        raise WrongValue(f"coupler and rocker, of {coupler:g} and {rocker:g} m, do not meet: with the crank at {crank_angle:g} "
                          f"rad they begin {apart:g} m apart; lengths are {ground:g}, {crank:g}, {coupler:g}, {rocker:g} m")
     high = np.array([ground - 0.1 * rocker, rocker])        # roughly: lengths count
     m = Mechanism("four_bar", gravity=(0.0, -_check.number("gravity", gravity)))

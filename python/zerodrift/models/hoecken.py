@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -62,7 +63,7 @@ def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, s
     """
     g, c = _check.number("ground", ground, above=1), _check.number("coupler", coupler, above=0)
     if not c > (g + 1) / 2:
-        raise ValueError(f"coupler must be more than half of ground and crank, {(g + 1) / 2:g}, so that the crank can turn "
+        raise WrongValue(f"coupler must be more than half of ground and crank, {(g + 1) / 2:g}, so that the crank can turn "
                          f"round, not {c:g}")
     x = (g + 1) / 2
     y = np.sqrt(c**2 - (g - x)**2)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from ..mechanisms.linkage import linkage
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
@@ -60,7 +61,7 @@ def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, am
     amplitude = _check.number("amplitude", amplitude, least=0)
     near, far = 2 * crank * np.cos(min(amplitude, np.pi) / 2), 2 * crank
     if not (abs(arm - side) < near and far < arm + side):
-        raise ValueError(f"amplitude {amplitude:g} leads Q from {far:g} to {near:g} m from O, and arms of {arm:g} m with sides "
+        raise WrongValue(f"amplitude {amplitude:g} leads Q from {far:g} to {near:g} m from O, and arms of {arm:g} m with sides "
                          f"of {side:g} m reach from {abs(arm - side):g} to {arm + side:g} m")
     x = (far**2 + arm**2 - side**2) / (2 * far)
     y = np.sqrt(arm**2 - x**2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 
@@ -61,7 +62,7 @@ def quick_return(*, ground: float = 0.025, crank: float = 0.010, lever: float = 
     lowest = b * np.sqrt(1 - (a / g)**2) if a < g else -b
     reach = max(abs(b - height), abs(lowest - height))
     if a == g or not reach < c:
-        raise ValueError(f"rod must be longer than {reach:g} m, by which the lever's end goes aside from the ram's line at a "
+        raise WrongValue(f"rod must be longer than {reach:g} m, by which the lever's end goes aside from the ram's line at a "
                          f"height of {height:g} m, and crank other than ground, {g:g} m; rod is {c:g} m, and crank {a:g} m")
     m = Mechanism("quick_return", gravity=(0.0, -_check.number("gravity", gravity)))
     pin = np.array([a, g])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 from ._swing import swing
@@ -63,7 +64,7 @@ def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, ampli
     angle, amplitude = _check.number("angle", angle), _check.number("amplitude", amplitude)
     w, h = L * np.cos(angle), L * np.sin(angle)
     if not (0 < angle < np.pi / 2 and abs(amplitude) < min(w, L - w)):
-        raise ValueError(f"amplitude must be less than {max(0.0, min(w, L - w)):g} m with arms of {L:g} m at an angle of "
+        raise WrongValue(f"amplitude must be less than {max(0.0, min(w, L - w)):g} m with arms of {L:g} m at an angle of "
                          f"{angle:g}, which must be between 0 and a right angle, not {amplitude:g}")
     m = Mechanism("scissor_lift", gravity=(0.0, -_check.number("gravity", gravity)))
     rises = [m.link(f"rise{i}", (0, i * h), (w, (i + 1) * h), mass) for i in range(n)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 
@@ -54,7 +55,7 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
     """
     a, b = _check.number("crank", crank, above=0), _check.number("rod", rod, above=0)
     if not b > a:
-        raise ValueError(f"rod must be longer than the crank of {a:g} m, not {b:g}")
+        raise WrongValue(f"rod must be longer than the crank of {a:g} m, not {b:g}")
     rest_length = _check.number("rest_length", rest_length, least=0)
     m = Mechanism("slider_crank")
     crank_body = m.body("crank", 0.0, crank_inertia, angle=angle)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from ..mechanisms.mechanism import Mechanism
 from ._arguments import checked
 
@@ -56,7 +57,7 @@ def toggle_press(*, link: float = 0.3, crank: float = 0.05, rod: float = 0.3, di
     a, r, c = (_check.number(name, value, above=0) for name, value in (("link", link), ("crank", crank), ("rod", rod)))
     d = _check.number("distance", distance)
     if not (r + c < d and np.hypot(d, a) + r < a + c):
-        raise ValueError(f"distance must be above crank and rod together, {r + c:g} m, so that the knee is not pushed "
+        raise WrongValue(f"distance must be above crank and rod together, {r + c:g} m, so that the knee is not pushed "
                          f"through, and below {np.sqrt(max(0.0, (a + c - r)**2 - a**2)):g} m, so that the rod reaches, not {d:g}")
     head, B = np.array([0.0, 2 * a]), np.array([d + r, a])
     apart = np.hypot(*(B - head))

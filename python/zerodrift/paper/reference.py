@@ -20,6 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from .._writing import write_whole
+from ..errors import WrongValue
 from . import FOUR_BAR, OSCILLATOR
 
 SPACING = 0.025         # s between the stored states
@@ -140,7 +141,7 @@ def four_bar_energies(t: float) -> tuple[float, float]:
 def _row(t: float) -> int:
     row = round(t / SPACING)
     if not 0 <= row < len(stored()) or abs(row * SPACING - t) > 1e-9:
-        raise ValueError(f"t must be a multiple of {SPACING:g} s between 0 and {FOUR_BAR.end:g} s, not {t:g}")
+        raise WrongValue(f"t must be a multiple of {SPACING:g} s between 0 and {FOUR_BAR.end:g} s, not {t:g}")
     return row
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from .. import _check
-from ..errors import ZerodriftError
+from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from .scene import Wanted
@@ -69,7 +69,7 @@ class Exploration:
         """
         for name, value in {**(values or {}), **named}.items():
             if name not in self.values:
-                raise ValueError(f"values must name parameters of this exploration, {', '.join(self.values)}, not {name!r}")
+                raise WrongValue(f"values must name parameters of this exploration, {', '.join(self.values)}, not {name!r}")
             self.values[name] = _check.number(name, value)
         self._run()
         return self
@@ -171,23 +171,23 @@ def explore(system: Any, parameters: Mapping[str, tuple[float, float]], t_span: 
     whole = system.system() if hasattr(system, "system") else system
     unknown = [name for name in ranges if name not in whole.parameters]
     if unknown:
-        raise ValueError(f"parameters must be those of {whole.name}, {', '.join(whole.parameters)}, not {unknown[0]!r}")
+        raise WrongValue(f"parameters must be those of {whole.name}, {', '.join(whole.parameters)}, not {unknown[0]!r}")
     return Exploration(system.with_parameters, t_span, ranges, _first(ranges, whole.parameters), options)
 
 
 def _ranges(parameters: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
     """The ranges, as pairs of increasing numbers."""
     if not isinstance(parameters, Mapping) or not parameters:
-        raise TypeError("parameters must be a dict of ranges by name, such as {'rod.mass': (0.5, 2.0)}, not "
+        raise WrongType("parameters must be a dict of ranges by name, such as {'rod.mass': (0.5, 2.0)}, not "
                         f"{_check.shown(parameters)}")
     found = {}
     for name, given in parameters.items():
         try:
             low, high = (float(each) for each in given)
         except (TypeError, ValueError):
-            raise TypeError(f"the range of {name!r} must be two numbers, not {_check.shown(given)}") from None
+            raise WrongType(f"the range of {name!r} must be two numbers, not {_check.shown(given)}") from None
         if not low < high < float("inf") or low == float("-inf"):
-            raise ValueError(f"the range of {name!r} must increase and be finite, not {_check.shown(given)}")
+            raise WrongValue(f"the range of {name!r} must increase and be finite, not {_check.shown(given)}")
         found[name] = low, high
     return found
 

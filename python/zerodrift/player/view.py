@@ -16,7 +16,7 @@ from typing import Any
 
 from .. import _check
 from .._writing import write_whole
-from ..errors import ZerodriftError
+from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.solution import A_SOLUTION, Solution
 from .scene import Wanted, scene
 
@@ -180,13 +180,13 @@ def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any 
     True
     """
     if not solutions:
-        raise TypeError("view needs at least one solution, as zd.simulate returns")
+        raise WrongType("view needs at least one solution, as zd.simulate returns")
     for sol in solutions:
         _check.instance("each of solutions", sol, Solution, A_SOLUTION)
     if labels is None:
         labels = [sol.system.name if len(solutions) == 1 else f"{sol.system.name} {i}" for i, sol in enumerate(solutions, 1)]
     if len(labels) != len(solutions):
-        raise ValueError(f"labels must name {len(solutions)} solutions, not {len(labels)}")
+        raise WrongValue(f"labels must name {len(solutions)} solutions, not {len(labels)}")
     return View(solutions, list(labels), Wanted(forces, path, graphs, names, speed))
 
 

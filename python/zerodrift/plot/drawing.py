@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from .. import _check
+from ..errors import WrongType, WrongValue
 from ..runs.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
 from ..systems.base import BaseSystem, system_of
@@ -84,7 +85,7 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     """
     system_or_solution = system_of(system_or_solution, p)
     if not isinstance(system_or_solution, Solution) and not callable(getattr(system_or_solution, "points", None)):
-        raise TypeError(f"system_or_solution must be a system or a Solution, not {_check.shown(system_or_solution)}")
+        raise WrongType(f"system_or_solution must be a system or a Solution, not {_check.shown(system_or_solution)}")
     sol = dense(system_or_solution) if isinstance(system_or_solution, Solution) else None
     _check_asked(sol, p, t=t, ghosts=ghosts, forces=forces, path=path)
     force_scale = None if force_scale is None else _check.number("force_scale", force_scale, above=0)
@@ -208,9 +209,9 @@ def _check_asked(sol: Solution | None, p: Any, **asked: Any) -> None:
     wanted = [name for name, value in asked.items() if value is not None and value is not False and not _is_nothing(value)]
     for name in wanted:
         if sol is None:
-            raise ValueError(f"{name} must be left out for a system in one position: it needs a solution, as zd.simulate returns")
+            raise WrongValue(f"{name} must be left out for a system in one position: it needs a solution, as zd.simulate returns")
         if p is not None and name in ("t", "forces"):
-            raise ValueError(f"{name} must be left out where p is given: it needs a sample of the solution, see t")
+            raise WrongValue(f"{name} must be left out where p is given: it needs a sample of the solution, see t")
 
 
 def _is_nothing(value: Any) -> bool:
@@ -253,10 +254,10 @@ def paths_of(sol: Solution | None, points: Any) -> list[np.ndarray]:
     for point in several:
         name = point if isinstance(point, str) else getattr(point, "measured_name", None) or getattr(point, "name", None)
         if not isinstance(name, str):
-            raise TypeError(f"each of path must be a point or its name, such as 'F' or rod.end, not {_check.shown(point)}")
+            raise WrongType(f"each of path must be a point or its name, such as 'F' or rod.end, not {_check.shown(point)}")
         places = np.asarray(sol[name if name.endswith(".position") else f"{name}.position"])
         if places.ndim != 2:
-            raise ValueError(f"path {name!r} must be of a point, not of the scalar {name}.position")
+            raise WrongValue(f"path {name!r} must be of a point, not of the scalar {name}.position")
         found.append(places)
     return found
 
@@ -288,7 +289,7 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
             return known, None
     for name, value in asked.items():
         if value is not False and not _is_nothing(value):
-            raise ValueError(f"{name} must be left out for {system.name}, which is drawn from its points: it needs a Mechanism")
+            raise WrongValue(f"{name} must be left out for {system.name}, which is drawn from its points: it needs a Mechanism")
     points = points_at(system, positions)
     if points.shape[2] == 3:
         return None, points
@@ -320,7 +321,7 @@ def drawing_axes(ax: Axes | None, dimension: int) -> Axes:
     if ax is None:
         ax = plt.figure(layout="constrained").add_subplot(projection="3d" if dimension == 3 else None)
     elif dimension == 3 and ax.name != "3d":
-        raise ValueError("ax must be 3D axes for this system: fig.add_subplot(projection='3d')")
+        raise WrongValue("ax must be 3D axes for this system: fig.add_subplot(projection='3d')")
     for axis in "xyz"[:dimension]:
         getattr(ax, f"set_{axis}label")(f"{axis} [m]")
     if dimension == 2:

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from .. import _check
 from ..analysis.linearization_result import ROUNDING, Linearization
 from ..analysis.retraction import onto
+from ..errors import WrongValue
 from . import style as _style
 from .drawing import drawing_axes
 
@@ -51,10 +52,10 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     _check.instance("lin", lin, Linearization, "what zd.linearize returns")
     count = len(lin.eigenvalues)
     if isinstance(index, bool) or not isinstance(index, int | np.integer) or not 0 <= index < count:
-        raise ValueError(f"index must be that of one of {count} eigenvalues, 0 to {count - 1}, not {_check.shown(index)}")
+        raise WrongValue(f"index must be that of one of {count} eigenvalues, 0 to {count - 1}, not {_check.shown(index)}")
     reference = lin.system.points(lin.p)
     if reference is None:
-        raise ValueError(f"{lin.system.name} must have a drawing for its modes to be drawn, and has none")
+        raise WrongValue(f"{lin.system.name} must have a drawing for its modes to be drawn, and has none")
     ax = drawing_axes(ax, reference.shape[1])
     for p in mode_positions(lin, int(index), _check.number("amplitude", amplitude, above=0), PHASES):
         ax.plot(*lin.system.points(p).T, **{"color": _style.COLOURS[1], "alpha": 0.45, "linewidth": 1.0} | style)

@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 
 from .. import _check
 from .._gateway import Variable
+from ..errors import WrongValue
 from ..runs.columns import columns
 from ..runs.settings import Projection
 from ..runs.solution import A_SOLUTION, Solution
@@ -156,7 +157,7 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     if velocities and constraints:
         lines.append((sol.velocity_violation, _style.with_unit("velocity violation |Ψ|", rates)))
     if not lines:
-        raise ValueError(f"{sol.system.name} has no such constraints, so there is no violation to draw")
+        raise WrongValue(f"{sol.system.name} has no such constraints, so there is no violation to draw")
     ax = _style.axes(ax)
     for values, label in lines:
         _style.log_line(ax, sol.t, np.abs(values).max(axis=1), **{"label": label} | style)
@@ -284,7 +285,7 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
 
 def _require_energy(sol: Solution) -> None:
     if _check.instance("sol", sol, Solution, A_SOLUTION).potential_energy is None:
-        raise ValueError(f"{sol.system.name} declares no potential energy, so there is no energy balance to draw")
+        raise WrongValue(f"{sol.system.name} declares no potential energy, so there is no energy balance to draw")
 
 
 def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
@@ -364,7 +365,7 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
         axes = plt.subplots(1, count, figsize=(2.7 * count + 1, 3.4), sharey=True, layout="constrained")[1]
     axes = np.atleast_1d(axes)
     if len(axes) != len(result.rows):
-        raise ValueError(f"axes must be {len(result.rows)}, one for each way, not {len(axes)}")
+        raise WrongValue(f"axes must be {len(result.rows)}, one for each way, not {len(axes)}")
     for ax in axes:
         _style.given_axes(ax, "each of axes")
     scale = LogNorm(max(result.reference_error, 1e-12), 1, clip=True)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..errors import WrongValue
 from ..systems.base import BaseSystem
 from ..systems.shapes import Shape
 from .style import COLOURS
@@ -20,7 +21,7 @@ def points_at(system: BaseSystem, positions: Any) -> np.ndarray:
     """The points of each position, (positions, points, dimension)."""
     drawings = [system.points(p) for p in positions]
     if not drawings or drawings[0] is None:
-        raise ValueError(f"{system.name} has no drawing: it gives no points")
+        raise WrongValue(f"{system.name} has no drawing: it gives no points")
     return np.array(drawings)
 
 

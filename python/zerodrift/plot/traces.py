@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 
 from .. import _check
 from .._gateway import Variable
+from ..errors import WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..tracing.trace_result import Trace
 from . import style as _style
@@ -64,7 +65,7 @@ def trace(traced: Trace, names: Any, ax: Axes | None = None, *, degrees: bool = 
         variable = Variable(name_of(name, "each of names"), traced.unit_of(name))
         values = traced[name]
         if values.ndim != 1:
-            raise ValueError(f"each of names must be a scalar, and {variable.name!r} has components; plot.positions draws paths")
+            raise WrongValue(f"each of names must be a scalar, and {variable.name!r} has components; plot.positions draws paths")
         (line,) = ax.plot(_shown(traced.values, traced.unit, degrees), _shown(values, variable.unit, degrees),
                           **{"label": variable.name} | style)
         dead = [point.before for point in traced.dead_points]
@@ -123,7 +124,7 @@ def _places(at: Any, count: int) -> np.ndarray:
     """Numbers of positions."""
     places = np.atleast_1d(_check.real("at must hold", at))
     if places.dtype.kind not in "iu" or places.ndim != 1 or not places.size:
-        raise TypeError(f"at must be numbers of positions, not {_check.shown(at)}")
+        raise WrongType(f"at must be numbers of positions, not {_check.shown(at)}")
     if places.min() < -count or places.max() >= count:
         raise IndexError(f"at must be numbers of {count} positions, not {_check.shown(at)}")
     return places

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .. import _check
+from ..errors import WrongType, WrongValue
 
 WHOLE = 1e-9        # relative deviation of a period from a whole number of steps
 
@@ -25,7 +26,7 @@ class Every:
     def __init__(self, period: Any, call: Callable[[Any], Any]) -> None:
         self.period = _check.number("period", period, above=0)
         if not callable(call):
-            raise TypeError(f"call must be a function of the run, not {_check.shown(call)}")
+            raise WrongType(f"call must be a function of the run, not {_check.shown(call)}")
         self.call = call
 
     def __repr__(self) -> str:
@@ -80,7 +81,7 @@ def controls(given: Any) -> tuple[Every, ...]:
     several = () if given is None else tuple(given) if isinstance(given, Sequence) else (given,)
     for each in several:
         if not isinstance(each, Every):
-            raise TypeError(f"control must be zd.every(period, call=f), or a list of these, not {_check.shown(each)}")
+            raise WrongType(f"control must be zd.every(period, call=f), or a list of these, not {_check.shown(each)}")
     return several
 
 
@@ -153,6 +154,6 @@ def _steps_of(period: float, step: float) -> int:
     """Number of steps in a period."""
     steps = max(1, round(period / step))
     if abs(period / step - steps) > WHOLE * steps:
-        raise ValueError(f"step must divide the period {period:g} s of control, and {step:g} s does not: the nearest that does "
+        raise WrongValue(f"step must divide the period {period:g} s of control, and {step:g} s does not: the nearest that does "
                          f"is {period / steps:.17g} s")
     return steps

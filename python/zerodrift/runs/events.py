@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway.known_events import Reading
+from ..errors import WrongType, WrongValue
 from ..systems.base import BaseSystem
 
 
@@ -116,7 +117,7 @@ def _reading(what: str, measure: Any, system: BaseSystem) -> Reading:
     """Description of a scalar measure by which the core evaluates it."""
     name = getattr(measure, "name", measure)
     if not isinstance(name, str):
-        raise TypeError(f"{what} must be a measure, the name of one, an expression or a callable, not {_check.shown(measure)}")
+        raise WrongType(f"{what} must be a measure, the name of one, an expression or a callable, not {_check.shown(measure)}")
     return system._reading(name, what)
 
 
@@ -156,14 +157,14 @@ def _event(name: str, given: Any, system: BaseSystem) -> Watched:
     if isinstance(given, Event):
         return given.watched(name, system)
     if not callable(given):
-        raise TypeError(f"{name} must be a callable event(t, p, v), a zd.Event or a measure, or a list of these, not {given!r}")
+        raise WrongType(f"{name} must be a callable event(t, p, v), a zd.Event or a measure, or a list of these, not {given!r}")
     return _watched(name, given, getattr(given, "direction", 0), getattr(given, "terminal", False))
 
 
 def _watched(name: str, function: Any, direction: Any, terminal: Any, known: _gateway.KnownEvent | None = None) -> Watched:
     """An event, checked."""
     if _check.number(f"{name}.direction", direction) not in (-1, 0, 1):
-        raise ValueError(f"{name}.direction must be -1, 0 or 1, not {direction!r}")
+        raise WrongValue(f"{name}.direction must be -1, 0 or 1, not {direction!r}")
     if not isinstance(terminal, bool | np.bool_):
         _check.count(f"{name}.terminal, where it is not True or False,", terminal, least=0)
     return Watched(name, function, int(direction), int(terminal), known)

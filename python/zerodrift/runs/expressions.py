@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _gateway
 from .._gateway.known_events import NUMBER, TIME, VELOCITY, Reading
+from ..errors import WrongValue
 from ..systems.base import BaseSystem, core_of
 
 
@@ -60,7 +61,7 @@ def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
     name = str(getattr(derivative.expr, "func", derivative.expr))
     has_rates = core_of(system).provides & _gateway.TERMS["A"].bit
     if has_rates or derivative.derivative_count != 1 or name not in coordinates:
-        raise ValueError(f"{what} has {derivative}, which must be a velocity of {system.name}: "
+        raise WrongValue(f"{what} has {derivative}, which must be a velocity of {system.name}: "
                          f"{', '.join(variable.name for variable in system.velocities)}")
     return Reading(VELOCITY, coordinates.index(name))
 

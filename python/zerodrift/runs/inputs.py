@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
+from ..errors import WrongType, WrongValue
 from ..systems.base import BaseSystem, WithInputs
 
 
@@ -34,7 +35,7 @@ def declared(given: Any, system: BaseSystem) -> Declared | None:
     limits = given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
     names = tuple(map(_name, limits))
     if not names:
-        raise ValueError("inputs must name at least one input")
+        raise WrongValue("inputs must name at least one input")
     bounds = np.array([_limits(name, each) for name, each in zip(names, limits.values(), strict=True)])
     lower, upper = (np.ascontiguousarray(column) for column in bounds.T)
     return Declared(names, lower, upper, system._with_inputs(names))
@@ -43,18 +44,18 @@ def declared(given: Any, system: BaseSystem) -> Declared | None:
 def _names(given: Any) -> Sequence[Any]:
     names = (given,) if isinstance(given, str) or hasattr(given, "name") else given
     if not isinstance(names, Sequence):
-        raise TypeError(f"inputs must be names, or a dict of names to limits, not {_check.shown(given)}")
+        raise WrongType(f"inputs must be names, or a dict of names to limits, not {_check.shown(given)}")
     listed = list(map(_name, names))
     for name in listed:
         if listed.count(name) > 1:
-            raise ValueError(f"each input must be named once, and {name!r} is named more often")
+            raise WrongValue(f"each input must be named once, and {name!r} is named more often")
     return listed
 
 
 def _name(given: Any) -> str:
     name = getattr(given, "name", given)
     if not isinstance(name, str):
-        raise TypeError(f"an input must be a measure or its name, not {_check.shown(given)}")
+        raise WrongType(f"an input must be a measure or its name, not {_check.shown(given)}")
     return name
 
 
@@ -63,7 +64,7 @@ def _limits(name: str, given: Any) -> tuple[float, float]:
         return -math.inf, math.inf
     bounds = _check.real(f"limits of input {name!r} must be (lower, upper)", given)
     if bounds.shape != (2,) or not bounds[0] <= bounds[1]:
-        raise ValueError(f"limits of input {name!r} must be (lower, upper), not {_check.shown(given)}")
+        raise WrongValue(f"limits of input {name!r} must be (lower, upper), not {_check.shown(given)}")
     return float(bounds[0]), float(bounds[1])
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import WrongName
 from ..systems.base import BaseSystem, core_of, system_of
 from .operations import acceleration
 
@@ -38,7 +39,7 @@ class Reading:
             for i, variable in enumerate(variables):
                 if variable.name == name:
                     return float(getattr(self, values)[i])
-        raise KeyError(f"nothing in {of.name} is called {name!r}; {_check.closest(name, names_of_quantities(of))}")
+        raise WrongName(f"nothing in {of.name} is called {name!r}; {_check.closest(name, names_of_quantities(of))}")
 
     def _state_for(self, number: int) -> tuple[np.ndarray, ...]:
         """The arguments of a measure: accelerations and multipliers for one that depends on them."""

@@ -18,6 +18,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from .. import _gateway
+from ..errors import WrongValue
 from ..systems.base import BaseSystem
 from .saving import unpacked
 
@@ -72,7 +73,7 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
     with path.open("rb") as file:
         begin, rows, layout = (_earlier_header if _beginning(path) == EARLIER else _header)(path, file)
         if layout["byte order"] != sys.byteorder:
-            raise ValueError(f"{path} was written by a machine of another byte order, {layout['byte order']}")
+            raise WrongValue(f"{path} was written by a machine of another byte order, {layout['byte order']}")
         row = layout["row bytes"]
         rows = min(rows, (path.stat().st_size - begin) // row)
         file.seek(begin + rows * row)
@@ -94,9 +95,9 @@ def _header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any]]:
         (rows,), _, sample = np.lib.format.read_array_header_1_0(file) if version == (1, 0) else ((0,), False, np.dtype(float))
         layout = json.loads(beside.read_bytes())
         if sample.itemsize != layout["row bytes"]:
-            raise ValueError(f"{beside.name} must describe samples of {sample.itemsize} bytes, not {layout['row bytes']}")
+            raise WrongValue(f"{beside.name} must describe samples of {sample.itemsize} bytes, not {layout['row bytes']}")
     except (ValueError, KeyError) as error:
-        raise ValueError(f"{path} cannot be read: its header must be whole ({error})") from None
+        raise WrongValue(f"{path} cannot be read: its header must be whole ({error})") from None
     return file.tell(), rows, layout
 
 
@@ -106,7 +107,7 @@ def _earlier_header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any
         _, rows, length = EARLIER_HEADER.unpack(file.read(EARLIER_HEADER.size))
         layout = json.loads(file.read(length))
     except (struct.error, ValueError) as error:
-        raise ValueError(f"{path} cannot be read: its header must be whole ({error})") from None
+        raise WrongValue(f"{path} cannot be read: its header must be whole ({error})") from None
     begin = EARLIER_HEADER.size + length
     return begin, rows if rows >= 0 else (path.stat().st_size - begin) // layout["row bytes"], layout
 

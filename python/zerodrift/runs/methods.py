@@ -11,6 +11,7 @@ import textwrap
 from typing import Any, ClassVar
 
 from .. import _check, _gateway
+from ..errors import WrongValue
 from ..systems.base import BaseSystem, core_of, system_of
 
 WIDTH = 100     # characters of a printed line
@@ -32,7 +33,7 @@ class RowSettings:
         for parameter in self.card.parameters:      # as Python's own numbers, so that equal settings are saved alike
             object.__setattr__(self, parameter.name, _checked(parameter, getattr(self, parameter.name)))
         if clash := _gateway.clash(self.table, self.card.name, self._values()):
-            raise ValueError(clash)
+            raise WrongValue(clash)
 
     def _values(self) -> list[float]:
         """Parameters as a flat list of numbers for the core."""

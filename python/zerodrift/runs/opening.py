@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _gateway
-from ..errors import CostWarning, SingularSystem, advised
+from ..errors import CostWarning, SingularSystem, WrongValue, advised
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from . import evaluation_path, recording, settings
 from . import events as _events
@@ -105,4 +105,4 @@ def _check_speeds(declared: Declared, step: float | None) -> None:
     """Check that speeds are inputs with fixed steps only, over one of which they are followed."""
     for name in declared.names:
         if step is None and name.endswith(".speed"):
-            raise ValueError(f"input {name!r} needs fixed steps, over one of which it is followed: give step=")
+            raise WrongValue(f"input {name!r} needs fixed steps, over one of which it is followed: give step=")

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import Variable
+from ..errors import WrongType, WrongValue
 from ..systems.base import BaseSystem, Makes, core_of, system_of
 from . import settings
 
@@ -75,9 +76,9 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
         return _assembled(system_of(system), p, v, hold, wish, _far(nudge), _check.number("t", t))
     core_of(system)
     if wish is not None or nudge:
-        raise TypeError(f"wish and nudge must be left out, as {system.name} is not a mechanism")
+        raise WrongType(f"wish and nudge must be left out, as {system.name} is not a mechanism")
     if p is None:
-        raise TypeError(f"p must be given, a guess of the coordinates of {system.name}")
+        raise WrongType(f"p must be given, a guess of the coordinates of {system.name}")
     holds = _holds(system, hold)
     v = np.zeros(system.nv) if v is None else v
     return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
@@ -100,9 +101,9 @@ def _assembled(system: Any, held: Any, v: Any, hold: Any, wish: Any, nudge: floa
     """Assembled state of a mechanism near its reference configuration."""
     core_of(system)
     if v is not None or hold != () or not (held is None or isinstance(held, Mapping)):
-        raise TypeError("p of a mechanism must be a dict of values by measure, positions and velocities, without v and hold")
+        raise WrongType("p of a mechanism must be a dict of values by measure, positions and velocities, without v and hold")
     if not hasattr(system, "_assembled"):
-        raise TypeError("p must hold real numbers, not object: a dict of values by measure is for mechanisms, "
+        raise WrongType("p must hold real numbers, not object: a dict of values by measure is for mechanisms, "
                         f"and {system.name} is none")
     return system._assembled(held, wish, nudge, t)
 
@@ -112,7 +113,7 @@ def _holds(system: BaseSystem, hold: Any) -> list[list[int]]:
     held, core = _held(system, hold), core_of(system)
     following = [variable.name for variable in system.coordinates[core.nq - core.c.followers:] if variable.name in held]
     if following:
-        raise ValueError(f"hold names {following[0]!r}, which follows other coordinates: of a mechanism m, "
+        raise WrongValue(f"hold names {following[0]!r}, which follows other coordinates: of a mechanism m, "
                          f"zd.assemble(m, {{{following[0]!r}: ...}}) holds it")
     return [[int(variable.name in held) for variable in group] for group in (system.coordinates, system.velocities)]
 
@@ -120,7 +121,7 @@ def _holds(system: BaseSystem, hold: Any) -> list[list[int]]:
 def _held(system: BaseSystem, hold: Any) -> set[str]:
     """Names of coordinates and velocities in the argument `hold`, checked."""
     if not isinstance(hold, Iterable):
-        raise TypeError(f"hold must be names of coordinates and velocities, not {hold!r}")
+        raise WrongType(f"hold must be names of coordinates and velocities, not {hold!r}")
     known = {variable.name: variable for variable in (*system.coordinates, *system.velocities)}
     each = (hold,) if isinstance(hold, str | Variable) else tuple(hold)
     return {_name_of(one, known) for one in each}
@@ -167,7 +168,7 @@ def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: s
     """
     projection = settings.Projection() if projection is None else projection
     if not isinstance(projection, settings.Projection):
-        raise TypeError(f"projection must be zd.Projection(...), not {projection!r}")
+        raise WrongType(f"projection must be zd.Projection(...), not {projection!r}")
     return _corrected(system, p, v, t, projection, formulation, (None, None))
 
 

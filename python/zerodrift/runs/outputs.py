@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
+from ..errors import WrongType, WrongValue
 from ..systems.base import BaseSystem
 
 
@@ -31,16 +32,16 @@ def names(given: Any, system: BaseSystem) -> tuple[str, ...]:
     """Names in the argument `outputs`, checked: measures, coordinates, velocities and multipliers."""
     single = isinstance(given, str) or hasattr(given, "name")
     if not single and not isinstance(given, Sequence):
-        raise TypeError(f"outputs must be a list of measures or their names, not {_check.shown(given)}")
+        raise WrongType(f"outputs must be a list of measures or their names, not {_check.shown(given)}")
     return tuple(_name(f"outputs[{i}]", each, system) for i, each in enumerate((given,) if single else given))
 
 
 def _name(what: str, given: Any, system: BaseSystem) -> str:
     name = getattr(given, "name", given)
     if not isinstance(name, str):
-        raise TypeError(f"{what} must be a measure or the name of one, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be a measure or the name of one, not {_check.shown(given)}")
     variables = [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
     if system._watching.find(name) is None and name not in variables:
-        raise ValueError(f"{what} must name a measure or a variable of {system.name}, not {name!r}; "
+        raise WrongValue(f"{what} must name a measure or a variable of {system.name}, not {name!r}; "
                          f"{_check.closest(name, [*system._names_of_measures(), *variables])}")
     return name

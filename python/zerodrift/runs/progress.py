@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from ..errors import WrongType
+
 
 def progress_of(progress: Any) -> tuple[Callable[[float], None], Callable[[], None]]:
     """Two functions for the argument `progress` of `simulate`: show the completed fraction (0 ... 1), and close the display."""
@@ -13,7 +15,7 @@ def progress_of(progress: Any) -> tuple[Callable[[float], None], Callable[[], No
     if callable(progress):
         return progress, (lambda: None)
     if progress is not True:
-        raise TypeError(f"progress must be True, False or a callable, not {progress!r}")
+        raise WrongType(f"progress must be True, False or a callable, not {progress!r}")
     try:
         from tqdm.auto import tqdm
     except ImportError:

@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway.measure_reader import MeasureReader
+from ..errors import WrongName
 from ..systems.base import BaseSystem
 from ..systems.measure_values import Place
 
@@ -47,11 +48,11 @@ class Reading:
         if len(found) == 1:
             return self._entry(*found[0])
         if found:
-            raise KeyError(f"a name must be unique in {self._system.name}, but {name!r} names {len(found)} variables: take the "
+            raise WrongName(f"a name must be unique in {self._system.name}, but {name!r} names {len(found)} variables: take the "
                            "entry of p, v or multipliers")
         if why := self._system._why_unknown(name):
-            raise KeyError(why)
-        raise KeyError(f"nothing in {self._system.name} is called {name!r}; {_check.closest(name, self.names())}")
+            raise WrongName(why)
+        raise WrongName(f"nothing in {self._system.name} is called {name!r}; {_check.closest(name, self.names())}")
 
     def names(self) -> list[str]:
         """All names that can be read."""

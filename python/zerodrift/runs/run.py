@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
+from ..errors import WrongName, WrongType, WrongValue
 from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
@@ -261,7 +262,7 @@ class Run:
         """Raise the error of a failed step; the core has returned to its start."""
         core = self._core
         if status == _gateway.BAD_ARGUMENT:
-            raise ValueError("steps must be at least 0")
+            raise WrongValue("steps must be at least 0")
         error = core.error(status)
         core.forget_errors()
         note = core.message if status == _gateway.CALLBACK else None
@@ -350,9 +351,9 @@ class Run:
         if name in self._places:
             return self._places[name]
         if name in self.system._names_of_inputs():
-            raise KeyError(f"{name!r} must be declared to be set: Run(..., inputs=[{name!r}])")
+            raise WrongName(f"{name!r} must be declared to be set: Run(..., inputs=[{name!r}])")
         known = f"; {_check.closest(name, self._places)}" if self._places else ""
-        raise KeyError(f"nothing but inputs can be set, and {name!r} is none{known}")
+        raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}")
 
     def _ipython_key_completions_(self) -> list[str]:
         return [*self._places, *self._reading.names()]
@@ -390,7 +391,7 @@ class Run:
         (21, 3)
         """
         if self._record is None:
-            raise ValueError("a solution needs samples: Run(..., record=True) keeps them, and save_to= writes them to a file")
+            raise WrongValue("a solution needs samples: Run(..., record=True) keeps them, and save_to= writes them to a file")
         outcome = Outcome(_gateway.DONE if self.event is None else _gateway.EVENT, self._seconds, None)
         solution = self._solution(outcome)
         if self._ready.path:
@@ -422,5 +423,5 @@ def _known(settings: dict[str, Any]) -> dict[str, Any]:
     """All settings of `simulate` besides the step: given ones, and the defaults."""
     for name in settings:
         if name not in ARGUMENTS_OF_PLAN:
-            raise TypeError(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}")
+            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}")
     return {"t_eval": None, **ARGUMENTS_OF_PLAN, **settings}

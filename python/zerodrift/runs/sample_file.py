@@ -22,6 +22,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._locking import Lock
 from .._writing import temporary_beside
+from ..errors import WrongValue
 from . import mapped_samples, memory
 from .saving import EVENTS, described, packed
 from .solution import FIELDS, Solution
@@ -45,7 +46,7 @@ def checked(save_to: Any) -> Path | None:
         return None
     path = Path(_check.instance("save_to", save_to, str | Path, "the path of a file, or None"))
     if path.suffix == ".npz":
-        raise ValueError(f"save_to must not end in .npz, which is what Solution.save writes, but {str(path)!r} does")
+        raise WrongValue(f"save_to must not end in .npz, which is what Solution.save writes, but {str(path)!r} does")
     if path.suffix == EARLIER_SUFFIX:
         path = path.with_suffix(SUFFIX)
     path = path if path.suffix == SUFFIX else path.with_name(path.name + SUFFIX)

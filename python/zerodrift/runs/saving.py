@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _gateway
+from ..errors import WrongValue
 from ..systems.base import BaseSystem
 from ..systems.builtin import FACTORIES, BuiltIn
 from .methods import CARDS, RowSettings
@@ -82,7 +83,7 @@ class Arrays(dict):
         self._path = path
 
     def __missing__(self, name: str) -> np.ndarray:
-        raise ValueError(f"{self._path} must contain the array {name!r}, and does not: it was not written to its end, or was "
+        raise WrongValue(f"{self._path} must contain the array {name!r}, and does not: it was not written to its end, or was "
                          "changed")
 
 
@@ -95,7 +96,7 @@ def read_arrays(path: str | Path, names: Sequence[str] | None = None) -> Arrays:
         with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
             return Arrays(path, file if names is None else {name: file[name] for name in names if name in file})
     except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
-        raise ValueError(f"{path} cannot be read: {error}") from None
+        raise WrongValue(f"{path} cannot be read: {error}") from None
 
 
 def _is_zip(path: str | Path) -> bool:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
+from ..errors import WrongType, WrongValue
 from ..systems.base import BaseSystem, core_of
 from . import methods
 from .methods import (
@@ -50,7 +51,7 @@ def stabilization(value: Any) -> Stabilization:
         return value
     if isinstance(value, str):
         return CORRECTIONS[_check.choice("stabilization", value, STABILIZATIONS)].settings()
-    raise TypeError(f"stabilization must be None, {', '.join(map(repr, STABILIZATIONS))}, zd.Projection(...) "
+    raise WrongType(f"stabilization must be None, {', '.join(map(repr, STABILIZATIONS))}, zd.Projection(...) "
                     f"or zd.Baumgarte(...), not {value!r}")
 
 
@@ -62,7 +63,7 @@ def energy(value: Any) -> RowSettings | None:
         return methods.EnergyCorrection()
     if _are_settings(value, "energy"):
         return value
-    raise TypeError(f"energy must be None, True or zd.EnergyCorrection(...), not {value!r}")
+    raise WrongType(f"energy must be None, True or zd.EnergyCorrection(...), not {value!r}")
 
 
 def correction(value: Any) -> tuple[RowSettings, ...]:
@@ -78,7 +79,7 @@ def _one_correction(value: Any) -> RowSettings:
         return value
     if isinstance(value, str):
         return CORRECTIONS[_check.choice("correction", value, CORRECTIONS)].settings()
-    raise TypeError(f"correction must be names or settings of zd.corrections(), not {value!r}")
+    raise WrongType(f"correction must be names or settings of zd.corrections(), not {value!r}")
 
 
 def corrections_of(chosen: dict[str, Any]) -> list[RowSettings]:
@@ -171,7 +172,7 @@ def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max
           vector: str) -> _Known:
     on_singular_row(on_singular)
     if direct is not None and direct is not False:
-        raise ValueError(f"direct must be None, which uses direct functions, or False, not {direct!r}")
+        raise WrongValue(f"direct must be None, which uses direct functions, or False, not {direct!r}")
     tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step, "max_move": max_move}
     methods, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
     chosen = {**_steps(step, integrator, max_steps, tolerances), **methods,
@@ -191,13 +192,13 @@ def vector_unit(given: str | None) -> str:
     _check.choice(name, said, VECTOR_UNITS)
     if VECTOR_UNITS.index(said) > _gateway.PROCESSOR_UNIT:
         has = " or ".join(map(repr, VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]))
-        raise ValueError(f"{name} must be {has}, which this processor has, not {said!r}")
+        raise WrongValue(f"{name} must be {has}, which this processor has, not {said!r}")
     return said
 
 
 def times_to_save(t_eval: Any, save_every: int, span: tuple[float, float]) -> np.ndarray:
     if save_every != 1:
-        raise ValueError("save_every must be 1 where t_eval is given: one counts steps, the other lists times")
+        raise WrongValue("save_every must be 1 where t_eval is given: one counts steps, the other lists times")
     times = _check.increasing("t_eval", t_eval, *span)
     times.flags.writeable = False
     return times
@@ -212,7 +213,7 @@ def _check_resolved(chosen: dict[str, Any], span: tuple[float, float]) -> None:
             if chosen[name] is not None:
                 _check.number(name, chosen[name], least=smallest)
     elif step < smallest:
-        raise ValueError(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}")
+        raise WrongValue(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}")
 
 
 def _steps(step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
@@ -223,7 +224,7 @@ def _steps(step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any
         return {"step": None, **_tolerances(integrator, tolerances), "max_steps": max_steps}
     for name, value in tolerances.items():
         if value is not None:
-            raise ValueError(f"{name} is for adaptive steps: step must be left out with it")
+            raise WrongValue(f"{name} is for adaptive steps: step must be left out with it")
     return {"step": _check.number("step", step, above=0)}
 
 
@@ -232,7 +233,7 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     name = name_of("integrators", integrator)
     if name not in able:
         asked = "".join(f", and {word} is for adaptive steps" for word, value in given.items() if value is not None)
-        raise ValueError(f"step must be given: {name!r} takes fixed steps{asked}; give step=, or "
+        raise WrongValue(f"step must be given: {name!r} takes fixed steps{asked}; give step=, or "
                          f"{' or '.join(f'integrator={each!r}' for each in able)}, which can take adaptive steps")
     given = {name: None if name.startswith("max_") and value == math.inf else value for name, value in given.items()}
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
@@ -241,7 +242,7 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     if found["max_move"] is not None:
         _check.number("max_move", found["max_move"], above=0)
     if found["atol"] == 0:
-        raise ValueError("atol must be greater than 0: parts of the state pass through zero")
+        raise WrongValue("atol must be greater than 0: parts of the state pass through zero")
     return found
 
 
@@ -258,7 +259,7 @@ def _methods(formulation: Any, integrator: Any, given_stabilization: Any, given_
     for name in names:
         if names.count(name) > 1:
             others = f"{ARGUMENTS[name]} and " if name in ARGUMENTS else ""
-            raise ValueError(f"each correction must be given once, but {name} is given more often, by {others}correction")
+            raise WrongValue(f"each correction must be given once, but {name} is given more often, by {others}correction")
     return found, corrections, functools.reduce(operator.or_, map(_gateway.required, names), 0)
 
 
@@ -266,7 +267,7 @@ def _refuse_corrections(system: BaseSystem, corrections: Sequence[RowSettings]) 
     for name in (each.card.name for each in corrections):
         for term, row in _gateway.TERMS.items():
             if row.bit & _gateway.required(name) & ~core_of(system).provides:
-                raise ValueError(f"{name} correction needs {term} ({row.text}), and {system.name} declares none")
+                raise WrongValue(f"{name} correction needs {term} ({row.text}), and {system.name} declares none")
 
 
 def saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:

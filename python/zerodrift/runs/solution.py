@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import _check, _gateway
+from ..errors import WrongName, WrongValue
 from ..systems.base import BaseSystem, direct_core_of
 from ..systems.measure_values import AXES
 from .columns import to_csv, to_excel
@@ -198,19 +199,19 @@ class Solution:
             self._check_sign(name)
             return columns[0]
         if columns:
-            raise KeyError(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
+            raise WrongName(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
                            "take the column of p, v or multipliers")
         if why := self.system._why_unknown(getattr(name, "name", name)):
-            raise KeyError(why)
+            raise WrongName(why)
         known = self._ipython_key_completions_()
-        raise KeyError(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
+        raise WrongName(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
 
     def _check_sign(self, name: str) -> None:
         """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
         for effort in ("force", "torque"):
             measure = f"{name}.{effort}"
             if self.system._is_scalar_measure(measure):
-                raise KeyError(f"{name!r} names an element, whose {effort} is sol[{measure!r}], and a constraint, whose "
+                raise WrongName(f"{name!r} names an element, whose {effort} is sol[{measure!r}], and a constraint, whose "
                                "multiplier is in sol.multipliers and has the opposite sign, by (7)")
 
     def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
@@ -313,9 +314,9 @@ class Solution:
         (2, 1)
         """
         if self.settings["save_every"] != 1 or "t_eval" in self.settings:
-            raise ValueError("values between samples need every step saved: save_every must be 1, and t_eval left out")
+            raise WrongValue("values between samples need every step saved: save_every must be 1, and t_eval left out")
         if not len(self.t):
-            raise ValueError("a solution must have samples to be evaluated between them, and this one has none")
+            raise WrongValue("a solution must have samples to be evaluated between them, and this one has none")
         times = _check.times("t", t, self.t[0], self.t[-1])
         each, places = np.unique(times, return_inverse=True)
         p, v = self._states_at(each)

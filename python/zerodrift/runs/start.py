@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import WrongType, WrongValue
 from ..systems.base import BaseSystem, Makes, system_of
 from .instant import Reading
 from .operations import project
@@ -26,10 +27,10 @@ def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any,
     if not isinstance(p0, Reading):
         return system_of(system, p0, v0), p0, v0
     if v0 is not None:
-        raise TypeError("v0 must be left out where p0 is an equilibrium or an instant, which has its velocities")
+        raise WrongType("v0 must be left out where p0 is an equilibrium or an instant, which has its velocities")
     system = system.system(p0.system.layout) if isinstance(system, Makes) else system
     if [each.name for each in system.coordinates] != [each.name for each in p0.system.coordinates]:
-        raise ValueError(f"p0 must be an equilibrium or an instant of {system.name} in its coordinates, not of {p0.system.name} "
+        raise WrongValue(f"p0 must be an equilibrium or an instant of {system.name} in its coordinates, not of {p0.system.name} "
                          "in others")
     terms = p0.system.evaluate(p0.p, p0.v, t0)
     if terms.Phi_t is None or not np.any(terms.Phi_t):

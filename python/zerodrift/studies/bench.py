@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _gateway
+from ..errors import WrongValue
 from ..runs import settings
 from ..runs.diagnosis import instability, unwarned
 from ..runs.simulate import simulate
@@ -247,5 +248,5 @@ def _times(reference: Any, span: tuple[float, float]) -> np.ndarray:
         return np.linspace(*span, TIMES)
     times = solution.t[(solution.t >= span[0]) & (solution.t <= span[1])]
     if not len(times):
-        raise ValueError(f"the reference has no row from t = {span[0]:g} to {span[1]:g} s")
+        raise WrongValue(f"the reference has no row from t = {span[0]:g} to {span[1]:g} s")
     return times[np.unique(np.linspace(0, len(times) - 1, TIMES).round().astype(int))]

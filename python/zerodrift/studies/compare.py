@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check
 from .._gateway import Variable
+from ..errors import WrongType, WrongValue
 from ..runs.solution import A_SOLUTION, Solution
 from .reference import Reference
 
@@ -86,7 +87,7 @@ def difference(solution: Solution, reference: Solution | Reference | Callable[[f
     exact = states_of(reference, solution.t, len(solution.system.coordinates))
     columns = [known.index(variable) for variable in variables]
     if max(columns, default=0) >= exact.shape[1]:
-        raise ValueError("a callable reference gives coordinates only; names must be among "
+        raise WrongValue("a callable reference gives coordinates only; names must be among "
                          + ", ".join(repr(coordinate.name) for coordinate in solution.system.coordinates))
     return values - exact[:, columns]
 
@@ -98,7 +99,7 @@ def states_of(reference: Solution | Reference | Callable[[float], Any], times: n
     if isinstance(reference, Solution):
         return _states(reference)[_rows_at(reference.t, times)]
     if not callable(reference):
-        raise TypeError(f"reference must be a Reference, a Solution or a callable t -> p, not {_check.shown(reference)}")
+        raise WrongType(f"reference must be a Reference, a Solution or a callable t -> p, not {_check.shown(reference)}")
     return _evaluated(reference, times, nq)
 
 
@@ -124,7 +125,7 @@ def _evaluated(reference: Callable[[float], Any], times: np.ndarray, size: int) 
         value = _say_where(reference, float(t))
         value = np.ravel(_check.real("reference(t) must return", value, f" (at t = {t:g})", objects=True))
         if value.shape != (size,):
-            raise ValueError(f"reference(t) must return p of shape ({size},), not {value.shape}")
+            raise WrongValue(f"reference(t) must return p of shape ({size},), not {value.shape}")
         row[:] = value
     return exact
 
@@ -148,10 +149,10 @@ def nearest(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 def _rows_at(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Indices of the wanted times in `times`; ValueError if one is missing."""
     if not len(times):
-        raise ValueError("the reference solution must have samples")
+        raise WrongValue("the reference solution must have samples")
     missing = _have_no_row(times, wanted)
     if missing.any():
-        raise ValueError(f"the reference has no sample at t = {wanted[missing][0]:g} s; "
+        raise WrongValue(f"the reference has no sample at t = {wanted[missing][0]:g} s; "
                          "its times must contain the solution's")
     return nearest(times, wanted)
 

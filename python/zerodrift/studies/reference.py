@@ -38,7 +38,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..errors import UnreachableTolerance, ZerodriftError
+from ..errors import UnreachableTolerance, WrongValue, ZerodriftError
 from ..runs import settings
 from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of, system_of
@@ -203,7 +203,7 @@ def _pairs(system: BaseSystem, formulations: Any) -> list[tuple[str, str]]:
         return [(first, other) for other in reversed(others)] if system.m and others else [(first, first)]
     names = tuple(formulations)
     if len(names) != 2 or names[0] == names[1]:
-        raise ValueError(f"formulations must be two different formulations, not {formulations!r}")
+        raise WrongValue(f"formulations must be two different formulations, not {formulations!r}")
     for name in names:
         settings.formulation_row(name)
     return [names]

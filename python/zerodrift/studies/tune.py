@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .. import _check
-from ..errors import Interrupted, UnreachableTolerance
+from ..errors import Interrupted, UnreachableTolerance, WrongValue
 from ..runs.settings import FINEST_RTOL
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
@@ -168,13 +168,13 @@ class _KeepBudget:
 
     def refusal(self, rows: list[Row]) -> Exception:
         least = min((row.seconds for row in rows if row.success), default=math.nan)
-        return ValueError(f"budget = {self.budget:g} s is kept by none of {len(rows)} runs; the fastest of them "
+        return WrongValue(f"budget = {self.budget:g} s is kept by none of {len(rows)} runs; the fastest of them "
                           f"takes {least:.2g} s")
 
 
 def _goal(error: float | None, budget: float | None) -> _ReachError | _KeepBudget:
     if (error is None) == (budget is None):
-        raise ValueError("either error or budget must be given, and not both")
+        raise WrongValue("either error or budget must be given, and not both")
     if budget is None:
         return _ReachError(_check.number("error", error, above=0))
     return _KeepBudget(_check.number("budget", budget, above=0))

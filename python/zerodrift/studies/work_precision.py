@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import _check
 from .._writing import write_whole
-from ..errors import Interrupted, SingularSystem
+from ..errors import Interrupted, SingularSystem, WrongType, WrongValue
 from ..runs import settings
 from ..runs.operations import acceleration
 from ..runs.progress import progress_of
@@ -203,7 +203,7 @@ def work_precision(
         for fineness in _steps_and_tolerances(integrator, steps, tolerances)]
     combinations = [setting for setting in combinations if not settings.disagreement(setting.settings)]
     if not combinations:
-        raise ValueError("at least one combination must be possible: steps, or tolerances with an integrator of adaptive steps")
+        raise WrongValue("at least one combination must be possible: steps, or tolerances with an integrator of adaptive steps")
     rounds = _check.count("rounds", rounds)
     reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
     return measured(Bench(system, span, p0, v0, reference, direct), combinations, rounds, progress)
@@ -246,7 +246,7 @@ def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> li
 def _names(table: str, available: Iterable[str], chosen: Iterable[str] | None) -> list[str]:
     """Chosen names of a table, checked; all if none are chosen."""
     if isinstance(chosen, str):
-        raise TypeError(f"{table} must be a list of names, not {chosen!r}")
+        raise WrongType(f"{table} must be a list of names, not {chosen!r}")
     return [_check.choice(table, name, available) for name in (available if chosen is None else chosen)]
 
 

@@ -10,6 +10,7 @@ import sympy
 from sympy.core.function import AppliedUndef
 
 from .. import _check
+from ..errors import WrongType, WrongValue
 from .graph.derivation import Given
 from .graph.from_sympy import Reader, namesake
 from .graph.graph import MOVING, Node
@@ -31,14 +32,14 @@ class Definition:
                  points: Any) -> None:
         self.time = _time() if time is None else time
         if not isinstance(self.time, sympy.Symbol):
-            raise TypeError(f"time must be a symbol, not {time!r}")
+            raise WrongType(f"time must be a symbol, not {time!r}")
         self.coordinates = _variables("coordinates", coordinates)
         self.rates = [q.diff(self.time) if isinstance(q, AppliedUndef) else None for q in self.coordinates]
         self._check_times()
         if (kinetic is None) == (mass is None):
-            raise TypeError("either kinetic or mass is needed")
+            raise WrongType("either kinetic or mass is needed")
         if mass is None and bias is not None:
-            raise TypeError("bias goes with mass; from kinetic it is derived")
+            raise WrongType("bias goes with mass; from kinetic it is derived")
         self.speed_definitions = dict(speeds) if isinstance(speeds, Mapping) else {}
         self.speeds = self._speeds(speeds, kinematics)
         holonomic, names = _named("constraints", constraints, "constraint")
@@ -56,7 +57,7 @@ class Definition:
         self.velocity_names = tuple(f"{_name(u.expr)}_dot" if isinstance(u, sympy.Derivative) else _name(u) for u in self.speeds)
         for name in self.values:
             if name in (*self.coordinate_names, *self.velocity_names, self.time.name):
-                raise ValueError(f"parameter {name} is a coordinate, a velocity or time")
+                raise WrongValue(f"parameter {name} is a coordinate, a velocity or time")
 
     def named(self, given: Any) -> Any:
         """Coordinates among what is given by their names."""
@@ -66,20 +67,20 @@ class Definition:
     def _check_times(self) -> None:
         for q in self.coordinates:
             if isinstance(q, AppliedUndef) and q.args != (self.time,):
-                raise ValueError(f"coordinate {q} must be a function of {self.time} alone")
+                raise WrongValue(f"coordinate {q} must be a function of {self.time} alone")
 
     def _speeds(self, speeds: Any, kinematics: Any) -> list[Any]:
         if speeds is not None:
             found = _variables("speeds", list(speeds) if isinstance(speeds, Mapping) else speeds)
             if kinematics is None and len(found) != len(self.coordinates):
-                raise ValueError(f"there are {len(found)} speeds for {len(self.coordinates)} coordinates: "
+                raise WrongValue(f"there are {len(found)} speeds for {len(self.coordinates)} coordinates: "
                                  "then kinematics is needed")
             return found
         if kinematics is not None:
-            raise TypeError("kinematics goes with speeds: name these")
+            raise WrongType("kinematics goes with speeds: name these")
         plain = [q for q, rate in zip(self.coordinates, self.rates, strict=True) if rate is None]
         if plain:
-            raise TypeError(f"speeds are needed: coordinate {plain[0]} is a symbol, which has no derivative by time "
+            raise WrongType(f"speeds are needed: coordinate {plain[0]} is a symbol, which has no derivative by time "
                             "(dynamicsymbols have)")
         return list(self.rates)
 
@@ -90,7 +91,7 @@ class Definition:
         if isinstance(given, Mapping):
             missing = [rate for rate in self.rates if rate not in given]
             if missing:
-                raise ValueError(f"kinematics has nothing for {missing[0] if missing[0] is not None else self.coordinates}")
+                raise WrongValue(f"kinematics has nothing for {missing[0] if missing[0] is not None else self.coordinates}")
             return [given[rate] for rate in self.rates]
         matrix = sympy.Matrix(_matrix("kinematics", given))
         if matrix.shape == (len(self.coordinates), len(self.speeds)) and matrix.shape[1] > 1:
@@ -98,7 +99,7 @@ class Definition:
         if matrix.shape == (len(self.coordinates), 1):
             return list(matrix)
         shape = len(self.coordinates), len(self.speeds)
-        raise ValueError(f"kinematics must have one expression for each of {shape[0]} coordinates, or be a matrix of "
+        raise WrongValue(f"kinematics must have one expression for each of {shape[0]} coordinates, or be a matrix of "
                          f"shape {shape}, not {matrix.shape}")
 
     def _force(self, given: Any, kinematics: Any) -> list[Any] | None:
@@ -110,13 +111,13 @@ class Definition:
                 places = [i for names in (self.speeds, [] if kinematics is not None else self.coordinates)
                           for i, name in enumerate(names) if name == key]
                 if not places:
-                    raise ValueError(f"force must be given for velocities: {key} is not one"
+                    raise WrongValue(f"force must be given for velocities: {key} is not one"
                                      f"{namesake(key, [*self.speeds, *self.coordinates])}")
                 force[places[0]] = value
             return force
         force = _listed("force", given)
         if len(force) != len(self.speeds):
-            raise ValueError(f"force must have {len(self.speeds)} entries, one for each velocity, not {len(force)}")
+            raise WrongValue(f"force must have {len(self.speeds)} entries, one for each velocity, not {len(force)}")
         return force
 
     # ---- nodes ----
@@ -161,7 +162,7 @@ class Definition:
             if symbol.name not in self.values:
                 continue
             if by_name.setdefault(symbol.name, symbol) != symbol:
-                raise ValueError(f"there are two different symbols named {symbol.name!r} (their assumptions differ)")
+                raise WrongValue(f"there are two different symbols named {symbol.name!r} (their assumptions differ)")
             known[symbol] = graph.leaf("parameter", list(self.values).index(symbol.name))
         return known
 
@@ -174,7 +175,7 @@ class Definition:
         speed_definitions = {u: reader.read(f"speed {u}", value, known) for u, value in self.speed_definitions.items()}
         used = {u for u in self.speeds if u not in speed_definitions and sympy.sympify(self.expressions["kinetic"]).has(u)}
         if used:
-            raise ValueError(f"kinetic has speed {min(used, key=str)}, and there are kinematics: write it with derivatives of "
+            raise WrongValue(f"kinetic has speed {min(used, key=str)}, and there are kinematics: write it with derivatives of "
                              "coordinates, or say in the dict speeds what this speed is in terms of these")
         return known | speed_definitions
 
@@ -183,33 +184,33 @@ class Definition:
         at_rest = graph.substitution(dict.fromkeys(v, graph.zero))
         for i, row in enumerate(A):
             if any(entry.stage >= MOVING for entry in row) or at_rest(pdot[i]) is not graph.zero:
-                raise ValueError(f"kinematics {i} must be linear in the speeds, pdot = A v, with nothing added")
+                raise WrongValue(f"kinematics {i} must be linear in the speeds, pdot = A v, with nothing added")
 
     def _check_stages(self, given: Given) -> None:
         for i, row in enumerate(given.holonomic):
             if row.stage >= MOVING:
-                raise ValueError(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic")
+                raise WrongValue(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic")
         if given.mass is not None:
             if any(len(rows) != given.nv for rows in (given.mass, *given.mass)):
-                raise ValueError(f"mass must have shape {(given.nv, given.nv)}")
+                raise WrongValue(f"mass must have shape {(given.nv, given.nv)}")
             if any(entry.stage >= MOVING for row in given.mass for entry in row):
-                raise ValueError("mass must not depend on velocities")
+                raise WrongValue("mass must not depend on velocities")
             if given.bias is not None and len(given.bias) != given.nv:
-                raise ValueError(f"bias must have {given.nv} entries, not {len(given.bias)}")
+                raise WrongValue(f"bias must have {given.nv} entries, not {len(given.bias)}")
 
     def check_linearity(self, terms: Mapping[str, list[Node]]) -> None:
         """Refuses nonholonomic constraints that are not linear."""
         nv = len(self.speeds)
         for place, node in enumerate(terms.get("C", ())):
             if node.stage >= MOVING:
-                raise ValueError(f"constraint {self.constraint_names[place // nv]!r} is not linear in the velocities")
+                raise WrongValue(f"constraint {self.constraint_names[place // nv]!r} is not linear in the velocities")
 
     def drawing(self, reader: Reader) -> list[list[Node]]:
         """The points, as nodes."""
         given = self.expressions["points"]
         points = [[reader.read(f"point {i}", x, self.placed) for x in point] for i, point in enumerate(given)]
         if points and (len(points[0]) not in (2, 3) or any(len(point) != len(points[0]) for point in points)):
-            raise ValueError("points must all have two or three coordinates")
+            raise WrongValue("points must all have two or three coordinates")
         return points
 
     def heading(self) -> list[str]:
@@ -228,9 +229,9 @@ def _variables(what: str, given: Any) -> list[Any]:
     found = [given] if isinstance(given, sympy.Expr) else _listed(what, given, "symbols or functions of time")
     for each in found:
         if not isinstance(each, sympy.Symbol | AppliedUndef | sympy.Derivative):
-            raise TypeError(f"{what} must be symbols or functions of time, not {each!r}")
+            raise WrongType(f"{what} must be symbols or functions of time, not {each!r}")
     if not found or len(set(found)) != len(found):
-        raise ValueError(f"{what} must be different symbols, at least one, not {given!r}")
+        raise WrongValue(f"{what} must be different symbols, at least one, not {given!r}")
     return found
 
 
@@ -238,7 +239,7 @@ def _listed(what: str, given: Any, of: str = "expressions") -> list[Any]:
     try:
         return list(given)
     except TypeError:
-        raise TypeError(f"{what} must be a sequence of {of}, not {given!r}") from None
+        raise WrongType(f"{what} must be a sequence of {of}, not {given!r}") from None
 
 
 def _named(what: str, given: Any, word: str) -> tuple[list[Any], list[str]]:
@@ -251,14 +252,14 @@ def _named(what: str, given: Any, word: str) -> tuple[list[Any], list[str]]:
 def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]]:
     """Values by name, and the symbols among the keys."""
     if not isinstance(given, Mapping):
-        raise TypeError(f"parameters must be a dict of symbols or names and their values, not {given!r}")
+        raise WrongType(f"parameters must be a dict of symbols or names and their values, not {given!r}")
     values: dict[str, float] = {}
     for key, value in given.items():
         if not isinstance(key, str | sympy.Symbol):
-            raise TypeError(f"parameters must be symbols or names, not {key!r}")
+            raise WrongType(f"parameters must be symbols or names, not {key!r}")
         name = key if isinstance(key, str) else key.name
         if name in values:
-            raise ValueError(f"there are two parameters named {name!r}")
+            raise WrongValue(f"there are two parameters named {name!r}")
         values[name] = _check.number(f"parameter {name!r}", value)
     return values, [key for key in given if isinstance(key, sympy.Symbol)]
 
@@ -267,7 +268,7 @@ def _matrix(what: str, given: Any) -> list[list[Any]] | None:
     try:
         return None if given is None else sympy.Matrix(given).tolist()
     except (TypeError, ValueError):
-        raise TypeError(f"{what} must be a matrix, or a sequence of rows that are as long as each other, not {given!r}") from None
+        raise WrongType(f"{what} must be a matrix, or a sequence of rows that are as long as each other, not {given!r}") from None
 
 
 def _symbols(what: Any) -> set[Any]:

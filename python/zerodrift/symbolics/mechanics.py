@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import WrongType, WrongValue
 from .define import symbolic
 from .system import SymbolicSystem
 
@@ -69,7 +70,7 @@ def from_mechanics(
     elif System and isinstance(method, System):
         described = _of_system(method, potential)
     else:
-        raise TypeError(f"method must be a LagrangesMethod, a KanesMethod or a System of sympy.physics.mechanics, not {method!r}")
+        raise WrongType(f"method must be a LagrangesMethod, a KanesMethod or a System of sympy.physics.mechanics, not {method!r}")
     return symbolic(**described, parameters=parameters, points=points, quaternions=quaternions, units=units, p0=p0, v0=v0,
                     name=name, progress=progress)
 
@@ -92,7 +93,7 @@ def _generalized_forces(method: LagrangesMethod, rates: list[Any]) -> list[Any] 
     if not method.forcelist:
         return None
     if method.inertial is None:
-        raise ValueError("the LagrangesMethod has a forcelist, but no frame that its velocities refer to")
+        raise WrongValue("the LagrangesMethod has a forcelist, but no frame that its velocities refer to")
     force = [sympy.S.Zero] * len(rates)
     for place, load in method.forcelist:
         frame = method.inertial
@@ -107,9 +108,9 @@ def _generalized_forces(method: LagrangesMethod, rates: list[Any]) -> list[Any] 
 
 def _of_kane(method: KanesMethod, potential: Any) -> dict[str, Any]:
     if method.bodylist is None:
-        raise ValueError("the KanesMethod has no bodies yet: give it bodies=, or call kanes_equations")
+        raise WrongValue("the KanesMethod has no bodies yet: give it bodies=, or call kanes_equations")
     if len(method._uaux):
-        raise ValueError(f"auxiliary speeds such as {method._uaux[0]} are not for integration: leave u_auxiliary out")
+        raise WrongValue(f"auxiliary speeds such as {method._uaux[0]} are not for integration: leave u_auxiliary out")
     velocity = list(method._k_nh * method.u + method._f_nh) if len(method._k_nh) else []
     pdot = [method._qdot_u_map[rate] for rate in method.q.diff(dynamicsymbols._t)]
     nonholonomic = _not_from_positions(list(method._f_h), velocity, method.q, method.u, pdot)
@@ -119,7 +120,7 @@ def _of_kane(method: KanesMethod, potential: Any) -> dict[str, Any]:
 
 def _of_system(method: Any, potential: Any) -> dict[str, Any]:
     if len(method.u_aux):
-        raise ValueError(f"auxiliary speeds such as {method.u_aux[0]} are not for integration: leave them out")
+        raise WrongValue(f"auxiliary speeds such as {method.u_aux[0]} are not for integration: leave them out")
     loads = [*method.loads, *(load for actuator in method.actuators for load in actuator.to_loads())]
     free = KanesMethod(method.frame, list(method.q), list(method.u), kd_eqs=list(method.kdes))
     pdot = [free._qdot_u_map[rate] for rate in free.q.diff(dynamicsymbols._t)]

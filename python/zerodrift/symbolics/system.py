@@ -15,7 +15,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from .._gateway.inputs import Bound, Place
-from ..errors import NoCompilerWarning, UnsuitedIntegrator
+from ..errors import NoCompilerWarning, UnsuitedIntegrator, WrongValue
 from ..systems.base import BaseSystem, WithInputs
 from ..systems.parameter_tables import NumberTables, not_finite, refusals
 from ..systems.structure import Structure, checked
@@ -162,10 +162,10 @@ class SymbolicSystem(BaseSystem):
         for name in names:
             if name not in self._inputs:
                 known = f"; {_check.closest(name, self._inputs)}" if self._inputs else ""
-                raise ValueError(f"inputs of {self.name} must be declared, zd.symbolic(..., inputs=[...]), and {name!r} is not"
+                raise WrongValue(f"inputs of {self.name} must be declared, zd.symbolic(..., inputs=[...]), and {name!r} is not"
                                  f"{known}")
         if not self.compiled:
-            raise ValueError(f"inputs of {self.name} need a C compiler")
+            raise WrongValue(f"inputs of {self.name} need a C compiler")
         return WithInputs(self, [self.parameters[name] for name in names], [""] * len(names), self._bound)
 
     def _names_of_inputs(self) -> list[str]:
@@ -291,7 +291,7 @@ class _InPython:
 
     @staticmethod
     def not_finite(name: str, t: float, value: np.ndarray) -> Exception:
-        return ValueError(f"{name} is not finite at t = {t:g}: {value}")
+        return WrongValue(f"{name} is not finite at t = {t:g}: {value}")
 
 
 @cache

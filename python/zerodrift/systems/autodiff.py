@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import WrongType
+
 
 class Jet:
     """x with gradient dx/dy (k,), and x', x'' along a curve."""
@@ -108,7 +110,7 @@ class Jet:
         return self
 
     def __float__(self) -> float:
-        raise TypeError("here a number is expected, but derivatives are being taken: build arrays with np.array or np.stack "
+        raise WrongType("here a number is expected, but derivatives are being taken: build arrays with np.array or np.stack "
                         "instead of filling one, use NumPy's functions instead of math's; or supply jacobian and xi")
 
     # Comparisons look at the value, so that branches work.

@@ -11,6 +11,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import Variable, known_events
 from .._gateway.known_events import Reading
+from ..errors import WrongName, WrongType, WrongValue
 from .measure_values import Place, Watching
 from .parameter_tables import NumberTables
 from .shapes import Shape
@@ -132,7 +133,7 @@ class BaseSystem:
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """The given state; missing parts are those of the system's start at t."""
         if p is None and self.p0 is None:
-            raise ValueError(f"{p_name} is needed: {self.name} has no start of its own")
+            raise WrongValue(f"{p_name} is needed: {self.name} has no start of its own")
         p = self.p0 if p is None else _check.vector(p_name, p, self.nq)
         if v is None:       # what is the system's own was checked when it was made
             return p, np.zeros(self.nv) if self.v0 is None else self.v0
@@ -164,10 +165,10 @@ class BaseSystem:
         zd.systems.oscillator(mass=2.0, stiffness=3.0)
         """
         if changes is not None and not isinstance(changes, Mapping):
-            raise TypeError(f"changes must be a dict of values by the parameters' names, not {changes!r}")
+            raise WrongType(f"changes must be a dict of values by the parameters' names, not {changes!r}")
         for key in changes or ():
             if key in changed:
-                raise TypeError(f"parameter {key!r} is changed twice: to {changes[key]!r} and to {changed[key]!r}")
+                raise WrongType(f"parameter {key!r} is changed twice: to {changes[key]!r} and to {changed[key]!r}")
         changed = {**(changes or {}), **changed}
         for key in changed:
             _check.choice("parameter", key, self.parameters)
@@ -269,7 +270,7 @@ class BaseSystem:
         if place is not None:
             is_scalar = place.component is not None or core.measure_size(place.number) == 1
             if not is_scalar or core.measure_depends(place.number) == "accelerations":
-                raise ValueError(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
+                raise WrongValue(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
             return Reading(known_events.MEASURE, place.number, place.component or 0)
         coordinates, velocities = ([variable.name for variable in group] for group in (self.coordinates, self.velocities))
         if name in coordinates:
@@ -316,7 +317,7 @@ class BaseSystem:
 
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         """The system whose numbers of these names are inputs."""
-        raise ValueError(f"inputs are forces and speeds of a mechanism, or declared by zd.symbolic(inputs=) or "
+        raise WrongValue(f"inputs are forces and speeds of a mechanism, or declared by zd.symbolic(inputs=) or "
                          f"zd.System(inputs=), and {self.name} has none")
 
     def _names_of_inputs(self) -> list[str]:
@@ -329,7 +330,7 @@ class BaseSystem:
     def _unique(self, name: Any, solution: Any) -> Any:
         """Flags of the components of a measure that are equal for all admissible multipliers of redundant constraints."""
         if not self._watching.number:
-            raise KeyError(f"measures need a mechanism, and {self.name} is not one")
+            raise WrongName(f"measures need a mechanism, and {self.name} is not one")
         return self._watching.unique(getattr(name, "name", name), solution)
 
     def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
@@ -383,7 +384,7 @@ def system_of(given: Any, *state: Any) -> Any:
     if not isinstance(given, Makes):
         return given
     if any(part is not None for part in state):
-        raise TypeError(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where "
+        raise WrongType(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where "
                         'it starts by its start(), or take its system("joint")')
     return given.system()
 
@@ -404,7 +405,7 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     """The core's system of a system; TypeError for other objects and for descriptions without equations."""
     core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
     if core is None:
-        raise TypeError(f"system must be one of zd.systems or a zd.System, not {_check.shown(system)}")
+        raise WrongType(f"system must be one of zd.systems or a zd.System, not {_check.shown(system)}")
     core.name_rows(system)
     return core
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
+from ..errors import WrongType, WrongValue
 from .base import BaseSystem
 from .parameter_tables import NumberTables, not_finite, refusals
 
@@ -24,7 +25,7 @@ class SystemOfKind(BaseSystem):
         unknown = set(parameters) - {parameter.name for parameter in kind.parameters}
         if unknown:
             known = ", ".join(parameter.name for parameter in kind.parameters)
-            raise TypeError(f"{name} has no parameter {sorted(unknown)[0]!r}; it has {known}")
+            raise WrongType(f"{name} has no parameter {sorted(unknown)[0]!r}; it has {known}")
         self._kind = kind
         values = [_as_numbers(parameter, parameters.get(parameter.name)) for parameter in kind.parameters]
         self._core, self.p0, self.v0 = kind.make(np.concatenate([*values, []]))
@@ -91,7 +92,7 @@ def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
     values = np.array([_check.number(parameter.name, given)]) if parameter.size == 1 else _check.vector(
         parameter.name, given, parameter.size)
     if _is_too_small(parameter, values).any():
-        raise ValueError(f"{parameter.name} must be {parameter.rule}, not {given!r}")
+        raise WrongValue(f"{parameter.name} must be {parameter.rule}, not {given!r}")
     return values
 
 

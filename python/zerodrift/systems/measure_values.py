@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import CoreSystem
+from ..errors import WrongName
 
 AXES = {"x": 0, "y": 1, "z": 2}     # names of components
 SAME = 1e-8             # of the largest: reactions that differ by less do not depend on which multipliers are taken
@@ -85,7 +86,7 @@ class Watching:
         """Which components of a measure are the same for all admissible multipliers at every row; a bool of a scalar."""
         found = self.find(name)
         if found is None:
-            raise KeyError(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}")
+            raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}")
         number, component = found
         values = self._evaluate(number, solution, solution.multipliers)
         same = np.ones(values.shape[1], dtype=bool)

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
-from ..errors import ZerodriftError
+from ..errors import WrongType, WrongValue, ZerodriftError
 from .base import BaseSystem
 from .builtin import SystemOfKind
 from .structure import Structure, checked
@@ -132,7 +132,7 @@ def native(
                  "units": units, "v0": v0, "scratch": scratch or None, "name": name}
         return _described_by_library(function, symbol, parameters, [key for key, value in given.items() if value is not None])
     if terms is None:
-        raise TypeError("terms is needed with coordinates: the names of the terms that the function writes")
+        raise WrongType("terms is needed with coordinates: the names of the terms that the function writes")
     return Native(_gateway.find(function, symbol, version), coordinates=coordinates, terms=terms, velocities=velocities,
                   constraints=constraints, nonholonomic=nonholonomic, parameters=parameters, quaternions=quaternions,
                   structure=structure, units=units, p0=p0, v0=v0, scratch=scratch, name=name)
@@ -158,7 +158,7 @@ class Native(BaseSystem):
         self.constraints = tuple(Variable(row, "") for row in rows)
         packing = checked(structure, sizes, "A" in terms)
         if packing and "D" in terms:
-            raise ValueError("terms cannot have D where the structure is declared")
+            raise WrongValue("terms cannot have D where the structure is declared")
         self._core = _gateway.NativeCore(sizes, terms, found.address, data, (*self.coordinates, *self.velocities),
                                          keep=found.keep, scratch=_check.count("scratch", scratch, least=0), quaternions=places,
                                          packing=packing)
@@ -179,7 +179,7 @@ class Native(BaseSystem):
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self._found.origin is None:
-            raise TypeError(f"{self.name} cannot be pickled: {self._found.why_no_origin}")
+            raise WrongType(f"{self.name} cannot be pickled: {self._found.why_no_origin}")
         return _restored, (self._found.origin, self._given | {"parameters": self.parameters})
 
 
@@ -208,9 +208,9 @@ class NativeKind(SystemOfKind):
 
 def _described_by_library(library: Any, symbol: Any, parameters: Any, others: list[str]) -> NativeKind:
     if not isinstance(library, str | Path):
-        raise TypeError(f"coordinates are needed: only a shared library can describe a system itself, not {library!r}")
+        raise WrongType(f"coordinates are needed: only a shared library can describe a system itself, not {library!r}")
     if others:
-        raise TypeError(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself")
+        raise WrongType(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself")
     found = _gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
     return _from_library(found, _check.parameters(parameters))
 
@@ -222,7 +222,7 @@ def _from_library(found: _gateway.Function, parameters: dict[str, Any]) -> Nativ
         _check.parameters({parameter.name: None for parameter in kind.parameters})
         _checked_terms(_gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
     except ValueError as error:
-        raise ValueError(f"{where}: {error}") from None
+        raise WrongValue(f"{where}: {error}") from None
     return NativeKind(found, kind, parameters)
 
 
@@ -239,13 +239,13 @@ def _checked_terms(given: Any, mh: int, m: int) -> list[str]:
     terms = [_check.choice("terms", term, TERMS) for term in ([given] if isinstance(given, str) else given)]
     missing = [term for term in needed if term not in terms]
     if missing:
-        raise ValueError(f"terms must have {', '.join(missing)}, with {mh} holonomic of {m} constraints, not only "
+        raise WrongValue(f"terms must have {', '.join(missing)}, with {mh} holonomic of {m} constraints, not only "
                          f"{', '.join(terms) or 'none'}")
     superfluous = [term for term in terms if (term == "Phi" and not mh) or (term in ("C", "Phi_t", "xi", "D", "gamma") and not m)]
     if superfluous:
-        raise ValueError(f"terms cannot have {superfluous[0]}, with {mh} holonomic of {m} constraints")
+        raise WrongValue(f"terms cannot have {superfluous[0]}, with {mh} holonomic of {m} constraints")
     if ("D" in terms) != ("gamma" in terms):
-        raise ValueError("terms must have both D and gamma, or neither")
+        raise WrongValue("terms must have both D and gamma, or neither")
     return terms
 
 
@@ -254,7 +254,7 @@ def _velocity_names(velocities: Any, coordinates: list[str], kinematics: bool) -
         return [f"v{i}" for i in range(len(coordinates))] if kinematics else [f"{name}_dot" for name in coordinates]
     rates = _check.names("velocities", velocities, "v")
     if len(rates) != len(coordinates) and not kinematics:
-        raise ValueError(f"velocities must be as many as coordinates, {len(coordinates)}, unless terms have A, not {len(rates)}")
+        raise WrongValue(f"velocities must be as many as coordinates, {len(coordinates)}, unless terms have A, not {len(rates)}")
     return rates
 
 

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._gateway import CoreSystem
+from ..errors import described
 
 
 class NumberTables(NamedTuple):
@@ -29,7 +30,7 @@ def refusals(make: Callable[..., Any], parameters: Mapping[str, np.ndarray], wro
         try:
             make({name: each[run].item() if each.ndim == 1 else np.array(each[run]) for name, each in parameters.items()})
         except Exception as error:      # a user's parameters may be refused by anything
-            refused[run] = f"{type(error).__name__}: {error}"
+            refused[run] = described(error)
     return refused
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from .. import _check, _gateway
 from .._gateway import Variable
+from ..errors import WrongValue
 
 
 def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) -> tuple[int, ...]:
@@ -15,10 +16,10 @@ def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) ->
     places = sorted(list(names).index(_check.choice("quaternions", first, names)) if isinstance(first, str) else
                     _check.count("quaternions", first, least=0) for first in listed)
     if places and not has_kinematics:
-        raise ValueError("quaternions need kinematics, as their rates are not velocities")
+        raise WrongValue("quaternions need kinematics, as their rates are not velocities")
     for k, place in enumerate(places):
         if place + 4 > min([*places[k + 1:k + 2], len(names)]):
-            raise ValueError(f"quaternions must begin with four of the {len(names)} coordinates each, not shared; not {given!r}")
+            raise WrongValue(f"quaternions must begin with four of the {len(names)} coordinates each, not shared; not {given!r}")
     return tuple(places)
 
 
@@ -29,11 +30,11 @@ def with_units(names: Sequence[str], rates: Sequence[str], units: Any,
     all_units = [""] * size if units is None else units
     listed = isinstance(all_units, Sequence) and not isinstance(all_units, str)
     if not listed or len(all_units) != size or not all(isinstance(unit, str) for unit in all_units):
-        raise ValueError(f"units must be {size} strings, one for each coordinate"
+        raise WrongValue(f"units must be {size} strings, one for each coordinate"
                          f"{'' if are_rates else ' and each velocity'}, not {units!r}")
     coordinates = tuple(map(Variable, names, all_units))
     for variable in (coordinates[first + i] for first in quaternions for i in range(4)):
         if _gateway.is_length(variable):
-            raise ValueError(f"units of a quaternion must be those of pure numbers, and {variable.name} has {variable.unit!r}")
+            raise WrongValue(f"units of a quaternion must be those of pure numbers, and {variable.name} has {variable.unit!r}")
     rate_units = [f"{unit}/s" if unit else "" for unit in all_units] if are_rates else all_units[len(names):]
     return coordinates, tuple(map(Variable, rates, rate_units))

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check
 from .._gateway.mechanisms.geometry import Component, Geometry
-from ..errors import SingularSystem
+from ..errors import SingularSystem, WrongValue
 from ..mechanisms.assembly.sparse import assembly_of
 from ..mechanisms.assembly.start import Starting, size_of
 from ..mechanisms.building.start_verbs import targets
@@ -81,9 +81,9 @@ class Motion:
     def _check_scalar(self, what: str, name: str) -> None:
         read = checked_reading(what, name, None, self._drawing.elements)
         if read.is_rate:
-            raise ValueError(f"{what} must be a measure of positions, and {name!r} is one of velocities")
+            raise WrongValue(f"{what} must be a measure of positions, and {name!r} is one of velocities")
         if len(read.quantities) != 1:
-            raise ValueError(f"{what} must be a scalar, and {name!r} has components: {name}.x and {name}.y")
+            raise WrongValue(f"{what} must be a scalar, and {name!r} has components: {name}.x and {name}.y")
 
     def _held(self, hold: Any) -> dict[str, float | None]:
         """Held measures and their values by name; None: the value at the start."""
@@ -95,7 +95,7 @@ class Motion:
         for name, value in held.items():
             self._check_scalar("hold", name)
             if value is not None and np.ndim(value):
-                raise ValueError(f"hold[{name!r}] must be a number, not {_check.shown(value)}")
+                raise WrongValue(f"hold[{name!r}] must be a number, not {_check.shown(value)}")
         return held
 
     def _poses(self, held: dict[str, float | None]) -> np.ndarray:

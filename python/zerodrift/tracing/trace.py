@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
 from ..systems.base import system_of
@@ -123,16 +124,16 @@ def reach(system: Any, measure: Any, *, hold: Any = ()) -> Reach:
 def _mechanism(system: Any) -> MechanismSystem:
     system = system_of(system)
     if not isinstance(system, MechanismSystem):
-        raise TypeError(f"system must be a mechanism of bodies and joints, or its system, not {_check.shown(system)}")
+        raise WrongType(f"system must be a mechanism of bodies and joints, or its system, not {_check.shown(system)}")
     if system._drawing.dimension == 3:
-        raise ValueError(f"{system.name!r} is in space, and curves of positions are traced in the plane, not yet in space")
+        raise WrongValue(f"{system.name!r} is in space, and curves of positions are traced in the plane, not yet in space")
     return system
 
 
 def _values(given: Any) -> np.ndarray:
     array = _check.real("values must hold", given, ragged="values must be a regular array, not be")
     if array.ndim != 1 or not array.size:
-        raise ValueError(f"values must have shape (k,) and at least one entry, not shape {array.shape}")
+        raise WrongValue(f"values must have shape (k,) and at least one entry, not shape {array.shape}")
     return _check.vector("values", array, array.size)
 
 

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
+from ..errors import WrongName
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
 
@@ -132,11 +133,11 @@ class Trace:
         name, watching = name_of(name, "name"), self.system._watching
         place = watching.find(name)
         if place is None:
-            raise KeyError(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.number)}")
+            raise WrongName(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.number)}")
         depends = self.system._measuring.measure_depends(place.number)
         if depends != "positions":
             hint = "; derivative() of a position has its ratio to that of the traced measure" if depends == "velocities" else ""
-            raise KeyError(f"{name!r} depends on {depends}, and a trace has positions alone{hint}")
+            raise WrongName(f"{name!r} depends on {depends}, and a trace has positions alone{hint}")
         return place
 
     def _ipython_key_completions_(self) -> list[str]:

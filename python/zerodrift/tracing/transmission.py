@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .. import _check
+from ..errors import WrongType
 from ..mechanisms.elements.joints import Joint
 from ..mechanisms.elements.measures import Measure
 from ..mechanisms.equations import transmission
@@ -51,6 +52,6 @@ def transmission_angle(m: Mechanism, joint: Joint | str) -> Measure:
     m._in_the_plane("transmission_angle")
     joint = m[joint] if isinstance(joint, str) else joint
     if not isinstance(joint, Joint) or m._elements.get(joint.name) is not joint:
-        raise TypeError(f"joint must be a joint of {m.name!r}, or its name, not {_check.shown(joint)}")
+        raise WrongType(f"joint must be a joint of {m.name!r}, or its name, not {_check.shown(joint)}")
     transmission.lines(joint, transmission.joints_by_body(m._elements))
     return joint.transmission_angle

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..errors import WrongValue
 from .curve import Curve, Knot, Segment, touches
 from .motion import Motion
 
@@ -39,7 +40,7 @@ def pick(pieces: list[Segment], values: np.ndarray) -> list[Segment]:
 def check_start(motion: Motion) -> None:
     """Refuses to begin where neither way is up."""
     if motion.knot.slope == 0:
-        raise ValueError(f"{motion.system.name} starts in a dead point of {motion.measure!r}, at {_shown(motion.knot.value)}, or "
+        raise WrongValue(f"{motion.system.name} starts in a dead point of {motion.measure!r}, at {_shown(motion.knot.value)}, or "
                          "that does not change with its positions: start aside (m.start), or trace another measure")
 
 
@@ -53,7 +54,7 @@ def _as_far_as(motion: Motion, knot: Knot, last: float, values: np.ndarray) -> l
         if (segment.last.value - last) * segment.sense >= 0:
             return pieces
     else:
-        raise ValueError(f"values go too far from {_shown(knot.value)}, where {motion.measure!r} starts, to be followed: to "
+        raise WrongValue(f"values go too far from {_shown(knot.value)}, where {motion.measure!r} starts, to be followed: to "
                          f"{_shown(last)} {motion.unit}")
     dead = pieces[-1].last.value
     if touches(dead, last):
@@ -64,7 +65,7 @@ def _as_far_as(motion: Motion, knot: Knot, last: float, values: np.ndarray) -> l
 def _beyond(motion: Motion, dead: float, value: float, values: np.ndarray) -> ValueError:
     """The error that says which value cannot be reached, and where the dead point is."""
     place, side = int(np.flatnonzero(values == value)[0]), "least" if value < dead else "largest"
-    return ValueError(f"values[{place}] = {_shown(value)} is out of reach: the {side} value of {motion.measure!r}, at a dead "
+    return WrongValue(f"values[{place}] = {_shown(value)} is out of reach: the {side} value of {motion.measure!r}, at a dead "
                       f"point, is {_shown(dead)} {motion.unit}")
 
 
@@ -111,7 +112,7 @@ def _after_dead_point(motion: Motion, segment: Segment, pieces: Iterator[Segment
             return following
         if motion.is_angle and abs(following.last.value - values[place - 1]) > 2 * np.pi:
             break
-    raise ValueError(f"values turn back at values[{place}] = {_shown(values[place])}, and the branch does not, as "
+    raise WrongValue(f"values turn back at values[{place}] = {_shown(values[place])}, and the branch does not, as "
                      f"{motion.measure!r} goes on without a dead point; without through=True, values may come in any order")
 
 
@@ -126,7 +127,7 @@ def whole(motion: Motion) -> tuple[list[Segment], bool]:
         if len(pieces) > 2 and (closing := _closing(motion.curve, segment, start, angles)) is not None:
             pieces[-1] = Segment(segment.first, closing, float(np.linalg.norm(closing.x - segment.first.x)) or segment.arc)
             return pieces, False
-    raise ValueError(f"{motion.measure!r} has no end that was found: it neither turns fully, nor do the positions come back to "
+    raise WrongValue(f"{motion.measure!r} has no end that was found: it neither turns fully, nor do the positions come back to "
                      "their start; give values")
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..._core import ffi, lib
+from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, TERMS, Variable, doubles, lengths, set_quaternions, text
 from ..packed_layout import Packing, declare
 from ..systems import CoreSystem, Kind
@@ -129,18 +130,18 @@ def kind_at(address: int) -> Kind:
     system = c.system
     sizes = (system.nq, system.nv, system.mh, system.mn)
     if min(sizes) < 0 or not system.nq or not system.nv:
-        raise ValueError(f"its sizes nq, nv, mh, mn cannot be {sizes}")
+        raise WrongValue(f"its sizes nq, nv, mh, mn cannot be {sizes}")
     counts = {"parameter": c.parameters, "coordinate": system.nq, "velocity": system.nv, "constraint": system.mh + system.mn,
               "prepare": 1, "start": 1, "draw": c.points}
     for name in (name for name, count in counts.items() if count and not getattr(c, name)):
-        raise ValueError(f"its {name} is missing")
+        raise WrongValue(f"its {name} is missing")
     if not c.card.name or not system.evaluate:
-        raise ValueError(f"its {'evaluate' if c.card.name else 'name'} is missing")
+        raise WrongValue(f"its {'evaluate' if c.card.name else 'name'} is missing")
     if system.data:
-        raise ValueError("its system.data is to be left out: the constants take its place")
+        raise WrongValue("its system.data is to be left out: the constants take its place")
     message = ffi.new("char[]", MESSAGE_SIZE)
     if lib.zd_check_system(ffi.addressof(c, "system"), message, MESSAGE_SIZE):
-        raise ValueError(text(message))
+        raise WrongValue(text(message))
     return Kind(c)
 
 

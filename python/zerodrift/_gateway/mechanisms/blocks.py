@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..._core import ffi, lib
+from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, cards, error_of, text
 from ..systems import CoreSystem
 from . import plane, space
@@ -127,7 +128,7 @@ class BlockCore(CoreSystem):
         message = ffi.new("char[]", MESSAGE_SIZE)
         made = lib.zd_block_create(ffi.from_buffer(data), len(data), message, MESSAGE_SIZE)
         if not made:
-            raise ValueError(text(message))
+            raise WrongValue(text(message))
         self._block = ffi.gc(made, lib.zd_block_free)
         super().__init__(lib.zd_block_system(self._block), (self._block,))
 
@@ -169,7 +170,7 @@ class BlockCore(CoreSystem):
     def set_input(self, name: str, value: float) -> None:
         """Sets an input from the next advance on."""
         if lib.zd_block_set_input(self._block, list(self.inputs).index(name), value):
-            raise ValueError(f"input {name!r} must be a finite number, not {value!r}")
+            raise WrongValue(f"input {name!r} must be a finite number, not {value!r}")
 
     def set_parameter(self, index: int, value: float) -> bool:
         """Changes the words that depend on a parameter; False: the value is outside its range."""

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..._core import ffi, lib
+from ...errors import WrongValue
 from ..base import CALLBACK, DONE, doubles
 
 Law = Callable[[int, float, np.ndarray, np.ndarray], Any]
@@ -26,7 +27,7 @@ class LawOwner:
             k, size = self._sizes[law]
             values = np.asarray(self._law(law, t, np.array(ffi.unpack(x, k)), np.array(ffi.unpack(xdot, k))), dtype=float)
             if values.shape != (size,):
-                raise ValueError(f"law {law} must give {size} numbers, not an array of shape {values.shape}")
+                raise WrongValue(f"law {law} must give {size} numbers, not an array of shape {values.shape}")
             for i, value in enumerate(values):
                 out[i] = value
         except BaseException as error:      # raised again where the run was started

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._core import ffi, lib
+from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
 from ..measures import Components, components, given
 from ..systems import CoreSystem
@@ -259,7 +260,7 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, 
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = lib.zd_plane_create(c, message, MESSAGE_SIZE)
     if not mechanism:
-        raise ValueError(text(message))
+        raise WrongValue(text(message))
     return ffi.gc(mechanism, lib.zd_plane_free), words
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..._core import ffi, lib
 from ..._rotations import product, turn, turn_between
+from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
 from ..measures import Components, components
 from ..systems import CoreSystem
@@ -268,7 +269,7 @@ def _create(tables: Tables, has_laws: bool, laws_know_time: bool, made_by: Any) 
     message = ffi.new("char[]", MESSAGE_SIZE)
     mechanism = made_by(c, message, MESSAGE_SIZE)
     if not mechanism:
-        raise ValueError(text(message))
+        raise WrongValue(text(message))
     return ffi.gc(mechanism, lib.zd_space_free), words
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ... import _check
+from ...errors import WrongType, WrongValue
 from ..elements.joints import Coupling, Joint
 from ..elements.measures import Measure, name_of
 from ..elements.user_functions import Law
@@ -87,10 +88,10 @@ class CouplingVerbs(Elements):
         name = self._new_name(name, kind)
         joints = [self._joint(f"{side} of {name!r}", *given) for side, given in (("first", first), ("second", second))]
         if joints[0] is joints[1]:
-            raise ValueError(f"{name!r} couples {joints[0].name!r} to itself: first and second must be two joints")
+            raise WrongValue(f"{name!r} couples {joints[0].name!r} to itself: first and second must be two joints")
         ratio = _check.number(f"ratio of {name!r}", ratio)
         if not ratio:
-            raise ValueError(f"ratio of {name!r} must not be 0")
+            raise WrongValue(f"ratio of {name!r} must not be 0")
         return self._add(Coupling(name, kind, tuple(
             f"{joint.name}.{joint.coordinate or given[1][0]}" for joint, given in zip(joints, (first, second), strict=True)),
             ratio=ratio))
@@ -180,12 +181,12 @@ class CouplingVerbs(Elements):
             follower = f"{follower.name}.{follower.coordinate}"
         if isinstance(profile, tuple):
             if len(profile) != 2:
-                raise ValueError(f"profile of {name!r} must be (angles, values), not {len(profile)} things")
+                raise WrongValue(f"profile of {name!r} must be (angles, values), not {len(profile)} things")
             profile = PeriodicSpline(f"profile of {name!r}", *profile)
         elif hasattr(profile, "free_symbols"):
             profile = _Expression(name, profile)
         elif not callable(profile):
-            raise TypeError(f"profile of {name!r} must be a callable, a SymPy expression or (angles, values), "
+            raise WrongType(f"profile of {name!r} must be a callable, a SymPy expression or (angles, values), "
                             f"not {_check.shown(profile)}")
         return self._by_law(name, "cam", _Follows(profile), {"angle": cam.angle, "follower": follower})
 
@@ -245,7 +246,7 @@ class CouplingVerbs(Elements):
     def _by_law(self, name: str, kind: str, value: Any, of: Any) -> Coupling:
         law = self._law(f"{kind} {name!r}", value, of, positions=kind != "nonholonomic")
         if not law.measures:
-            raise ValueError(f"{kind} {name!r} depends on no measure: bind some, of={{'x': body.position.x}}")
+            raise WrongValue(f"{kind} {name!r} depends on no measure: bind some, of={{'x': body.position.x}}")
         return self._add(Coupling(name, kind, law.measures, law=law))
 
 
@@ -289,7 +290,7 @@ class _Expression:
 
     def __init__(self, name: str, expression: Any) -> None:
         if len(expression.free_symbols) != 1:
-            raise ValueError(f"profile of {name!r} must be an expression of one symbol, the angle, not of "
+            raise WrongValue(f"profile of {name!r} must be an expression of one symbol, the angle, not of "
                              f"{', '.join(sorted(map(str, expression.free_symbols))) or 'none'}")
         self._law = Law(f"profile of {name!r}", expression.subs(next(iter(expression.free_symbols)), _time()))
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ... import _check
 from ..._rotations import AXES
+from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Particle, Point
 from ..elements.forces import Actuator, Bushing, Force, Motor, SpaceBushing, Torque, TorsionSpring
 from ..elements.frames import perpendicular
@@ -67,19 +68,19 @@ class ForceVerbs(Elements):
         given = {"angle": angle, "displacement": displacement, "speed": speed, "torque": torque, "force": force}
         words = [word for word, value in given.items() if value is not None]
         if len(words) != 1:
-            raise TypeError(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}")
+            raise WrongType(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}")
         drives = words[0]
         joint = self._joint(f"joint of motor {name!r}", joint, DRIVES[drives])
         if joint.coordinate is None and drives == "speed":
-            raise ValueError(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed")
+            raise WrongValue(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed")
         law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"))
         if drives in ("angle", "displacement") and law.measures:
-            raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
+            raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
         motor = Motor(name, joint, drives, law)
         rival = next((other for other in self.motors if other.joint is joint and other.prescribes
                       and other.coordinate == motor.coordinate), None)
         if motor.prescribes and rival is not None:
-            raise ValueError(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor")
+            raise WrongValue(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor")
         return self._add(motor)
 
     def actuator(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, length: Any = None,
@@ -119,11 +120,11 @@ class ForceVerbs(Elements):
         name = self._new_name(name, "actuator")
         first, second = self._different(name, self._point("first", first), self._point("second", second))
         if (length is None) == (force is None):
-            raise TypeError(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}")
+            raise WrongType(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}")
         drives, given = ("length", length) if force is None else ("force", force)
         law = self._law(f"{drives} of actuator {name!r}", given, of)
         if drives == "length" and law.measures:
-            raise ValueError(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
+            raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
         if drives == "length" and law.constant is not None:
             _check.number(law.what, law.constant, above=0)
         return self._add(Actuator(name, first, second, drives, law))
@@ -208,20 +209,20 @@ class ForceVerbs(Elements):
         if self.dimension == 3:
             return self._add(SpaceBushing(name, first, second, values, self._space_frames(name, first, second, axis, normal)))
         if axis is not None or normal is not None:
-            raise ValueError(f"axis and normal of {name!r} are for mechanisms in space")
+            raise WrongValue(f"axis and normal of {name!r} are for mechanisms in space")
         values |= {word: _least(word, name, value) for word, value in turning.items()}
         return self._add(Bushing(name, first, second, values))
 
     def _space_frames(self, name: str, first: Point, second: Point, axis: Any, normal: Any) -> tuple[np.ndarray, np.ndarray]:
         """Three directions in the frames of both bodies; by default the axes of the first body."""
         if axis is None and normal is not None:
-            raise TypeError(f"normal of {name!r} goes with axis=, to which it is made perpendicular")
+            raise WrongType(f"normal of {name!r} goes with axis=, to which it is made perpendicular")
         frame = first.body.pose.rotation.T
         if axis is not None:
             axis = self._direction(f"axis of {name!r}", axis)
             normal = None if normal is None else self._direction(f"normal of {name!r}", normal)
             if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:
-                raise ValueError(f"normal of {name!r} must not be parallel to its axis")
+                raise WrongValue(f"normal of {name!r} must not be parallel to its axis")
             normal = perpendicular(axis, normal)
             frame = np.stack([axis, normal, np.cross(axis, normal)])
         return tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
@@ -274,7 +275,7 @@ class ForceVerbs(Elements):
         frame = self.ground if frame is None else self._body("frame", frame)
         self._turning(name, "the frame of", frame)
         if point.body is self.ground:
-            raise ValueError(f"force {name!r} acts on the ground, which does not move: point must be of another body")
+            raise WrongValue(f"force {name!r} acts on the ground, which does not move: point must be of another body")
         law = self._law(f"value of force {name!r}", value, of)
         return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
 
@@ -282,14 +283,14 @@ class ForceVerbs(Elements):
         """Unit vector of a force in the drawing, (dimension,), and the magnitude along it."""
         is_vector = isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1
         if value is None:
-            raise TypeError(f"force {name!r} needs value=, its magnitude in N, whose direction is along=; or value= as a vector, "
+            raise WrongType(f"force {name!r} needs value=, its magnitude in N, whose direction is along=; or value= as a vector, "
                             f"such as {VECTORS[self.dimension]}")
         if is_vector and along is not None:
-            raise ValueError(f"value of force {name!r} must be a number or a function, not a vector, where along= is given")
+            raise WrongValue(f"value of force {name!r} must be a number or a function, not a vector, where along= is given")
         if is_vector:
             return self._direction(f"value of force {name!r}", value), float(np.linalg.norm(value))
         if along is None:
-            raise TypeError(f"force {name!r} needs along=, its direction in the drawing, such as {VECTORS[self.dimension]}, "
+            raise WrongType(f"force {name!r} needs along=, its direction in the drawing, such as {VECTORS[self.dimension]}, "
                             "as value= is its magnitude")
         return self._direction(f"along of {name!r}", along), value
 
@@ -330,21 +331,21 @@ class ForceVerbs(Elements):
         against = self.ground if against is None else self._body("against", against)
         self._turning(name, "torque", body, against)
         if body is against:
-            raise ValueError(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed")
+            raise WrongValue(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed")
         law = self._law(f"value of torque {name!r}", value, of)
         if self.dimension == 3:
             return self._space_torque(name, body, against, law, axis, frame)
         if axis is not None or frame is not None:
-            raise ValueError(f"axis and frame of {name!r} are for mechanisms in space: in the plane it is about its normal")
+            raise WrongValue(f"axis and frame of {name!r} are for mechanisms in space: in the plane it is about its normal")
         return self._add(Torque(name, body, against, law))
 
     def _space_torque(self, name: str, body: Body, against: Body, law: Any, axis: Any, frame: Any) -> Torque:
         if axis is None:
-            raise TypeError(f"torque {name!r} needs axis=, the direction in the drawing about which it acts")
+            raise WrongType(f"torque {name!r} needs axis=, the direction in the drawing about which it acts")
         frame = self.ground if frame is None else self._body("frame", frame)
         self._turning(name, "the frame of", frame)
         if against is not self.ground and frame is not self.ground:
-            raise ValueError(f"torque {name!r} acts against {against.name!r}, with which its axis turns: leave frame out")
+            raise WrongValue(f"torque {name!r} acts against {against.name!r}, with which its axis turns: leave frame out")
         turns_with = frame if against is self.ground else against
         axis = turns_with.pose.local_direction(self._direction(f"axis of {name!r}", axis))
         return self._add(Torque(name, body, against, law, axis=axis, frame=frame))

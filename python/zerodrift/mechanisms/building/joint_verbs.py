@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ... import _check
+from ...errors import WrongValue
 from ..elements.bodies import Body, Particle, Point
 from ..elements.joints import KnifeEdge, Rolling, Slot
 from .space_joint_verbs import SpaceJointVerbs, checked_cut
@@ -109,7 +110,7 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
         if self.dimension == 3:
             return self._space_rolling(name, first, second, radius, at, normal, axle, semiaxes)
         if axle is not None or semiaxes is not None:
-            raise ValueError(f"axle and semiaxes of {name!r} are for mechanisms in space")
+            raise WrongValue(f"axle and semiaxes of {name!r} are for mechanisms in space")
         name = self._new_name(name, "joint")
         at = (0.0, 0.0) if at is None else at
         radius = _check.number(f"radius of {name!r}", radius, above=0)
@@ -159,7 +160,7 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
         if self.dimension == 3:
             return self._space_knife_edge(name, point, along, normal)
         if normal is not None:
-            raise ValueError(f"normal of {name!r} is for mechanisms in space")
+            raise WrongValue(f"normal of {name!r} is for mechanisms in space")
         name = self._new_name(name, "joint")
         along = self._direction(f"along of {name!r}", along)
         point = self._point("point", point, center=True)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from ...systems import autodiff
 
 PERIOD = 2 * np.pi
@@ -35,13 +36,13 @@ class PeriodicSpline:
         self.angles = np.asarray(_check.real(f"angles of {what} must hold", angles), dtype=float)
         n = self.angles.size
         if self.angles.ndim != 1 or n < 3:
-            raise ValueError(f"angles of {what} must have shape (n,) with n at least 3, not {self.angles.shape}")
+            raise WrongValue(f"angles of {what} must have shape (n,) with n at least 3, not {self.angles.shape}")
         self.values = _check.vector(f"values of {what}", values, n)
         self._drop_closing_point()
         n = self.angles.size
         self._widths = np.diff(self.angles, append=self.angles[0] + PERIOD)
         if not (self._widths > 0).all():
-            raise ValueError(f"angles of {what} must increase and lie within one turn (a point at its end has the value of the "
+            raise WrongValue(f"angles of {what} must increase and lie within one turn (a point at its end has the value of the "
                              f"first), not {_check.shown(angles)}")
         self._coefficients = self._solve(n)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Particle, Point, _Center
 from ..elements.drawing import Drawing
 from ..elements.frames import about
@@ -25,7 +26,7 @@ def lift(drawing: Drawing, m: Any) -> None:
         if element is not drawing.ground:
             kind = _kind(element)
             if kind not in LIFTED:
-                raise ValueError(f"{element.name!r} cannot be lifted: a {kind} has no counterpart in space")
+                raise WrongValue(f"{element.name!r} cannot be lifted: a {kind} has no counterpart in space")
             LIFTED[kind](m, element)
     for name in _free(drawing):
         _keep(m, m[name])
@@ -99,7 +100,7 @@ def _measure(m: Any, name: str) -> str:
     if not isinstance(body := m._elements.get(owner), Body):
         return name
     if quantity == "angle":
-        raise ValueError(f"{name!r} cannot be lifted: {body.name!r} has a rotation in space and no angle; take that of a joint")
+        raise WrongValue(f"{name!r} cannot be lifted: {body.name!r} has a rotation in space and no angle; take that of a joint")
     return f"{name}.z" if quantity == "angular_velocity" else name
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.frames import perpendicular
 from ..elements.joints import draws_length
@@ -34,7 +35,7 @@ class SpaceJointVerbs(Elements):
         """Ellipsoid on a plane: its shape along the rows of a frame of the second body."""
         name = self._new_name(name, "joint")
         if (radius is None) == (semiaxes is None):
-            raise TypeError(f"{name!r} needs radius=, of a sphere or with axle= of a disc, or else semiaxes=, of an ellipsoid")
+            raise WrongType(f"{name!r} needs radius=, of a sphere or with axle= of a disc, or else semiaxes=, of an ellipsoid")
         normal = self._direction(f"normal of {name!r}", self._upwards() if normal is None else normal)
         first, second = self._body("first", first), self._named("second", second)
         if isinstance(second, Body) and second.turns:
@@ -45,10 +46,10 @@ class SpaceJointVerbs(Elements):
         frame, shape = self._shape(name, second.body, normal, radius, axle, semiaxes)
         height = float((second.drawn - at) @ normal)
         if not height > 0:
-            raise ValueError(f"normal of {name!r} must point to the side of the plane on which the centre is drawn")
+            raise WrongValue(f"normal of {name!r} must point to the side of the plane on which the centre is drawn")
         gap = height - float(np.linalg.norm(shape * (frame @ second.body.pose.local_direction(normal))))
         if abs(gap) > TOUCHING * height:
-            raise ValueError(f"{name!r} has no contact as drawn: {second.body.name!r} is {abs(gap):.3g} m "
+            raise WrongValue(f"{name!r} has no contact as drawn: {second.body.name!r} is {abs(gap):.3g} m "
                              f"{'off' if gap > 0 else 'in'} the plane; draw its centre {height - gap:.6g} m from it")
         frames = np.stack([first.body.pose.local_direction(row) for row in _frame(normal, None)]), frame
         return self._add(BY_KIND["rolling"](name, first, second, frames=frames, semiaxes=shape))
@@ -58,7 +59,7 @@ class SpaceJointVerbs(Elements):
         """Rows (3, 3) of a frame in the body's, and the semiaxes along them."""
         if semiaxes is not None:
             if axle is not None:
-                raise TypeError(f"{name!r} has semiaxes, of an ellipsoid, and no axle")
+                raise WrongType(f"{name!r} has semiaxes, of an ellipsoid, and no axle")
             given = _check.vector(f"semiaxes of {name!r}", semiaxes, 3)
             return np.eye(3), tuple(_check.number(f"each of the semiaxes of {name!r}", float(each), above=0) for each in given)
         radius = _check.number(f"radius of {name!r}", radius, above=0)
@@ -66,7 +67,7 @@ class SpaceJointVerbs(Elements):
             return np.eye(3), (radius, radius, radius)
         axle = self._direction(f"axle of {name!r}", axle)
         if np.linalg.norm(np.cross(axle, normal)) < FLAT:
-            raise ValueError(f"axle of {name!r} must not be parallel to the normal in the drawing: a disc that lies flat does "
+            raise WrongValue(f"axle of {name!r} must not be parallel to the normal in the drawing: a disc that lies flat does "
                              "not roll")
         return np.stack([body.pose.local_direction(row) for row in _frame(axle, None)]), (0.0, radius, radius)
 
@@ -76,7 +77,7 @@ class SpaceJointVerbs(Elements):
         along = self._direction(f"along of {name!r}", along)
         up = self._direction(f"normal of {name!r}", self._upwards() if normal is None else normal)
         if np.linalg.norm(np.cross(up, along)) < FLAT:
-            raise ValueError(f"along of {name!r} must not be parallel to the normal of the ice")
+            raise WrongValue(f"along of {name!r} must not be parallel to the normal of the ice")
         point = self._point("point", point, center=True)
         self._turning(name, "knife edge", point.body)
         first, point = self._different(name, self.ground.point(at=point.drawn), point)
@@ -126,5 +127,5 @@ def _frame(axis: np.ndarray, normal: np.ndarray | None) -> np.ndarray:
 def checked_cut(name: str, value: Any) -> bool:
     """Check that `cut` is True or False."""
     if not isinstance(value, bool):
-        raise TypeError(f"cut of {name!r} must be True or False, not {_check.shown(value)}")
+        raise WrongType(f"cut of {name!r} must be True or False, not {_check.shown(value)}")
     return value

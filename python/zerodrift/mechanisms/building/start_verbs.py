@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ...errors import WrongType, WrongValue
 from ..elements.forces import Actuator
 from ..elements.frames import given_rotation
 from ..elements.measures import name_of
@@ -77,11 +78,11 @@ class StartVerbs(Elements):
             taken = {"angle": ("angle", "speed"), "displacement": ("displacement", "speed"),
                      "speed": ("speed",)}.get(motor.drives, ())
             if name in {f"{motor.joint.name}.{quantity}" for quantity in taken}:
-                raise ValueError(f"start holds {name!r}, which motor {motor.name!r} prescribes: leave one of them out")
+                raise WrongValue(f"start holds {name!r}, which motor {motor.name!r} prescribes: leave one of them out")
         owner, _, quantity = name.rpartition(".")
         actuator = self._elements.get(owner)
         if isinstance(actuator, Actuator) and actuator.prescribes:
-            raise ValueError(f"start holds {name!r}, which the actuator prescribes: leave its {quantity} out")
+            raise WrongValue(f"start holds {name!r}, which the actuator prescribes: leave its {quantity} out")
 
 
 def targets(given: Any, what: str, dimension: int = 2) -> dict[str, Any]:
@@ -89,7 +90,7 @@ def targets(given: Any, what: str, dimension: int = 2) -> dict[str, Any]:
     if given is None:
         return {}
     if not isinstance(given, Mapping):
-        raise TypeError(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
+        raise WrongType(f"{what} must be a dict of values by measure, not {_check.shown(given)}")
     read = {}
     for measure, value in given.items():
         name = name_of(measure, f"a key of {what}")

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ...errors import WrongType
 from ..elements.table_forces import MadeForce
 from .registry import Elements
 from .table_joint_documentation import POINTS, SIDES, wrapped
@@ -40,7 +41,7 @@ def force_verb(force: type[MadeForce], build: Callable[..., Any] | None = None) 
         try:
             bound = signature.bind(m, *given, **named)
         except TypeError as error:
-            raise TypeError(f"{force.kind}(): {error}") from None
+            raise WrongType(f"{force.kind}(): {error}") from None
         bound.apply_defaults()
         values = dict(bound.arguments)
         return _add(values.pop("self"), force, build or force, values.pop("name"), **values)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ...errors import WrongType, WrongValue
 from ..elements.joints import Joint, draws_length, holds_angle, holds_distance, is_slider
 from ..elements.space_joints import SpaceJoint, advances, is_at_point, is_on_plane
 from .registry import Elements
@@ -31,7 +32,7 @@ def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Ca
         try:
             bound = signature.bind(m, *given, **named)
         except TypeError as error:
-            raise TypeError(f"{either.kind}(): {error}") from None
+            raise WrongType(f"{either.kind}(): {error}") from None
         bound.apply_defaults()
         values = dict(bound.arguments)
         _check_dimension(m, plane, space)
@@ -103,7 +104,7 @@ def _check_dimension(m: Elements, plane: type[Joint] | None, space: type[SpaceJo
         m._in_the_plane(plane.kind)
     elif plane is None and space is not None and m.dimension == 2:
         instead = "revolute" if is_at_point(space.row) else "a free body" if axis_word(space) == "normal" else "prismatic"
-        raise ValueError(f"{space.kind} is a joint of space, Mechanism(..., dimension=3): in the plane {instead} is meant")
+        raise WrongValue(f"{space.kind} is a joint of space, Mechanism(..., dimension=3): in the plane {instead} is meant")
 
 
 def _taken(m: Elements, name: Any, values: dict[str, Any], words: list[str]) -> dict[str, Any]:
@@ -112,7 +113,7 @@ def _taken(m: Elements, name: Any, values: dict[str, Any], words: list[str]) -> 
     for word in values.keys() - taken:
         if values[word] is not None and not (word in ("damping", "cut") and values[word] == INITIAL[word]):
             reason = ": in the plane bodies turn about its normal" if (word, m.dimension) == ("axis", 2) else ""
-            raise ValueError(f"{word} of {name!r} is for mechanisms {other}{reason}")
+            raise WrongValue(f"{word} of {name!r} is for mechanisms {other}{reason}")
     return {word: value for word, value in values.items() if word in taken}
 
 
@@ -167,7 +168,7 @@ def _add_in_space(m: Any, joint: type[SpaceJoint], name: Any, *, first: Any, sec
     if length_word(joint) == "pitch":
         length = _check.number(f"pitch of {name!r}", pitch)
         if not length:
-            raise ValueError(f"pitch of {name!r} must not be 0: take revolute")
+            raise WrongValue(f"pitch of {name!r} must not be 0: take revolute")
     if holds_distance(joint.row):
         name = m._new_name(name, "joint")
         sides = m._different(name, m._point("first", first), m._point("second", second))
@@ -182,13 +183,13 @@ def _directions(m: Elements, joint: type[SpaceJoint], name: Any, given: Any) -> 
     word = axis_word(joint)
     if word != "axes":
         if given is None:
-            raise TypeError(f"{name!r} needs {word}=, the direction in the drawing about which it turns")
+            raise WrongType(f"{name!r} needs {word}=, the direction in the drawing about which it turns")
         return (m._direction(f"{word} of {name!r}", given),)
     if np.ndim(given) == 0 or len(given) != 2:
-        raise ValueError(f"axes of {name!r} must be two directions, one of the first body and one of the second")
+        raise WrongValue(f"axes of {name!r} must be two directions, one of the first body and one of the second")
     first, second = (m._direction(f"axes[{i}] of {name!r}", axis) for i, axis in enumerate(given))
     cosine = float(first @ second)
     if abs(cosine) > RIGHT_ANGLE:
-        raise ValueError(f"axes of {name!r} must be perpendicular in the drawing, and are "
+        raise WrongValue(f"axes of {name!r} must be perpendicular in the drawing, and are "
                          f"{np.degrees(np.arccos(cosine)):.6g} degrees apart")
     return first, second

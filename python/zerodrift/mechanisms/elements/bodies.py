@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import _check
+from ...errors import WrongType
 from . import columns
 from .frames import Pose
 from .immutable import Fixed
@@ -142,7 +143,7 @@ class Body(Fixed):
             If there are no coordinates, or the name is taken.
         """
         if (local is None) == (at is None):
-            raise TypeError(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn")
+            raise WrongType(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn")
         size = self.dimension
         local = _check.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
         return self._register(Point(self, local, name))

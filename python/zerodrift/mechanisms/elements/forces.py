@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from . import columns
 from .bodies import Body, Point
 from .immutable import Fixed, amend
@@ -261,11 +262,11 @@ def driven(drawing: Any, names: Sequence[str], changed: Mapping[str, float]) -> 
     known = inputs_of(drawing)
     for name in names:
         if name not in known:
-            raise ValueError(f"inputs must name a torque, force or speed of {drawing.name}, not {name!r}{_hint(drawing, name)}; "
+            raise WrongValue(f"inputs must name a torque, force or speed of {drawing.name}, not {name!r}{_hint(drawing, name)}; "
                              f"{_check.closest(name, known) if known else 'it has no motor, actuator or load'}")
         element, quantity, path = known[name]
         if element.law.constant is None:
-            raise ValueError(f"input {name!r} must begin with a number: give {element.kind} {element.name!r} one, such as 0.0, "
+            raise WrongValue(f"input {name!r} must begin with a number: give {element.kind} {element.name!r} one, such as 0.0, "
                              "in the place of its function")
         law = InputLaw(name, float(changed.get(path, element.law.constant)), is_speed=quantity == "speed")
         elements[element.name] = mine = copy.copy(element)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from ...systems import autodiff
 
 BEYOND = 1e-9       # of the table's length: rounding beyond its ends that is accepted
@@ -52,11 +53,11 @@ def table(x: Any, y: Any, *, argument: str = "t") -> Table:
     """
     x = np.array(_check.real("x of a table must hold", x), dtype=float)
     if x.ndim != 1 or x.size < 2:
-        raise ValueError(f"x of a table must have shape (n,) with n at least 2, not {x.shape}")
+        raise WrongValue(f"x of a table must have shape (n,) with n at least 2, not {x.shape}")
     y = _check.vector("y of a table", y, x.size)
     if not (np.diff(x) > 0).all():
         place = int(np.flatnonzero(~(np.diff(x) > 0))[0])
-        raise ValueError(f"x of a table must increase, and x[{place + 1}] = {x[place + 1]:g} follows x[{place}] = {x[place]:g}")
+        raise WrongValue(f"x of a table must increase, and x[{place + 1}] = {x[place + 1]:g} follows x[{place}] = {x[place]:g}")
     return Table(x, _coefficients(x, y), argument)
 
 
@@ -71,7 +72,7 @@ class Table:
         at, = (*given, *named.values())
         value = float(autodiff.value(at))
         if not self.x[0] - self._allowed <= value <= self.x[-1] + self._allowed:
-            raise ValueError(f"the table goes from {self.argument} = {self.x[0]:g} to {self.x[-1]:g}, "
+            raise WrongValue(f"the table goes from {self.argument} = {self.x[0]:g} to {self.x[-1]:g}, "
                              f"and its value at {value:g} was requested")
         piece = min(max(int(np.searchsorted(self.x, value, side="right")) - 1, 0), self.x.size - 2)
         s, result = at - float(self.x[piece]), 0.0

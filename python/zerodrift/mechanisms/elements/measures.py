@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ... import _check
+from ...errors import WrongType
 
 
 class Measure:
@@ -62,7 +63,7 @@ def name_of(measure: Any, argument: str) -> str:
         return measure.name
     if isinstance(measure, str):
         return measure
-    raise TypeError(f"{argument} must be a measure, such as crank.angle, or its name, not {_check.shown(measure)}")
+    raise WrongType(f"{argument} must be a measure, such as crank.angle, or its name, not {_check.shown(measure)}")
 
 
 def scalar(quantity: str, doc: str) -> property:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ... import _check
 from ..._gateway.inputs import EFFORT_LAW, SPEED_LAW
+from ...errors import WrongType, WrongValue
 from ...symbolics.graph.smoothness import is_plain_expression
 from ...systems import autodiff
 from ...systems.callables import arguments
@@ -44,7 +45,7 @@ class Law:
         elif hasattr(given, "free_symbols"):
             self._read_expression(given, bound, list(parameters))
         elif isinstance(given, tuple | list | dict) or np.ndim(given):
-            raise TypeError(f"{what} must be a number, a function, an expression of SymPy, or zd.table(t, y) of data, "
+            raise WrongType(f"{what} must be a number, a function, an expression of SymPy, or zd.table(t, y) of data, "
                             f"not {_check.shown(given)}")
         else:
             self.constant, self._names, self._bound = _check.number(what, given), [], {}
@@ -62,7 +63,7 @@ class Law:
             elif name in bound:
                 self._bound[name] = bound[name]
             elif name != "t" and name not in parameters:
-                raise TypeError(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures")
+                raise WrongType(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures")
             self._names.append(name)
 
     @functools.cached_property
@@ -99,7 +100,7 @@ class Law:
         except (TypeError, AttributeError) as error:
             if not self._has_value(t, x, parameters):
                 raise
-            raise TypeError(f"{self.what} must have derivatives: an expression of SymPy, or a function of arithmetic and smooth "
+            raise WrongType(f"{self.what} must have derivatives: an expression of SymPy, or a function of arithmetic and smooth "
                             "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none. zd.table(t, y) is a "
                             "smooth function through data") from error
         value = value[()] if isinstance(value, np.ndarray) else value
@@ -143,7 +144,7 @@ class Law:
     def check_written(self) -> None:
         """Check that code can be generated: a callable's computation is known to Python only."""
         if self._function is not None and not hasattr(self._function, "written"):
-            raise ValueError(f"{self.what} is a callable, which compiled=True cannot write out: give a SymPy expression in its "
+            raise WrongValue(f"{self.what} is a callable, which compiled=True cannot write out: give a SymPy expression in its "
                              "place, or take compiled=False")
 
     def written(self, equations: Any, x: Iterable[Any]) -> Any:
@@ -221,7 +222,7 @@ def _of(what: str, of: Any) -> Mapping[str, Any]:
     if of is None:
         return {}
     if not isinstance(of, Mapping) or not all(isinstance(name, str) and name.isidentifier() for name in of):
-        raise TypeError(f"of= of {what} must be a dict of measures by the names of its arguments, not {_check.shown(of)}")
+        raise WrongType(f"of= of {what} must be a dict of measures by the names of its arguments, not {_check.shown(of)}")
     return of
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import WrongValue
 from ...systems.autodiff import Jet
 from ..elements.user_functions import Law
 from . import function_code
@@ -101,7 +102,7 @@ class Nonholonomic(Call):
         x, one, other = (np.cos(np.arange(1.0, size + 1.0) + shift) for shift in (0.0, 0.5, 1.5))
         slopes = [np.broadcast_to(self.at(0.3, x, rate).gradient, size) for rate in (one, other)]
         if np.isfinite(slopes).all() and not np.allclose(*slopes, rtol=1e-9, atol=1e-12):
-            raise ValueError(f"{self.law.what} must be linear in measures of velocities, and is not")
+            raise WrongValue(f"{self.law.what} must be linear in measures of velocities, and is not")
 
 
 class Laws:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
 from ..elements.forces import Actuator, Spring
 from ..elements.joints import Joint, is_hinge
@@ -94,9 +95,9 @@ def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any
         owner = elements.get(name.partition(".")[0])
         known = readable(owner) if owner is not None else []
         said = f"; of {owner.name!r} these can be given: {_closest_first(name, known)}" if known else ""
-        raise ValueError(f"{what} names {name!r}, and there is no such measure of positions or velocities{said}")
+        raise WrongValue(f"{what} names {name!r}, and there is no such measure of positions or velocities{said}")
     if value is not None and len(read.quantities) != np.size(value):
-        raise ValueError(f"{what}[{name!r}] must have {len(read.quantities)} components, not {np.size(value)}")
+        raise WrongValue(f"{what}[{name!r}] must have {len(read.quantities)} components, not {np.size(value)}")
     return read
 
 

@@ -9,6 +9,8 @@ import functools
 from collections.abc import Callable
 from typing import Any
 
+from ...errors import WrongValue
+
 DOUBLE = 53         # bits of the numbers that JSON keeps exactly
 SIGNS = {"+": "Add", "*": "Mul", "^": "Pow", "<": "StrictLessThan", "<=": "LessThan", ">": "StrictGreaterThan",
          ">=": "GreaterThan", "=": "Equality", "!=": "Unequality", "and": "And", "or": "Or", "not": "Not", "cases": "Piecewise"}
@@ -39,7 +41,7 @@ def to_json(expression: Any, what: str) -> Any:
     """Expression as lists of words and numbers; errors name its owner `what`."""
     written = _written(expression, what)
     if _in_order(_written(from_json(written, what), what)) != _in_order(written):
-        raise ValueError(f"{what} is an expression that would be simplified where it is read, {expression}: it cannot be saved")
+        raise WrongValue(f"{what} is an expression that would be simplified where it is read, {expression}: it cannot be saved")
     return written
 
 
@@ -66,7 +68,7 @@ def _written(expression: Any, what: str) -> Any:
         return [constants[expression]]
     word = words.get(expression.func)
     if word is None:
-        raise ValueError(f"{what} is an expression with {expression.func.__name__}, and cannot be saved: there are "
+        raise WrongValue(f"{what} is an expression with {expression.func.__name__}, and cannot be saved: there are "
                          f"{', '.join(map(str, words.values()))}")
     if word == "cases":
         return [word, *([_written(value, what), _written(condition, what)] for value, condition in expression.args)]
@@ -78,9 +80,9 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
     import sympy as sp
 
     if depth > DEEPEST:
-        raise ValueError(f"{what} must have at most {DEEPEST} operations within operations")
+        raise WrongValue(f"{what} must have at most {DEEPEST} operations within operations")
     if isinstance(written, bool) or written is None or isinstance(written, dict):
-        raise ValueError(f"{what} has {written!r}, which is not part of an expression")
+        raise WrongValue(f"{what} has {written!r}, which is not part of an expression")
     if isinstance(written, str):
         return sp.Symbol(written)
     if not isinstance(written, list):
@@ -92,7 +94,7 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
     if word == "/" and len(parts) == 2 and all(type(part) is int for part in parts) and parts[1]:
         return sp.Rational(*parts)
     if word not in _operations():
-        raise ValueError(f"{what} has the operation {word!r}; there are {', '.join([*_operations(), *CONSTANTS, '/'])}")
+        raise WrongValue(f"{what} has the operation {word!r}; there are {', '.join([*_operations(), *CONSTANTS, '/'])}")
     if word == "cases" and all(isinstance(part, list) and len(part) == 2 for part in parts):
         read = [tuple(from_json(each, what, depth + 1) for each in part) for part in parts]
     else:
@@ -102,14 +104,14 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
     try:
         return _operations()[word](*read)
     except Exception as error:      # classes of SymPy raise different errors
-        raise ValueError(f"{what} has the operation {word!r} of {', '.join(map(str, read))}, which cannot be: {error}") from None
+        raise WrongValue(f"{what} has the operation {word!r} of {', '.join(map(str, read))}, which cannot be: {error}") from None
 
 
 def _integer(written: int, what: str) -> Any:
     import sympy as sp
 
     if abs(written) > LARGEST:
-        raise ValueError(f"{what} must have whole numbers of at most 1e309, not one of {written.bit_length()} bits")
+        raise WrongValue(f"{what} must have whole numbers of at most 1e309, not one of {written.bit_length()} bits")
     return sp.Integer(written)
 
 
@@ -119,4 +121,4 @@ def _check_power(base: Any, exponent: Any, what: str) -> None:
         return
     bits = max(int(base.p).bit_length(), int(base.q).bit_length())
     if abs(exponent) > LARGEST or (bits > 1 and bits * abs(float(exponent)) > MOST_BITS):
-        raise ValueError(f"{what} must not have the power {base}^{exponent}, whose digits would fill the memory")
+        raise WrongValue(f"{what} must not have the power {base}^{exponent}, whose digits would fill the memory")

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from ..elements.bodies import Point
 from ..elements.frames import Pose3, given_rotation
 from ..elements.immutable import amend
@@ -44,18 +45,18 @@ def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, 
     inertia = None if inertia is None else _matrix("inertia", inertia)
     link = m.link(name, start, end, mass, length=length, thickness=thickness, inertia=inertia, normal=R[:, 2])
     if np.abs(link.pose.rotation - R).max() > SAME:
-        raise ValueError("rotation must have the link along its first column")
+        raise WrongValue("rotation must have the link along its first column")
     amend(link, pose=Pose3(link.pose.origin, R))
 
 
 def _frames(m: Any, first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
     """Frames (3, 3) of a joint in both bodies, checked to be equal in the drawing."""
     if not isinstance(given, list) or len(given) != 2:
-        raise ValueError(f"frames must be two matrices, not {_check.shown(given)}")
+        raise WrongValue(f"frames must be two matrices, not {_check.shown(given)}")
     frames = _rotation("frames[0]", given[0]), _rotation("frames[1]", given[1])
     one, other = (frame @ side.body.pose.rotation.T for frame, side in zip(frames, (first, second), strict=True))
     if np.abs(one - other).max() > SAME:
-        raise ValueError("frames must be the same in the drawing, that of the first body and that of the second")
+        raise WrongValue("frames must be the same in the drawing, that of the first body and that of the second")
     return frames
 
 
@@ -65,7 +66,7 @@ def _joint(kind: str) -> Callable[..., None]:
         sides = m._different(name, *(m._point("a side", place_from_json(m, side)) for side in (first, second)))
         both = _frames(m, *sides, frames)
         if advances(BY_KIND[kind].row) and not _check.number("length", length):
-            raise ValueError("length must not be 0: it is the pitch")
+            raise WrongValue("length must not be 0: it is the pitch")
         made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), *sides, *(both[0][:2] @ sides[0].body.pose.rotation.T),
                                      length=None if length is None else _check.number("length", length), damping=damping)
         amend(made, frames=both, cut=_check.instance("cut", cut, bool, "True or False"))

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import WrongValue
 from ..elements.bodies import Particle, Point, _Center
 from ..elements.drawing import Drawing
 from ..elements.user_functions import Law
@@ -49,4 +50,4 @@ def law_to_json(law: Law) -> Any:
 
 def not_saved(what: str) -> ValueError:
     """Error for a callable."""
-    return ValueError(f"{what} is a callable, which cannot be saved: a SymPy expression in its place can")
+    return WrongValue(f"{what} is a callable, which cannot be saved: a SymPy expression in its place can")

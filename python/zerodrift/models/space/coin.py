@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from ...mechanisms.elements.frames import about
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
@@ -54,9 +55,9 @@ def coin(*, radius: float = 0.012, mass: float = 7.5e-3, incline: float = 0.3, d
     """
     r = _check.number("radius", radius, above=0)
     if not 0 < incline < np.pi / 2:
-        raise ValueError(f"incline must be more than 0 and less than a right angle, {np.pi / 2:g}, not {incline:g}")
+        raise WrongValue(f"incline must be more than 0 and less than a right angle, {np.pi / 2:g}, not {incline:g}")
     if gravity < 0:
-        raise ValueError(f"gravity must be at least 0, not {gravity:g}: the coin lies on the table")
+        raise WrongValue(f"gravity must be at least 0, not {gravity:g}: the coin lies on the table")
     A, m = mass * r**2 / 4, Mechanism("coin", dimension=3, gravity=(0, 0, -gravity))
     turned = about((0, 1, 0), incline)
     body = m.body("coin", mass, (A, A, 2 * A), at=(0, 0, r * np.sin(incline)), rotation=turned)

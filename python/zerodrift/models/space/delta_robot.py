@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
 from .._swing import swing_from
@@ -66,7 +67,7 @@ def delta_robot(*, base_radius: float = 0.2, platform_radius: float = 0.05, arm:
     R, r, L, rod, w = (_check.number(name, length, above=0) for name, length in lengths.items())
     aside = R + L * np.cos(angle) - r
     if not abs(aside) < rod:
-        raise ValueError(f"forearm_length must be more than {abs(aside):g} m to reach the platform, not {rod:g}")
+        raise WrongValue(f"forearm_length must be more than {abs(aside):g} m to reach the platform, not {rod:g}")
     home = np.array([0.0, 0.0, -L * np.sin(angle) - np.sqrt(rod**2 - aside**2)])
     m = Mechanism("delta_robot", dimension=3, gravity=(0, 0, -gravity))
     disc = platform_mass * r**2 / 4

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from ...mechanisms.elements.frames import about
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
@@ -61,7 +62,7 @@ def double_cardan(*, bend: float = 0.5, last_bend: float | None = None, phase: f
     length, last_bend = _check.number("length", length, above=0), -bend if last_bend is None else last_bend
     for name, angle in (("bend", bend), ("last_bend", last_bend)):
         if not abs(angle) < np.pi / 2:
-            raise ValueError(f"{name} must be less than a right angle, {np.pi / 2:g}, not {angle:g}")
+            raise WrongValue(f"{name} must be less than a right angle, {np.pi / 2:g}, not {angle:g}")
     m, up = Mechanism("double_cardan", dimension=3), np.array([0.0, 0.0, 1.0])
     middle, out = (np.array([np.cos(angle), np.sin(angle), 0.0]) for angle in (bend, bend + last_bend))
     joints = np.zeros(3), length * middle

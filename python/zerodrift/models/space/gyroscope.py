@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
 
@@ -85,6 +86,6 @@ def _slow_precession(a: float, b: float, c: float) -> float:
     """The root w of a w^2 + b w = c that is smaller."""
     square = b**2 + 4 * a * c
     if square < 0 or not b:
-        raise ValueError("spin must be faster for a steady precession: "
+        raise WrongValue("spin must be faster for a steady precession: "
                          f"an angular momentum of at least {2 * np.sqrt(max(-a * c, 0.0)):g} N m s about the axle, not {b:g}")
     return 2 * c / (b + np.copysign(np.sqrt(square), b))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ... import _check
+from ...errors import WrongValue
 from ...mechanisms.mechanism import Mechanism
 from .._arguments import checked
 
@@ -57,7 +58,7 @@ def hookes_joint(*, bend: float = 0.6, length: float = 0.5, mass: float = 1.0, l
     """
     length = _check.number("length", length, above=0)
     if not abs(bend) < np.pi / 2:
-        raise ValueError(f"bend must be less than a right angle, {np.pi / 2:g}, not {bend:g}")
+        raise WrongValue(f"bend must be less than a right angle, {np.pi / 2:g}, not {bend:g}")
     m = Mechanism("hookes_joint", dimension=3)
     out = np.array([np.cos(bend), np.sin(bend), 0.0])
     shafts = [m.link("input", (-length, 0, 0), (0, 0, 0), mass), m.link("output", (0, 0, 0), length * out, mass)]

@@ -11,6 +11,7 @@ import sympy
 from sympy.core.function import Application, AppliedUndef
 from sympy.logic.boolalg import BooleanFunction
 
+from ...errors import WrongType, WrongValue
 from .graph import Graph, Node
 from .sympy_functions import REWRITTEN, STEPS, TOTAL, WITHIN, computable
 
@@ -43,11 +44,11 @@ class Reader:
         try:
             given = sympy.sympify(expression, strict=True)      # strings would be evaluated
         except sympy.SympifyError as error:
-            raise TypeError(f"{what} must be a SymPy expression, not {expression!r}") from error
+            raise WrongType(f"{what} must be a SymPy expression, not {expression!r}") from error
         if isinstance(given, sympy.Equality):
             given = given.lhs - given.rhs
         if not isinstance(given, sympy.Expr) or given.is_Matrix:
-            raise TypeError(f"{what} must be a scalar SymPy expression, not {expression!r}")
+            raise WrongType(f"{what} must be a scalar SymPy expression, not {expression!r}")
         return _Reading(self, what, known)(given)
 
     def _slope(self, function: Any, k: int, arguments: tuple[Node, ...]) -> Node:
@@ -113,7 +114,7 @@ class _Reading:
         return node
 
     def refusal(self, expression: Any, why: str) -> ValueError:
-        return ValueError(f"{self._what} has {expression}, {why}")
+        return WrongValue(f"{self._what} has {expression}, {why}")
 
     def _of(self, e: Any) -> Node:
         if e.is_Number or isinstance(e, sympy.NumberSymbol):

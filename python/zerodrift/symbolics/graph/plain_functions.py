@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...errors import WrongType
 from .graph import Graph, Node
 
 
@@ -40,7 +41,7 @@ class Plain:
 
     def read(self, what: str, expression: Any, known: Any) -> Node:
         """Raise TypeError, as expressions need the `Reader` of SymPy."""
-        raise TypeError(f"{what} is an expression, which takes a Reader: {expression}")
+        raise WrongType(f"{what} is an expression, which takes a Reader: {expression}")
 
     def _slope(self, function: Function, k: int, arguments: tuple[Node, ...]) -> Node:
         graph = self.graph
