@@ -96,6 +96,7 @@ int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int
 
 int zd_block_inputs(const zd_block *block);
 const char *zd_block_input_name(const zd_block *block, int input);
+const char *zd_block_input_unit(const zd_block *block, int input);
 double zd_block_input(const zd_block *block, int input);
 /* Sets an input from the next advance of the run on. Returns ZD_DONE, or ZD_BAD_INPUT for an input that does not exist or a value that is
  * not finite. */

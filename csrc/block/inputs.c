@@ -58,6 +58,11 @@ const char *zd_block_input_name(const zd_block *block, int input)
     return zd_is_in(input, zd_block_inputs(block)) ? zd_block_text(&block->layout, *input_of(block, input)) : NULL;
 }
 
+const char *zd_block_input_unit(const zd_block *block, int input)
+{
+    return zd_is_in(input, zd_block_inputs(block)) ? zd_block_text(&block->layout, input_of(block, input)[1]) : NULL;
+}
+
 double zd_block_input(const zd_block *block, int input)
 {
     return zd_is_in(input, zd_block_inputs(block)) ? block->inputs_memory.value[input] : NAN;

@@ -55,7 +55,7 @@ __all__ = [
     "NoCompilerWarning", "Projection", "Run", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed",
     "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError",
     "acceleration", "assemble", "bias", "block", "c_source", "check", "compare", "corrections", "ensemble", "equilibria",
-    "equilibrium", "every", "explore", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators",
+    "equilibrium", "every", "explore", "fmu", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators",
     "inverse_dynamics", "jacobian", "kinematics", "linearize", "linkage", "load", "mass_matrix", "models", "native",
     "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map", "symbolic",
     "systems", "table", "trace", "transmission_angle", "tune", "view", "work_precision",
@@ -63,7 +63,8 @@ __all__ = [
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.methods", "EnergyCorrection": "runs.methods", "Mechanism": "mechanisms.mechanism",
     "Projection": "runs.methods", "Run": "runs.run", "System": "systems.callables", "bias": "analysis.matrices",
-    "block": "export.block", "c_source": "export.c_source", "check": "studies.check", "ensemble": "ensembles.ensemble",
+    "block": "export.block", "c_source": "export.c_source", "check": "studies.check",
+    "ensemble": "ensembles.ensemble", "fmu": "export.fmu",
     "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium", "explore": "player.explore",
     "from_mechanics": "symbolics.mechanics", "get_include": "systems.native", "grid": "ensembles.runs",
     "inverse_dynamics": "analysis.inverse_dynamics", "jacobian": "analysis.matrices", "kinematics": "analysis.kinematics",

@@ -12,7 +12,7 @@ import numpy as np
 from .. import _check
 from .._gateway.mechanisms import blocks
 from .block import Chosen, choose, written
-from .core_files import CoreFiles, entry
+from .core_files import ENTRIES, CoreFiles, entry
 
 
 def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[Any] = (), p0: Any = None, v0: Any = None,
@@ -72,21 +72,21 @@ def write_core(made: Chosen, folder: Path) -> None:
     (folder / "data.h").write_text(data(made), encoding="utf-8")
 
 
-def core_of(made: Chosen) -> CoreFiles:
-    """Files of the core for the methods and the dimension of these choices."""
+def core_of(made: Chosen, more: Sequence[str] = ()) -> CoreFiles:
+    """Files of the core for the methods and the dimension of these choices, and `more` of them."""
     names = blocks.method_names(made.options)
     dimension = {2: "zd_block_plane", 3: "zd_block_space"}[made.system._drawing.dimension]
     return CoreFiles({
         "SYSTEM": (), "FORMULATION": [entry("FORMULATION", *names["formulations"])],
         "INTEGRATOR": [entry("INTEGRATOR", *names["integrators"])],
-        "CORRECTION": [entry("CORRECTION", name) for name in names["corrections"]], "DIMENSION": [dimension]})
+        "CORRECTION": [entry("CORRECTION", name) for name in names["corrections"]], "DIMENSION": [dimension]}, [*ENTRIES, *more])
 
 
 def data(made: Chosen) -> str:
     """Header with the block and its sizes."""
     system, words = made.system, np.frombuffer(written(made), "<u8")
     sizes = [system._watching.core.measure_size(system._watching.number[name]) for name in made.outputs or ()]
-    counts = {"NQ": system.nq, "NV": system.nv, "M": system.m, "OUTPUTS": sum(sizes)}
+    counts = {"NQ": system.nq, "NV": system.nv, "M": system.m, "INPUTS": len(made.inputs), "OUTPUTS": sum(sizes)}
     names = " ".join(f"{name}[{size}]" if size > 1 else name for name, size in zip(made.outputs or (), sizes, strict=True))
     lines = [", ".join(f"0x{word:016x}" for word in words[i:i + 6]) for i in range(0, len(words), 6)]
     return "\n".join([

@@ -104,14 +104,22 @@ class CoreFiles:
         return "\n".join(["/* Entries of the tables of this program. */", "#ifndef ZD_METHODS_H", "#define ZD_METHODS_H", "",
                           *lines, "", "#endif", ""])
 
+    @property
+    def paths(self) -> list[str]:
+        """Sources and headers."""
+        return sorted({*self.sources, *(header for source in self.sources for header in _included(source))})
+
     def write(self, to: Path) -> None:
         """Write sources and headers into a folder."""
-        headers = {header for source in self.sources for header in _included(source)}
-        for path in sorted({*self.sources, *headers}):
+        for path, text in self.texts.items():
             target = to / path
             target.parent.mkdir(parents=True, exist_ok=True)
-            text = self.methods if path == METHODS else (folder() / path).read_text(encoding="utf-8")
             target.write_text(text, encoding="utf-8")
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """Text of each file, by its path."""
+        return {path: self.methods if path == METHODS else (folder() / path).read_text(encoding="utf-8") for path in self.paths}
 
 
 @functools.cache

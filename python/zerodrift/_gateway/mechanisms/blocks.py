@@ -167,6 +167,10 @@ class BlockCore(CoreSystem):
         return {text(lib.zd_block_input_name(self._block, i)): lib.zd_block_input(self._block, i)
                 for i in range(lib.zd_block_inputs(self._block))}
 
+    def input_unit(self, name: str) -> str:
+        """Unit of an input."""
+        return text(lib.zd_block_input_unit(self._block, list(self.inputs).index(name)))
+
     def set_input(self, name: str, value: float) -> None:
         """Sets an input from the next advance on."""
         if lib.zd_block_set_input(self._block, list(self.inputs).index(name), value):

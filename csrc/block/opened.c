@@ -1,0 +1,159 @@
+#include "opened.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../workspace.h"
+
+enum { MESSAGE = 500 };
+static const double SPAN = 1;       /* s: time scale of the checks of the start */
+
+struct zd_opened {
+    zd_block *block;
+    zd_run *run;
+    zd_settings settings;
+    double *p, *v, *vdot, *lambda, *scratch;
+    char message[MESSAGE];
+};
+
+static zd_opened *take(zd_arena *arena, const zd_system *system)
+{
+    zd_opened nowhere, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
+    self->p = zd_take_doubles(arena, (size_t)system->nq);
+    self->v = zd_take_doubles(arena, (size_t)system->nv);
+    self->vdot = zd_take_doubles(arena, (size_t)system->nv);
+    self->lambda = zd_take_doubles(arena, (size_t)(system->mh + system->mn));
+    self->scratch = zd_take_doubles(arena, (size_t)system->measures->scratch);
+    return here;
+}
+
+static zd_opened *allocate(const zd_system *system)
+{
+    zd_arena counting = {NULL, 0};
+    take(&counting, system);
+    zd_arena arena = {zd_allocate(counting.used), 0};
+    return arena.base ? take(&arena, system) : NULL;
+}
+
+static zd_opened *open_run(zd_block *block, double t, char *message, int size)
+{
+    const double *start = zd_block_start(block);
+    zd_opened *self = start ? allocate(zd_block_system(block)) : NULL;
+    if (!self) {
+        snprintf(message, (size_t)size, start ? "there is no memory for the run" : "the block must have a start");
+        return NULL;
+    }
+    self->block = block;
+    int status = zd_block_settings(block, &self->settings, self->message, MESSAGE);
+    self->settings.is_open = 1;
+    if (!status) status = zd_opened_restart(self, t, start, start + zd_block_system(block)->nq);
+    if (!status) return self;
+    snprintf(message, (size_t)size, "%s", self->message);
+    zd_release(self);
+    return NULL;
+}
+
+zd_opened *zd_opened_create(const void *data, size_t size, double t, char *message, int message_size)
+{
+    zd_block *block = zd_block_create(data, size, message, message_size);
+    zd_opened *self = block ? open_run(block, t, message, message_size) : NULL;
+    if (block && !self) zd_block_free(block);
+    return self;
+}
+
+void zd_opened_free(zd_opened *self)
+{
+    if (!self) return;
+    zd_run_free(self->run);
+    zd_block_free(self->block);
+    zd_release(self);
+}
+
+zd_block *zd_opened_block(const zd_opened *self) { return self->block; }
+const zd_run *zd_opened_run(const zd_opened *self) { return self->run; }
+const char *zd_opened_message(const zd_opened *self) { return self->message; }
+
+int zd_opened_restart(zd_opened *self, double t, const double *p, const double *v)
+{
+    int status;
+    zd_settings settings;
+    if (zd_block_settings(self->block, &settings, self->message, MESSAGE)) return ZD_BAD_ARGUMENT;
+    settings = self->settings;
+    settings.t0 = t;
+    settings.t1 = t + SPAN;
+    zd_run *run = zd_run_create(zd_block_system(self->block), &settings, p, v, &status, self->message, MESSAGE);
+    if (!run) return status;
+    zd_run_free(self->run);
+    self->run = run;
+    return ZD_DONE;
+}
+
+int zd_opened_assemble(zd_opened *self, double t, const double *p, const double *v)
+{
+    const zd_system *system = zd_block_system(self->block);
+    memcpy(self->p, p, (size_t)system->nq * sizeof *p);
+    memcpy(self->v, v, (size_t)system->nv * sizeof *v);
+    const int status = zd_project(system, &self->settings, t, self->p, self->v, NULL, NULL, NULL, self->message, MESSAGE);
+    return status ? status : zd_opened_restart(self, t, self->p, self->v);
+}
+
+/* Advances to the goal that was set. */
+static int advance(zd_opened *self, int status)
+{
+    if (!status) do status = zd_run_advance(self->run, NULL, SPAN);
+    while (status == ZD_PAUSED);
+    if (status) snprintf(self->message, MESSAGE, "%s", status == ZD_BAD_ARGUMENT ? "the time must not be before the present one" :
+                         status == ZD_BAD_INPUT ? "inputs must be finite" : zd_run_message(self->run));
+    return status;
+}
+
+int zd_opened_step(zd_opened *self, double steps)
+{
+    if (!(steps >= 0 && steps < 0x1p53)) return advance(self, ZD_BAD_ARGUMENT);
+    return advance(self, zd_run_aim(self->run, (int64_t)steps, INFINITY));
+}
+
+int zd_opened_advance(zd_opened *self, double t)
+{
+    return advance(self, isfinite(t) ? zd_run_aim(self->run, INT64_MAX, t) : ZD_BAD_ARGUMENT);
+}
+
+static int evaluate(zd_opened *self, int measure, const double *vdot, const double *lambda, double *value)
+{
+    const zd_system *system = zd_block_system(self->block);
+    const zd_measured out = {.value = value};
+    return system->measures->evaluate(system->data, NULL, measure, zd_run_time(self->run), zd_run_p(self->run), zd_run_v(self->run), vdot,
+                                      lambda, &out, self->scratch);
+}
+
+int zd_opened_measure(zd_opened *self, int measure, double *value)
+{
+    const zd_measures *measures = zd_block_system(self->block)->measures;
+    if (measure < 0 || measure >= measures->count) return ZD_BAD_ARGUMENT;
+    if (measures->measure[measure].depends != ZD_OF_ACCELERATIONS) return evaluate(self, measure, NULL, NULL, value);
+    const int status = zd_run_accelerations(self->run, self->vdot, self->lambda);
+    return status ? status : evaluate(self, measure, self->vdot, self->lambda, value);
+}
+
+int zd_opened_width(const zd_opened *self)
+{
+    const zd_measures *measures = zd_block_system(self->block)->measures;
+    const zd_outputs *outputs = self->settings.outputs;
+    int width = 0;
+    for (int i = 0; outputs && i < outputs->count; i++) width += measures->measure[outputs->measure[i]].size;
+    return width;
+}
+
+int zd_opened_outputs(zd_opened *self, double *value)
+{
+    const zd_measures *measures = zd_block_system(self->block)->measures;
+    const zd_outputs *outputs = self->settings.outputs;
+    for (int i = 0; outputs && i < outputs->count; i++) {
+        const int status = zd_opened_measure(self, outputs->measure[i], value);
+        if (status) return status;
+        value += measures->measure[outputs->measure[i]].size;
+    }
+    return ZD_DONE;
+}

@@ -1,0 +1,28 @@
+/* The mechanism of a block with its open run, for programs that step it: co-simulation, a page in the browser. */
+#ifndef ZD_BLOCK_OPENED_H
+#define ZD_BLOCK_OPENED_H
+
+#include "block.h"
+
+typedef struct zd_opened zd_opened;
+
+/* Opens a run at time t from the start of the block, which must have one. NULL on failure, with the reason in `message`. */
+zd_opened *zd_opened_create(const void *data, size_t size, double t, char *message, int message_size);
+void zd_opened_free(zd_opened *self);
+zd_block *zd_opened_block(const zd_opened *self);
+/* Begins a new run at (t, p, v), with the inputs as set; on failure the old one stays. */
+int zd_opened_restart(zd_opened *self, double t, const double *p, const double *v);
+/* Projects the state onto the constraints, as after a change of parameters, and begins a new run there. */
+int zd_opened_assemble(zd_opened *self, double t, const double *p, const double *v);
+/* So many steps; or steps to time t. On failure the run stays at its last good state. */
+int zd_opened_step(zd_opened *self, double steps);
+int zd_opened_advance(zd_opened *self, double t);
+const zd_run *zd_opened_run(const zd_opened *self);
+const char *zd_opened_message(const zd_opened *self);      /* the last failure in one sentence */
+/* Values of a measure at the present state: (size,). */
+int zd_opened_measure(zd_opened *self, int measure, double *value);
+/* Number of components of all outputs, and their values in order. */
+int zd_opened_width(const zd_opened *self);
+int zd_opened_outputs(zd_opened *self, double *value);
+
+#endif

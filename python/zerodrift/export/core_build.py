@@ -1,0 +1,53 @@
+"""The core compiled with few of its methods, into one object that is kept in the cache."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from ..errors import CompilationFailed
+from ..symbolics.compile import cache
+from .core_files import CoreFiles
+
+
+def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *, last: Sequence[str], product: str) -> bytes:
+    """Product of the sources of a core: compiled with `options`, and joined by the command with the words `last`.
+
+    Raises
+    ------
+    CompilationFailed
+        With the first message of the compiler.
+    """
+    key = f"core-{cache.digest_of(list(command), list(options), list(last), files.texts)}"
+    found = cache.get(key)
+    if found is None:
+        with tempfile.TemporaryDirectory() as name:
+            found = _made(files, Path(name), command, options, last, product)
+        cache.put(key, found)
+    return found
+
+
+def _made(files: CoreFiles, here: Path, command: Sequence[str], options: Sequence[str], last: Sequence[str],
+          product: str) -> bytes:
+    files.write(here)
+
+    def compile_one(number: int) -> str:
+        run([*command, *options, "-I", str(here), "-c", "-o", f"{number}.o", str(here / files.sources[number])], here)
+        return f"{number}.o"
+
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        objects = list(pool.map(compile_one, range(len(files.sources))))
+    run([*command, *last, "-o", product, *objects], here)
+    return (here / product).read_bytes()
+
+
+def run(line: Sequence[str], here: Path) -> None:
+    """Run a command in a folder; its first message is that of the error."""
+    result = subprocess.run(line, cwd=here, capture_output=True, text=True, check=False)
+    if result.returncode:
+        told = result.stderr.strip().splitlines() or ["it says nothing"]
+        raise CompilationFailed(f"{Path(line[0]).name} must compile the core, and failed: {told[0]}")

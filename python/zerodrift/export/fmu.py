@@ -1,0 +1,259 @@
+"""`zd.fmu`: a mechanism as a functional mock-up unit, for co-simulation in other tools."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import platform
+import re
+import sys
+import tempfile
+import zipfile
+from collections.abc import Sequence
+from importlib import resources
+from pathlib import Path
+from typing import Any, NamedTuple
+from xml.sax.saxutils import quoteattr
+
+from .. import _check, _gateway
+from .._gateway import blocks
+from .._writing import write_whole
+from ..errors import CompilationFailed
+from ..symbolics.compile import compilers
+from . import core_build
+from .block import Chosen, choose, written
+from .c_source import core_of, data
+from .core_files import CoreFiles
+
+VERSIONS = ("3.0", "2.0")
+OPENED = ("block/opened.c",)
+FLAGS = ("-O2", "-std=c11", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden")
+MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
+SYSTEMS = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
+OF_FMI2 = {"linux": "linux64", "darwin": "darwin64", "windows": "win64"}
+UNITS = {"m": 'm="1"', "rad": 'rad="1"', "s": 's="1"', "m/s": 'm="1" s="-1"', "rad/s": 'rad="1" s="-1"', "m/s^2": 'm="1" s="-2"',
+         "rad/s^2": 'rad="1" s="-2"', "N": 'kg="1" m="1" s="-2"', "N m": 'kg="1" m="2" s="-2"', "W": 'kg="1" m="2" s="-3"',
+         "J": 'kg="1" m="2" s="-2"'}
+
+
+class Scalar(NamedTuple):
+    """A variable of an FMU: value reference, name, "input" or "output", unit and start."""
+
+    reference: int
+    name: str
+    causality: str
+    unit: str
+    start: float
+
+
+def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (), outputs: Sequence[Any] = (),
+        version: str = "3.0", p0: Any = None, v0: Any = None, t0: float = 0.0, **chosen: Any) -> Path:
+    """Write a mechanism as a functional mock-up unit (FMU) for co-simulation, as Simulink, Dymola and FMPy import it.
+
+    The file has the mechanism as a block of data (see `block`), the core's sources, and a library for this platform, which the C
+    compiler makes; the core is compiled once for the same methods and kept in the cache. The unit makes fixed steps; if those of
+    the importer are not a whole number of them, the last one is shorter.
+
+    Parameters
+    ----------
+    system : Mechanism or its system
+    path : str or Path
+        The suffix ``.fmu`` is added if it is missing.
+    step : float
+        Size of fixed steps, in s.
+    inputs : list of str
+        Forces, torques and speeds that are set from outside, such as ``"motor.torque"``; they must be given as numbers, which are
+        their initial values. Forces are constant within a step of the importer; speeds are followed linearly over one step.
+    outputs : list of measures or names
+        Measures to read, vectors component by component: ``"pin.force[1]"``.
+    version : {"3.0", "2.0"}
+        Version of the FMI standard.
+    p0, v0, t0, **chosen
+        As in `block`.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    CompilationFailed
+        Without a C compiler, or if it fails.
+    ValueError
+        As `block`; or if this platform has no name in the standard.
+
+    References
+    ----------
+    Functional Mock-up Interface for Model Exchange, Co-Simulation, and Scheduled Execution, version 3.0, https://fmi-standard.org.
+
+    Examples
+    --------
+    >>> import tempfile, zerodrift as zd
+    >>> bar = zd.models.four_bar()
+    >>> with tempfile.TemporaryDirectory() as folder:       # doctest: +SKIP
+    ...     zd.fmu(bar, folder + "/bar.fmu", step=0.001, outputs=["crank.angle"]).name
+    'bar.fmu'
+    """
+    _check.choice("version", version, VERSIONS)
+    made = choose(system, p0, v0, t0, _check.number("step", step, above=0), list(outputs), inputs, chosen)
+    path = Path(path)
+    path = path if path.suffix == ".fmu" else path.with_name(path.name + ".fmu")
+    identifier = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
+    identifier = identifier if identifier[:1].isalpha() else f"m_{identifier}"
+    content = _packed(made, identifier, version, _place(version))
+    write_whole(path, lambda file: file.write(content))
+    return path
+
+
+def _place(version: str) -> tuple[str, str]:
+    """Folder of this platform's library, and its suffix."""
+    machine, known = MACHINES.get(platform.machine().lower()), SYSTEMS.get(sys.platform)
+    if machine is None or known is None or (version == "2.0" and machine != "x86_64"):
+        raise ValueError(f"FMI {version} has no name for this platform, {sys.platform} on {platform.machine()}")
+    return (f"{machine}-{known[0]}" if version == "3.0" else OF_FMI2[known[0]]), known[1]
+
+
+def _packed(made: Chosen, identifier: str, version: str, place: tuple[str, str]) -> bytes:
+    """The zip file."""
+    scalars = _scalars(made)
+    token = "{" + hashlib.sha256(written(made) + version.encode()).hexdigest()[:32] + "}"
+    files = core_of(made, OPENED)
+    own = {f"fmi{version[0]}.c": _text(f"fmi{version[0]}.c"), "fmu.h": _text("fmu.h"),
+           "data.h": f'#define TOKEN "{token}"\n{data(made)}'}
+    description = (_description3 if version == "3.0" else _description2)(made, identifier, token, scalars, files)
+    library = _library(files, own)
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("modelDescription.xml", description)
+        archive.writestr(f"binaries/{place[0]}/{identifier}{place[1]}", library)
+        for name, text in {**files.texts, **own}.items():
+            archive.writestr(f"sources/{name}", text)
+        if version == "3.0":
+            archive.writestr("sources/buildDescription.xml", _build_description(identifier, files))
+    return packed.getvalue()
+
+
+def _text(name: str) -> str:
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def _library(files: CoreFiles, own: dict[str, str]) -> bytes:
+    """Shared library of the core and of these sources."""
+    compiler = compilers.find()
+    if compiler is None or compiler.is_like_msvc:
+        raise CompilationFailed(f"an FMU needs a C compiler with the options of gcc (looked for {compilers.looked_for()})")
+    core = core_build.compiled(files, compiler.command, FLAGS, last=("-r", "-nostdlib"), product="core.o")
+    with tempfile.TemporaryDirectory() as name:
+        here = Path(name)
+        files.write(here)
+        (here / "core.o").write_bytes(core)
+        for file, text in own.items():
+            (here / file).write_text(text, encoding="utf-8")
+        source = next(file for file in own if file.endswith(".c"))
+        core_build.run([*compiler.command, *FLAGS, "-shared", "-I", name, "-o", "library", source, "core.o", "-lm"], here)
+        return (here / "library").read_bytes()
+
+
+# ---- the model description ----
+
+def _scalars(made: Chosen) -> list[Scalar]:
+    """Inputs and outputs with their value references; 0 is time."""
+    core = blocks.BlockCore(written(made))
+    watching, measures = made.system._watching, {measure.name: measure for measure in made.system._watching.core.measures}
+    found = [Scalar(i, name, "input", core.input_unit(name), value) for i, (name, value) in enumerate(core.inputs.items(), 1)]
+    for name in made.outputs or ():
+        size = watching.core.measure_size(watching.number[name])
+        for component in range(size):
+            label = name if size == 1 else f"{name}[{component + 1}]"
+            found.append(Scalar(len(found) + 1, label, "output", measures[name].unit, 0.0))
+    return found
+
+
+def _quoted(name: str) -> str:
+    """Name in the structured convention: parts that are not identifiers stand between apostrophes."""
+    return quoteattr(".".join(map(_part, name.split("."))))
+
+
+def _part(part: str) -> str:
+    if re.fullmatch(r"[A-Za-z_]\w*(\[\d+\])?", part, re.ASCII):
+        return part
+    escaped = part.replace("\\", "\\\\").replace("'", "\\'")
+    return f"'{escaped}'"
+
+
+def _units(scalars: Sequence[Scalar]) -> str:
+    used = sorted({scalar.unit for scalar in scalars} & set(UNITS) | {"s"})
+    lines = "".join(f"    <Unit name={quoteattr(unit)}><BaseUnit {UNITS[unit]}/></Unit>\n" for unit in used)
+    return f"  <UnitDefinitions>\n{lines}  </UnitDefinitions>\n"
+
+
+def _unit(scalar: Scalar) -> str:
+    return f" unit={quoteattr(scalar.unit)}" if scalar.unit in UNITS else ""
+
+
+def _start(scalar: Scalar) -> str:
+    return f" start={quoteattr(repr(scalar.start))}" if scalar.causality == "input" else ""
+
+
+def _heading(made: Chosen, version: str, token: str) -> str:
+    return (f'<?xml version="1.0" encoding="UTF-8"?>\n<fmiModelDescription fmiVersion="{version}" '
+            f'modelName={quoteattr(made.system.name)} {token} '
+            f'generationTool="zerodrift {_gateway.FINGERPRINT[:12]}" variableNamingConvention="structured">\n')
+
+
+def _experiment(made: Chosen) -> str:
+    return f'  <DefaultExperiment startTime="{made.options.t0!r}" stepSize="{made.options.step!r}"/>\n'
+
+
+def _description3(made: Chosen, identifier: str, token: str, scalars: Sequence[Scalar], files: CoreFiles) -> str:
+    variables = "".join(
+        f'    <Float64 name={_quoted(each.name)} valueReference="{each.reference}" causality="{each.causality}" '
+        f'variability="continuous"{_unit(each)}{_start(each)}/>\n' for each in scalars)
+    outputs = [each.reference for each in scalars if each.causality == "output"]
+    structure = "".join(f'    <{kind} valueReference="{reference}"/>\n' for kind in ("Output", "InitialUnknown")
+                        for reference in outputs)
+    return (f"""{_heading(made, "3.0", f"instantiationToken={quoteattr(token)}")}  <CoSimulation modelIdentifier="{identifier}"\
+ canHandleVariableCommunicationStepSize="true"/>
+{_units(scalars)}{_experiment(made)}  <ModelVariables>
+    <Float64 name="time" valueReference="0" causality="independent" variability="continuous" unit="s"/>
+{variables}  </ModelVariables>
+  <ModelStructure>
+{structure}  </ModelStructure>
+</fmiModelDescription>
+""")
+
+
+def _description2(made: Chosen, identifier: str, token: str, scalars: Sequence[Scalar], files: CoreFiles) -> str:
+    variables = "".join(
+        f'    <ScalarVariable name={_quoted(each.name)} valueReference="{each.reference}" causality="{each.causality}" '
+        f'variability="continuous"><Real{_unit(each)}{_start(each)}/>'
+        "</ScalarVariable>\n" for each in scalars)
+    unknowns = "".join(f'      <Unknown index="{i}"/>\n' for i, each in enumerate(scalars, 1) if each.causality == "output")
+    kinds = ("Outputs", "InitialUnknowns") if unknowns else ()
+    structure = "".join(f"    <{kind}>\n{unknowns}    </{kind}>\n" for kind in kinds)
+    sources = "".join(f'      <File name="{name}"/>\n' for name in ["fmi2.c", *files.sources])
+    return (f"""{_heading(made, "2.0", f"guid={quoteattr(token)}")}  <CoSimulation modelIdentifier="{identifier}"\
+ canHandleVariableCommunicationStepSize="true">
+    <SourceFiles>
+{sources}    </SourceFiles>
+  </CoSimulation>
+{_units(scalars)}{_experiment(made)}  <ModelVariables>
+{variables}  </ModelVariables>
+  <ModelStructure>
+{structure}  </ModelStructure>
+</fmiModelDescription>
+""")
+
+
+def _build_description(identifier: str, files: CoreFiles) -> str:
+    sources = "".join(f'      <SourceFile name="{name}"/>\n' for name in ["fmi3.c", *files.sources])
+    return (f"""<?xml version="1.0" encoding="UTF-8"?>
+<fmiBuildDescription fmiVersion="3.0">
+  <BuildConfiguration modelIdentifier="{identifier}">
+    <SourceFileSet language="C11" compilerOptions="-ffp-contract=off">
+{sources}      <IncludeDirectory name="."/>
+    </SourceFileSet>
+  </BuildConfiguration>
+</fmiBuildDescription>
+""")
