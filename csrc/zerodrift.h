@@ -297,6 +297,21 @@ double zd_run_kinetic(const zd_run *run);                   /* J: largest kineti
 double zd_run_energy_error(const zd_run *run);              /* J: largest |Psi_E| (28) of the samples so far */
 double zd_run_omega_h(const zd_run *run);                   /* largest omega h of the motion in any fixed step */
 
+/* ---- many open runs, advanced together ---- */
+
+typedef struct zd_open_runs {
+    int64_t runs;
+    zd_run *const *run;         /* (runs,) open runs of systems of one shape that do not call Python */
+    int *status;                /* (runs,) of the last advance; a run that has failed (negative) is not advanced */
+    double *t, *p, *v;          /* (runs,), (runs, nq), (runs, nv): present states */
+} zd_open_runs;
+
+/* Advances the runs from `first` on, so many steps each, or to a time if that comes first; and stores their states. A run stops at a
+ * terminal event. Several threads may advance different ones at the same time. */
+void zd_open_runs_advance(const zd_open_runs *self, int64_t first, int64_t count, int64_t steps, double t);
+/* Stores the states only. */
+void zd_open_runs_read(const zd_open_runs *self, int64_t first, int64_t count);
+
 /* ---- many runs of one system, whose numbers differ ---- */
 
 enum zd_way { ZD_NOT_BEGUN, ZD_BY_ITSELF, ZD_IN_LANES, ZD_UNUSUAL };     /* execution of a run: none, single, SIMD lanes, left to caller */

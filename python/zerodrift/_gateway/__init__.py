@@ -146,7 +146,7 @@ _LATER = {
                 "has_lanes", "run_batch", "tables_of_kind"),
     "compiled.functions": ("Function", "InLibrary", "SET_SINES_OF_LARGE", "address_of", "find", "in_library", "load_data",
                            "numba_signature", "set_sines_of_large"),
-    "open_runs": ("OpenRun", "STEP", "NO_RECORD", "MOST_STEPS"),
+    "open_runs": ("ManyOpenRuns", "OpenRun", "STEP", "NO_RECORD", "MOST_STEPS"),
     "compiled.native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
 }
 

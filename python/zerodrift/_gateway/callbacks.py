@@ -147,6 +147,8 @@ class PythonCore(CoreSystem):
     on t; unit quaternions begin in p at `quaternions`. With a `packing`, the arrays of A, M and C have what is stored of them.
     """
 
+    calls_python = True
+
     def __init__(self, sizes: tuple[int, int, int, int], names: Iterable[str], write: Callable[..., None],
                  variables: Iterable[Variable], *, timeless: bool = False, quaternions: Sequence[int] = (),
                  packing: Packing | None = None) -> None:

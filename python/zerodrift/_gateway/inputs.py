@@ -40,6 +40,8 @@ class Inputs:
     initial, lower, upper : ndarray (k,)
     bound : sequence of Bound
         Systems with places of these inputs.
+    values : ndarray (k,), optional
+        Memory for the values, which holds the initial ones.
 
     Attributes
     ----------
@@ -48,8 +50,9 @@ class Inputs:
     """
 
     def __init__(self, names: Sequence[str], initial: np.ndarray, lower: np.ndarray, upper: np.ndarray,
-                 bound: Iterable[Bound]) -> None:
-        self.names, self.values, self.lower, self.upper = tuple(names), initial.copy(), lower, upper
+                 bound: Iterable[Bound], values: np.ndarray | None = None) -> None:
+        self.names, self.lower, self.upper = tuple(names), lower, upper
+        self.values = initial.copy() if values is None else values
         self._bound = tuple(bound)
         places = [place for each in self._bound for place in each.places]
         derivations = [each for bound in self._bound for each in bound.derivations]

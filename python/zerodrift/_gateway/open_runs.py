@@ -1,8 +1,8 @@
-"""Open runs of the core: advanced from goal to goal, read between them."""
+"""Open runs of the core: advanced from goal to goal, one or many together, and read between them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -91,3 +91,42 @@ class OpenRun(Run):
                     each.error = None
         if self._watcher:
             self._watcher.error = None
+
+
+class ManyOpenRuns:
+    """Open runs of systems of one shape, which do not call Python.
+
+    Attributes
+    ----------
+    status : ndarray (runs,) of int
+        Of the last advance; a run that has failed, with a negative one, is not advanced.
+    t, p, v : ndarray (runs,), (runs, nq), (runs, nv)
+        Present states.
+    """
+
+    def __init__(self, runs: Sequence[OpenRun]) -> None:
+        self._runs, (nq, nv, _) = list(runs), runs[0].sizes
+        count = len(runs)
+        self.status, self.t = np.zeros(count, dtype=np.intc), np.empty(count)
+        self.p, self.v = np.empty((count, nq)), np.empty((count, nv))
+        self._pointers = ffi.new("zd_run *[]", [run.c for run in runs])
+        self.c = ffi.new("zd_open_runs *", {
+            "runs": count, "run": self._pointers, "status": ffi.from_buffer("int[]", self.status, require_writable=True),
+            "t": doubles(self.t, count, writable=True), "p": doubles(self.p, self.p.size, writable=True),
+            "v": doubles(self.v, self.v.size, writable=True)})
+        self.read()
+
+    def __getitem__(self, i: int) -> OpenRun:
+        return self._runs[i]
+
+    def replace(self, i: int, run: OpenRun) -> None:
+        """Put another run in the place of one."""
+        self._runs[i], self._pointers[i], self.status[i] = run, run.c, 0
+
+    def advance(self, first: int, count: int, steps: int, t: float) -> None:
+        """Advance some of them; the interpreter is free for other threads meanwhile."""
+        lib.zd_open_runs_advance(self.c, first, count, steps, t)
+
+    def read(self) -> None:
+        """Store the present states."""
+        lib.zd_open_runs_read(self.c, 0, len(self._runs))

@@ -74,6 +74,7 @@ class CoreSystem(Measuring):
         self.packing = Packing.of(system.structure)
         self.quaternions = tuple(system.quaternion[i] for i in range(system.quaternions))
 
+    calls_python = False                    # True if the core calls functions written in Python
     error: BaseException | None = None      # what a system written in Python raised
     row_names: ConstraintNames | None = None
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong

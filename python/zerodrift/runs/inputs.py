@@ -21,10 +21,13 @@ class Declared(NamedTuple):
     upper: np.ndarray
     of: WithInputs          # the system that has them
 
-    def bound(self, *cores: Any) -> tuple[_gateway.Inputs, list[Any]]:
-        """Inputs of one run, and its own systems in the place of these; None stays."""
+    def bound(self, *cores: Any, values: np.ndarray | None = None) -> tuple[_gateway.Inputs, list[Any]]:
+        """Inputs of one run, in given memory, and its own systems in the place of these; None stays."""
         found = [None if core is None else self.of.bound(core, self.names) for core in cores]
-        inputs = _gateway.Inputs(self.names, np.array(self.of.initial), self.lower, self.upper, [each for each in found if each])
+        if values is not None:
+            values[:] = self.of.initial
+        inputs = _gateway.Inputs(self.names, np.array(self.of.initial), self.lower, self.upper, [each for each in found if each],
+                                 values)
         return inputs, [each and each.core for each in found]
 
 

@@ -36,6 +36,8 @@ class Prepared(NamedTuple):
     path: Any                       # of the file that samples are written to; None: memory
     declared: Declared | None       # inputs
     inputs: _gateway.Inputs | None
+    source: _gateway.CoreSystem             # core and measured before they became those of one run
+    source_measured: _gateway.CoreSystem | None
 
     @property
     def outputs(self) -> _gateway.Outputs | None:
@@ -83,15 +85,15 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     rows = None if is_open else plan.rows
     watched = _events.events(events, of)
     ready = Prepared(system, span, plan.chosen, plan.options, core, of._watching.core, rows, p0, v0, watched, None, None, path,
-                     declared, None)
+                     declared, None, core, of._watching.core)
     return with_own(ready, of)
 
 
-def with_own(ready: Prepared, of: BaseSystem) -> Prepared:
-    """The same with what belongs to one run: inputs, and records of events and outputs."""
+def with_own(ready: Prepared, of: BaseSystem, values: np.ndarray | None = None) -> Prepared:
+    """The same with what belongs to one run: inputs, whose memory may be given, and records of events and outputs."""
     core, measured, inputs = ready.core, ready.measured, None
     if ready.declared:
-        inputs, (core, measured) = ready.declared.bound(core, measured)
+        inputs, (core, measured) = ready.declared.bound(core, measured, values=values)
     names, recorded = ready.chosen.get("outputs"), None
     if names is not None:
         recorded = _outputs.Recorded(names, of, core, measured if inputs else None)

@@ -51,6 +51,11 @@ class Run:
         True: every sample is kept in memory, for `solution`. A run that records nothing needs the same memory however long it is.
     save_to : str or Path, optional
         File to which samples are written, as of `simulate`; includes `record`.
+    runs : int, optional
+        Number of runs: then a `ManyRuns` is made, which takes `p0` (runs, nq), `v0` (runs, nv), `t0`, `step`, `inputs`,
+        `parameters` and settings except `events` and `outputs`, and has arrays (runs, ...) in the place of numbers.
+    parameters : dict of str to array_like (runs,)
+        With `runs`: parameters of the system in each run.
     **settings
         As of `simulate`: `rtol`, `atol`, `first_step`, `max_step`, `max_move`, `max_steps`, `events`, `formulation`,
         `integrator`, `stabilization`, `energy`, `correction`, `save_every`, `outputs`, `on_singular`, `direct`, `vector`.
@@ -103,12 +108,22 @@ class Run:
     1.0
     """
 
+    def __new__(cls, *given: Any, runs: int | None = None, **named: Any) -> Any:
+        """One run, or with `runs` many of them."""
+        if runs is None:
+            if "parameters" in named:
+                raise TypeError("parameters are for Run(..., runs=k); one run takes system.with_parameters(...)")
+            return object.__new__(cls)
+        from .many_runs import ManyRuns
+
+        return ManyRuns(*given, runs=runs, **named)
+
     def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = None,
                  inputs: Any = None, control: Any = None, record: bool = False, save_to: Any = None, events: Any = None,
                  outputs: Any = None, **settings: Any) -> None:
         t0 = _check.number("t0", t0)
         nominal = NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0)
-        ready = prepared(system, (t0, t0 + nominal), p0, v0, events, outputs, save_to, {"step": step, **_known(settings)},
+        ready = prepared(system, (t0, t0 + nominal), p0, v0, events, outputs, save_to, {"step": step, **known_settings(settings)},
                          inputs=inputs, is_open=True, stacklevel=2)
         self._begin(ready, controls(control))
         self._lock = recording.locked(ready.path)
@@ -419,7 +434,7 @@ class Run:
         self.close()
 
 
-def _known(settings: dict[str, Any]) -> dict[str, Any]:
+def known_settings(settings: dict[str, Any]) -> dict[str, Any]:
     """All settings of `simulate` besides the step: given ones, and the defaults."""
     for name in settings:
         if name not in ARGUMENTS_OF_PLAN:

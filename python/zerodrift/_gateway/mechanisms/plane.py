@@ -15,7 +15,7 @@ from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
 from ..measures import Components, components, given
 from ..systems import CoreSystem
 from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
-from .law_owner import Law, LawOwner, compiled_table
+from .law_owner import Law, LawOwner, calls_python, compiled_table
 
 QUANTITY_KINDS = {"x": lib.ZD_PLANE_X, "y": lib.ZD_PLANE_Y, "angle": lib.ZD_PLANE_ANGLE, "along": lib.ZD_PLANE_ALONG,
                   "across": lib.ZD_PLANE_ACROSS, "distance": lib.ZD_PLANE_DISTANCE, "glide": lib.ZD_PLANE_GLIDE,
@@ -230,6 +230,11 @@ class MechanismCore(CoreSystem):
         mine.c = ffi.new("zd_system *", self.c[0])
         mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
         return mine
+
+    @property
+    def calls_python(self) -> bool:
+        """True if it has laws that are not compiled, and terms that call them."""
+        return calls_python(self, law_sizes(self.tables))
 
     @property
     def error(self) -> BaseException | None:

@@ -16,7 +16,7 @@ from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
 from ..measures import Components, components
 from ..systems import CoreSystem
 from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
-from .law_owner import Law, LawOwner, compiled_table
+from .law_owner import Law, LawOwner, calls_python, compiled_table
 from .plane import Coordinate
 
 QUANTITY_KINDS = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
@@ -206,6 +206,11 @@ class SpaceCore(CoreSystem):
     def components(self, p: np.ndarray, v: np.ndarray, which: Sequence[tuple[int, int]]) -> Components:
         """Components of measures: see `Components`."""
         return components(lib.zd_space_components, self._mechanism, self, 6, p, v, which)
+
+    @property
+    def calls_python(self) -> bool:
+        """True if it has laws that are not compiled, and terms that call them."""
+        return calls_python(self, law_sizes(self.tables))
 
     @property
     def error(self) -> BaseException | None:

@@ -1,0 +1,258 @@
+"""Many open runs of one system that are advanced together, as learning needs them."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+
+from .. import _check, _gateway
+from ..systems.base import BaseSystem, direct_core_of
+from .inputs import declared as declared_inputs
+from .opening import Prepared, prepared, with_own
+from .reading import Reading
+from .run import NOMINAL_SPAN, NOMINAL_STEPS, known_settings
+from .threads import processors
+
+SMALLEST_PART = 64      # runs of a thread; fewer are advanced sooner than a thread is told
+
+
+class ManyRuns:
+    """Many open runs of one system, advanced together; ``Run(system, runs=...)`` makes them.
+
+    Each has the bits that it has alone. They execute in one thread per available processor if the system does not call Python.
+
+    Attributes
+    ----------
+    system : system
+    settings : dict
+        Settings by name.
+    inputs : ndarray (runs, k)
+        Inputs in the order of their names; writable. They hold from the next step on.
+
+    See Also
+    --------
+    Run : one of them, with all arguments.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import zerodrift as zd
+    >>> m = zd.Mechanism("arm")
+    >>> arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    >>> drive = m.motor("drive", m.revolute("pin", m.ground, arm.start), torque=0.0)
+    >>> runs = zd.Run(m, runs=4, step=0.01, inputs=["drive.torque"])
+    >>> runs["drive.torque"] = [0.0, 1.0, 2.0, 3.0]
+    >>> runs.step(100)
+    >>> runs["pin.speed"].round(6)
+    array([0., 1., 2., 3.])
+    >>> runs.reset(where=runs["pin.speed"] > 1.5)
+    >>> runs.t
+    array([1., 1., 0., 0.])
+    """
+
+    def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, runs: int, parameters: Any = None, t0: float = 0.0,
+                 step: float | None = None, inputs: Any = None, **settings: Any) -> None:
+        t0, count = _check.number("t0", t0), _check.count("runs", runs)
+        nominal = NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0)
+        first = [_first(name, each, count) for name, each in (("p0", p0), ("v0", v0))]
+        ready = prepared(system, (t0, t0 + nominal), *first, None, None, None, {"step": step, **known_settings(settings)},
+                         inputs=inputs, is_open=True)
+        self.system, self.settings = ready.system, ready.chosen
+        self.inputs = np.zeros((count, len(ready.declared.names) if ready.declared else 0))
+        self._places = {name: i for i, name in enumerate(ready.declared.names)} if ready.declared else {}
+        self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), inputs, self.inputs)
+        self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready])
+        self._parts, self._pool = _parts(count, 1 if ready.core.calls_python else processors()), None
+        self._readings: dict[int, Reading] = {}
+
+    def __len__(self) -> int:
+        return len(self._ready)
+
+    # ---- advance ----
+
+    def step(self, steps: int = 1) -> None:
+        """Make steps in every run that has not failed.
+
+        A run that fails stays at the start of the step that failed, and is not advanced until it is reset; see `failed` and
+        `messages`.
+
+        Parameters
+        ----------
+        steps : int
+            Their number, at least 0.
+        """
+        self._advance(_check.count("steps", steps, least=0), math.inf)
+
+    def advance_to(self, t: float) -> None:
+        """Advance every run that has not failed to a time in s, as `Run.advance_to`; later ones fail."""
+        self._advance(_gateway.MOST_STEPS, _check.number("t", t))
+
+    def _advance(self, steps: int, t: float) -> None:
+        core, (first, *others) = self._core, self._parts
+        if not others:
+            core.advance(*first, steps, t)
+            return
+        if self._pool is None:
+            self._pool = ThreadPoolExecutor(len(others))
+        waiting = [self._pool.submit(core.advance, *part, steps, t) for part in others]
+        core.advance(*first, steps, t)
+        for each in waiting:
+            each.result()
+
+    # ---- read ----
+
+    @property
+    def t(self) -> np.ndarray:
+        """Present times (runs,), in s; a copy."""
+        return self._core.t.copy()
+
+    @property
+    def p(self) -> np.ndarray:
+        """Coordinates (runs, nq); a copy."""
+        return self._core.p.copy()
+
+    @property
+    def v(self) -> np.ndarray:
+        """Velocities (runs, nv); a copy."""
+        return self._core.v.copy()
+
+    @property
+    def failed(self) -> np.ndarray:
+        """True for each run (runs,) that has failed."""
+        return self._core.status < 0
+
+    @property
+    def messages(self) -> list[str]:
+        """Message of each run that has failed, and "" of the others."""
+        return [self._core[i].message if failed else "" for i, failed in enumerate(self.failed.tolist())]
+
+    def __getitem__(self, name: Any) -> np.ndarray:
+        """Value in every run (runs,), or of a vector (runs, 2) or (runs, 3), by name, as of `Run`."""
+        name = getattr(name, "name", name)
+        if name in self._places:
+            return self.inputs[:, self._places[name]].copy()
+        found = self.system._columns_of.get(name, ()) if self.system._watching.find(name) is None else ()
+        if len(found) == 1 and found[0][0] < 2:
+            group, column = found[0]
+            return (self._core.v if group else self._core.p)[:, column].copy()
+        return np.array([self._reading(i)(name) for i in range(len(self))])
+
+    def _reading(self, i: int) -> Reading:
+        if i not in self._readings:
+            ready = self._ready[i]
+            of = ready.declared.of.system if ready.declared else ready.system
+            self._readings[i] = Reading(of, self._core[i], ready.measured)
+        return self._readings[i]
+
+    def __setitem__(self, name: Any, values: Any) -> None:
+        """Set an input in every run, from the next step on: a number, or an array (runs,)."""
+        name = getattr(name, "name", name)
+        if name not in self._places:
+            raise KeyError(f"nothing but inputs can be set, and {name!r} is none; {_check.closest(name, self._places)}"
+                           if self._places else f"nothing but inputs can be set, and there are none: Run(..., inputs=[{name!r}])")
+        self.inputs[:, self._places[name]] = values
+
+    def __repr__(self) -> str:
+        core, failed = self._core, int(self.failed.sum())
+        return (f"{len(self)} runs of {self.system.name}: t = {core.t.min():.9g} ... {core.t.max():.9g} s, "
+                f"{failed or 'none'} failed")
+
+    # ---- reset ----
+
+    def reset(self, p0: Any = None, v0: Any = None, *, where: Any = None) -> None:
+        """Put runs back to t0, with their first inputs.
+
+        Parameters
+        ----------
+        p0, v0 : array_like (nq,), (nv,), or of each run that is reset (k, nq), (k, nv)
+            Other starts; left out: the first ones. They must satisfy the constraints.
+        where : array_like (runs,) of bool, optional
+            True for the k runs to reset; left out: all.
+        """
+        places = np.flatnonzero(_mask(where, len(self)))
+        states = _check_states(self._ready[0], p0, v0, len(places))
+        for i, (p, v) in zip(places.tolist(), states, strict=True):
+            ready = self._ready[i]
+            if ready.inputs:
+                ready = self._ready[i] = with_own(ready._replace(core=ready.source, measured=ready.source_measured),
+                                                  ready.declared.of.system, self.inputs[i])
+            start = ready._replace(p0=ready.p0 if p is None else p, v0=ready.v0 if v is None else v)
+            self._core.replace(i, start.created(_gateway.OpenRun))
+            self._readings.pop(i, None)
+        self._core.read()
+
+
+def _parts(count: int, threads: int) -> list[tuple[int, int]]:
+    """Runs of each thread: the first one, and their number."""
+    parts = max(1, min(threads, count // SMALLEST_PART))
+    ends = [count * i // parts for i in range(parts + 1)]
+    return [(begin, end - begin) for begin, end in itertools.pairwise(ends)]
+
+
+def _first(name: str, given: Any, count: int) -> Any:
+    """The start of the first run, where starts differ."""
+    if given is None or not isinstance(given, np.ndarray | list | tuple) or np.ndim(given) != 2:
+        return given
+    if len(given) != count:
+        raise ValueError(f"{name} must have {count} rows, one for each run, not {len(given)}")
+    return given[0]
+
+
+def _check_states(ready: Prepared, p0: Any, v0: Any, count: int) -> list[tuple[Any, Any]]:
+    """Starts (p, v) of each run; None where they are not given."""
+    columns = []
+    for name, given, size in (("p0", p0, len(ready.p0)), ("v0", v0, len(ready.v0))):
+        if given is None or not isinstance(given, np.ndarray | list | tuple):
+            columns.append([None] * count)
+            continue
+        array = _check.real(f"{name} must hold", given).astype(float)
+        if array.shape not in ((size,), (count, size)):
+            raise ValueError(f"{name} must have shape ({size},) or ({count}, {size}), not {array.shape}")
+        columns.append(list(np.broadcast_to(array, (count, size)).copy()))
+    return list(zip(*columns, strict=True))
+
+
+def _tables(parameters: Any, count: int) -> list[dict[str, Any]]:
+    """Parameters of each run, by name."""
+    given = _check.parameters(parameters)
+    for name, values in given.items():
+        if np.ndim(values) and len(values) != count:
+            raise ValueError(f"parameter {name!r} must be a number or have {count} values, one for each run, not {len(values)}")
+    return [{name: values[i] if np.ndim(values) else values for name, values in given.items()} for i in range(count)]
+
+
+def _mask(where: Any, count: int) -> np.ndarray:
+    if where is None:
+        return np.ones(count, dtype=bool)
+    mask = np.asarray(where)
+    if mask.shape != (count,) or mask.dtype != bool:
+        raise ValueError(f"where must be {count} values True or False, not {_check.shown(where)}")
+    return mask
+
+
+def _of_each(ready: Prepared, count: int, tables: list[dict[str, Any]], states: list[tuple[Any, Any]], inputs: Any,
+             values: np.ndarray) -> list[Prepared]:
+    """Arguments of each run, with its own parameters, start and inputs."""
+    found = []
+    for i in range(count):
+        mine = _with_parameters(ready, tables[i], inputs) if tables[i] else ready._replace(core=ready.source,
+                                                                                            measured=ready.source_measured)
+        p, v = states[i]
+        mine = mine._replace(p0=mine.p0 if p is None else p, v0=mine.v0 if v is None else v)
+        of: BaseSystem = mine.declared.of.system if mine.declared else mine.system
+        found.append(with_own(mine, of, values[i] if mine.declared else None))
+    return found
+
+
+def _with_parameters(ready: Prepared, parameters: dict[str, Any], inputs: Any) -> Prepared:
+    system = ready.system.with_parameters(parameters)
+    declared = declared_inputs(inputs, system)
+    of = declared.of.system if declared else system
+    core = direct_core_of(of, ready.chosen["vector"] or "baseline", ready.options)
+    p0, v0 = of._state_or_start(None, None, t=ready.span[0]) if system.p0 is not None else (ready.p0, ready.v0)
+    return ready._replace(system=system, core=core, measured=of._watching.core, source=core, source_measured=of._watching.core,
+                          declared=declared, p0=p0, v0=v0)

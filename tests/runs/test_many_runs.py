@@ -1,0 +1,105 @@
+"""Many open runs: each has the bits that it has alone, fails alone and is reset alone."""
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+
+
+def cart_pole(**parameters):
+    """A cart on a rail with a pole on it, whose cart a force drives."""
+    m = zd.Mechanism("cart-pole", gravity=(0, -9.81))
+    cart = m.link("cart", (0, 0), (0.2, 0), mass=1.0)
+    slide = m.prismatic("slide", m.ground, cart.start, axis=(1, 0))
+    pole = m.link("pole", (0, 0), (0, 1), mass=0.1)
+    m.revolute("hinge", cart.start, pole.start)
+    m.motor("drive", slide, force=0.0)
+    return m
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+@pytest.mark.parametrize("runs", [3, 150])
+def test_each_run_has_the_bits_that_it_has_alone(compiled, runs):
+    """Of 150 runs there are several parts, for threads."""
+    system, force = cart_pole().system(compiled=compiled), np.random.default_rng(1).uniform(-10, 10, (10, runs))
+    p0 = np.random.default_rng(2).uniform(-0.1, 0.1, (runs, 2))
+    many = zd.Run(system, p0, runs=runs, step=0.02, inputs=["drive.force"])
+    for values in force:
+        many["drive.force"] = values
+        many.step(3)
+    for i in (0, runs // 2, runs - 1):
+        one = zd.Run(system, p0[i], step=0.02, inputs=["drive.force"])
+        for value in force[:, i]:
+            one["drive.force"] = value
+            one.step(3)
+        assert np.array_equal(many.p[i], one.p)
+        assert np.array_equal(many.v[i], one.v)
+        assert many.t[i] == one.t
+        assert many["hinge.force"][i].tolist() == pytest.approx(one["hinge.force"].tolist(), rel=1e-12)
+
+
+def test_parameters_differ_between_runs():
+    masses = np.array([0.1, 0.2, 0.4])
+    many = zd.Run(cart_pole().system(compiled=True), runs=3, step=0.01, parameters={"pole.mass": masses}, inputs=["drive.force"])
+    many["drive.force"] = 1.0
+    many.step(50)
+    for i, mass in enumerate(masses):
+        one = zd.Run(cart_pole().system(compiled=True).with_parameters({"pole.mass": mass}), step=0.01, inputs=["drive.force"])
+        one["drive.force"] = 1.0
+        one.step(50)
+        assert np.array_equal(many.p[i], one.p)
+    with pytest.raises(ValueError, match="must be a number or have 3 values"):
+        zd.Run(cart_pole(), runs=3, step=0.01, parameters={"pole.mass": [1.0, 2.0]})
+
+
+def test_runs_are_reset_by_a_mask():
+    many = zd.Run(cart_pole(), runs=4, step=0.01, inputs=["drive.force"])
+    many["drive.force"] = [1.0, 2.0, 3.0, 4.0]
+    many.step(10)
+    p = many.p
+    many.reset(where=np.array([False, True, False, True]))
+    assert many.t.tolist() == pytest.approx([0.1, 0.0, 0.1, 0.0])
+    assert many["drive.force"].tolist() == [1.0, 0.0, 3.0, 0.0]
+    assert np.array_equal(many.p[[0, 2]], p[[0, 2]])
+    many["drive.force"] = [1.0, 2.0, 3.0, 4.0]
+    many.step(10)
+    assert np.array_equal(many.p[[1, 3]], p[[1, 3]])
+    many.reset(p0=[[0.5, 0.0]], where=np.array([True, False, False, False]))
+    assert many.p[0].tolist() == [0.5, 0.0]
+    with pytest.raises(ValueError, match="where must be 4 values True or False"):
+        many.reset(where=[True])
+    with pytest.raises(ValueError, match=r"p0 must have shape \(2,\) or \(4, 2\)"):
+        many.reset(p0=[1.0])
+
+
+def test_a_run_that_fails_stays_and_the_others_go_on():
+    many = zd.Run(cart_pole(), runs=3, step=0.01, inputs={"drive.force": (-10.0, 10.0)})
+    many["drive.force"] = [1.0, 11.0, np.nan]
+    many.step(5)
+    assert many.failed.tolist() == [False, True, True]
+    assert many.t.tolist() == pytest.approx([0.05, 0.0, 0.0])
+    assert "between -10 and 10, not 11" in many.messages[1]
+    assert "must be finite" in many.messages[2]
+    assert "2 failed" in repr(many)
+    many.reset(where=many.failed)
+    many.step(5)
+    assert not many.failed.any()
+    assert many.t.tolist() == pytest.approx([0.1, 0.05, 0.05])
+
+
+def test_systems_in_python_can_be_many():
+    system = zd.System(["x"], mass=np.eye(1), force=lambda u: u, parameters={"u": np.zeros(1)}, p0=[0.0])
+    many = zd.Run(system, runs=3, step=0.1, inputs=["u[0]"])
+    many["u[0]"] = [0.0, 1.0, 2.0]
+    many.advance_to(1.0)
+    assert np.allclose(many.p[:, 0], [0.0, 0.5, 1.0], rtol=1e-12)
+
+
+def test_wrong_arguments_of_many_runs_are_refused():
+    with pytest.raises(TypeError, match="parameters are for Run"):
+        zd.Run(cart_pole(), step=0.01, parameters={"pole.mass": 1.0})
+    with pytest.raises(ValueError, match="runs must be between 1"):
+        zd.Run(cart_pole(), runs=0, step=0.01)
+    many = zd.Run(cart_pole(), runs=2, step=0.01)
+    with pytest.raises(KeyError, match="there are none"):
+        many["drive.force"] = 1.0
