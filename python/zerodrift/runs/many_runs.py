@@ -12,9 +12,8 @@ import numpy as np
 from .. import _check, _gateway
 from ..systems.base import BaseSystem, direct_core_of
 from .inputs import declared as declared_inputs
-from .opening import Prepared, prepared, with_own
+from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
-from .run import NOMINAL_SPAN, NOMINAL_STEPS, known_settings
 from .threads import processors
 
 SMALLEST_PART = 64      # runs of a thread; fewer are advanced sooner than a thread is told
@@ -57,9 +56,8 @@ class ManyRuns:
     def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, runs: int, parameters: Any = None, t0: float = 0.0,
                  step: float | None = None, inputs: Any = None, **settings: Any) -> None:
         t0, count = _check.number("t0", t0), _check.count("runs", runs)
-        nominal = NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0)
         first = [_first(name, each, count) for name, each in (("p0", p0), ("v0", v0))]
-        ready = prepared(system, (t0, t0 + nominal), *first, None, None, None, {"step": step, **known_settings(settings)},
+        ready = prepared(system, nominal_span(t0, step), *first, None, None, None, {"step": step, **known_settings(settings)},
                          inputs=inputs, is_open=True)
         self.system, self.settings = ready.system, ready.chosen
         self.inputs = np.zeros((count, len(ready.declared.names) if ready.declared else 0))

@@ -7,15 +7,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _gateway
-from ..errors import CostWarning, SingularSystem, WrongValue, advised
+from .. import _check, _gateway
+from ..errors import CostWarning, SingularSystem, WrongType, WrongValue, advised
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from . import evaluation_path, recording, settings
 from . import events as _events
 from . import outputs as _outputs
 from .inputs import Declared
 from .inputs import declared as declared_inputs
+from .settings import ARGUMENTS_OF_PLAN
 from .start import start_of
+
+NOMINAL_STEPS = 1000    # of the span that serves the checks of the start as a scale of time, with fixed steps
+NOMINAL_SPAN = 1.0      # s: the same with adaptive steps
 
 
 class Prepared(NamedTuple):
@@ -108,3 +112,16 @@ def _check_speeds(declared: Declared, step: float | None) -> None:
     for name in declared.names:
         if step is None and name.endswith(".speed"):
             raise WrongValue(f"input {name!r} needs fixed steps, over one of which it is followed: give step=")
+
+
+def nominal_span(t0: float, step: Any) -> tuple[float, float]:
+    """Time span of a run without an end, which serves the checks of its start."""
+    return t0, t0 + (NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0))
+
+
+def known_settings(settings: dict[str, Any]) -> dict[str, Any]:
+    """All settings of `simulate` besides the step: given ones, and the defaults."""
+    for name in settings:
+        if name not in ARGUMENTS_OF_PLAN:
+            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}")
+    return {"t_eval": None, **ARGUMENTS_OF_PLAN, **settings}

@@ -15,15 +15,12 @@ from . import diagnosis, recording
 from .control import Sampling, controls
 from .ending import Outcome, finish_file, solution_of, with_solution
 from .inputs import History
-from .opening import Prepared, prepared
+from .opening import Prepared, known_settings, nominal_span, prepared
 from .reading import Reading
 from .run_summary import run_summary
-from .settings import ARGUMENTS_OF_PLAN
 from .solution import Solution
 
 SLICE = 0.03            # seconds that the core runs between two looks at the keyboard
-NOMINAL_STEPS = 1000    # of the span that serves the checks of the start as a scale of time, with fixed steps
-NOMINAL_SPAN = 1.0      # s: the same with adaptive steps
 
 
 class Run:
@@ -122,9 +119,8 @@ class Run:
                  inputs: Any = None, control: Any = None, record: bool = False, save_to: Any = None, events: Any = None,
                  outputs: Any = None, **settings: Any) -> None:
         t0 = _check.number("t0", t0)
-        nominal = NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0)
-        ready = prepared(system, (t0, t0 + nominal), p0, v0, events, outputs, save_to, {"step": step, **known_settings(settings)},
-                         inputs=inputs, is_open=True, stacklevel=2)
+        arguments = {"step": step, **known_settings(settings)}
+        ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to, arguments, inputs=inputs, is_open=True)
         self._begin(ready, controls(control))
         self._lock = recording.locked(ready.path)
         self._lock.__enter__()
@@ -432,11 +428,3 @@ class Run:
         if self._record is not None and self._ready.path:
             finish_file(self._record, self._solution(Outcome(_gateway.DONE, self._seconds, None)), None)
         self.close()
-
-
-def known_settings(settings: dict[str, Any]) -> dict[str, Any]:
-    """All settings of `simulate` besides the step: given ones, and the defaults."""
-    for name in settings:
-        if name not in ARGUMENTS_OF_PLAN:
-            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}")
-    return {"t_eval": None, **ARGUMENTS_OF_PLAN, **settings}
