@@ -20,7 +20,7 @@ def cart_pole(**parameters):
 @pytest.mark.parametrize("compiled", [False, True])
 @pytest.mark.parametrize("runs", [3, 150])
 def test_each_run_has_the_bits_that_it_has_alone(compiled, runs):
-    """Of 150 runs there are several parts, for threads."""
+    """150 runs are advanced in several parts, by threads."""
     system, force = cart_pole().system(compiled=compiled), np.random.default_rng(1).uniform(-10, 10, (10, runs))
     p0 = np.random.default_rng(2).uniform(-0.1, 0.1, (runs, 2))
     many = zd.Run(system, p0, runs=runs, step=0.02, inputs=["drive.force"])

@@ -16,7 +16,7 @@ from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
 from .threads import processors
 
-SMALLEST_PART = 64      # runs of a thread; fewer are advanced sooner than a thread is told
+SMALLEST_PART = 64      # minimum number of runs in a thread
 
 
 class ManyRuns:
