@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
+from ..errors import WrongName, WrongValue
 from ..systems.base import BaseSystem, direct_core_of
 from .inputs import declared as declared_inputs
 from .opening import Prepared, known_settings, nominal_span, prepared, with_own
@@ -150,7 +151,7 @@ class ManyRuns:
         """Set an input in every run, from the next step on: a number, or an array (runs,)."""
         name = getattr(name, "name", name)
         if name not in self._places:
-            raise KeyError(f"nothing but inputs can be set, and {name!r} is none; {_check.closest(name, self._places)}"
+            raise WrongName(f"nothing but inputs can be set, and {name!r} is none; {_check.closest(name, self._places)}"
                            if self._places else f"nothing but inputs can be set, and there are none: Run(..., inputs=[{name!r}])")
         self.inputs[:, self._places[name]] = values
 
@@ -196,7 +197,7 @@ def _first(name: str, given: Any, count: int) -> Any:
     if given is None or not isinstance(given, np.ndarray | list | tuple) or np.ndim(given) != 2:
         return given
     if len(given) != count:
-        raise ValueError(f"{name} must have {count} rows, one for each run, not {len(given)}")
+        raise WrongValue(f"{name} must have {count} rows, one for each run, not {len(given)}")
     return given[0]
 
 
@@ -209,7 +210,7 @@ def _check_states(ready: Prepared, p0: Any, v0: Any, count: int) -> list[tuple[A
             continue
         array = _check.real(f"{name} must hold", given).astype(float)
         if array.shape not in ((size,), (count, size)):
-            raise ValueError(f"{name} must have shape ({size},) or ({count}, {size}), not {array.shape}")
+            raise WrongValue(f"{name} must have shape ({size},) or ({count}, {size}), not {array.shape}")
         columns.append(list(np.broadcast_to(array, (count, size)).copy()))
     return list(zip(*columns, strict=True))
 
@@ -219,7 +220,7 @@ def _tables(parameters: Any, count: int) -> list[dict[str, Any]]:
     given = _check.parameters(parameters)
     for name, values in given.items():
         if np.ndim(values) and len(values) != count:
-            raise ValueError(f"parameter {name!r} must be a number or have {count} values, one for each run, not {len(values)}")
+            raise WrongValue(f"parameter {name!r} must be a number or have {count} values, one for each run, not {len(values)}")
     return [{name: values[i] if np.ndim(values) else values for name, values in given.items()} for i in range(count)]
 
 
@@ -228,7 +229,7 @@ def _mask(where: Any, count: int) -> np.ndarray:
         return np.ones(count, dtype=bool)
     mask = np.asarray(where)
     if mask.shape != (count,) or mask.dtype != bool:
-        raise ValueError(f"where must be {count} values True or False, not {_check.shown(where)}")
+        raise WrongValue(f"where must be {count} values True or False, not {_check.shown(where)}")
     return mask
 
 

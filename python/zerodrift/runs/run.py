@@ -109,7 +109,7 @@ class Run:
         """One run, or with `runs` many of them."""
         if runs is None:
             if "parameters" in named:
-                raise TypeError("parameters are for Run(..., runs=k); one run takes system.with_parameters(...)")
+                raise WrongType("parameters are for Run(..., runs=k); one run takes system.with_parameters(...)")
             return object.__new__(cls)
         from .many_runs import ManyRuns
 
