@@ -83,7 +83,7 @@ def test_an_equilibrium_is_a_start(layout):
         assert np.abs(sol["crank.angle"] - eq["crank.angle"]).max() < 1e-11
     with pytest.raises(TypeError, match="v0 must be left out"):
         zd.simulate(m, 0.2, eq, np.zeros(3), step=0.01)
-    with pytest.raises(ValueError, match="p0 must be an equilibrium of closed_pendulum"):
+    with pytest.raises(ValueError, match="p0 must be an equilibrium or an instant of closed_pendulum"):
         zd.simulate(zd.models.closed_pendulum(), 0.2, eq, step=0.01)
 
 

@@ -21,6 +21,7 @@ from .state import State
 SYMMETRIC = 1e-7        # of the largest stiffness: forces with a potential
 ASIDE = 0.05        # in characteristic scales: distance at which a free direction is verified
 SHOWN = 8
+ROUNDING = 1e-12        # of the largest reaction: a smaller one is printed as zero
 REACTIONS = (".force", ".torque", ".tension")
 
 
@@ -92,19 +93,25 @@ class Equilibrium(Reading):
 
     def _reactions(self) -> list[str]:
         names = [name for name in self.system._names_of_measures() if name.endswith(REACTIONS)]
-        shown = [f"{name} = {_shown(self[name])} {self.system._watching.unit(name)}" for name in names[:2 * SHOWN]]
+        values = [np.asarray(self[name]) for name in names[:2 * SHOWN]]
+        least = ROUNDING * max((float(np.abs(value).max(initial=0.0)) for value in values), default=0.0)
+        values = [np.where(np.abs(value) < least, 0.0, value) for value in values]
+        units = (self.system._watching.unit(name) for name in names)
+        shown = [f"{name} = {_shown(value)} {unit}" for name, value, unit in zip(names, values, units, strict=False)]
         return [f"  {'reactions' if not i else '':18}{each}" for i, each in enumerate(shown)]
 
 
 def _shown(value: Any) -> str:
-    return np.array2string(np.asarray(value), precision=6, suppress_small=True) if np.ndim(value) else f"{float(value):.6g}"
+    if np.ndim(value) == 0:
+        return f"{float(value):.6g}"
+    return np.array2string(np.round(value, 6) + 0.0, precision=6, suppress_small=True)      # + 0.0: no zero has a sign
 
 
 def at_rest(balance: Balance, iterations: int, how: str) -> Equilibrium:
     """The result for a balance at rest."""
     at, m, k = balance.at, balance.at.system.m, balance.V.shape[1]
     K, D = balance.stiffness, balance.damping
-    spectrum = of_matrix(np.block([[np.zeros((k, k)), np.eye(k)], [-K, -D]]))
+    spectrum = of_matrix(np.block([[np.zeros((k, k)), np.eye(k)], [-K, -D]]), has_vectors=False)
     free = _free(balance)
     moves = np.column_stack([*(balance.V @ axis for axis in free), balance.family()])
     names = pivots(at, np.vstack([at.A @ moves, np.zeros_like(moves)]))

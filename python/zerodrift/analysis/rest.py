@@ -29,6 +29,7 @@ SMALLEST_RADIUS = 1e-14
 ROUGHLY_FLAT = 1e-6     # with the derivatives of an iteration, which are right to 1e-8
 FLAT = 1e-9         # relative to the largest stiffness: a smaller one is rounding; differences have errors of 1e-12
 BALANCED = 1e-12    # relative to the sum of magnitudes of the forces: a smaller resultant is rounding
+SYMMETRIC = 1e-3    # of the stiffness: the directions without stiffness are those of its symmetric part
 UPHILL, WANDERING = 1.2, 20     # towards any balance the residual may grow that much in a step, in so many first steps
 SHORT_STEP = 1e-6   # characteristic scales: the step after it, with accurate derivatives, leaves rounding
 DISTANT = 1e3       # characteristic lengths: a mechanism that went so far falls
@@ -124,7 +125,7 @@ class Balance:
         rank = int((values > ROUGHLY_FLAT * max(values.max(initial=0.0), 1e-300)).sum())
         return W @ vectors[rank:].T
 
-    @property
+    @functools.cached_property
     def residual(self) -> float:
         """Norm of the force in the mass metric."""
         return float(np.linalg.norm(self.force))
@@ -151,7 +152,7 @@ class Balance:
 def downhill(here: Balance) -> np.ndarray:
     """A step z (k,) along which the forces do work, Newton's where no curvature is negative and it is short."""
     (curvature, axes), flat = here.curvature, here.flat
-    if here.is_stable and here.size(step := nearest(here)) < FIRST_RADIUS and not _is_pushed(here, step):
+    if here.is_stable and here.size(step := nearest(here)) < FIRST_RADIUS and not _is_pushed(here, step, 0.5):
         return step
     flat = min(flat, here.zero * np.abs(curvature).max(initial=0.0))
     along = axes.T @ here.force
@@ -161,14 +162,19 @@ def downhill(here: Balance) -> np.ndarray:
     return axes @ np.where((np.abs(curvature) <= here.flat) & at_balance, 0.0, step)
 
 
-def _is_pushed(here: Balance, step: np.ndarray) -> bool:
-    """A force remains in a direction without stiffness."""
-    return bool(np.linalg.norm(here.force - here.stiffness @ step) > 10 * here.rounding + 1e-3 * here.residual)
+def _is_pushed(here: Balance, step: np.ndarray, share: float) -> bool:
+    """That share of the force remains after a step, as it does in a direction without stiffness."""
+    return bool(np.linalg.norm(here.force - here.stiffness @ step) > 10 * here.rounding + share * here.residual)
 
 
 def nearest(here: Balance) -> np.ndarray:
     """Newton's step z (k,), flat directions left out."""
-    return np.linalg.lstsq(here.stiffness, here.force, rcond=here.zero)[0]
+    K, (curvature, axes) = here.stiffness, here.curvature
+    size = np.abs(K).max(initial=0.0)
+    if np.abs(K - K.T).max(initial=0.0) > SYMMETRIC * size:
+        return np.linalg.lstsq(K, here.force, rcond=here.zero)[0]
+    U = axes[:, np.abs(curvature) > here.zero * np.abs(curvature).max(initial=0.0)]
+    return U @ np.linalg.solve(U.T @ K @ U, U.T @ here.force)
 
 
 class Search:
@@ -219,7 +225,7 @@ class Search:
             size = here.size(z)
             if size < 1e-13 or self._is_done(here):
                 return here, here.residual <= 10 * here.rounding
-            if size < short and (here.is_stable or not self.is_downhill) and not _is_pushed(here, z):
+            if size < short and (here.is_stable or not self.is_downhill) and not _is_pushed(here, z, 1e-3):
                 return here, True
             there = self._step(here, z)
             if there is None or np.abs((there.at.p - start) / scale).max() > DISTANT:

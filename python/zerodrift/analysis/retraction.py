@@ -11,14 +11,13 @@ from .. import _check, _gateway
 from ..errors import CorrectionFailed
 from ..systems.base import BaseSystem, core_of
 from .quantities import find, values_of
-from .state import State, scales, state
-from .tangent import DEPENDENT
+from .state import LARGEST, State, scales, state
+from .tangent import DEPENDENT, inverse_factor
 
 ITERATIONS = 30
 SHORT = 1e-3            # of the longest row: residuals of shorter ones are compared with that
 CONVERGED = 1e-13       # of the characteristic scales: the last step of Newton's method
 SMALLEST_PART = 1e-4    # of the way to a position that is led to
-WELL_INDEPENDENT = 1e3  # largest entry of the inverse of the Cholesky factor of unit rows: errors are 1e-10 of a step
 QUADRATIC = 1e-5        # characteristic scales: steps that converge quadratically
 STAGNATED = 1e-9        # a last step of this size counts where the next ones are not smaller
 
@@ -87,9 +86,12 @@ def onto(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndar
 def _position_terms(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndarray],
                     target: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """A (nq, nv), violations (mh + held,) and their rows (mh + held, nv)."""
+    core = core_of(system)
+    if not held and not core.c.followers and max(core.nq, core.nv, core.m) <= LARGEST:       # nothing else is evaluated
+        terms = core.evaluate_states(("A", "Phi", "C"), np.array([float(t)]), np.ascontiguousarray(p), np.zeros(core.nv))
+        A = terms["A"][0] if "A" in terms else np.eye(core.nv)
+        return (A, terms["Phi"][0], terms["C"][0, :core.mh]) if core.mh else (A, np.zeros(0), np.zeros((0, core.nv)))
     at = state(system, t, p, np.zeros(system.nv))
-    if not held:
-        return at.A, at.Phi, at.holonomic
     value, rows = rows_of(at, held)
     return at.A, np.concatenate([at.Phi, value - target]), np.vstack([at.holonomic, rows])
 
@@ -102,12 +104,8 @@ def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> tu
     length = np.maximum(length, max(DEPENDENT * longest, 1e-300))
     off = np.abs(residual) / np.maximum(length, max(SHORT * longest, 1e-300))
     unit, right = rows / length[:, None], -residual / length
-    try:
-        inverse = np.linalg.inv(np.linalg.cholesky(unit @ unit.T))
-        if np.abs(inverse).max(initial=0.0) < WELL_INDEPENDENT:
-            return scale * (unit.T @ (inverse.T @ (inverse @ right))), float(off.max()), True
-    except np.linalg.LinAlgError:
-        pass
+    if (inverse := inverse_factor(unit)) is not None:
+        return scale * (unit.T @ (inverse.T @ (inverse @ right))), float(off.max()), True
     return scale * np.linalg.lstsq(unit, right, rcond=DEPENDENT)[0], float(off.max()), False
 
 

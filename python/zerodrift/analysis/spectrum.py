@@ -46,7 +46,7 @@ class Spectrum(NamedTuple):
         return float(np.abs(self.eigenvalues).max(initial=0.0))
 
 
-def of_matrix(A: np.ndarray) -> Spectrum:
+def of_matrix(A: np.ndarray, *, has_vectors: bool = True) -> Spectrum:
     """The spectrum of a matrix (k, k), zeros of ignorable coordinates and of their speeds left out.
 
     Ignorable are directions z with A z = 0; the motion does not depend on them. Their speeds are directions that A turns into
@@ -56,7 +56,8 @@ def of_matrix(A: np.ndarray) -> Spectrum:
     Q = complement(removed)
     values, vectors = np.linalg.eig(Q.T @ A @ Q) if Q.shape[1] else (np.zeros(0, complex), np.zeros((0, 0), complex))
     order = sorted(range(len(values)), key=lambda i: (round(float(np.abs(values[i])), 9), -values[i].imag, values[i].real))
-    return Spectrum(values[order].astype(complex), _lifted(A, Q, removed, values[order], vectors[:, order]), removed)
+    lifted = _lifted(A, Q, removed, values[order], vectors[:, order]) if has_vectors else np.zeros((len(A), 0), complex)
+    return Spectrum(values[order].astype(complex), lifted, removed)
 
 
 def _ignorable(A: np.ndarray) -> np.ndarray:

@@ -22,6 +22,7 @@ from . import differences
 from .state import State, scales
 
 DEPENDENT = 1e-9        # of the largest singular value of scaled rows: what counts as dependent; rounding leaves 1e-13
+WELL_INDEPENDENT = 1e3  # largest entry of the inverse of the Cholesky factor of unit rows: errors are 1e-10 of a step
 MASSLESS = 1e-13        # of the largest: mass of a motion that counts as none
 
 
@@ -137,5 +138,21 @@ def multipliers(at: State, right: np.ndarray, rows: np.ndarray | None = None) ->
     except np.linalg.LinAlgError:
         size = np.linalg.norm(rows * scale, axis=1)
     size = np.maximum(size, max(DEPENDENT * size.max(initial=0.0), 1e-300))
-    scaled = (rows / size[:, None] * scale).T
-    return (np.linalg.lstsq(scaled, (scale * right.T).T, rcond=DEPENDENT)[0].T / size).T
+    scaled, given = rows / size[:, None] * scale, (scale * right.T).T
+    length = np.maximum(np.linalg.norm(scaled, axis=1), 1e-300)
+    unit = scaled / length[:, None]
+    inverse = inverse_factor(unit)
+    if inverse is None:
+        return (np.linalg.lstsq(scaled.T, given, rcond=DEPENDENT)[0].T / size).T
+    found = inverse.T @ (inverse @ (unit @ given))
+    found = found + inverse.T @ (inverse @ (unit @ (given - unit.T @ found)))       # as accurate as without normal equations
+    return (found.T / (size * length)).T
+
+
+def inverse_factor(rows: np.ndarray) -> np.ndarray | None:
+    """Inverse (m, m) of the Cholesky factor of rows rows^T, of unit rows (m, n); None where they are not well independent."""
+    try:
+        inverse = np.linalg.inv(np.linalg.cholesky(rows @ rows.T))
+    except np.linalg.LinAlgError:
+        return None
+    return inverse if np.abs(inverse).max(initial=0.0) < WELL_INDEPENDENT else None
