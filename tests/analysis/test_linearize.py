@@ -223,7 +223,7 @@ def test_what_is_wrong_is_refused():
         zd.linearize(bar, rest, outputs=["A.fource"])
     with pytest.raises(zd.InconsistentStart, match="must satisfy the constraints"):
         zd.linearize(bar, (0.0, rest.p + 0.1, rest.v))
-    with pytest.raises(TypeError, match="at must be an equilibrium or a state"):
+    with pytest.raises(TypeError, match="at must be an equilibrium, an instant"):
         zd.linearize(bar, 3)
     with pytest.raises(ValueError, match="names must be 1 quantities"):
         zd.linearize(bar, rest).in_coordinates(["crank.angle", "rocker.angle"])
