@@ -8,7 +8,8 @@
     X(zd_chaplygin_sleigh) X(zd_rolling_disc) X(zd_vertical_disc) X(zd_driven_four_bar)
 #define ZD_FORMULATION_LIST(X) X(zd_augmented) X(zd_nullspace) X(zd_schur) X(zd_mixed) X(zd_independent)
 #define ZD_INTEGRATOR_LIST(X) \
-    X(zd_euler) X(zd_midpoint) X(zd_heun) X(zd_rk4) X(zd_dormand_prince) X(zd_dop853) X(zd_extrapolation) X(zd_trapezoidal) X(zd_radau) X(zd_rattle) \
+    X(zd_euler) X(zd_midpoint) X(zd_heun) X(zd_rk4) X(zd_dormand_prince) X(zd_dop853) X(zd_extrapolation) X(zd_trapezoidal) \
+    X(zd_radau) X(zd_rattle) \
     X(zd_taylor)
 #define ZD_CORRECTION_LIST(X) X(zd_baumgarte_row) X(zd_projection_row) X(zd_energy_row)    /* in the order they are applied */
 #define ZD_DIMENSION_LIST(X) X(zd_block_plane) X(zd_block_space)

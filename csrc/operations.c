@@ -134,7 +134,8 @@ static int project(zd_store *store, const zd_system *system, const zd_settings *
     const zd_constraint_target target = target_of(settings);
     int status = ZD_DONE;
     if (target.positions) {
-        const zd_system *holding = hold_p ? zd_hold_positions(store, system, hold_p, p) : system;     /* (25a) is computed with all rows of C */
+        /* (25a) is computed with all rows of C */
+        const zd_system *holding = hold_p ? zd_hold_positions(store, system, hold_p, p) : system;
         status = holding ? project_stage(holding, settings, ZD_PHI, t, p, v, iterations, message, message_size) : ZD_NO_MEMORY;
     }
     if (!status && target.velocities) {

@@ -235,7 +235,8 @@ ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
 {
     const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
     const zd_stored t_sample = ZD_WHERE(at.inside, *REAL(self->t_sample), *REAL(self->t));
-    if (self->has_polynomial) ZD_NAMED(evaluate)(self, ZD_WHERE(at.inside, at.part / ZD_WHERE(at.inside, at.h, ZD_SPLAT(1.0)), ZD_SPLAT(1.0)));
+    if (self->has_polynomial)
+        ZD_NAMED(evaluate)(self, ZD_WHERE(at.inside, at.part / ZD_WHERE(at.inside, at.h, ZD_SPLAT(1.0)), ZD_SPLAT(1.0)));
     else ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_sample);
     ZD_NAMED(project_between)(self, at.inside, (const double *)&t_sample, multipliers);
 }

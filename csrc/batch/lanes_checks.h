@@ -9,7 +9,9 @@ ZD_KERNEL zd_real ZD_NAMED(missed)(const zd_lanes *self, int i, zd_real h)
     const zd_real before = REAL(self->k)[self->nq + i], after = REAL(self->vdot)[i];
     const zd_real v0 = REAL(self->y0)[self->nq + i], v1 = REAL(self->y)[self->nq + i];
     if (!self->has_A) return REAL(self->y)[i] - REAL(self->y0)[i] - h / 2 * (v0 + v1) + h * h / 12 * (after - before);
-    return self->order_of_method < 2 ? h * h * after : self->order_of_method < 4 ? h * h * (after - before) : h * (v1 - v0 - h / 2 * (before + after));
+    return self->order_of_method < 2   ? h * h * after
+           : self->order_of_method < 4 ? h * h * (after - before)
+                                       : h * (v1 - v0 - h / 2 * (before + after));
 }
 
 /* Records a significant error of coordinate i. */
@@ -36,8 +38,10 @@ ZD_KERNEL zd_condition ZD_NAMED(add_up)(zd_lanes *self, int i, zd_condition chec
     const zd_condition first = *REAL(self->last_checked) == 0.0;
     const zd_real led = steps * h / 2 * (REAL(self->y0)[self->nq + i] + REAL(self->y)[self->nq + i]) * unit;
     const zd_real at = self->has_A ? REAL(self->place)[i] + led : REAL(self->y)[i] * unit;
-    zd_stored *all_errors = REAL(self->error) + i, *all_paths = REAL(self->path) + i, *lowest = REAL(self->lowest) + i, *highest = REAL(self->highest) + i;
-    const zd_real error = *all_errors + (steps * self->weight * ZD_NAMED(size_of)(ZD_NAMED(missed)(self, i, h)) * unit - forget * *all_errors);
+    zd_stored *all_errors = REAL(self->error) + i, *all_paths = REAL(self->path) + i;
+    zd_stored *lowest = REAL(self->lowest) + i, *highest = REAL(self->highest) + i;
+    const zd_real error =
+        *all_errors + (steps * self->weight * ZD_NAMED(size_of)(ZD_NAMED(missed)(self, i, h)) * unit - forget * *all_errors);
     const zd_real path = *all_paths + (ZD_NAMED(size_of)(led) - forget * *all_paths);
     const zd_real low = ZD_WHERE(first | (at < *lowest), at, *lowest), high = ZD_WHERE(first | (at > *highest), at, *highest);
     *all_errors = ZD_WHERE(checks, error, *all_errors);
@@ -72,7 +76,8 @@ ZD_KERNEL void ZD_NAMED(pause)(zd_lanes *self, zd_condition checks, zd_condition
 {
     const zd_real magic = ZD_SPLAT(0x1p52), number = *REAL(self->number);
     zd_real pause = ZD_WHERE(HOLDS(self->check_soon) | ~ample, ZD_SPLAT((double)ZD_CHECK_EVERY), *REAL(self->check_pause));
-    const zd_real part = number / pause, whole = (part - 63.0 / 128 + magic) - magic;      /* a pause is no longer than 64 steps, a power of two */
+    /* a pause is no longer than 64 steps, a power of two */
+    const zd_real part = number / pause, whole = (part - 63.0 / 128 + magic) - magic;
     const zd_condition grows = ample & (pause < (double)ZD_CHECK_SELDOM) & (part == whole);
     pause = ZD_WHERE(grows, 2.0 * pause, pause);
     const zd_real pauses = (number / pause - 63.0 / 128 + magic) - magic;

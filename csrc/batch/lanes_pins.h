@@ -239,7 +239,8 @@ ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
         const ZD_NAMED(moved) first = ZD_NAMED(move_end)(pins, 2 * place, x), second = ZD_NAMED(move_end)(pins, 2 * place + 1, x);
         const zd_stored *rhs = REAL(pins->rest) + 2 * place;
         const zd_real rest[] = {rhs[0] - (second.by.x - first.by.x), rhs[1] - (second.by.y - first.by.y)};
-        const zd_real size[] = {ZD_NAMED(size_of)(rhs[0]) + first.size.x + second.size.x, ZD_NAMED(size_of)(rhs[1]) + first.size.y + second.size.y};
+        const zd_real size[] = {ZD_NAMED(size_of)(rhs[0]) + first.size.x + second.size.x,
+                                ZD_NAMED(size_of)(rhs[1]) + first.size.y + second.size.y};
         for (int i = 0; i < 2; i++) {
             const zd_real off = ZD_NAMED(size_of)(rest[i]);
             const zd_condition counts = (off > RESIDUAL_ROUNDING * size[i]) & (off > left * size[i]);

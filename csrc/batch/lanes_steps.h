@@ -55,7 +55,8 @@ ZD_KERNEL const double *ZD_NAMED(rates_at)(const zd_lanes *self, const double *y
 
 ZD_KERNEL ZD_NAMED(path) ZD_NAMED(find_path)(const zd_lanes *self, zd_real h)
 {
-    const zd_stored *rate0 = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot)), *rate1 = REAL(ZD_NAMED(rates_at)(self, self->y1, self->pdot1));
+    const zd_stored *rate0 = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot));
+    const zd_stored *rate1 = REAL(ZD_NAMED(rates_at)(self, self->y1, self->pdot1));
     const zd_real half = 0.5 * h;
     ZD_NAMED(path) sum = {ZD_SPLAT(0.0), ZD_SPLAT(0.0), ZD_SPLAT(0.0)};
     for (int i = 0; i < self->nq; i++) {
@@ -72,7 +73,8 @@ ZD_KERNEL ZD_NAMED(path) ZD_NAMED(find_path)(const zd_lanes *self, zd_real h)
 /* True if the path is within `bound` of h times some mean of the rates at its ends: see guard.c. */
 ZD_KERNEL zd_condition ZD_NAMED(is_near)(const zd_lanes *self, zd_real h, zd_real bound)
 {
-    const zd_stored *rate0 = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot)), *rate1 = REAL(ZD_NAMED(rates_at)(self, self->y1, self->pdot1));
+    const zd_stored *rate0 = REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot));
+    const zd_stored *rate1 = REAL(ZD_NAMED(rates_at)(self, self->y1, self->pdot1));
     zd_real rest = ZD_SPLAT(0.0), along = rest, turn = rest;
     for (int i = 0; i < self->nq; i++) {
         const zd_real unit = REAL(self->inverse_unit_p)[i];

@@ -82,7 +82,8 @@ static double bound_by_bodies(const zd_rank_monitor *self, const zd_point *point
     double sums[4] = {0, 0, 0, 0};
     int i = 0;
     for (; i + 4 <= stored; i += 4)
-        for (int r = 0; r < 4; r++) sums[r] += self->share[i + r] * ((C[i + r] - (double)self->C[i + r]) * (C[i + r] - (double)self->C[i + r]));
+        for (int r = 0; r < 4; r++)
+            sums[r] += self->share[i + r] * ((C[i + r] - (double)self->C[i + r]) * (C[i + r] - (double)self->C[i + r]));
     for (; i < stored; i++) sums[0] += self->share[i] * ((C[i] - (double)self->C[i]) * (C[i] - (double)self->C[i]));
     return self->is_known ? sums[0] + sums[1] + sums[2] + sums[3] : INFINITY;
 }

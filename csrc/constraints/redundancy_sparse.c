@@ -28,7 +28,8 @@ static const double SMALL_PIVOTS[] = {0x1p-20, 0x1p-30, 0x1p-40}; /* relative to
 static const double NEGLIGIBLE_ARM = 0x1p-20;               /* arm relative to the mechanism's length: a shorter one counts as zero */
 static const double SATISFIED_BY_VELOCITY = 0x1p-28;        /* residual relative to its terms: the row is satisfied */
 static const double ZERO_VELOCITY = 0x1p-14;                /* velocity relative to those before the projection: zero */
-static const double ZERO_XI = 0x1p-52;                      /* in characteristic scales: a smaller xi is of velocities that are rounding error */
+/* in characteristic scales: a smaller xi is of velocities that are rounding error */
+static const double ZERO_XI = 0x1p-52;
 static const double SATISFIED_BY_ACCELERATION = 0x1p-20;    /* residual relative to the largest term of (6): the row is satisfied */
 
 typedef struct search {

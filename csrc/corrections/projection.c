@@ -67,7 +67,8 @@ static int every(const void *memory)
 static zd_constraint_target target(const void *memory)
 {
     const given_projection *given = memory;
-    return (zd_constraint_target){given->positions != 0, given->velocities != 0, (int)given->every, (int)given->metric == MASS, given->tol, (int)given->max_iterations};
+    return (zd_constraint_target){given->positions != 0, given->velocities != 0, (int)given->every,
+                                  (int)given->metric == MASS, given->tol, (int)given->max_iterations};
 }
 
 static void *take(zd_arena *arena, const zd_system *system, const void *memory)
@@ -263,7 +264,8 @@ static int improve_directly(void *context)
 static int correct_directly(projection *self, zd_motion *motion, int positions, int velocities)
 {
     zd_point *point = motion->point;
-    zd_newton newton = {direct_residual, improve_directly, motion->target.tolerance, motion->target.max_iterations, ZD_TRUSTED_SHARE, NULL, 0};
+    zd_newton newton = {
+        direct_residual, improve_directly, motion->target.tolerance, motion->target.max_iterations, ZD_TRUSTED_SHARE, NULL, 0};
     position_problem problem = {self, motion, 0};
     double size;
     int status = positions && point->system->mh ? iterate(&newton, &problem) : direct_residual(&problem, &size);
@@ -304,7 +306,8 @@ const zd_correction zd_projection_row = {
         .equations = "(25), (26), (27)",
         .description = "Positions are iterated onto the constraints (3) to the tolerance, then velocities onto (5) in one solve, with the "
                        "leading matrix that the formulation has factored anyway. In the mass metric the correction is orthogonal to the "
-                       "manifold of the constraints and leaves the motion along it alone, so that the order of the integrator stays what it is.",
+                       "manifold of the constraints and leaves the motion along it alone, so that the order of the integrator stays "
+                        "what it is.",
         .reference = "W. Blajer, Elimination of constraint violation and accuracy aspects in numerical simulation of multibody systems, "
                      "Multibody System Dynamics 7 (2002) 265-284, section 3.1",
         .parameters = sizeof parameters / sizeof parameters[0],

@@ -28,7 +28,8 @@ static const double WEIGHT = 0x1p25;            /* weight of a constraint relati
 static const double RAISE = 0x1p8;              /* factor by which it is raised where the iterations converge slowly, */
 static const double MAX_RAISED = 0x1p16;        /* and by which it can be altogether */
 static const double SLOW = 0.25;                /* decrease of C dx in an iteration that is slow */
-static const double CONVERGED = 0x1p-40;        /* C dx relative to the terms of C x, or of x without constraints, with which x has converged */
+/* C dx relative to the terms of C x, or of x without constraints, with which x has converged */
+static const double CONVERGED = 0x1p-40;
 static const double BALANCED = 0x1p-36;         /* residual relative to the terms of the equations with which the reactions have converged */
 static const double RESIDUAL_ROUNDING = 4 * 0x1p-52;     /* residual relative to these terms that needs no refinement */
 

@@ -68,7 +68,8 @@ static int leave(void *memory, zd_point *point, double *y)
     if (self->minimal.many) return leave_many(&self->minimal, point, y);
     int changed, status = zd_embedding_review(&self->embedding, point, &changed);
     if (status) return status;
-    if (changed && !point->system->mn && (!point->terms.A || point->system->quaternions || point->system->followers)) {     /* (19): u is qdot */
+    /* (19): u is qdot */
+    if (changed && !point->system->mn && (!point->terms.A || point->system->quaternions || point->system->followers)) {
         zd_complement_prefer(&self->minimal.complement, embedding->index);
         point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED | ZD_ACCELERATED);
     }

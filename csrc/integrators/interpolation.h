@@ -122,7 +122,8 @@ ZD_INLINE void zd_between_sized(const int size, const zd_tableau *T, const zd_ru
     double weight[ZD_MOST_STAGES];
     zd_weigh_stages(T, self->h, x, weight);
     for (int i = 0; i + 1 < size; i += 2)
-        zd_store_pair(zd_value_between(i, size, T, self, of_change, weight, y0), zd_value_between(i + 1, size, T, self, of_change, weight, y0), y + i);
+        zd_store_pair(zd_value_between(i, size, T, self, of_change, weight, y0),
+                      zd_value_between(i + 1, size, T, self, of_change, weight, y0), y + i);
     if (size % 2) y[size - 1] = zd_value_between(size - 1, size, T, self, of_change, weight, y0);
 }
 

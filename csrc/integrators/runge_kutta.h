@@ -87,8 +87,8 @@ ZD_INLINE void zd_combine_pairs(const int begin, const int n, const int size, co
 }
 
 /* Step of a state (p, v) with n coordinates, pdot = v, and accelerations by a closed-form function alone. */
-ZD_INLINE int zd_runge_kutta_direct_step(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
-                                         double *y)
+ZD_INLINE int zd_runge_kutta_direct_step(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t,
+                                         double h, double *y)
 {
     const zd_system *system = rate->system;
     double *k = self->k, *stage = self->stage;

@@ -190,9 +190,10 @@ const zd_integrator zd_taylor = {
         .equations = "Jorba and Zou, section 3",
         .order = 20, .error_order = 19, .stability = 8.6,
         .description = "The series of the motion itself from where each step begins, to an order that the tolerance asks for. Take it for "
-                       "errors near rounding: its steps are few, so that less is rounded. In 1 ms it follows the paper's four-bar over 8 s to "
-                       "1e-11, where 'dop853' at its finest errs by 5e-11; for 1e-9 and more, that one is quicker. It takes systems written as "
-                       "expressions and compiled, without cases between which these change, in formulations whose state is (p, v).",
+                       "errors near rounding: its steps are few, so that less is rounded. In 1 ms it follows the paper's four-bar over 8 s "
+                       "to 1e-11, where 'dop853' at its finest errs by 5e-11; for 1e-9 and more, that one is quicker. It takes systems "
+                       "written as expressions and compiled, without cases between which these change, in formulations whose state is "
+                       "(p, v).",
         .reference = "A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor methods, "
                      "Experimental Mathematics 14 (2005) 99-117",
         .parameters = sizeof parameters / sizeof parameters[0],

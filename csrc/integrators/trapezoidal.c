@@ -22,8 +22,10 @@ static const double SLOW = 0.01;                /* contraction of the residual a
 static const double ROUNDING = 4 * 0x1p-52;     /* residual relative to its terms below which the step is solved */
 static const double NEARLY = 1e-12;             /* residual relative to its terms: a smaller one that no longer shrinks is rounding error */
 static const double NEVER = 1e-9;               /* residual relative to the largest terms: a larger one is not taken for rounding error */
-static const double MOST_ROUNDING = 16;         /* ratio to the change by a disturbance of the last bit: a larger residual is not rounding error */
-static const double LEAST_TERMS = 0x1p-12;      /* relative to the largest terms: smaller terms may themselves be the rounding error of others */
+/* ratio to the change by a disturbance of the last bit: a larger residual is not rounding error */
+static const double MOST_ROUNDING = 16;
+/* relative to the largest terms: smaller terms may themselves be the rounding error of others */
+static const double LEAST_TERMS = 0x1p-12;
 static const double STALLED = 0.5;              /* contraction of the residual above which the iteration has stalled */
 
 typedef struct trapezoidal {

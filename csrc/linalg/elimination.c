@@ -107,8 +107,8 @@ ZD_INLINE void scale(const int n, const int is_same, const zd_blocks *self, cons
     memcpy(own, scaled, (size_t)n * sizeof *own);
 }
 
-ZD_INLINE void eliminate(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, unsigned char *left_out, double least,
-                         double *restrict x, zd_pivots *pivots)
+ZD_INLINE void eliminate(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, unsigned char *left_out,
+                         double least, double *restrict x, zd_pivots *pivots)
 {
     double *P = pivot_of(n, is_whole, self, k), *own = x ? x + at_of(n, is_whole, self, k) : NULL;
     double here[ZD_UNROLLED * ZD_UNROLLED], *product = is_same ? here : self->product;

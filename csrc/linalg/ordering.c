@@ -148,7 +148,8 @@ static int grow(search *self, int more)
 static int join_cliques(search *self, const int *column, int k, int step)
 {
     int room = 0, count;
-    for (int i = self->in_at[k]; i < self->in_at[k] + self->in_count[k]; i++) (void)members_of(self, column, self->in[i], &count), room += count;
+    for (int i = self->in_at[k]; i < self->in_at[k] + self->in_count[k]; i++)
+        (void)members_of(self, column, self->in[i], &count), room += count;
     if (!grow(self, room)) return 0;
     self->marked[k] = ++self->mark;
     for (int i = self->in_at[k]; i < self->in_at[k] + self->in_count[k]; i++) {

@@ -9,7 +9,8 @@
 
 #include "small.h"
 
-static const double ALPHA = 0.6403882032022076;     /* (1 + sqrt 17) / 8: what two steps of one row or one of two let entries grow by is alike */
+/* (1 + sqrt 17) / 8: what two steps of one row or one of two let entries grow by is alike */
+static const double ALPHA = 0.6403882032022076;
 
 typedef struct pivot {
     int size;               /* 1 or 2; 0: there is none */

@@ -209,7 +209,8 @@ void zd_direct_choose(zd_motion *motion)
     int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
     /* Usually the order of the previous step, which ended at this point. */
     if (all_count && path->order == path->first && (motion->point->known & ZD_ACCELERATED) && path->smallest >= ZD_LARGE_PIVOT) begin(motion);
-    else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, ZD_LARGE_PIVOT) || find_order(motion, ZD_SUFFICIENT_PIVOT)))
+    else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, ZD_LARGE_PIVOT) ||
+                             find_order(motion, ZD_SUFFICIENT_PIVOT)))
         use(motion, NULL);
 }
 

@@ -149,8 +149,8 @@ int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *add
     double first = 0;
     for (int iteration = 0;; iteration++) {
         motion->statistics.evaluations++;
-        int status = path->order->embed(motion->system.data, motion->rate.inputs, &t, path->p, path->v, added, allowed, path->Phi, path->dp, to->D, to->pdot,
-                                        to->vdot, to->lambda, to->power, to->pivots);
+        int status = path->order->embed(motion->system.data, motion->rate.inputs, &t, path->p, path->v, added, allowed, path->Phi, path->dp,
+                                        to->D, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
         if (finds_p && status == ZD_NO_CONVERGENCE) status = improve(motion, iteration, &first);
         else {
             motion->statistics.embedding_iterations += finds_p ? iteration : 0;
@@ -164,7 +164,8 @@ int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *add
 static int embed_point(zd_motion *motion, double t, int finds_p, const double *added)
 {
     zd_path *path = &motion->path;
-    const zd_embedded of_point = {path->D, path->pdot, motion->point->vdot, motion->point->lambda, motion->balance.input ? &path->power : NULL, path->pivots};
+    const zd_embedded of_point = {path->D, path->pdot, motion->point->vdot, motion->point->lambda,
+                                  motion->balance.input ? &path->power : NULL, path->pivots};
     return zd_embed_entries(motion, t, finds_p, added, &of_point);
 }
 

@@ -15,7 +15,8 @@ static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *i
     double counted, *Q = lends ? &counted : NULL, *G = Q;
     if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
     const int are_many = zd_takes_many_rows(formulation, system), is_dense = !system->structure;
-    int has_rank = is_dense ? zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system)) : are_many;
+    int has_rank = is_dense ? zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system))
+                            : are_many;
     if (!has_rank) monitor = zd_rank_monitor_take(arena, system, Q, G);
     if (!rank) return NULL;
     rank->monitor = monitor;
@@ -38,7 +39,8 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .corrects = ZD_PHI | ZD_C,
         .matrices = matrices,
         /* A is needed for pdot with every acceleration, so both are evaluated together, unless the system multiplies by A itself. */
-        .acceleration_needs = (zd_brings_times_A(system) ? 0 : ZD_A) | matrices | ZD_BIAS | ZD_FORCE | ZD_XI | (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
+        .acceleration_needs = (zd_brings_times_A(system) ? 0 : ZD_A) | matrices | ZD_BIAS | ZD_FORCE | ZD_XI |
+                              (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
         .formulation_size = formulation->state_size(independent),
         .solver = solver,
         .memory_of_chosen = zd_span_since(arena, used),

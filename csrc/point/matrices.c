@@ -126,7 +126,8 @@ void zd_point_rate(const zd_point *point, const double *v, double *pdot)
     for (int b = 0; A && layout && b < layout->blocks; b++)
         ZD_SIZED(multiply, layout->velocity_at[b + 1] - layout->velocity_at[b], layout->coordinate_at[b + 1] - layout->coordinate_at[b],
                  A + layout->A_at[b], v + layout->velocity_at[b], pdot + layout->coordinate_at[b]);
-    for (int i = point->system->nq - point->system->followers; A && layout && i < point->system->nq; i++) pdot[i] = 0;  /* these times_A alone knows */
+    /* these times_A alone knows */
+    for (int i = point->system->nq - point->system->followers; A && layout && i < point->system->nq; i++) pdot[i] = 0;
 }
 
 static void times_block(const zd_layout *layout, int b, const double *M, const double *x, double *y)

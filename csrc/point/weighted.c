@@ -242,8 +242,8 @@ ZD_INLINE void add_product(const int rows, const int columns, const int n, const
 }
 
 /* to (columns,) <- to + a W B^T, of a row a (n,) */
-ZD_INLINE void add_row(const int columns, const int n, const double *restrict a, const double *restrict W, const double *restrict B, int stride,
-                       double *restrict to)
+ZD_INLINE void add_row(const int columns, const int n, const double *restrict a, const double *restrict W, const double *restrict B,
+                       int stride, double *restrict to)
 {
     double weighted[ZD_UNROLLED];
     for (int i = 0; i < n; i++) weighted[i] = a[i] * W[i];
@@ -269,8 +269,8 @@ static void add_any(zd_weighted *self, const zd_piece *a, const zd_piece *b, con
 }
 
 /* Pairs of one kernel, mostly many in succession; returns the first of another. */
-ZD_INLINE const zd_pair *add_pairs(const int square, const int n, const int rows, const zd_weighted *self, const zd_pair *pair, const double *C,
-                                   const double *W)
+ZD_INLINE const zd_pair *add_pairs(const int square, const int n, const int rows, const zd_weighted *self, const zd_pair *pair,
+                                   const double *C, const double *W)
 {
     const zd_pair *end = self->pair + self->pairs;
     double *S = self->blocks->S;

@@ -165,7 +165,8 @@ static int check_direct(const zd_system *system, text message)
 {
     int known[ZD_AVX512 + 1] = {0};
     if (system->closed_forms < 0 || system->closed_forms > 12 || (system->closed_forms > 0) != (system->closed_form != NULL))
-        return refuse(message, "closed_form: there must be at most one set of functions for each vector unit and number of lanes, not %d sets",
+        return refuse(message, "closed_form: there must be at most one set of functions for each vector unit and number of lanes, "
+                      "not %d sets",
                       system->closed_forms);
     for (int i = 0; i < system->closed_forms; i++) {
         const zd_closed_form *direct = &system->closed_form[i];
@@ -240,7 +241,8 @@ static int check_inputs(const zd_system *system, text message)
     for (int i = 0; i < system->inputs; i++) {
         const zd_input *input = &system->input[i];
         if (!input->name || !*input->name || !input->unit) return refuse(message, "inputs: input %d must have a name and a unit", i);
-        if (input->kind != ZD_EFFORT && input->kind != ZD_SPEED) return refuse(message, "inputs: %s must be an effort or a speed", input->name);
+        if (input->kind != ZD_EFFORT && input->kind != ZD_SPEED)
+            return refuse(message, "inputs: %s must be an effort or a speed", input->name);
         if (!isfinite(input->initial)) return refuse(message, "inputs: the initial value of %s must be finite", input->name);
     }
     return ZD_DONE;

@@ -124,7 +124,8 @@ static void estimate_omega(zd_guard *guard, double moved, double h)
     }
     if (power > guard->largest_fourth * moved && power < INFINITY) guard->largest_fourth = power / moved;
     guard->streak = power > guard->limit * moved ? guard->streak + 1 : 0;
-    if (guard->streak >= ZD_UNSTABLE_STREAK) guard->motion->statistics.too_long += guard->streak == ZD_UNSTABLE_STREAK ? ZD_UNSTABLE_STREAK : 1;
+    if (guard->streak >= ZD_UNSTABLE_STREAK)
+        guard->motion->statistics.too_long += guard->streak == ZD_UNSTABLE_STREAK ? ZD_UNSTABLE_STREAK : 1;
 }
 
 /* The next multiple of `every` after this step. */

@@ -74,7 +74,8 @@ ZD_INLINE double zd_guard_allows(const zd_guard *guard, double h, const zd_detou
 /* True if detour and speed give reason to keep the interval to the next full check. */
 ZD_INLINE int zd_guard_is_calm(const zd_guard *guard, const zd_detour *found)
 {
-    return ZD_CALM_DETOUR * ZD_CALM_DETOUR * found->detour <= found->moved + guard->nearby && found->speed <= ZD_FASTER_SPEED * guard->fastest + guard->nearby;
+    return ZD_CALM_DETOUR * ZD_CALM_DETOUR * found->detour <= found->moved + guard->nearby &&
+           found->speed <= ZD_FASTER_SPEED * guard->fastest + guard->nearby;
 }
 
 #endif

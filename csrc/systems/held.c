@@ -68,7 +68,8 @@ static int size_of_groups(const zd_structure *structure, int groups)
 {
     int size = 0;
     for (int g = 0; g < groups; g++)
-        for (int i = structure->first[g]; i < structure->first[g + 1]; i++) size += structure->rows[g] * structure->velocities[structure->block[i]];
+        for (int i = structure->first[g]; i < structure->first[g + 1]; i++)
+            size += structure->rows[g] * structure->velocities[structure->block[i]];
     return size;
 }
 
@@ -200,7 +201,8 @@ static void *take(zd_arena *arena, const void *of)
     const zd_system *inner = it->inner;
     const int rows = it->of_positions ? inner->mh : zd_constraints(inner);
     system_that_holds nowhere, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
-    self->held = (zd_held){.inner = inner, .hold = it->hold, .value = it->value, .of_positions = it->of_positions, .size_of_C = rows * inner->nv};
+    self->held = (zd_held){.inner = inner, .hold = it->hold, .value = it->value, .of_positions = it->of_positions,
+                           .size_of_C = rows * inner->nv};
     self->system = *inner;
     self->system.data = self->system.names = &self->held;
     self->system.name_constraint = name_row;

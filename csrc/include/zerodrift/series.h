@@ -34,7 +34,8 @@ typedef double zd_series_vector;
 enum { ZD_SERIES_VECTORS = ZD_SERIES_TOGETHER / ZD_SERIES_WIDTH };
 
 /* sum (rows,) <- sum_(0 < j < order) X_j Y_(order - j), of X, Y (orders, rows); rows is a multiple of eight */
-ZD_SERIES_ON static inline void zd_series_sum(const int rows, int order, const double *restrict X, const double *restrict Y, double *restrict sum)
+ZD_SERIES_ON static inline void zd_series_sum(const int rows, int order, const double *restrict X, const double *restrict Y,
+                                              double *restrict sum)
 {
     for (int first = 0; first < rows; first += ZD_SERIES_TOGETHER) {
         zd_series_vector total[ZD_SERIES_VECTORS] = {{0}};

@@ -37,7 +37,8 @@ ZD_INLINED void ZD_OF_TYPE(zd_sines_of_reduced)(const ZD_OF_TYPE(zd_reduced) *a,
 /* Reduction of |x| <= 2^19: products with the first three parts of pi/2, of 33 bits each, are exact, as are the errors of differences. */
 ZD_INLINED void ZD_OF_TYPE(zd_reduce_moderate)(ZD_REAL x, ZD_OF_TYPE(zd_reduced) *a)
 {
-    ZD_REAL shifted = ZD_TIMES_PLUS(x, 0x1.45f306dc9c883p-1, 0x1.8p52), k = shifted - 0x1.8p52;    /* k, next to x 2/pi, is in its last bits */
+    /* k, next to x 2/pi, is in its last bits */
+    ZD_REAL shifted = ZD_TIMES_PLUS(x, 0x1.45f306dc9c883p-1, 0x1.8p52), k = shifted - 0x1.8p52;
     ZD_REAL first = ZD_LESS_TIMES(x, k, 0x1.921fb544p+0);
     ZD_REAL b = k * 0x1.0b4611a6p-34, second = first - b;
     ZD_REAL c = k * 0x1.3198a2ep-69;
