@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
 from .. import _check, _gateway
-from .._gateway import blocks
+from .._gateway.mechanisms import blocks
 from .._writing import write_whole
 from ..errors import CompilationFailed
 from ..symbolics.compile import compilers
