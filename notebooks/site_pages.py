@@ -15,6 +15,7 @@ from zerodrift import errors, gallery
 from zerodrift._gateway.base import statuses
 from zerodrift.explanations import codes, explanations
 from zerodrift.mechanisms.elements.joints import JOINTS
+from zerodrift.mechanisms.elements.space_joints import JOINTS as SPACE_JOINTS
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS
 from zerodrift.paper import geometry
 
@@ -79,13 +80,21 @@ def methods(title: str, rows: dict[str, object]) -> Iterable[str]:
             yield ""
 
 
+COUPLINGS = ("motor", "actuator", "gear", "rack_pinion", "coupler", "cam", "constraint", "nonholonomic")
+
+
 def elements() -> Iterable[str]:
-    """Joints and force elements, with the verbs that make them."""
+    """Joints, force elements and couplings, with the verbs that make them."""
     yield from ("# Joints and forces", "", "Verbs of {py:class}`zerodrift.Mechanism`; `help(m.revolute)` has their arguments.", "")
-    for title, table in (("Joints in the plane", JOINTS), ("Force elements", ELEMENTS)):
+    for title, table in (("Joints in the plane", JOINTS), ("Joints in space", SPACE_JOINTS), ("Force elements", ELEMENTS)):
         yield from (f"## {title}", "", "| verb | effect |", "|---|---|")
         yield from (f"| `{name}` | {(row.row if hasattr(row, 'row') else row).card.summary} |" for name, row in table.items())
         yield ""
+    yield from ("## Drives, couplings and constraints of your own", "", "| verb | effect |", "|---|---|")
+    for name in COUPLINGS:
+        words = " ".join(inspect.cleandoc(getattr(zd.Mechanism, name).__doc__ or "").split("\n\n")[0].split())
+        yield f"| `{name}` | {words} |"
+    yield ""
 
 
 def messages() -> Iterable[str]:
