@@ -49,7 +49,9 @@ static void count_with_settings(const zd_kind *kind, const zd_system *system, co
                     settings.correction[row] = zd_initial(zd_row(ZD_CORRECTIONS, row));
                     settings.correction[row].given = all && !(zd_correction_requires(row) & ~system->provides);
                 }
-                count(kind, system, settings, p, v);
+                char message[512];
+                if (zd_check_methods_agree(&settings, message, sizeof message)) printf("methods that disagree: %s\n", message);
+                else count(kind, system, settings, p, v);
             }
 }
 

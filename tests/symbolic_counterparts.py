@@ -165,7 +165,49 @@ def vertical_disc_of_parameters():
                        units=["m", "m", "rad", "rad"], p0=core.p0, v0=core.v0)
 
 
+def knife_edge_of_incline():
+    """With the angle of the plane, of which the weight along it is computed."""
+    core = SYSTEMS["knife_edge"]
+    x, y, phi, vx, vy, w = sp.symbols("x y phi vx vy w")
+    (m, inertia, g, incline), values = of_parameters("m", "I", "g", "incline")
+    return zd.symbolic([x, y, phi], speeds=[vx, vy, w], kinetic=m * (vx**2 + vy**2) / 2 + inertia * w**2 / 2,
+                       potential=-m * g * sp.sin(incline) * x, nonholonomic=[vx * sp.sin(phi) - vy * sp.cos(phi)],
+                       parameters=values, units=["m", "m", "rad"], p0=core.p0, v0=core.v0)
+
+
+def rolling_disc_of_parameters():
+    core = SYSTEMS["rolling_disc"]
+    x, y, z, yaw, lean, spin = sp.symbols("x y z yaw lean spin")
+    vx, vy, vz, w1, w2, w3 = v = sp.symbols("vx vy vz w1:4")
+    (m, R, weight, axle, diameter), values = of_parameters("m", "R", "weight", "Ia", "It")
+    moment = axle * w1 + diameter * w3 * sp.tan(lean)       # W x (I w): Euler's equations in axes that do not spin
+    s, c = sp.sin, sp.cos
+    return zd.symbolic([x, y, z, yaw, lean, spin], speeds=v, mass=sp.diag(m, m, m, axle, diameter, diameter),
+                       bias=[0, 0, 0, 0, w3 * moment, -w2 * moment], potential=weight * z,
+                       kinematics=[vx, vy, vz, w3 / c(lean), w2, w1 + w3 * s(lean) / c(lean)],
+                       constraints=[z - R * c(lean)],
+                       nonholonomic=[vx - R * (w1 * s(yaw) + w2 * c(yaw) * c(lean)),
+                                     vy + R * (w1 * c(yaw) - w2 * s(yaw) * c(lean))],
+                       parameters=values, p0=core.p0, v0=core.v0)
+
+
+# Series of systems without closed-form functions, and those in double-double arithmetic that have other numbers.
+WITH_SERIES_ALONE = {"series": {"rolling_disc": rolling_disc_of_parameters}, "precise": {"knife_edge": knife_edge_of_incline}}
 OF_PARAMETERS = {"four_bar": four_bar_of_parameters, "driven_four_bar": driven_four_bar_of_parameters,
                  "pendulum": pendulum_of_parameters, "slider_crank": slider_crank_of_parameters,
                  "chaplygin_sleigh": chaplygin_sleigh_of_parameters, "oscillator": oscillator_of_parameters,
                  "knife_edge": knife_edge_of_parameters, "vertical_disc": vertical_disc_of_parameters}
+
+# Of each parameter another value than that functions are written with.
+CHANGED = {
+    "four_bar": {"lengths": (1.1, 0.35, 0.9, 0.7), "masses": (1.0, 2.0, 4.0), "inertias": (0.02, 0.3, 0.1), "gravity": 5.0},
+    "driven_four_bar": {"lengths": (1.1, 0.35, 0.9, 0.7), "masses": (1.0, 2.0, 4.0), "gravity": 5.0, "crank_rate": 0.7,
+                        "amplitude": 0.2, "frequency": 3.0, "crank_angle": 1.0},
+    "pendulum": {"length": 0.7, "mass": 2.0, "gravity": 5.0, "rate": 1.0},
+    "slider_crank": {"crank": 0.4, "rod": 1.3, "crank_inertia": 0.5, "mass": 2.0, "rod_inertia": 0.3, "stiffness": 3.0,
+                     "damping": 0.5, "relaxed_length": 0.8, "force": 2.0, "crank_rate": 1.0},
+    "chaplygin_sleigh": {"mass": 2.0, "inertia": 0.3, "offset": -0.2, "speed": 1.0},
+    "oscillator": {"mass": 2.0, "stiffness": 3.0, "x0": 0.5, "v0": -1.0},
+    "knife_edge": {"mass": 2.0, "inertia": 0.3, "gravity": 5.0, "incline": 0.3, "heading": 0.5, "speed": 1.0, "turn_rate": 2.0},
+    "vertical_disc": {"mass": 2.0, "radius": 0.4, "axle_inertia": 0.3, "diameter_inertia": 0.1, "heading": 0.5, "turn_rate": 3.0},
+}

@@ -115,7 +115,7 @@ def test_plane_and_space_share_the_room_common_alone():
 def functions():
     """The lines of each function, from its name to the closing brace: both are at the margin, and nothing else of it is."""
     for path in CSRC.rglob("*.[ch]"):
-        if path.parent == CSRC / "systems" / "direct":      # written by a program, for none to read
+        if path.parent.parent == CSRC / "systems":      # written by a program, for none to read
             continue
         for match in re.finditer(r"^[A-Za-z][^;={}/]*?(\w+)\([^;{}]*\)\n\{\n.*?^\}$", path.read_text(), re.MULTILINE | re.DOTALL):
             yield f"{unit_of(path)}: {match[1]}", match[0].count("\n") + 1

@@ -10,7 +10,9 @@
 #include "../include/zerodrift/sines.h"
 #include "direct/chaplygin_sleigh.h"
 #include "kind.h"
+#include "precise/precise.h"
 #include "skate.h"
+#include "series/series.h"
 
 enum { X = ZD_SKATE_X, Y = ZD_SKATE_Y, PHI = ZD_SKATE_PHI, N = ZD_SKATE_N };
 
@@ -104,9 +106,11 @@ const zd_kind zd_chaplygin_sleigh = {
         .provides = ZD_M | ZD_BIAS | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
+        .series = &zd_chaplygin_sleigh_series,
         .closed_form = zd_chaplygin_sleigh_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_CHAPLYGIN_SLEIGH_DIRECT_ENDS),
     .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
     .points = POINTS, .dimension = 2, .draw = draw,
+    .precise = &zd_chaplygin_sleigh_precise,
 };

@@ -9,6 +9,8 @@
 #include "direct/driven_four_bar.h"
 #include "four_bar.h"
 #include "kind.h"
+#include "precise/precise.h"
+#include "series/series.h"
 
 enum { N = ZD_FOUR_BAR_N, DRIVE = 2, ROWS = 3 };
 
@@ -101,9 +103,11 @@ const zd_kind zd_driven_four_bar = {
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI | ZD_POTENTIAL,
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = evaluate,
+        .series = &zd_driven_four_bar_series,
         .closed_form = zd_driven_four_bar_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_DRIVEN_FOUR_BAR_DIRECT_ENDS),
     .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
     .points = N + 1, .dimension = 2, .draw = draw,
+    .precise = &zd_driven_four_bar_precise,
 };

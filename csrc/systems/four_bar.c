@@ -13,6 +13,8 @@
 #include "../linalg/small.h"
 #include "direct/four_bar.h"
 #include "kind.h"
+#include "precise/precise.h"
+#include "series/series.h"
 
 static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 
@@ -236,6 +238,7 @@ const zd_kind zd_four_bar = {
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = zd_four_bar_evaluate,
+        .series = &zd_four_bar_series,
         .closed_form = zd_four_bar_direct, .closed_forms = ZD_COUNT_OF_SETS,
         .embed = embed,
         .independent = (const int[]){ALPHA_1},
@@ -243,4 +246,5 @@ const zd_kind zd_four_bar = {
     ZD_PREPARED_DOUBLES(ZD_FOUR_BAR_DIRECT_ENDS),
     .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
     .points = N + 1, .dimension = 2, .draw = zd_four_bar_draw,
+    .precise = &zd_four_bar_precise,
 };

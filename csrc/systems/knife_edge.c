@@ -11,7 +11,9 @@
 #include "../include/zerodrift/sines.h"
 #include "direct/knife_edge.h"
 #include "kind.h"
+#include "precise/precise.h"
 #include "skate.h"
+#include "series/series.h"
 
 enum { X = ZD_SKATE_X, Y = ZD_SKATE_Y, PHI = ZD_SKATE_PHI, N = ZD_SKATE_N };
 
@@ -98,9 +100,11 @@ const zd_kind zd_knife_edge = {
         .provides = ZD_M | ZD_FORCE | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_COMPLEMENT | ZD_GAMMA | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
+        .series = &zd_knife_edge_series,
         .closed_form = zd_knife_edge_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_KNIFE_EDGE_DIRECT_ENDS),
     .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
     .points = POINTS, .dimension = 2, .draw = draw,
+    .precise = &zd_knife_edge_precise,
 };

@@ -4,6 +4,8 @@
 #include "../include/zerodrift/system.h"
 #include "direct/oscillator.h"
 #include "kind.h"
+#include "precise/precise.h"
+#include "series/series.h"
 
 typedef struct given {      /* the parameters, and what evaluate() needs of them */
     double m;               /* kg */
@@ -67,9 +69,11 @@ const zd_kind zd_oscillator = {
         .nq = 1, .nv = 1,
         .provides = ZD_M | ZD_FORCE | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
+        .series = &zd_oscillator_series,
         .closed_form = zd_oscillator_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_OSCILLATOR_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity,
     .points = 2, .dimension = 2, .draw = draw,
+    .precise = &zd_oscillator_precise,
 };

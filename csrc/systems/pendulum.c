@@ -16,6 +16,8 @@
 #include "../include/zerodrift/system.h"
 #include "direct/pendulum.h"
 #include "kind.h"
+#include "precise/precise.h"
+#include "series/series.h"
 
 enum { X, Y, N = 2 };
 
@@ -95,9 +97,11 @@ const zd_kind zd_pendulum = {
         .nq = N, .nv = N, .mh = 1,
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
+        .series = &zd_pendulum_series,
         .closed_form = zd_pendulum_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_PENDULUM_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = 2, .dimension = 2, .draw = draw,
+    .precise = &zd_pendulum_precise,
 };

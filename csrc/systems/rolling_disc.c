@@ -26,6 +26,8 @@
 #include "../include/zerodrift/system.h"
 #include "disc.h"
 #include "kind.h"
+#include "precise/precise.h"
+#include "series/series.h"
 
 enum { X, Y, Z, YAW, LEAN, SPIN, N };
 enum { VX, VY, VZ, W1, W2, W3 };
@@ -194,9 +196,11 @@ const zd_kind zd_rolling_disc = {
         .provides = ZD_A | ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
+        .series = &zd_rolling_disc_series,
         .failure = "the disc fell flat, where yaw and spin are the same turn; if it should have swung round, try a smaller step",
     },
     ZD_PREPARED(constants),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = ZD_DISC_POINTS, .dimension = 3, .draw = draw,
+    .precise = &zd_rolling_disc_precise,
 };

@@ -20,6 +20,8 @@
 #include "../linalg/small.h"
 #include "direct/slider_crank.h"
 #include "kind.h"
+#include "precise/precise.h"
+#include "series/series.h"
 
 enum { Q, X, ANGLE, N = 3 };
 
@@ -158,9 +160,11 @@ const zd_kind zd_slider_crank = {
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_POWER | ZD_TIMELESS,
         .scratch = sizeof(geometry) / sizeof(double),
         .evaluate = evaluate,
+        .series = &zd_slider_crank_series,
         .closed_form = zd_slider_crank_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_SLIDER_CRANK_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = 7, .dimension = 2, .draw = draw,
+    .precise = &zd_slider_crank_precise,
 };

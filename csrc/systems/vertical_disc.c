@@ -16,6 +16,8 @@
 #include "direct/vertical_disc.h"
 #include "disc.h"
 #include "kind.h"
+#include "precise/precise.h"
+#include "series/series.h"
 
 enum { X, Y, PHI, THETA, N };
 
@@ -114,9 +116,11 @@ const zd_kind zd_vertical_disc = {
         .provides = ZD_M | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
+        .series = &zd_vertical_disc_series,
         .closed_form = zd_vertical_disc_direct, .closed_forms = ZD_COUNT_OF_SETS,
     },
     ZD_PREPARED_DOUBLES(ZD_VERTICAL_DISC_DIRECT_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = ZD_DISC_POINTS, .dimension = 3, .draw = draw,
+    .precise = &zd_vertical_disc_precise,
 };

@@ -64,7 +64,7 @@ EXACT = {
 @pytest.mark.parametrize("name", EXACT)
 def test_the_certified_error_is_never_too_small(name, error):
     system, end, times, columns, exact = EXACT[name]()
-    ref = zd.reference(system, end, error=error, t_eval=times)
+    ref = zd.reference(system, end, error=error, t_eval=times, precision="double")     # as what is known of them
     expected = exact(ref.solution.t)
     actual = np.abs(ref.solution.p[:, columns] - expected).max()
     assert actual <= ref.error + PRINTED * np.abs(expected).max()
@@ -96,7 +96,7 @@ def test_the_evidence_is_from_other_steps_methods_formulations_and_roundings():
     assert {d.integrator for d in ref.differences} == {"dop853", "extrapolation"}
     assert [d.formulation for d in ref.differences] == ["augmented", "augmented", "independent", "independent"]
     assert [d.rounded for d in ref.differences] == [False, True, True, True]
-    assert ref.error >= 10 * max(d.p for d in ref.differences) > 0
+    assert ref.error >= 3 * max(d.p for d in ref.differences) > 0
     assert ref.caveats == ()
     assert "four_bar" in repr(ref)
     assert "extrapolation" in repr(ref)
@@ -104,7 +104,7 @@ def test_the_evidence_is_from_other_steps_methods_formulations_and_roundings():
 
 def test_without_constraints_no_formulation_is_taken_for_another():
     """All of them do the same arithmetic there; the runs differ all the same."""
-    ref = zd.reference(zd.systems.oscillator(), 1.0)
+    ref = zd.reference(zd.systems.oscillator(), 1.0, precision="double")
     assert {d.formulation for d in ref.differences} == {"augmented"}
     assert min(d.p for d in ref.differences) > 0
 
@@ -122,7 +122,7 @@ def test_other_formulations_and_corrections_may_be_chosen():
 def test_rounding_that_every_step_shares_is_seen():
     """Minutes of the oscillator: k / m is rounded once and for all, and the phase is off in proportion to time."""
     mass, stiffness = 0.1, 0.3
-    ref = zd.reference(zd.systems.oscillator(mass=mass, stiffness=stiffness, x0=1.0), 500.0)
+    ref = zd.reference(zd.systems.oscillator(mass=mass, stiffness=stiffness, x0=1.0), 500.0, precision="double")
     rows = np.linspace(0, len(ref.solution.t) - 1, 100).astype(int)
     rate = mp.sqrt(mp.mpf(stiffness) / mp.mpf(mass))
     exact = [mp.cos(rate * mp.mpf(float(t))) for t in ref.solution.t[rows]]
@@ -139,7 +139,7 @@ def test_a_chaotic_motion_says_that_it_is():
         return [u, v, -1 * x - 2 * (x * y), y * y - x * x - y]
 
     system = certain_motions_free.henon_system().starting(start[:2], start[2:])
-    ref = zd.reference(system, 200.0, t_eval=[200.0])
+    ref = zd.reference(system, 200.0, t_eval=[200.0], precision="double")
     exact = taylor.solution(right_side, start, 0, [200.0])[0]
     true = max(float(abs(mp.mpf(float(a)) - b)) for a, b in zip(ref.solution.p[-1], exact[:2], strict=True))
     assert 1e-9 < true <= ref.error <= 100 * true
@@ -176,7 +176,7 @@ def test_a_force_with_corners_is_named(monkeypatch):
         exact = np.where(ref.solution.t < np.pi, 0.1 + 0.9 * np.cos(ref.solution.t), -0.1 + 0.7 * np.cos(ref.solution.t))
         assert np.abs(ref.solution.p[:, 0] - exact).max() <= ref.error <= (error or 1e-2)
         assert any("jump or have corners" in caveat for caveat in ref.caveats)
-    monkeypatch.setattr("zerodrift.studies.reference.REFINEMENTS", 9)
+    monkeypatch.setattr("zerodrift.studies.reference_search.REFINEMENTS", 9)
     with pytest.raises(zd.UnreachableTolerance, match=r"corners.* what can be certified is"):
         zd.reference(system, 4.0, error=1e-6, t_eval=[1.0, 3.0, 4.0])
 
@@ -200,7 +200,7 @@ def test_a_formulation_that_cannot_follow_is_left_for_another(monkeypatch):
 def test_a_mechanism_is_compared_in_its_other_coordinates():
     ref = zd.reference(zd.models.four_bar(), 0.3)
     assert [d.formulation for d in ref.differences][-1] == "augmented, absolute"
-    assert 10 * max(d.p for d in ref.differences) <= ref.error < 1e-10
+    assert 3 * max(d.p for d in ref.differences) <= ref.error < 1e-10
 
 
 def test_a_motion_that_is_another_in_other_coordinates_is_not_certified(monkeypatch):
@@ -273,15 +273,15 @@ def test_a_reference_can_be_sent_to_another_process():
 
 def test_an_error_below_the_spacing_of_doubles_is_refused():
     with pytest.raises(zd.UnreachableTolerance, match="spacing of doubles at the size of this motion"):
-        zd.reference(BAR, 1.0, error=1e-16)
+        zd.reference(BAR, 1.0, error=1e-16, precision="double")
 
 
 def test_an_error_below_round_off_is_refused_with_what_can_be_had():
     """The four-bar passes near its singular position and multiplies what rounding leaves."""
     with pytest.raises(zd.UnreachableTolerance, match=r"stops falling at round-off.* what can be certified is ") as caught:
-        zd.reference(BAR, 8.0, error=1e-13)
+        zd.reference(BAR, 8.0, error=1e-13, precision="double")
     possible = float(str(caught.value).split()[-2])        # before the code
-    assert zd.reference(BAR, 8.0, error=2 * possible).error <= 2 * possible
+    assert zd.reference(BAR, 8.0, error=2 * possible, precision="double").error <= 2 * possible
 
 
 def test_a_motion_that_forgets_its_start_is_refused(monkeypatch):
@@ -292,7 +292,7 @@ def test_a_motion_that_forgets_its_start_is_refused(monkeypatch):
 
     lorenz = zd.System(3, mass=np.eye(3), force=force, p0=np.zeros(3), v0=np.array([1.0, 1.0, 20.0]))
     assert zd.reference(lorenz, 2.0, error=1e-9).error <= 1e-9
-    monkeypatch.setattr("zerodrift.studies.reference.REFINEMENTS", 3)
+    monkeypatch.setattr("zerodrift.studies.reference_search.REFINEMENTS", 3)
     with pytest.raises(zd.UnreachableTolerance, match="Ask for a shorter t_span"):
         zd.reference(lorenz, 60.0, error=1e-6)
 

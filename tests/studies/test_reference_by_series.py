@@ -56,7 +56,7 @@ def test_the_series_of_a_system_that_is_off_follow_from_its_terms(request, name,
 
 def test_a_certificate_near_rounding_is_true(pendulum):
     """sin(angle / 2) = k sn(K - omega t, k), with k^2 = 1/2."""
-    ref = zd.reference(pendulum, 2.0, t_eval=TIMES)
+    ref = zd.reference(pendulum, 2.0, t_eval=TIMES, precision="double")
     with mpmath.workdps(30):
         K, omega = mpmath.ellipk(0.5), mpmath.sqrt(mpmath.mpf(9.81))
         half = [mpmath.sqrt(0.5) * mpmath.ellipfun("sn", K - omega * mpmath.mpf(at), m=0.5) for at in TIMES]
@@ -66,7 +66,7 @@ def test_a_certificate_near_rounding_is_true(pendulum):
 
 
 def test_its_evidence_is_from_another_method_and_formulation(pendulum):
-    ref = zd.reference(pendulum, 2.0)
+    ref = zd.reference(pendulum, 2.0, precision="double")
     halved, rounded, method, finer = ref.differences
     assert ref.solution.settings["integrator"] == "taylor"
     assert [d.integrator for d in ref.differences] == ["taylor", "taylor", "dop853", "taylor"]
@@ -76,7 +76,7 @@ def test_its_evidence_is_from_another_method_and_formulation(pendulum):
     assert finer.formulation in zd.formulations(pendulum)
     assert finer.formulation not in ("augmented", "independent")
     assert [d.rounded for d in ref.differences] == [False, True, True, True]
-    assert ref.error >= 10 * max(d.p for d in ref.differences) > 0
+    assert ref.error >= 3 * max(d.p for d in ref.differences) > 0
     assert method.p > 0
 
 
@@ -87,13 +87,13 @@ def test_it_is_asked_only_where_others_are_not_enough(pendulum):
 @pytest.mark.parametrize("options", [{"stabilization": "baumgarte"}, {"formulations": ("independent", "schur")}],
                          ids=["baumgarte", "independent"])
 def test_where_it_takes_no_part(pendulum, options):
-    ref = zd.reference(pendulum, 0.5, **options)
+    ref = zd.reference(pendulum, 0.5, precision="double", **options)
     assert {d.integrator for d in ref.differences} == {"dop853", "extrapolation"}
 
 
 def test_where_terms_depend_on_time_the_check_tells_what_may_be_missed(cart):
     """By how densely its runs have evaluated them."""
-    ref = zd.reference(cart, 4.0)
+    ref = zd.reference(cart, 4.0, precision="double")
     assert ref.solution.settings["integrator"] == "taylor"
     assert ref.error < 1e-12
     assert f"some {4 * 0.21 / ref.differences[2].steps:.2g} s" in ref.caveats[0]

@@ -8,23 +8,9 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from support import ROOT
-from symbolic_counterparts import OF_PARAMETERS
+from symbolic_counterparts import CHANGED, OF_PARAMETERS
 
 pytest.importorskip("sympy")
-
-# Of each parameter another value than that the functions were written with.
-CHANGED = {
-    "four_bar": {"lengths": (1.1, 0.35, 0.9, 0.7), "masses": (1.0, 2.0, 4.0), "inertias": (0.02, 0.3, 0.1), "gravity": 5.0},
-    "driven_four_bar": {"lengths": (1.1, 0.35, 0.9, 0.7), "masses": (1.0, 2.0, 4.0), "gravity": 5.0, "crank_rate": 0.7,
-                        "amplitude": 0.2, "frequency": 3.0, "crank_angle": 1.0},
-    "pendulum": {"length": 0.7, "mass": 2.0, "gravity": 5.0, "rate": 1.0},
-    "slider_crank": {"crank": 0.4, "rod": 1.3, "crank_inertia": 0.5, "mass": 2.0, "rod_inertia": 0.3, "stiffness": 3.0,
-                     "damping": 0.5, "relaxed_length": 0.8, "force": 2.0, "crank_rate": 1.0},
-    "chaplygin_sleigh": {"mass": 2.0, "inertia": 0.3, "offset": -0.2, "speed": 1.0},
-    "oscillator": {"mass": 2.0, "stiffness": 3.0, "x0": 0.5, "v0": -1.0},
-    "knife_edge": {"mass": 2.0, "inertia": 0.3, "gravity": 5.0, "incline": 0.3, "heading": 0.5, "speed": 1.0, "turn_rate": 2.0},
-    "vertical_disc": {"mass": 2.0, "radius": 0.4, "axle_inertia": 0.3, "diameter_inertia": 0.1, "heading": 0.5, "turn_rate": 3.0},
-}
 
 
 def test_they_are_what_is_written():

@@ -229,6 +229,19 @@ typedef struct zd_series {
                     double *v_series, double *work, double *scratch);
 } zd_series;
 
+/* The same in double-double arithmetic, with the residuals of the constraints: see double_double.h. Numbers, times, states and coefficients
+ * are pairs of doubles, one after the other. Functions return 0; any other value: not available at this state. */
+typedef struct zd_precise {
+    int scratch;            /* pairs of scratch memory per order; a call needs order + 1 times as many */
+    int (*series)(const double *numbers, int order, const double *t, const double *p, const double *v, double *p_series, double *v_series,
+                  double *scratch);
+    /* Phi (mh,) of (3) and Psi (m,) of (5); M (nv, nv), C (m, nv) and A (nq, nv) as doubles, of which only entries that may differ from zero
+     * are written. */
+    int (*residuals)(const double *numbers, const double *t, const double *p, const double *v, double *Phi, double *Psi, double *M,
+                     double *C, double *A);
+    void (*value)(int order, int n, const double *series, const double *h, double *to);     /* to (n,): sum_k series_k h^k */
+} zd_precise;
+
 /* Jacobian of the rates of a state (p, v): J (nq + nv, nq + nv) <- derivatives of pdot = A v and of vdot by (2) and (6), with one more row
  * for the power of (28) if ZD_POWER or ZD_PHI_T is provided. Returns 0; any other value: not available at this state. */
 typedef struct zd_jacobian {
@@ -422,6 +435,7 @@ typedef struct zd_kind {
     /* The drawing: `points` points of `dimension` coordinates in m, joined by lines; NaN lifts the pen. */
     int points, dimension;
     void (*draw)(const double *constants, const double *p, double *points);
+    const zd_precise *precise;      /* in double-double arithmetic; read of built-in systems only */
 } zd_kind;
 
 #endif

@@ -11,6 +11,7 @@ import numpy as np
 from .._core import ffi, lib
 from ..errors import WrongValue
 from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
+from .compiled.precise import Precise
 from .constraint_names import ConstraintNames
 from .measures import Measuring
 from .packed_layout import PACKED, Packing
@@ -46,6 +47,18 @@ class Kind:
         p0, v0 = np.empty(system.nq), np.empty(system.nv)
         self.c.start(given, doubles(p0, system.nq, writable=True), doubles(v0, system.nv, writable=True))
         return CoreSystem(system, (constants, dimensions)), p0, v0
+
+    def precise(self, numbers: np.ndarray) -> Precise | None:
+        """The functions in double-double arithmetic of these numbers (k, 2); None: there are none."""
+        system = self.c.system
+        address = int(ffi.cast("uintptr_t", self.c.precise))
+        return Precise(address, numbers, (system.nq, system.nv, system.mh, system.mn), None) if address else None
+
+    @property
+    def independent(self) -> tuple[int, ...]:
+        """Indices of the entries of p that are independent coordinates, as far as the kind declares them."""
+        system = self.c.system
+        return tuple(system.independent[i] for i in range(system.nv - system.mh)) if system.independent else ()
 
     def draw(self, core: CoreSystem, p: np.ndarray) -> np.ndarray | None:
         """The drawing at p: points (n, dimension) to be joined by lines; None where there is none."""

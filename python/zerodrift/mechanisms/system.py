@@ -11,6 +11,7 @@ import numpy as np
 from .. import _check
 from .._gateway import Variable
 from .._gateway import is_length as is_length_of
+from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.plane import MechanismCore
 from ..errors import ZerodriftError, sentence
@@ -174,6 +175,22 @@ class MechanismSystem(BaseSystem):
 
     def _with_jacobian(self, core: MechanismCore, vector: str = "baseline") -> MechanismCore:
         return self._written.with_jacobian(vector) if self.compiled and core is self._core else core
+
+    def _with_series(self, core: MechanismCore, vector: str = "baseline") -> MechanismCore:
+        return self._written.with_series(vector) if self.compiled else core
+
+    @property
+    def _brings_series(self) -> bool:
+        return self.compiled and not self._written.why_no_series
+
+    def _precise_functions(self, vector: str = "baseline") -> Precise | None:
+        return self._written.precise(vector) if self.compiled else None
+
+    @property
+    def _held_at_start(self) -> tuple[list[int], list[int]]:
+        p, v = ([i for i, variable in enumerate(group) if variable.name in self._drawing.held]
+                for group in (self.coordinates, self.velocities))
+        return p, v
 
     def _why_not_direct(self, embeds: bool = False) -> str | None:
         if not self._is_written_out:

@@ -105,7 +105,7 @@ class Bench:
                  direct: bool | None = False) -> None:
         self.system, self.span, self.start, self.direct = system, span, (p0, v0), direct
         is_certified = isinstance(reference, certified.Reference)
-        self.reference_error, self.caveats = (reference.error, reference.caveats) if is_certified else (np.nan, ())
+        self.reference_error, self.caveats = (reference.error_in_double, reference.caveats) if is_certified else (np.nan, ())
         self._times = _times(reference, span)
         self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
 

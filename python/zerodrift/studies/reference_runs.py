@@ -78,6 +78,7 @@ class Motion:
     def __init__(self, system, span, p0, v0, t_eval, stabilization, formulation, bounds) -> None:
         self.system, self.span, self.t_eval, self.stabilization = system, span, t_eval, stabilization
         self.start = system._state_or_start(p0, v0, t=span[0])
+        self.is_own_start = p0 is None and v0 is None
         self._made_before: dict[tuple[Way, int], Solution | Exception | None] = {}
         self.bounded = bounds["max_step"] is not None
         self.is_plain = system._has_plain_laws
@@ -100,7 +101,7 @@ class Motion:
     def follows_series(self, formulation: str) -> bool:
         """True if Taylor's method can integrate the system in this formulation."""
         chosen = self.probe.settings | {"integrator": SERIES, "formulation": formulation}
-        return self.system._brings_series and not settings.disagreement(chosen)
+        return self.system._brings_perturbed_series and not settings.disagreement(chosen)
 
     def by_series(self, formulation: str) -> Motion:
         """The same motion by Taylor's method, with the previous method as the check."""

@@ -147,7 +147,7 @@ class _ReachError:
     def refusal(self, rows: list[Row]) -> Exception:
         least = min((row.error for row in rows if row.success), default=math.nan)
         return UnreachableTolerance(f"error = {self.error:g} is reached by none of {len(rows)} runs; the most accurate of them "
-                                    f"has an error of {least:.2g}")
+                                    f"has an error of {least:.2g}, to which double precision limits these methods on this motion")
 
 
 @dataclass(frozen=True)

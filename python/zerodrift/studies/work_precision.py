@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import itertools
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -70,6 +71,15 @@ class WorkPrecision:
                 front.append(row)
         return tuple(front)
 
+    @property
+    def smallest_error(self) -> float:
+        """Smallest error of a run that was measured, at least that of the reference; NaN if none succeeded.
+
+        With steps fine enough, it is the error that double precision leaves on this motion.
+        """
+        errors = [row.error for row in self.rows if row.success and np.isfinite(row.error)]
+        return max(min(errors), float(np.nan_to_num(self.reference_error))) if errors else math.nan
+
     def to_csv(self, path: str | Path) -> Path:
         """Write all entries to a CSV file.
 
@@ -100,7 +110,8 @@ class WorkPrecision:
     def __repr__(self) -> str:
         failed = sum(not row.success for row in self.rows)
         title = (f"WorkPrecision of {self.system.name}, t = {self.t_span[0]:g} ... {self.t_span[1]:g} s: {len(self.rows)} rows, "
-                 f"{failed} failed{'' if self.complete else ', interrupted'}; reference known to {self.reference_error:.2g}")
+                 f"{failed} failed{'' if self.complete else ', interrupted'}; reference known to {self.reference_error:.2g}, "
+                 f"smallest error of a run {self.smallest_error:.2g}")
         table = [("error", "time [ms]", "evaluations", "integrator", "formulation", "steps by", "corrections")]
         table += [_cells(row) for row in self.pareto()]
         widths = [max(map(len, column)) for column in zip(*table, strict=True)]

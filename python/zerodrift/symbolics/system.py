@@ -14,6 +14,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
+from .._gateway.compiled.precise import Precise
 from .._gateway.inputs import Bound, Place
 from ..errors import NoCompilerWarning, UnsuitedIntegrator, WrongValue
 from ..systems.base import BaseSystem, WithInputs
@@ -23,7 +24,7 @@ from ..systems.variables import quaternion_places, with_units
 from . import rounding_factors
 from .compile import compilers, shared_library
 from .compile.closed_form_library import DIRECT, NO_COMPILER, ClosedFormFunctions
-from .compile.series_library import JacobianFunctions, SeriesFunctions
+from .compile.series_library import JacobianFunctions, PreciseFunctions, SeriesFunctions
 from .graph.smoothness import is_plain_program
 
 
@@ -84,6 +85,7 @@ class SymbolicSystem(BaseSystem):
         self._direct = direct or ClosedFormFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
         self._series = SeriesFunctions(code.program, code.sizes)
+        self._precise = PreciseFunctions(code.program, code.sizes)
         self._jacobian = JacobianFunctions(code.program, code.sizes)
         self._perturbed: SeriesFunctions | None = None      # of the same off by rounding
         self._library = shared_library.library(code.c_source, progress, meanwhile=self._direct.prepare)
@@ -129,6 +131,13 @@ class SymbolicSystem(BaseSystem):
         library = self._series.library(vector)
         return core.with_series(_gateway.address_of(library, SeriesFunctions.symbol), library)
 
+    def _precise_functions(self, vector: str = "baseline") -> Precise | None:
+        library = self._precise.library(vector) if self.compiled else None
+        if library is None:
+            return None
+        numbers = np.stack([self._values, np.zeros(len(self._values))], axis=-1)
+        return Precise(_gateway.address_of(library, PreciseFunctions.symbol), numbers, self._code.sizes, library)
+
     def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
         library = self._jacobian.library(vector) if self.compiled else None
         if library is None:
@@ -150,6 +159,10 @@ class SymbolicSystem(BaseSystem):
     @property
     def _brings_series(self) -> bool:
         return self.compiled and not self._series.why_none
+
+    @property
+    def _brings_perturbed_series(self) -> bool:
+        return self._brings_series
 
     @property
     def _has_plain_laws(self) -> bool:

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import Variable, known_events
+from .._gateway.compiled.precise import Precise
 from .._gateway.known_events import Reading
 from ..errors import WrongName, WrongType, WrongValue
 from .measure_values import Place, Watching
@@ -337,6 +338,15 @@ class BaseSystem:
         """The core's system with the Taylor series of its motion, if there is one."""
         return core
 
+    def _precise_functions(self, vector: str = "baseline") -> Precise | None:
+        """Functions of the system in double-double arithmetic; None: it has none."""
+        return None
+
+    @property
+    def _held_at_start(self) -> tuple[list[int], list[int]]:
+        """Coordinates and velocities that are given as doubles at the start, and from which all others follow."""
+        return [], []
+
     def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
         """The core's system with the Jacobian of its motion, if there is one."""
         return core
@@ -344,6 +354,11 @@ class BaseSystem:
     def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
         """The core's perturbed system, with the Taylor series of the perturbed motion."""
         return core
+
+    @property
+    def _brings_perturbed_series(self) -> bool:
+        """True if the perturbed system has its Taylor series, too."""
+        return False
 
     @property
     def _brings_series(self) -> bool:

@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
+from .._gateway.compiled.precise import Precise
 from ..errors import WrongType, WrongValue
 from .base import BaseSystem
+from .exact_numbers import HELD_AT_START, exact_numbers
 from .parameter_tables import NumberTables, not_finite, refusals
 
 _KINDS = _gateway.kinds()
@@ -68,6 +70,13 @@ class BuiltIn(SystemOfKind):
 
     def __init__(self, kind: str, parameters: dict[str, Any]) -> None:
         super().__init__(_KINDS[kind], parameters)
+
+    def _precise_functions(self, vector: str = "baseline") -> Precise | None:
+        return self._kind.precise(exact_numbers(self.name, self.parameters))
+
+    @property
+    def _held_at_start(self) -> tuple[list[int], list[int]]:
+        return HELD_AT_START.get(self.name, ([], []))
 
     def __repr__(self) -> str:
         given = ", ".join(f"{name}={value!r}" for name, value in self._given.items())

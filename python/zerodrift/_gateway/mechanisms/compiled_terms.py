@@ -22,11 +22,12 @@ class WrittenTerms(NamedTuple):
 
 
 def with_functions(core: MechanismCore | SpaceCore, numbers: np.ndarray, keep: Any, *, terms: WrittenTerms | None = None,
-                   direct: int | None = None, jacobian: int | None = None) -> MechanismCore | SpaceCore:
+                   direct: int | None = None, jacobian: int | None = None,
+                   series: int | None = None) -> MechanismCore | SpaceCore:
     """The same system, whose terms and direct functions are these, and whose measures are read as before.
 
     The `data` of the functions begins with a pointer to `numbers`; `direct` is the address of a `zd_closed_form`, `jacobian`
-    that of a `zd_jacobian`. What is None stays.
+    that of a `zd_jacobian`, `series` that of a `zd_series`. What is None stays.
     """
     mine = core._with_data(ffi.NULL, doubles(numbers, numbers.size))
     if terms is not None:
@@ -39,5 +40,7 @@ def with_functions(core: MechanismCore | SpaceCore, numbers: np.ndarray, keep: A
         mine.c.closed_form, mine.c.closed_forms = ffi.cast("const zd_closed_form *", direct), 1
     if jacobian is not None:
         mine.c.jacobian = ffi.cast("const zd_jacobian *", jacobian)
+    if series is not None:
+        mine.c.series = ffi.cast("const zd_series *", series)
     mine._data = (*mine._data, keep)
     return mine

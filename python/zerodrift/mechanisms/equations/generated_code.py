@@ -21,23 +21,25 @@ from typing import Any
 import numpy as np
 
 from ... import _gateway
+from ..._gateway.compiled.precise import Precise
 from ..._gateway.mechanisms import space_plans
 from ..._gateway.mechanisms.compiled_terms import WrittenTerms, with_functions
 from ..._gateway.mechanisms.law_inputs import WrittenInputs
 from ..._gateway.mechanisms.plane import MechanismCore
 from ..._gateway.mechanisms.plans import plan_of
 from ..._gateway.mechanisms.space import SpaceCore
-from ...errors import NoCompilerWarning
+from ...errors import NoCompilerWarning, UnsuitedIntegrator
 from ...symbolics.compile import cache as kept
 from ...symbolics.compile import compilers, shared_library
 from ...symbolics.compile.closed_form_library import DIRECT, ClosedFormFunctions
-from ...symbolics.compile.series_library import JacobianFunctions
+from ...symbolics.compile.series_library import JacobianFunctions, PreciseFunctions, SeriesFunctions
 from ...symbolics.graph.plain_functions import Plain
 from . import nodes, space_nodes
 from .function_calls import Laws
 
 DATA = "*(const double *const *)data"       # the doubles that functions receive: csrc/mechanisms/plane/tables.h
 MOST_VELOCITIES = 400   # with six a body, each of which takes more than ten operations: see closed_form_writer.MOST_OPERATIONS
+FOLLOWED = "coordinates that follow from others have none"
 OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in SIMD lanes these alone differ between groups
 
 
@@ -96,7 +98,9 @@ class Written:
         if not self.is_compiled:
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): the tables of {name} are interpreted",
                           NoCompilerWarning, stacklevel=6)
+        program = FOLLOWED if core.c.followers else self._code.program
         self._jacobian = JacobianFunctions(self._code.program, self._sizes, DATA)
+        self._series, self._precise = SeriesFunctions(program, self._sizes, DATA), PreciseFunctions(program, self._sizes)
         self.core = self._compiled(None) if self.is_compiled else core
 
     def _derive(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
@@ -133,8 +137,8 @@ class Written:
         knows_time = any(operation.code == "leaf" and operation.arguments[0] == "t" for operation in lowering.operations)
         return Code(list(terms), not knows_time, constants, scratch, c_source, closed_form.as_json(lowering, outputs))
 
-    def _compiled(self, direct: ClosedFormFunctions | None, vector: str = "baseline",
-                  jacobian: Any = None) -> MechanismCore | SpaceCore:
+    def _compiled(self, direct: ClosedFormFunctions | None, vector: str = "baseline", jacobian: Any = None,
+                  series: Any = None) -> MechanismCore | SpaceCore:
         """System with compiled functions."""
         code = self._code
         numbers = np.concatenate([self._values, np.zeros(code.constants + (direct.constants if direct else 0) + 1)])
@@ -149,7 +153,9 @@ class Written:
             address = _gateway.address_of(libraries[1], DIRECT)
         numbers.flags.writeable = False
         rates = jacobian and _gateway.address_of(jacobian, JacobianFunctions.symbol)
-        core = with_functions(self._interpreted, numbers, [*libraries, jacobian], terms=terms, direct=address, jacobian=rates)
+        coefficients = series and _gateway.address_of(series, SeriesFunctions.symbol)
+        core = with_functions(self._interpreted, numbers, [*libraries, jacobian, series], terms=terms, direct=address,
+                              jacobian=rates, series=coefficients)
         derive = zip(libraries, ("zd_symbolic_constants", f"{DIRECT}_constants"), strict=False)
         core.written_inputs = WrittenInputs(numbers, self._index, [_gateway.address_of(*each) for each in derive if each[0]])
         return core
@@ -158,6 +164,25 @@ class Written:
         """The same with derivatives of its rates for a vector unit, if it has them."""
         library = self._jacobian.library(vector) if self.is_compiled else None
         return self._compiled(None, vector, library) if library else self.core
+
+    @property
+    def why_no_series(self) -> str:
+        """Reason why there is no Taylor series; empty if there is one."""
+        return self._series.why_none
+
+    def with_series(self, vector: str) -> MechanismCore | SpaceCore:
+        """The same with the Taylor series of its motion for a vector unit; raises UnsuitedIntegrator where there is none."""
+        if self.why_no_series:
+            raise UnsuitedIntegrator(f"the mechanism has no Taylor series: {self.why_no_series}")
+        return self._compiled(None, vector, series=self._series.library(vector))
+
+    def precise(self, vector: str) -> Precise | None:
+        """Functions in double-double arithmetic, of the numbers as doubles; None: there are none."""
+        library = self._precise.library(vector) if self.is_compiled else None
+        if library is None:
+            return None
+        numbers = np.stack([self._values, np.zeros(len(self._values))], axis=-1)
+        return Precise(_gateway.address_of(library, PreciseFunctions.symbol), numbers, self._sizes, library)
 
     def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> ClosedFormFunctions:
         """Closed-form functions, with elimination orders for these numbers and the start p0."""

@@ -1,4 +1,4 @@
-"""Taylor series and Jacobian of a symbolic system, for integrators that use them: written and compiled at first use."""
+"""Taylor series, in both precisions, and Jacobian of a symbolic system: written and compiled at first use."""
 
 from __future__ import annotations
 
@@ -56,6 +56,12 @@ class SeriesFunctions(WrittenFunctions):
     """The Taylor series of the motion."""
 
     symbol, _write = series.SERIES, staticmethod(series.write)
+
+
+class PreciseFunctions(WrittenFunctions):
+    """The Taylor series of the motion in double-double arithmetic, and the residuals of its constraints."""
+
+    symbol, _write = series.PRECISE, staticmethod(series.write_precise)
 
 
 class JacobianFunctions(WrittenFunctions):

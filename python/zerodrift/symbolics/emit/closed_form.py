@@ -34,7 +34,8 @@ def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any]
                 return f"SymPy has no function {name}"
             arguments = (name, *arguments[1:])
         operations.append([code, *arguments])
-    return {"operations": operations, "terms": {name: outputs[name] for name in TERMS if name in outputs}}
+    return {"operations": operations, "terms": {name: outputs[name] for name in TERMS if name in outputs},
+            "exact": {number: fraction for number, fraction in lowering.exact.items() if fraction}}
 
 
 def _projecting(of: Elimination) -> dict[str, dict[str, list[int]]]:

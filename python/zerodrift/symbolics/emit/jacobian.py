@@ -78,7 +78,7 @@ class _Slopes(Writer):
 
     def _of_entry(self, name: str, place: int, leaf: Leaf) -> str | None:
         """The derivative of an entry of a term; None: it is zero."""
-        number = self._entry(name, place)
+        number = self.entry(name, place)
         return None if number is None else self.slopes[number].get(leaf)
 
     def of_constraints(self) -> list[str]:
@@ -126,7 +126,7 @@ class _Slopes(Writer):
         lines = []
         for i in range(self.nq):
             parts = self._products(leaf, *(("A", i * self.nv + j, f"v[{j}]") for j in range(self.nv)))
-            entry = self._entry("A", i * self.nv + place) if kind == "v" else None
+            entry = self.entry("A", i * self.nv + place) if kind == "v" else None
             parts += [] if entry is None else [f"z{entry}"]
             lines += [f"{self._at(i, leaf)} = {' + '.join(parts)};"] if parts else []
         return lines
@@ -134,7 +134,7 @@ class _Slopes(Writer):
     def _of_power(self, leaf: Leaf, is_solved: bool) -> list[str]:
         """Derivative of the power in (28): of forces, and of moving constraints with their multipliers."""
         parts = self._products(leaf, ("power", 0, "1.0"), *(("Phi_t", k, f"lambda[{k}]") for k in range(self.m)))
-        moving = [(k, self._entry("Phi_t", k)) for k in range(self.m)] if is_solved else []
+        moving = [(k, self.entry("Phi_t", k)) for k in range(self.m)] if is_solved else []
         parts += [f"x[{self.nv + k}] * z{entry}" for k, entry in moving if entry is not None]
         return [f"{self._at(self.nq + self.nv, leaf)} = {' + '.join(parts)};"] if parts else []
 
@@ -170,10 +170,10 @@ def _of_rates(writer: _Slopes) -> list[str]:
     n, size, columns = writer.nv, writer.nv + writer.m, writer.nq + writer.nv
     has_power = "power" in writer.terms or "Phi_t" in writer.terms
     leaves = [("p", i) for i in range(writer.nq)] + [("v", j) for j in range(n)]
-    return [f"double G[{size * size}] = {{0}}, right[{size}], x[{size}], first[{size}];",
-            f"const double *const vdot = first, *const lambda = first + {n};",
+    return [f"double G[{size * size}] = {{0}}, right[{size}], x[{size}], first[{size}], sizes[{size}];",
+            "double *const L = G;", f"const double *const vdot = first, *const lambda = first + {n};",
             "(void)vdot, (void)lambda;", *writer.values(), *writer.leading(),
-            f"if (zd_series_invert({n}, {writer.m}, G, x)) return ZD_NOT_DEFINITE;",
+            f"if (zd_series_invert({n}, {writer.m}, G, sizes)) return ZD_NOT_DEFINITE;",
             f"zd_series_solve({size}, G, right, first);",
             f"for (int i = 0; i < {(columns + has_power) * columns}; i++) J[i] = 0;",
             *_bounded(writer.statements, [line for leaf in leaves for line in writer.column(leaf)])]

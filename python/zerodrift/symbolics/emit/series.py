@@ -1,4 +1,6 @@
-"""Taylor coefficients of a motion as C: `zd_series` of the core's interface.
+"""Taylor coefficients of a motion as C: `zd_series` of the core's interface, and `zd_precise` in double-double arithmetic.
+
+Arithmetic is written as macros of zerodrift/series.h, so that the same source serves both precisions.
 
 Terms of order k have in them the coefficients of order k of what they depend on, times known numbers, and sums over those of
 lower orders. The latter are independent of each other, and are formed for all products at once, side by side in the lanes of a
@@ -13,23 +15,26 @@ with one inverse for all orders, v_(k+1) = a_k / (k + 1) and p_(k+1) = (A v)_k /
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from ..elimination.steps import Unwritten
+from . import residuals
 from .taylor import Jet, Jets
 from .writers import indented
 
 TERMS = ("A", "M", "d", "f", "C", "xi", "power", "Phi_t")
-SERIES = "zd_symbolic_series"       # what the descriptor is called in its library
+SERIES, PRECISE = "zd_symbolic_series", "zd_symbolic_precise"       # names of the descriptors in their libraries
+ROUNDED = ("erf", "erfc", "gamma", "loggamma", "expm1", "log1p", "log2", "log10", "hypot")     # of double precision alone
 MOST_STATEMENTS = 2000              # of one order
 TURNS = ("sin", "cos")
 HEAD = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <zerodrift/series.h>",
-        "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", "",
-        "const int zd_interface_version = ZD_INTERFACE_VERSION;", ""]
+        "#include <zerodrift/system.h>", "", "const int zd_interface_version = ZD_INTERFACE_VERSION;", ""]
 TOGETHER = 8                        # sums are formed of so many products: ZD_SERIES_TOGETHER
-SIGNATURE = ["ZD_SERIES_ON static int evaluate(const void *data, const double *inputs, int orders, double t,",
-             "    const double *restrict p, const double *restrict v, double *restrict P, double *restrict V,",
-             "    double *restrict E, double *restrict scratch)"]
+SIGNATURE = ["ZD_SERIES_ON static int evaluate(const void *data, const double *inputs, int orders, zd_number t,",
+             "    const zd_number *restrict p, const zd_number *restrict v, zd_number *restrict P, zd_number *restrict V,",
+             "    zd_number *restrict E, zd_number *restrict scratch)"]
 
 Row = tuple[str, int]       # of coefficients: ("jet", number), ("weighted", number), ("a", j), ("lambda", l), ("v", j)
 
@@ -53,6 +58,7 @@ class Writer:
     def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int], terms: tuple[str, ...] = TERMS) -> None:
         self.nq, self.nv, mh, mn = sizes
         self.m, self.jets, self.sums = mh + mn, Jets(program, terms), _Sums()
+        self._exact = program.get("exact", {})
         self.operations, self.terms = self.jets.operations, self.jets.terms
 
     # ---- values ----
@@ -71,7 +77,7 @@ class Writer:
                     turns.append(number)
                     waiting.add(number)
                 else:
-                    lines.append(f"const double z{number} = {self._value(self.operations[number])};")
+                    lines.append(f"const zd_number z{number} = {self._value(self.operations[number])};")
             lines += self._turned(turns) if turns else []
             numbers = later
         return lines
@@ -85,9 +91,10 @@ class Writer:
     def _turned(self, turns: list[int]) -> list[str]:
         angles = list(dict.fromkeys(self.operations[number].arguments[0] for number in turns))
         first, count = turns[0], len(angles)
-        lines = [f"const double angle{first}[{count}] = {{{', '.join(f'z{angle}' for angle in angles)}}};",
-                 f"double sin{first}[{count}], cos{first}[{count}];", f"zd_sines({count}, angle{first}, sin{first}, cos{first});"]
-        return lines + [f"const double z{number} = {jet.name}{first}[{angles.index(jet.arguments[0])}];"
+        lines = [f"const zd_number angle{first}[{count}] = {{{', '.join(f'z{angle}' for angle in angles)}}};",
+                 f"zd_number sin{first}[{count}], cos{first}[{count}];",
+                 f"ZD_TURNS({count}, angle{first}, sin{first}, cos{first});"]
+        return lines + [f"const zd_number z{number} = {jet.name}{first}[{angles.index(jet.arguments[0])}];"
                         for number in turns for jet in [self.operations[number]]]
 
     def _value(self, jet: Jet) -> str:
@@ -95,26 +102,32 @@ class Writer:
         if kind == "leaf":
             return {"parameter": f"k[{arguments[1]}]", "t": "t"}.get(arguments[0], f"{arguments[0]}[{arguments[1]}]")
         if kind == "number":
-            return repr(float(arguments[0]))
+            return self._number(float(arguments[0]))
         names = [f"z{argument}" for argument in arguments]
-        if kind in "+-*/":
-            return f"{names[0]} {kind} {names[1]}"
-        named = {"negative": "-{0}", "root": "sqrt({0})", "power": "pow({0}, {1})", "atan2": "atan2({0}, {1})",
-                 "along": f"{jet.name}({{0}})", "against": f"{jet.name}({{0}})"}
-        return named[kind].format(*names) if kind in named else f"{jet.name}({', '.join(names)})"
+        if kind in MACROS:
+            return f"{MACROS[kind]}({', '.join(names)})"
+        named = {"power": "ZD_CALL(pow)({0}, {1})", "atan2": "ZD_CALL(atan2)({0}, {1})",
+                 "along": f"ZD_CALL({jet.name})({{0}})", "against": f"ZD_CALL({jet.name})({{0}})"}
+        return named[kind].format(*names) if kind in named else f"ZD_CALL({jet.name})({', '.join(names)})"
+
+    def _number(self, value: float) -> str:
+        """A number; fractions that no double has are pairs of doubles."""
+        exact = self._exact.get(repr(value))
+        low = float(Fraction(exact) - Fraction(value)) if exact else 0.0
+        return f"ZD_PAIR({value!r}, {low!r})" if low else f"ZD_NUM({value!r})"
 
     # ---- coefficients ----
 
     def coefficients(self) -> list[str]:
         """Statements of the coefficients of one order, of all that is not fixed."""
-        return [f"const double y{number} = {self._coefficient(number, jet)};"
+        return [f"const zd_number y{number} = {self._coefficient(number, jet)};"
                 for number, jet in enumerate(self.operations) if not jet.is_fixed]
 
     def _coefficient(self, number: int, jet: Jet) -> str:
         kind, arguments = jet.kind, jet.arguments
         if kind == "leaf":
             name, place = arguments
-            return "order == 1" if name == "t" else f"{name.upper()}[order * {self._size(name)} + {place}]"
+            return "ZD_NUM(order == 1)" if name == "t" else f"{name.upper()}[order * {self._size(name)} + {place}]"
         if kind in ("+", "-"):
             return self._sum(kind, *arguments)
         return getattr(self, f"_of_{NAMES.get(kind, kind)}")(number, *arguments)
@@ -127,50 +140,52 @@ class Writer:
 
     def _sum(self, sign: str, a: int, b: int) -> str:
         if self._is_fixed(a):
-            return f"y{b}" if sign == "+" else f"-y{b}"
-        return f"y{a}" if self._is_fixed(b) else f"y{a} {sign} y{b}"
+            return f"y{b}" if sign == "+" else minus(f"y{b}")
+        return f"y{a}" if self._is_fixed(b) else f"{MACROS[sign]}(y{a}, y{b})"
 
     def _of_negative(self, number: int, a: int) -> str:
-        return f"-y{a}"
+        return minus(f"y{a}")
 
     def _of_product(self, number: int, a: int, b: int) -> str:
         if self._is_fixed(a) or self._is_fixed(b):
-            return f"z{a} * y{b}" if self._is_fixed(a) else f"y{a} * z{b}"
-        ends = f"2 * z{a} * y{a}" if a == b else f"(z{a} * y{b} + y{a} * z{b})"
-        return f"{self.sums.of(('jet', a), ('jet', b))} + {ends}"
+            return times(f"z{a}", f"y{b}") if self._is_fixed(a) else times(f"y{a}", f"z{b}")
+        ends = times(times("ZD_NUM(2)", f"z{a}"), f"y{a}") if a == b else plus(times(f"z{a}", f"y{b}"), times(f"y{a}", f"z{b}"))
+        return plus(self.sums.of(("jet", a), ("jet", b)), ends)
 
     def _of_quotient(self, number: int, a: int, b: int) -> str:
         if self._is_fixed(b):
-            return f"y{a} / z{b}"
-        above = f"{self.sums.of(('jet', number), ('jet', b))} + z{number} * y{b}"
-        return f"-({above}) / z{b}" if self._is_fixed(a) else f"(y{a} - ({above})) / z{b}"
+            return over(f"y{a}", f"z{b}")
+        above = plus(self.sums.of(("jet", number), ("jet", b)), times(f"z{number}", f"y{b}"))
+        return over(minus(above) if self._is_fixed(a) else less(f"y{a}", above), f"z{b}")
 
     def _of_root(self, number: int, a: int) -> str:
-        return f"0.5 * (y{a} - {self.sums.of(('jet', number), ('jet', number))}) / z{number}"
+        return over(times("ZD_NUM(0.5)", less(f"y{a}", self.sums.of(("jet", number), ("jet", number)))), f"z{number}")
 
     def _of_power(self, number: int, a: int, exponent: int) -> str:
         of_base = self.sums.of(("weighted", a), ("jet", number))
         of_power = self.sums.of(("weighted", number), ("jet", a))
-        return f"(z{exponent} * (y{a} * z{number} + share * {of_base}) - share * {of_power}) / z{a}"
+        by_base = times(f"z{exponent}", plus(times(f"y{a}", f"z{number}"), times("share", of_base)))
+        return over(less(by_base, times("share", of_power)), f"z{a}")
 
     def _of_along(self, number: int, u: int, w: int) -> str:
-        sign = "-" if self.operations[number].name == "cos" else ""
-        return f"{sign}(z{w} * y{u} + share * {self.sums.of(('weighted', u), ('jet', w))})"
+        value = plus(times(f"z{w}", f"y{u}"), times("share", self.sums.of(("weighted", u), ("jet", w))))
+        return minus(value) if self.operations[number].name == "cos" else value
 
     def _of_against(self, number: int, u: int, q: int) -> str:
-        sum_, sign = self.sums.of(("weighted", number), ("jet", q)), "-" if self.operations[number].name == "acos" else ""
-        return f"({sign}y{u} - share * {sum_}) / z{q}"
+        above = minus(f"y{u}") if self.operations[number].name == "acos" else f"y{u}"
+        return over(less(above, times("share", self.sums.of(("weighted", number), ("jet", q)))), f"z{q}")
 
     def _of_atan2(self, number: int, y: int, x: int, q: int) -> str:
-        parts = [f"z{x} * y{y}", f"-z{y} * y{x}"]
+        parts = [times(f"z{x}", f"y{y}"), times(minus(f"z{y}"), f"y{x}")]
         parts = [part for part, of in zip(parts, (y, x), strict=True) if not self._is_fixed(of)]
         if not (self._is_fixed(x) or self._is_fixed(y)):
-            parts.append(f"share * ({self.sums.of(('weighted', y), ('jet', x))} - {self.sums.of(('weighted', x), ('jet', y))})")
-        return f"({' + '.join(parts)} - share * {self.sums.of(('weighted', number), ('jet', q))}) / z{q}"
+            crossed = less(self.sums.of(("weighted", y), ("jet", x)), self.sums.of(("weighted", x), ("jet", y)))
+            parts.append(times("share", crossed))
+        return over(less(plus(*parts), times("share", self.sums.of(("weighted", number), ("jet", q)))), f"z{q}")
 
     # ---- the equations ----
 
-    def _entry(self, name: str, place: int) -> int | None:
+    def entry(self, name: str, place: int) -> int | None:
         """The operation of an entry of a term; None: the system has no such term, or it is zero."""
         numbers = self.terms.get(name)
         if not numbers:
@@ -179,44 +194,47 @@ class Writer:
         return None if jet.kind == "number" and jet.arguments[0] == 0 else numbers[place]
 
     def _varying(self, name: str, place: int) -> int | None:
-        number = self._entry(name, place)
+        number = self.entry(name, place)
         return None if number is None or self._is_fixed(number) else number
 
     def leading(self) -> list[str]:
         """The matrix of (8) and the right side, at the beginning."""
         n, size, lines = self.nv, self.nv + self.m, []
         for i in range(n):
-            lines += [f"G[{i * size + j}] = z{entry};" for j in range(n) if (entry := self._entry("M", i * n + j)) is not None]
-            lines.append(f"right[{i}] = {self._value_of('f', i)} - {self._value_of('d', i)};")
+            lines += [f"L[{i * size + j}] = z{entry};" for j in range(n) if (entry := self.entry("M", i * n + j)) is not None]
+            lines.append(f"right[{i}] = {less(self.value_of('f', i), self.value_of('d', i))};")
         for k in range(self.m):
             for j in range(n):
-                if (entry := self._entry("C", k * n + j)) is not None:
-                    lines.append(f"G[{(n + k) * size + j}] = G[{j * size + n + k}] = z{entry};")
-            lines.append(f"right[{n + k}] = {self._value_of('xi', k)};")
+                if (entry := self.entry("C", k * n + j)) is not None:
+                    lines.append(f"L[{(n + k) * size + j}] = L[{j * size + n + k}] = z{entry};")
+            lines.append(f"right[{n + k}] = {self.value_of('xi', k)};")
         return lines
 
-    def _value_of(self, name: str, place: int) -> str:
-        entry = self._entry(name, place)
-        return "0.0" if entry is None else f"z{entry}"
+    def value_of(self, name: str, place: int) -> str:
+        """C name of an entry's value."""
+        entry = self.entry(name, place)
+        return ZERO if entry is None else f"z{entry}"
 
     def right_sides(self) -> list[str]:
         """Right sides of one order, from its known part and from all lower orders."""
         n, lines = self.nv, []
         for i in range(n):
-            known = [f"{sign} y{entry}" for sign, name in (("+", "f"), ("-", "d"))
-                     if (entry := self._varying(name, i)) is not None]
+            right = ZERO
+            for name, to in (("f", plus), ("d", less)):
+                if (entry := self._varying(name, i)) is not None:
+                    right = to(right, f"y{entry}")
             taken = [self._taken("M", i * n + j, ("a", j)) for j in range(n)]
             taken += [self._taken("C", k * n + i, ("lambda", k)) for k in range(self.m)]
-            lines.append(f"right[{i}] = 0.0 {' '.join([*known, *filter(None, taken)])};")
+            lines.append(f"right[{i}] = {less(right, *filter(None, taken))};")
         for k in range(self.m):
             entry = self._varying("xi", k)
             taken = [self._taken("C", k * n + j, ("a", j)) for j in range(n)]
-            lines.append(f"right[{n + k}] = {'0.0' if entry is None else f'y{entry}'} {' '.join(filter(None, taken))};")
+            lines.append(f"right[{n + k}] = {less(ZERO if entry is None else f'y{entry}', *filter(None, taken))};")
         return lines
 
     def _taken(self, name: str, place: int, row: Row) -> str:
         entry = self._varying(name, place)
-        return "" if entry is None else f"- ({self.sums.of(('jet', entry), row)} + y{entry} * first[{self._place(row)}])"
+        return "" if entry is None else plus(self.sums.of(("jet", entry), row), times(f"y{entry}", f"first[{self._place(row)}]"))
 
     def _place(self, row: Row) -> int:
         return row[1] if row[0] == "a" else self.nv + row[1]
@@ -224,33 +242,33 @@ class Writer:
     def rates_of_positions(self, at_start: bool) -> list[str]:
         """The next coefficients of p."""
         if "A" not in self.terms:
-            return [f"P[(order + 1) * {self.nq} + {i}] = next * V[order * {self.nv} + {i}];" for i in range(self.nq)]
+            return [f"P[(order + 1) * {self.nq} + {i}] = {times('next', f'V[order * {self.nv} + {i}]')};" for i in range(self.nq)]
         lines = []
         for i in range(self.nq):
             parts = []
             for j in range(self.nv):
-                entry = self._entry("A", i * self.nv + j)
+                entry = self.entry("A", i * self.nv + j)
                 if entry is not None:
-                    parts.append(f"z{entry} * V[order * {self.nv} + {j}]")
+                    parts.append(times(f"z{entry}", f"V[order * {self.nv} + {j}]"))
                     if not (at_start or self._is_fixed(entry)):
-                        parts.append(f"{self.sums.of(('jet', entry), ('v', j))} + y{entry} * v[{j}]")
-            lines.append(f"P[(order + 1) * {self.nq} + {i}] = next * ({' + '.join(parts) or '0.0'});")
+                        parts += [self.sums.of(("jet", entry), ("v", j)), times(f"y{entry}", f"v[{j}]")]
+            lines.append(f"P[(order + 1) * {self.nq} + {i}] = {times('next', plus(*parts) if parts else ZERO)};")
         return lines
 
     def power(self, at_start: bool) -> list[str]:
         """The next coefficient of the energy that has come in, (28)."""
         if "power" not in self.terms and "Phi_t" not in self.terms:
             return []
-        letter, parts = "z" if at_start else "y", ["0.0"]
-        entry = (self._entry if at_start else self._varying)("power", 0)
+        letter, parts = "z" if at_start else "y", [ZERO]
+        entry = (self.entry if at_start else self._varying)("power", 0)
         parts += [] if entry is None else [f"{letter}{entry}"]
         for k in range(self.m):
-            entry = self._entry("Phi_t", k)
+            entry = self.entry("Phi_t", k)
             if entry is not None:
-                parts.append(f"z{entry} * x[{self.nv + k}]")
+                parts.append(times(f"z{entry}", f"x[{self.nv + k}]"))
                 if not (at_start or self._is_fixed(entry)):
-                    parts.append(f"{self.sums.of(('jet', entry), ('lambda', k))} + y{entry} * first[{self.nv + k}]")
-        return [f"if (E) E[order + 1] = next * ({' + '.join(parts)});"]
+                    parts += [self.sums.of(("jet", entry), ("lambda", k)), times(f"y{entry}", f"first[{self.nv + k}]")]
+        return [f"if (E) E[order + 1] = {times('next', plus(*parts))};"]
 
     # ---- rows ----
 
@@ -262,30 +280,64 @@ class Writer:
     def _stored(self, row: Row) -> str:
         kind, number = row
         if kind in ("jet", "weighted"):
-            value = "0.0" if self._is_fixed(number) else f"y{number}"
-            return f"order * {value}" if kind == "weighted" else value
+            value = ZERO if self._is_fixed(number) else f"y{number}"
+            return times("ZD_NUM(order)", value) if kind == "weighted" else value
         return f"V[order * {self.nv} + {number}]" if kind == "v" else f"x[{self._place(row)}]"
 
 
 NAMES = {"*": "product", "/": "quotient"}
+MACROS = {"+": "ZD_ADD", "-": "ZD_SUB", "*": "ZD_MUL", "/": "ZD_DIV", "negative": "ZD_NEG", "root": "ZD_ROOT"}
+ZERO = "ZD_NUM(0.0)"
+
+
+def _joined(macro: str, first: str, *others: str) -> str:
+    """C of an operation on several values, from the left."""
+    for other in others:
+        first = f"{macro}({first}, {other})"
+    return first
+
+
+plus, less, times, over = (partial(_joined, MACROS[sign]) for sign in "+-*/")
+
+
+def minus(value: str) -> str:
+    return f"ZD_NEG({value})"
 
 
 def write(program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data: str = "data") -> str:
     """The C source; raises `Unwritten` where some function has no series, or there are too many operations."""
     if isinstance(program, str):
         raise Unwritten(program)
+    return "\n".join([*HEAD, *functions(program, sizes, data), f"const zd_series {SERIES} = {{2 * ROWS, evaluate}};", ""])
+
+
+def write_precise(program: dict[str, Any] | str, sizes: tuple[int, int, int, int], data: str = "data") -> str:
+    """The C source in double-double arithmetic, of the numbers that `data` points to; raises `Unwritten` as `write` does."""
+    if isinstance(program, str):
+        raise Unwritten(program)
+    missing = {name for code, *arguments in program["operations"] if code == "call" for name in arguments[:1]} & set(ROUNDED)
+    if missing:
+        raise Unwritten(f"double-double arithmetic has no {missing.pop()}")
+    head = [f"#define ZD_SERIES_SIZE {sum(sizes) - sizes[0]}", "#define ZD_SERIES_DOUBLE_DOUBLE", *HEAD]
+    return "\n".join([*head, *functions(program, sizes, data), *residuals.function(Writer(program, sizes, residuals.TERMS)),
+                      *residuals.WRAPPED,
+                      f"const zd_precise {PRECISE} = {{2 * ROWS, precise_series, precise_residuals, zd_series_value}};", ""])
+
+
+def functions(program: dict[str, Any], sizes: tuple[int, int, int, int], data: str) -> list[str]:
+    """The function of the coefficients, in whatever precision its header says."""
     writer = Writer(program, sizes)
     body = _of_one_order(writer)
     if len(body) > MOST_STATEMENTS:
         raise Unwritten(f"their series would have more than {MOST_STATEMENTS} statements")
     rows = max(TOGETHER, -(-len(writer.sums.pairs) // TOGETHER) * TOGETHER)
-    lines = [f"const double *restrict const k = {data};",
-             "double *restrict const X = scratch, *restrict const Y = X + (orders + 1) * ROWS;",
+    lines = [f"const zd_number *restrict const k = {data};",
+             "zd_number *restrict const X = scratch, *restrict const Y = X + (orders + 1) * ROWS;",
              *_of_beginning(writer), "for (int order = 1; order < orders; order++) {",
-             *indented(["const double share = 1.0 / order, next = 1.0 / (order + 1);", "(void)share;",
+             *indented(["const zd_number share = ZD_DIV(ZD_NUM(1.0), ZD_NUM(order));",
+                        "const zd_number next = ZD_DIV(ZD_NUM(1.0), ZD_NUM(order + 1));", "(void)share;",
                         "zd_series_sum(ROWS, order, X, Y, sum);", *body]), "}", "return ZD_DONE;"]
-    return "\n".join([*HEAD, f"enum {{ ROWS = {rows} }};", "", *SIGNATURE, "{", *indented(lines), "}", "",
-                      f"const zd_series {SERIES} = {{2 * ROWS, evaluate}};", ""])
+    return [f"enum {{ ROWS = {rows} }};", "", *SIGNATURE, "{", *indented(residuals.used(lines)), "}", ""]
 
 
 def _of_beginning(writer: Writer) -> list[str]:
@@ -293,18 +345,19 @@ def _of_beginning(writer: Writer) -> list[str]:
     n, m = writer.nv, writer.m
     size = n + m
     next_ones = [*(f"V[{n + i}] = x[{i}];" for i in range(n)), *writer.power(True), *writer.rates_of_positions(True)]
-    return [f"double G[{size * size}] = {{0}}, right[{size}], x[{size}], first[{size}], sum[ROWS];",
-            "(void)k, (void)inputs, (void)t, (void)sum;", *writer.values(), *writer.leading(),
-            f"if (zd_series_invert({n}, {m}, G, x)) return ZD_NOT_DEFINITE;", f"zd_series_solve({size}, G, right, x);",
+    return [f"zd_number L[{size * size}] = {{{ZERO}}}, right[{size}], x[{size}], first[{size}], sum[ROWS];",
+            f"double sizes[{size}];", f"ZD_INVERSE(G, {size * size}, L);",
+            "(void)k, (void)inputs, (void)t, (void)sum, (void)first;", *writer.values(), *writer.leading(),
+            f"if (ZD_INVERT({n}, {m}, L, G, sizes)) return ZD_NOT_DEFINITE;", f"ZD_SOLVE({size}, L, G, right, x);",
             f"for (int i = 0; i < {size}; i++) first[i] = x[i];", f"for (int i = 0; i < {writer.nq}; i++) P[i] = p[i];",
-            f"for (int i = 0; i < {n}; i++) V[i] = v[i];", "if (E) E[0] = 0;",
-            "{", *indented(["const int order = 0;", "const double next = 1.0;", *next_ones]), "}"]
+            f"for (int i = 0; i < {n}; i++) V[i] = v[i];", f"if (E) E[0] = {ZERO};",
+            "{", *indented(["const int order = 0;", "const zd_number next = ZD_NUM(1.0);", *next_ones]), "}"]
 
 
 def _of_one_order(writer: Writer) -> list[str]:
     """From the coefficients of p and v of an order to those of the next."""
     n, size = writer.nv, writer.nv + writer.m
-    body = [*writer.coefficients(), *writer.right_sides(), f"zd_series_solve({size}, G, right, x);",
-            *(f"V[(order + 1) * {n} + {i}] = next * x[{i}];" for i in range(n)), *writer.power(False),
+    body = [*writer.coefficients(), *writer.right_sides(), f"ZD_SOLVE({size}, L, G, right, x);",
+            *(f"V[(order + 1) * {n} + {i}] = {times('next', f'x[{i}]')};" for i in range(n)), *writer.power(False),
             *writer.rates_of_positions(False)]
     return body + writer.stored()

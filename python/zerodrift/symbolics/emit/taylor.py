@@ -14,7 +14,6 @@ E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 from ..elimination.steps import Unwritten
@@ -142,9 +141,9 @@ class Jets:
             number, of = self.operations[c], self.operations[power]
             if number.kind == "number" and number.arguments[0] > 0 and (of.kind, of.name) == ("along", "exp"):
                 half = self._emit("number", 0.5)
-                shifted = self._emit("-", of.arguments[0], self._emit("number", math.log(number.arguments[0])))
+                shifted = self._emit("-", of.arguments[0], self._emit("fixed", c, name="log"))
                 above = self._emit("-", self._emit("number", 1.0), self._along("tanh", self._emit("*", half, shifted)))
-                return self._emit("*", self._emit("number", 0.5 / number.arguments[0]), above)
+                return self._emit("*", self._emit("/", half, c), above)
         return None
 
     def _power(self, base: int, exponent: int) -> int:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 from .graph import FIXED, LEAVES, Graph, Node, Number
@@ -33,6 +34,7 @@ class Lowering:
 
     def __init__(self, graph: Graph, values: Mapping[Node, Node] | None = None) -> None:
         self.graph, self.operations, self._values = graph, [], values or {}
+        self.exact: dict[str, str] = {}     # fractions by the doubles nearest to them
         self._numbers: dict[tuple[Any, ...], int] = {}
         self._lowered: dict[Node, int] = {}
 
@@ -68,7 +70,12 @@ class Lowering:
         return operation.arguments[1:] if operation.code in ("call", "comparison", "logic") else operation.arguments
 
     def _number(self, value: Number) -> int:
-        return self.emit("number", float(value))
+        rounded = float(value)
+        if isinstance(value, Fraction) and value != Fraction(rounded):
+            self.exact.setdefault(repr(rounded), f"{value.numerator}/{value.denominator}")
+        else:
+            self.exact[repr(rounded)] = ""      # which a double is
+        return self.emit("number", rounded)
 
     def _of(self, node: Node) -> int:
         content = node.content

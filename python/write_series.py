@@ -1,0 +1,65 @@
+"""Writer of csrc/systems/series and csrc/systems/precise, the Taylor series of built-in systems in double and double-double
+arithmetic, from their derivations in tests/symbolic_counterparts.py:
+``python python/write_series.py``, after which the core has to be built again.
+"""
+
+import sys
+from pathlib import Path
+
+import sympy
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path += [str(ROOT / "tests"), str(ROOT / "python")]     # where it does not run in the test suite
+
+from symbolic_counterparts import OF_PARAMETERS, WITH_SERIES_ALONE  # noqa: E402
+from zerodrift.symbolics.emit import series  # noqa: E402
+
+SYSTEMS = ROOT / "csrc" / "systems"
+# Offset of the numbers of the series in the doubles of a system.
+BEGINS = {"four_bar": 14, "driven_four_bar": 18}
+HEADING = f"/* Written by python/write_series.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
+
+
+def sources():
+    """Text of each file by its path in csrc/systems."""
+    texts, names = {}, sorted(OF_PARAMETERS | WITH_SERIES_ALONE["series"])
+    for name in names:
+        code = (WITH_SERIES_ALONE["series"].get(name) or OF_PARAMETERS[name])()._code
+        begins = BEGINS.get(name)
+        texts[f"series/{name}.c"] = relative(name, "series", series.write(
+            code.program, code.sizes, f"(const double *)data + {begins}" if begins else "data"))
+        code = (WITH_SERIES_ALONE["precise"].get(name) or WITH_SERIES_ALONE["series"].get(name) or OF_PARAMETERS[name])()._code
+        texts[f"precise/{name}.c"] = relative(name, "precise", series.write_precise(code.program, code.sizes))
+    return texts | {f"{kind}/{kind}.h": header(kind, names) for kind in ("series", "precise")}
+
+
+def relative(name, kind, text):
+    """The text with the name of its descriptor, and the headers of the core."""
+    text = text.replace("/* Written by zerodrift.symbolic. */", HEADING).replace("<zerodrift/", '"../../include/zerodrift/')
+    for file in ("series", "system"):
+        text = text.replace(f"{file}.h>", f'{file}.h"')
+    text = text.replace("\nconst int zd_interface_version = ZD_INTERFACE_VERSION;\n", f'#include "{kind}.h"\n')
+    return text.replace(f"zd_symbolic_{kind}", f"zd_{name}_{kind}")
+
+
+def header(kind, names):
+    capitals = f"ZD_SYSTEMS_{kind.upper()}_H"
+    what = "Taylor series" + (" and residuals in double-double arithmetic" if kind == "precise" else "")
+    listed = ",\n    ".join(", ".join(f"zd_{name}_{kind}" for name in names[i : i + 4]) for i in range(0, len(names), 4))
+    return f"""{HEADING}
+/* {what} of built-in systems. */
+#ifndef {capitals}
+#define {capitals}
+
+#include "../../include/zerodrift/system.h"
+
+extern const zd_{kind} {listed};
+
+#endif
+"""
+
+
+if __name__ == "__main__":
+    for file, text in sources().items():
+        (SYSTEMS / file).parent.mkdir(exist_ok=True)
+        (SYSTEMS / file).write_text(text)

@@ -1,0 +1,191 @@
+"""A motion in double-double arithmetic: Taylor's method, with positions and velocities projected onto the constraints each step.
+
+Steps are as long as the last two coefficients and the residual of the rates at the step's end allow. Residuals of the constraints
+are computed in double-double arithmetic, and their corrections in double precision, which is enough as they are small.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from .._gateway.compiled.precise import Precise
+from ..errors import StepFailed
+from . import double_double as dd
+
+RANK = 1e-10            # relative singular value below which constraints are redundant
+CORRECTIONS = 4         # of the start, each of which gains the digits of a double
+RESIDUAL = 10           # bound of h times the difference of rates, in units of the order times the tolerance
+SHORTER = 0.5           # factor of a step that is made again
+MOST_STEPS = 10_000     # attempts, each of which takes about a millisecond
+
+
+class Settings(NamedTuple):
+    """Settings of a run: order of the series, tolerance relative to the size of the motion, and part of the step it allows."""
+
+    order: int
+    tolerance: float
+    share: float = 1.0
+
+
+class PreciseRun(NamedTuple):
+    """Samples p (k, nq, 2) and v (k, nv, 2), and the number of steps."""
+
+    p: np.ndarray
+    v: np.ndarray
+    steps: int
+
+
+class PreciseMotion:
+    """Runs of one system from one start.
+
+    Parameters
+    ----------
+    functions : Precise
+    p0, v0 : ndarray (nq,), (nv,)
+    quaternions : sequence of int
+    held : tuple of lists of int
+        Coordinates and velocities that are exact at the start.
+    size : float
+        Largest coordinate of the motion, for tolerances.
+    """
+
+    def __init__(self, functions: Precise, p0: np.ndarray, v0: np.ndarray, quaternions: Sequence[int],
+                 held: tuple[Sequence[int], Sequence[int]], size: float) -> None:
+        self.functions, self.start, self.quaternions, self.held = functions, (dd.of(p0), dd.of(v0)), tuple(quaternions), held
+        self.size = size
+
+    def run(self, times: np.ndarray, settings: Settings, shift: int = 0) -> PreciseRun:
+        """Samples at increasing times, the first of which is that of the start.
+
+        `shift` other than 0 perturbs numbers and start by rounding, by chance with this seed.
+        """
+        functions, (p, v) = self.functions, self.start
+        t = dd.of(times[0])
+        p, v = self._assembled(functions, t, p, v)
+        if shift:
+            functions, p, v = self._shifted(shift, p, v)
+        return _Run(self, functions, times, settings).made(t, p, v)
+
+    def _shifted(self, seed: int, p: np.ndarray, v: np.ndarray) -> tuple[Precise, np.ndarray, np.ndarray]:
+        chance = np.random.default_rng(seed)
+
+        def off(x: np.ndarray) -> np.ndarray:
+            return dd.times(x, np.stack([np.ones(len(x)), dd.ROUNDING * chance.choice([-2.0, -1.0, 1.0, 2.0], len(x))], axis=-1))
+
+        return self.functions.with_numbers(off(self.functions.numbers)), off(p), off(v)
+
+    def _assembled(self, functions: Precise, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """The start on the constraints; what is held there keeps its value."""
+        for _ in range(CORRECTIONS):
+            p = self._on_positions(functions, t, p, v, self.held[0])
+        for _ in range(CORRECTIONS):
+            v = self._on_velocities(functions, t, p, v, self.held[1])
+        return p, v
+
+    def projected(self, functions: Precise, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """A state that nearly satisfies the constraints, on them: (25a) and (25b)."""
+        if functions.mh or self.quaternions:
+            p = self._on_positions(functions, t, p, v, ())
+        return (p, self._on_velocities(functions, t, p, v, ())) if functions.m else (p, v)
+
+    def _on_positions(self, functions: Precise, t, p, v, held: Sequence[int]) -> np.ndarray:
+        mh = functions.mh
+        if mh:
+            found = functions.residuals(t, p, v)
+            p = dd.minus(p, dd.of(found["A"] @ _correction(found["M"], found["C"][:mh], found["Phi"][:, 0], held)))
+        for first in self.quaternions:
+            p = p.copy()
+            p[first : first + 4] = _normalized(p[first : first + 4])
+        return p
+
+    def _on_velocities(self, functions: Precise, t, p, v, held: Sequence[int]) -> np.ndarray:
+        if not functions.m:
+            return v
+        found = functions.residuals(t, p, v)
+        return dd.minus(v, dd.of(_correction(found["M"], found["C"], found["Psi"][:, 0], held)))
+
+
+class _Run:
+    """One run: its steps, and the samples within them."""
+
+    def __init__(self, motion: PreciseMotion, functions: Precise, times: np.ndarray, settings: Settings) -> None:
+        self.motion, self.functions, self.times, self.settings = motion, functions, times, settings
+        self.p, self.v = np.empty((len(times), functions.nq, 2)), np.empty((len(times), functions.nv, 2))
+        self.done = 0
+        self.scales = np.full(functions.nq, motion.size), np.full(functions.nv, motion.size)
+
+    def made(self, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> PreciseRun:
+        end, t, steps = float(self.times[-1]), float(t[0]), 0
+        series = self._series(t, p, v)
+        self.p[0], self.v[0], self.done = p, v, 1
+        h = self._step(series)
+        while self.done < len(self.times):
+            t1, steps = min(t + h, end), steps + 1      # times are doubles, and their differences pairs
+            if t1 <= t or steps > MOST_STEPS:
+                raise StepFailed("step size underflow in double-double arithmetic")
+            by = dd.minus(dd.of(t1), dd.of(t))
+            after = self.motion.projected(self.functions, dd.of(t1), *(self.functions.value(x, by) for x in series))
+            following = self._series(t1, *after)
+            if self._residual(series, following, by) > 1:
+                h = SHORTER * by[0]
+                continue
+            self._sample(t, t1, series)
+            t, series, h = t1, following, self._step(following)
+        return PreciseRun(self.p, self.v, steps)
+
+    def _series(self, t: float, p, v) -> tuple[np.ndarray, np.ndarray]:
+        return self.functions.series(self.settings.order, dd.of(t), p, v)
+
+    def _step(self, series: tuple[np.ndarray, np.ndarray]) -> float:
+        """Longest step for which the last two terms are as small as the tolerance."""
+        order, tolerance, share = self.settings
+        h = math.inf
+        for k in (order - 1, order):
+            size = max(float(np.abs(x[k, :, 0] / scale).max()) for x, scale in zip(series, self.scales, strict=True))
+            if not size < math.inf:
+                raise StepFailed("the series in double-double arithmetic is not finite")
+            h = min(h, (tolerance / size) ** (1 / k) if size else math.inf)
+        return share * h
+
+    def _residual(self, series, following, h: np.ndarray) -> float:
+        """Size of h times what the rates of the series at h lack of those found there, in units of what is allowed."""
+        order, tolerance, _ = self.settings
+        k = np.arange(1, order + 1)[:, None]
+        worst = 0.0
+        for x, y, scale in zip(series, following, self.scales, strict=True):
+            rates = np.ascontiguousarray(dd.times(x[1:], dd.of(np.broadcast_to(k, x[1:, :, 0].shape))))
+            apart = dd.minus(self.functions.value(rates, h), y[1])
+            worst = max(worst, float(np.abs(h[0] * apart[:, 0] / scale).max()))
+        return worst / (RESIDUAL * order * tolerance)
+
+    def _sample(self, t: float, t1: float, series) -> None:
+        """Store the samples from t to t1, from the polynomial of the step."""
+        stop = int(np.searchsorted(self.times, t1, side="right"))
+        for i in range(self.done, stop):
+            h = dd.minus(dd.of(self.times[i]), dd.of(t))
+            self.p[i], self.v[i] = (self.functions.value(x, h) for x in series)
+        self.done = max(self.done, stop)
+
+
+def _correction(M: np.ndarray, C: np.ndarray, residual: np.ndarray, held: Sequence[int]) -> np.ndarray:
+    """Change of the velocities, shortest in the metric of M, that is taken off to make up for residuals of constraints."""
+    free = np.setdiff1d(np.arange(len(M)), held)
+    C = C[:, free]
+    W = np.linalg.solve(M[np.ix_(free, free)], C.T)
+    S = C @ W
+    scale = 1 / np.sqrt(np.where(np.diag(S) > 0, np.diag(S), 1.0))
+    found = np.zeros(len(M))
+    found[free] = W @ (scale * (np.linalg.pinv(scale[:, None] * S * scale, rcond=RANK, hermitian=True) @ (scale * residual)))
+    return found
+
+
+def _normalized(q: np.ndarray) -> np.ndarray:
+    """A unit quaternion (4, 2) that is nearly one."""
+    for _ in range(2):
+        excess = dd.minus(dd.total(dd.times(q, q)), dd.of(1.0))[0]
+        q = dd.times(q, np.broadcast_to(dd.minus(dd.of(1.0), dd.of(excess / 2)), q.shape))
+    return q

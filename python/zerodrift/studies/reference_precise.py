@@ -1,0 +1,105 @@
+"""Certificates in double-double arithmetic: comparisons of runs by Taylor's method of two orders, with two sequences of steps.
+
+A certified motion in double precision comes first, for its evidence of other methods and formulations: the motion in
+double-double arithmetic must lie within its bound. The certified error then follows from three runs:
+
+* the motion;
+* one of higher order, with a smaller tolerance and shorter steps, for truncation;
+* one with these steps, whose start and numbers are off by one or two roundings of double-double arithmetic, for rounding.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from .. import _gateway
+from .._gateway.compiled.precise import Precise
+from ..errors import ZerodriftError
+from ..systems.base import BaseSystem
+from . import double_double as dd
+from .certificate import Reference
+from .precise_motion import PreciseMotion, PreciseRun, Settings
+from .reference_runs import ROUNDING, Difference, Motion
+
+PRECISIONS = ("double", "double-double")
+VECTOR = "avx2" if _gateway.PROCESSOR_UNIT else "baseline"      # same bits, but faster with fma
+METHOD = "taylor, order {}"
+SAFETY = 10             # the certified error, in units of the largest difference
+FLOOR = 8 * dd.ROUNDING     # part of the motion's size; the accuracy of sums and differences of samples
+FINEST, COARSEST = 1e-30, 1e-18     # tolerance of the motion, relative to its size
+MARGIN = 1000           # of the wanted error over the tolerance, times what the motion makes of rounding
+FINER = 0.03            # tolerance of the run of higher order, relative to that of the motion
+SHARE = 0.8             # of the step that its tolerance allows
+MORE_ORDERS = 5
+
+
+def functions_of(system: BaseSystem, precision: str | None) -> Precise | None:
+    """Functions in double-double arithmetic; None where the system has none, or they are not to be used."""
+    return None if precision == "double" else system._precise_functions(VECTOR)
+
+
+def order_of(tolerance: float) -> int:
+    """Order of the series for a tolerance: Jorba and Zou, section 3."""
+    return int(np.ceil(1 - np.log(tolerance) / 2)) - 4
+
+
+class PreciseSearch:
+    """Runs with smaller tolerances until the error is certified, or rounding ends it."""
+
+    def __init__(self, motion: Motion, functions: Precise, found: Reference, wanted: float | None) -> None:
+        held = motion.system._held_at_start if motion.is_own_start else ([], [])
+        self.motion = PreciseMotion(functions, *motion.start, motion.system.quaternions, held, motion.size)
+        self.found, self.wanted = found, wanted
+
+    def certified(self) -> Reference:
+        """The reference in double-double arithmetic; the one in double precision where that is better, or contradicts it."""
+        best = self.found
+        for tolerance in self._tolerances():
+            candidate = self._of_tolerance(tolerance)
+            if candidate is None or not candidate.error < best.error:
+                break
+            best = candidate
+            if self.wanted and best.error <= self.wanted:
+                break
+        return best
+
+    def _tolerances(self) -> list[float]:
+        """Tolerances to try: the one that the wanted error asks for, by what the motion makes of rounding, and the finest."""
+        if self.wanted is None:
+            return [FINEST]
+        growth = max(1.0, self.found.differences[1].p / (ROUNDING * self.motion.size))
+        asked = self.wanted / (MARGIN * growth * self.motion.size)
+        return [min(asked, COARSEST), FINEST] if asked > FINEST else [FINEST]
+
+    def _of_tolerance(self, tolerance: float) -> Reference | None:
+        times = np.asarray(self.found.solution.t)
+        order = order_of(tolerance)
+        finer = Settings(order + MORE_ORDERS, FINER * tolerance, SHARE)
+        try:
+            runs = [self.motion.run(times, settings, shift) for settings, shift in
+                    ((Settings(order, tolerance), 0), (finer, 0), (finer, 1))]
+        except ZerodriftError:
+            return None
+        own, *others = runs
+        apart = [np.abs(getattr(own, name)[..., 0] - getattr(self.found.solution, name)).max() for name in "pv"]
+        if not (apart[0] <= self.found.error and apart[1] <= self.found.velocity_error):
+            return None
+        differences = tuple(self._difference(own, run, finer.order, i > 0) for i, run in enumerate(others))
+        errors = [SAFETY * max(getattr(each, name) for each in differences) + FLOOR * float(np.abs(getattr(own, name)).max())
+                  for name in "pv"]
+        high, low = ([_frozen(x[..., part]) for x in (own.p, own.v)] for part in (0, 1))
+        solution = dataclasses.replace(self.found.solution, p=high[0], v=high[1])
+        return dataclasses.replace(self.found, solution=solution, error=errors[0], velocity_error=errors[1],
+                                   differences=differences + self.found.differences, low=tuple(low))
+
+    def _difference(self, own: PreciseRun, run: PreciseRun, order: int, is_rounded: bool) -> Difference:
+        apart = [float(np.abs(dd.minus(getattr(own, name), getattr(run, name))[..., 0]).max()) for name in "pv"]
+        return Difference(run.steps, "double-double", *apart, METHOD.format(order), is_rounded)
+
+
+def _frozen(x: np.ndarray) -> np.ndarray:
+    x = np.array(x)
+    x.flags.writeable = False
+    return x
