@@ -49,7 +49,7 @@ class Run:
     save_to : str or Path, optional
         File to which samples are written, as of `simulate`; includes `record`.
     runs : int, optional
-        Number of runs: then a `ManyRuns` is made, which takes `p0` (runs, nq), `v0` (runs, nv), `t0`, `step`, `inputs`,
+        Number of runs: then a ``ManyRuns`` is made, which takes `p0` (runs, nq), `v0` (runs, nv), `t0`, `step`, `inputs`,
         `parameters` and settings except `events` and `outputs`, and has arrays (runs, ...) in the place of numbers.
     parameters : dict of str to array_like (runs,)
         With `runs`: parameters of the system in each run.
