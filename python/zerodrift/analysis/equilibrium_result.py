@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from typing import Any
 
 import numpy as np
@@ -52,8 +53,6 @@ class Equilibrium(Reading):
     stable : bool or None
         True where all eigenvalues decay, or the stiffness is symmetric and positive definite and nothing feeds the motion;
         False where one grows; None where they do not decide.
-    free : tuple of str
-        Directions without stiffness, in which the equilibrium may stand anywhere, each by the coordinate that moves most.
     residual : float
         Norm of the unbalanced force in the mass metric, in N/sqrt(kg).
     iterations : int
@@ -65,10 +64,15 @@ class Equilibrium(Reading):
         self.system, self.t, self.effort = system, t, effort
         self.p, self.v, self.vdot, self.multipliers = state
         self.stiffness, self.damping, self.basis = found["stiffness"], found["damping"], found["basis"]
-        self.stable, self.free, self.residual = found["stable"], found["free"], found["residual"]
+        self.stable, self.residual, self._named_free = found["stable"], found["residual"], found["free"]
         self.iterations, self.how = found["iterations"], found["how"]
         spectrum: Spectrum = found["spectrum"]
         self.eigenvalues, self.frequencies = spectrum.eigenvalues, spectrum.frequencies
+
+    @functools.cached_property
+    def free(self) -> tuple[str, ...]:
+        """Directions without stiffness, in which the equilibrium may stand anywhere, each by the coordinate that moves most."""
+        return tuple(self._named_free())
 
     def __repr__(self) -> str:
         word = {True: "stable", False: "unstable", None: "stability not decided by the linearization"}[self.stable]
@@ -113,12 +117,10 @@ def at_rest(balance: Balance, iterations: int, how: str) -> Equilibrium:
     K, D = balance.stiffness, balance.damping
     spectrum = of_matrix(np.block([[np.zeros((k, k)), np.eye(k)], [-K, -D]]), has_vectors=False)
     free = _free(balance)
-    moves = np.column_stack([*(balance.V @ axis for axis in free), balance.family()])
-    names = pivots(at, np.vstack([at.A @ moves, np.zeros_like(moves)]))
     state = (at.p, at.v, np.zeros_like(at.v), balance.multipliers[:m])
     return Equilibrium(at.system, at.t, state, _efforts(balance), stiffness=K, damping=D, basis=balance.V, spectrum=spectrum,
-                       stable=_stable(balance, spectrum, len(free)), free=tuple(names), residual=balance.residual,
-                       iterations=iterations, how=how)
+                       stable=_stable(balance, spectrum, len(free)), free=functools.partial(_names, balance, free),
+                       residual=balance.residual, iterations=iterations, how=how)
 
 
 def in_motion(at: State, effort: dict[str, float], iterations: int) -> Equilibrium:
@@ -128,7 +130,7 @@ def in_motion(at: State, effort: dict[str, float], iterations: int) -> Equilibri
     stable = False if spectrum.grows else True if spectrum.decays else None
     return Equilibrium(at.system, at.t, (at.p, at.v, flow.vdot, flow.lam), effort, stiffness=None, damping=None,
                        basis=flow.tangent.velocities, spectrum=spectrum, stable=stable,
-                       free=tuple(pivots(at, flow.tangent.basis @ spectrum.removed)),
+                       free=functools.partial(pivots, at, flow.tangent.basis @ spectrum.removed),
                        residual=float(np.linalg.norm(flow.unsteady)),
                        iterations=iterations, how="Gauss-Newton method")
 
@@ -137,7 +139,7 @@ def of_many(balance: SparseBalance, stable: bool | None, iterations: int) -> Equ
     """The result for a mechanism of many bodies, without its modes and free directions: `stable` is True or None."""
     state = (balance.p, balance.rest, np.zeros_like(balance.rest), balance.lam)
     return Equilibrium(balance.system, balance.t, state, {}, stiffness=None, damping=None, basis=None,
-                       spectrum=of_matrix(np.zeros((0, 0))), stable=stable, free=(), residual=balance.residual,
+                       spectrum=of_matrix(np.zeros((0, 0))), stable=stable, free=tuple, residual=balance.residual,
                        iterations=iterations, how="Newton's method with sparse factors")
 
 
@@ -158,6 +160,12 @@ def _free(balance: Balance) -> list[np.ndarray]:
     flat = list(axes[:, np.abs(curvature) <= balance.flat].T)
     mixed = sum((axis / 2**i for i, axis in enumerate(flat)), np.zeros(len(axes)))      # all at once decides most cases
     return flat if not flat or _balances_along(balance, mixed) else [axis for axis in flat if _balances_along(balance, axis)]
+
+
+def _names(balance: Balance, free: list[np.ndarray]) -> list[str]:
+    """Names of free directions, and of those that nonholonomic constraints forbid."""
+    at, moves = balance.at, np.column_stack([*(balance.V @ axis for axis in free), balance.family()])
+    return pivots(at, np.vstack([at.A @ moves, np.zeros_like(moves)]))
 
 
 def _balances_along(balance: Balance, axis: np.ndarray) -> bool:

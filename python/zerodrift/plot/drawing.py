@@ -19,7 +19,7 @@ from ..systems.base import BaseSystem, system_of
 from ..systems.shapes import Shape
 from .annotations import Arrow, draw_path
 from .dense_samples import dense
-from .mechanism import Extras, Picture, points_of
+from .mechanism import NOTHING, Extras, Picture, points_of
 from .points import draw_in_space, moved_in_space, points_at, shapes_of, with_equal_scales
 from .space_picture import SpacePicture
 from .style import given_axes
@@ -94,13 +94,23 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     positions = ([] if p is None and sol is not None else [system.p0 if p is None else p])
     positions += [] if sol is None else [sol.p[row] for row in rows]
     moments, points = _moments(system, positions, sol, names=names, path=path, forces=forces)
+    extras = NOTHING if moments is None else Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
+    return _drawn(system, moments, points, ax, extras, moving=sol is not None and p is None)
+
+
+def still_picture(system: BaseSystem, positions: Any, ax: Axes | None) -> Axes:
+    """Axes with a system drawn in the first of some positions (k, nq), and faintly in the others."""
+    return _drawn(system, *_moments(system, positions, None), ax)
+
+
+def _drawn(system: BaseSystem, moments: list[list[Shape]] | None, points: np.ndarray | None, ax: Axes | None,
+           extras: Extras = NOTHING, *, moving: bool = False) -> Axes:
+    """Axes with the first of some moments drawn in full colours and the others faintly, or with points in space (k, n, 3)."""
     if moments is None:
-        return draw_in_space(drawing_axes(ax, 3), points, moving=sol is not None and p is None)
+        return draw_in_space(drawing_axes(ax, 3), points, moving=moving)
     if _is_in_space(moments):
-        extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
         picture = SpacePicture(drawing_axes(ax, 3), moments, extras, upside_down=is_upside_down(system))
     else:
-        extras = Extras(names, paths_of(sol, path), _arrows(sol, forces, rows[:1]), force_scale)
         picture = Picture(drawing_axes(ax, 2), moments, extras)
     picture.faintly(range(1, len(moments)))
     picture.show(0)

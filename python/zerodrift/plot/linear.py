@@ -13,13 +13,14 @@ from ..analysis.linearization_result import ROUNDING, Linearization
 from ..analysis.retraction import onto
 from ..errors import WrongValue
 from . import style as _style
-from .drawing import drawing_axes
+from .drawing import still_picture
 
 PHASES = (0.0, 0.25, 0.5, 0.75)     # of a period, drawn pale
+STILL = 0.01        # of the amplitude: a displaced position that covers that of reference
 
 
 def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitude: float = 0.2, **style: Any) -> Axes:
-    """Draw the shape of a mode: the position of reference, and displaced ones at quarters of a period.
+    """Draw the shape of a mode: the position of reference, and faintly, with lines, displaced ones at quarters of a period.
 
     Parameters
     ----------
@@ -31,7 +32,7 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     amplitude : float
         The largest change of a coordinate, in rad or characteristic lengths.
     **style
-        For ``ax.plot`` of the displaced positions.
+        For ``ax.plot`` of the lines of the displaced positions.
 
     Returns
     -------
@@ -56,10 +57,11 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     reference = lin.system.points(lin.p)
     if reference is None:
         raise WrongValue(f"{lin.system.name} must have a drawing for its modes to be drawn, and has none")
-    ax = drawing_axes(ax, reference.shape[1])
-    for p in mode_positions(lin, int(index), _check.number("amplitude", amplitude, above=0), PHASES):
-        ax.plot(*lin.system.points(p).T, **{"color": _style.COLOURS[1], "alpha": 0.45, "linewidth": 1.0} | style)
-    ax.plot(*reference.T, color=_style.COLOURS[0], linewidth=1.6)
+    amplitude = _check.number("amplitude", amplitude, above=0)
+    positions = [p for p in mode_positions(lin, int(index), amplitude, PHASES) if np.abs(p - lin.p).max() > STILL * amplitude]
+    ax = still_picture(lin.system, [lin.p, *positions], ax)
+    for p in positions:
+        ax.plot(*lin.system.points(p).T, **{"color": _style.COLOURS[1], "alpha": 0.6, "linewidth": 1.0, "zorder": 20} | style)
     value = lin.eigenvalues[index]
     damping = lin.damping[index] if abs(lin.damping[index]) > ROUNDING else 0.0
     pair = f"{lin.frequencies[index]:.4g} Hz, damping ratio {damping:.3g}"
