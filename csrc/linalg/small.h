@@ -16,6 +16,13 @@
 #define ZD_INLINE static inline
 #endif
 
+/* A function that few steps call: kept out of its callers, which then save fewer registers. */
+#if defined(__GNUC__) || defined(__clang__)
+#define ZD_RARE static __attribute__((noinline, cold))
+#else
+#define ZD_RARE static
+#endif
+
 enum { ZD_UNROLLED = 6 };       /* the largest n of ZD_SIZED */
 
 /* kernel(n, ...) with n known to the compiler where it is small */

@@ -69,11 +69,17 @@ static int correct_state(zd_stepper *stepper, int64_t step, int forced)
     return ZD_SIZED(correct, stepper->motion->system.nv, stepper, stepper->y, step, forced);
 }
 
+ZD_RARE int check_fully(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
+{
+    const int is_number = is_finite(stepper->motion->system.nv, stepper->y);
+    return is_number ? zd_safeguards_judge(safeguards, stepper->last.h, next_step, parts) : ZD_NOT_FINITE;
+}
+
 ZD_INLINE int check(const int n, zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
-    const double h = stepper->last.h;
-    if (!parts && zd_safeguards_glance(n, safeguards, h, next_step, stepper->y, stepper->y + n)) return ZD_DONE;
-    return is_finite(n, stepper->y) ? zd_safeguards_judge(safeguards, h, next_step, parts) : ZD_NOT_FINITE;
+    const double *y = stepper->y;
+    if (!parts && zd_safeguards_glance(n, safeguards, stepper->last.h, next_step, y, y + n)) return ZD_DONE;
+    return check_fully(stepper, safeguards, next_step, parts);
 }
 
 static int check_state(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)

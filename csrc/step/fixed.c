@@ -81,15 +81,19 @@ static int begin_parts(zd_step_loop *loop, int *status)
     return divide(loop, status);
 }
 
-static int repeats(zd_step_loop *loop, int *status)
+ZD_RARE int repeats_in_parts(zd_step_loop *loop, int *status)
 {
-    if (!*status && !loop->parts) return 0;
     if (!loop->parts) return is_too_far(*status) ? begin_parts(loop, status) : 0;
     if (*status) return divide(loop, status);
     if (loop->part++ < loop->parts) return 1;
     loop->parts = 0;
     loop->motion->statistics.subdivided++;
     return 0;
+}
+
+static int repeats(zd_step_loop *loop, int *status)
+{
+    return *status || loop->parts ? repeats_in_parts(loop, status) : 0;
 }
 
 const zd_step_sizes zd_fixed_sizes = {.next = next, .repeats = repeats};

@@ -36,14 +36,15 @@ static int choose_path(zd_step_loop *loop)
     return motion->path.was_taken && !zd_is_direct(motion) ? begin_matrix_path(loop) : ZD_DONE;
 }
 
-ZD_INLINE int attempt(zd_step_loop *loop, const zd_attempt *a)
+/* `kind` is a->kind, known to the compiler where it is that of a new step. */
+ZD_INLINE int attempt(zd_step_loop *loop, const zd_attempt *a, const int kind)
 {
     zd_stepper *stepper = loop->stepper;
     const zd_motion *motion = loop->motion;
     const zd_step_sizes *sizes = loop->sizes;
-    const int is_new = a->kind == ZD_NEW_STEP, is_checked = is_new || a->kind == ZD_THROUGH_BIFURCATION;
+    const int is_new = kind == ZD_NEW_STEP, is_checked = is_new || kind == ZD_THROUGH_BIFURCATION;
     const zd_evaluation_path *path = is_checked ? zd_path_of(motion) : zd_path_of_state(motion);
-    if (sizes->weigh && (is_new || a->kind == ZD_REPEATED_STEP)) sizes->weigh(loop);
+    if (sizes->weigh && (is_new || kind == ZD_REPEATED_STEP)) sizes->weigh(loop);
     int status = path->integrate(stepper, a->h);
     if (!status && sizes->estimate && is_new) {
         status = sizes->estimate(loop, a);
@@ -58,7 +59,7 @@ ZD_INLINE int attempt(zd_step_loop *loop, const zd_attempt *a)
 
 int zd_step_attempt(zd_step_loop *loop, const zd_attempt *a)
 {
-    return attempt(loop, a);
+    return attempt(loop, a, a->kind);
 }
 
 /* ---- returns to the start of the step ---- */
@@ -106,10 +107,10 @@ static int return_for_bifurcation(zd_step_loop *loop, const zd_attempt *a)
     return status;
 }
 
-ZD_INLINE int attempt_or_pass(zd_step_loop *loop, const zd_attempt *a)
+ZD_INLINE int attempt_or_pass(zd_step_loop *loop, const zd_attempt *a, const int kind)
 {
-    int status = attempt(loop, a);
-    return status == ZD_BIFURCATION_PASSED && a->kind == ZD_NEW_STEP ? return_for_bifurcation(loop, a) : status;
+    int status = attempt(loop, a, kind);
+    return status == ZD_BIFURCATION_PASSED && kind == ZD_NEW_STEP ? return_for_bifurcation(loop, a) : status;
 }
 
 /* By matrices, and in (p, v), after an attempt with *status that these can mend. */
@@ -117,19 +118,19 @@ static int attempt_again(zd_step_loop *loop, const zd_attempt *a, int status)
 {
     if (status && zd_is_direct(loop->motion)) {
         status = return_for_matrices(loop, a);
-        if (!status) status = attempt_or_pass(loop, a);
+        if (!status) status = attempt_or_pass(loop, a, a->kind);
     }
     if (!zd_variables_lose_digits(loop->stepper, status)) return status;
     status = return_for_dependent(loop, a);
-    return status ? status : attempt_or_pass(loop, a);
+    return status ? status : attempt_or_pass(loop, a, a->kind);
 }
 
 /* Attempts on the chosen path, by matrices, and in (p, v), until one succeeds. */
-ZD_INLINE int attempt_on_each_path(zd_step_loop *loop, const zd_attempt *a)
+ZD_INLINE int attempt_on_each_path(zd_step_loop *loop, const zd_attempt *a, const int kind)
 {
     const zd_stiffness before = loop->control.stiffness;
     const int64_t stiff = loop->motion->statistics.stiff;
-    int status = attempt_or_pass(loop, a);
+    int status = attempt_or_pass(loop, a, kind);
     if (!status && !loop->motion->point->rank->was_ill_conditioned) return ZD_DONE;
     if (status && zd_is_direct(loop->motion)) {     /* the step is counted once */
         loop->control.stiffness = before;
@@ -151,7 +152,7 @@ int zd_step(zd_step_loop *loop)
     for (int again = !status; again;) {
         status = loop->sizes->next(loop, &next);
         if (status) break;
-        status = attempt_on_each_path(loop, &next);
+        status = attempt_on_each_path(loop, &next, ZD_NEW_STEP);
         again = loop->sizes->repeats(loop, &status);
     }
     if (rank->was_deficient) motion->statistics.rank_drops++;
@@ -169,7 +170,7 @@ static int is_too_long(int status)
 static int attempt_to(zd_step_loop *loop, double t)
 {
     const zd_attempt substep = {.kind = ZD_SUBSTEP, .h = t - loop->stepper->t, .t1 = t, .forced = 1};
-    return attempt_on_each_path(loop, &substep);
+    return attempt_on_each_path(loop, &substep, ZD_SUBSTEP);
 }
 
 /* Divided into parts if a single step fails: the run's own step may have converged only because its iteration started from the polynomial of
