@@ -104,6 +104,7 @@ int zd_block_set_input(zd_block *block, int input, double value);
 
 int zd_block_parameters(const zd_block *block);
 const char *zd_block_parameter_name(const zd_block *block, int parameter);
+double zd_block_parameter(const zd_block *block, int parameter);
 /* Changes the block's own copy of its words; a system of these parameters is made by zd_block_create() from zd_block_words(). Returns
  * ZD_DONE, or ZD_BAD_ARGUMENT for a value outside the parameter's range. */
 int zd_block_set_parameter(zd_block *block, int parameter, double value);

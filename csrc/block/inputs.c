@@ -120,6 +120,11 @@ const char *zd_block_parameter_name(const zd_block *block, int parameter)
     return zd_block_text(&block->layout, *zd_block_entry(&block->layout, ZD_BLOCK_PARAMETERS, parameter));
 }
 
+double zd_block_parameter(const zd_block *block, int parameter)
+{
+    return zd_is_in(parameter, zd_block_parameters(block)) ? zd_block_entry(&block->layout, ZD_BLOCK_PARAMETERS, parameter)[2] : NAN;
+}
+
 static double product_value(const zd_block_layout *layout, const double *product)
 {
     double value = product[0];

@@ -99,6 +99,45 @@ int zd_opened_assemble(zd_opened *self, double t, const double *p, const double 
     return status ? status : zd_opened_restart(self, t, self->p, self->v);
 }
 
+/* Takes the place of the present block, whose number of coordinates is the same, at its state; on failure the present one stays. */
+static int replace(zd_opened *self, zd_block *block)
+{
+    const zd_opened before = *self;
+    const double t = zd_run_time(self->run);
+    for (int i = 0; i < zd_block_inputs(block); i++) zd_block_set_input(block, i, zd_block_input(self->block, i));
+    self->block = block;
+    self->run = NULL;
+    int status = zd_block_settings(block, &self->settings, self->message, MESSAGE);
+    self->settings.is_open = 1;
+    if (!status) status = zd_opened_assemble(self, t, zd_run_p(before.run), zd_run_v(before.run));
+    if (status) {
+        self->block = before.block;
+        self->run = before.run;
+        self->settings = before.settings;
+        return status;
+    }
+    zd_run_free(before.run);
+    zd_block_free(before.block);
+    return ZD_DONE;
+}
+
+int zd_opened_set_parameter(zd_opened *self, int parameter, double value)
+{
+    const double present = zd_block_parameter(self->block, parameter);
+    size_t size;
+    if (zd_block_set_parameter(self->block, parameter, value)) {
+        snprintf(self->message, MESSAGE, "the parameter must exist, and its value be in its range");
+        return ZD_BAD_ARGUMENT;
+    }
+    const double *words = zd_block_words(self->block, &size);
+    zd_block *block = zd_block_create(words, size, self->message, MESSAGE);
+    const int status = block ? replace(self, block) : ZD_BAD_ARGUMENT;
+    if (!status) return ZD_DONE;
+    if (block) zd_block_free(block);
+    zd_block_set_parameter(self->block, parameter, present);
+    return status;
+}
+
 /* Advances to the goal that was set. */
 static int advance(zd_opened *self, int status)
 {

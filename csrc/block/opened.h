@@ -12,8 +12,11 @@ void zd_opened_free(zd_opened *self);
 zd_block *zd_opened_block(const zd_opened *self);
 /* Begins a new run at (t, p, v), with the inputs as set; on failure the old one stays. */
 int zd_opened_restart(zd_opened *self, double t, const double *p, const double *v);
-/* Projects the state onto the constraints, as after a change of parameters, and begins a new run there. */
+/* The same from a state that is first projected onto the constraints. */
 int zd_opened_assemble(zd_opened *self, double t, const double *p, const double *v);
+/* Changes a parameter of the block, projects the present state onto the changed constraints and begins a new run there, with the inputs as
+ * set. On failure the parameter and the run stay. */
+int zd_opened_set_parameter(zd_opened *self, int parameter, double value);
 /* So many steps; or steps to time t. On failure the run stays at its last good state. */
 int zd_opened_step(zd_opened *self, double steps);
 int zd_opened_advance(zd_opened *self, double t);

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from .. import _check
 from .._gateway.mechanisms import blocks
 from .._gateway.mechanisms.element_tables import law_sizes
 from ..errors import WrongType, WrongValue
 from ..mechanisms.equations.measure_tables import read
+from ..mechanisms.equations.space_tables import tables_of
 from ..mechanisms.system import MechanismSystem
 from ..runs import outputs as _outputs
 from ..runs import settings
 from ..runs.start import start_of
+from . import parameters as _parameters
 from .law_programs import Programs
 
 MOST_MEASURES = 8192        # of a system of the core
@@ -28,10 +33,11 @@ class Chosen(NamedTuple):
     options: Any                    # a `zd_settings`
     outputs: tuple[str, ...] | None     # measures; None: all, and none is recorded
     inputs: tuple[str, ...]
+    limits: Mapping[str, tuple[float, float]] = MappingProxyType({})       # of parameters
 
 
 def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = 0.01, outputs: Any = None,
-          inputs: Sequence[str] = (), **chosen: Any) -> bytes:
+          inputs: Sequence[str] = (), parameters: Mapping[str, tuple[float, float]] | None = None, **chosen: Any) -> bytes:
     """A mechanism as one block of data: tables, user functions, start, measures, inputs, and the settings of a run.
 
     The core makes a system of it without Python. Its format is described in ``block.h`` of the core's sources: words of eight
@@ -53,6 +59,8 @@ def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step:
     inputs : list of str
         Numbers that may be set between steps: forces and torques, such as ``"motor.torque"``, and speeds of motors,
         ``"drive.speed"``, which must be given as numbers.
+    parameters : dict of (float, float), optional
+        Lengths, masses, stiffnesses and other numbers, by their paths, that a program may change within these limits.
     **chosen
         Formulation, integrator, corrections and tolerances, as `simulate` takes them.
 
@@ -75,7 +83,8 @@ def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step:
     >>> data[:7], len(data) % 8
     (b'zdblock', 0)
     """
-    return written(choose(system, p0, v0, t0, step, outputs, inputs, chosen))
+    made = choose(system, p0, v0, t0, step, outputs, inputs, chosen)
+    return written(made._replace(limits=_parameters.ranges(parameters or {}, made.system.parameters)))
 
 
 def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs: Any, inputs: Sequence[str],
@@ -120,28 +129,55 @@ def written(chosen: Chosen) -> bytes:
     """The block of these choices."""
     system, texts = chosen.system, blocks.Texts()
     tables = system._started_tables
-    quantities, observed = read(tables)
-    if chosen.outputs is not None:
-        observed = [row for row in observed if row.name in chosen.outputs]
-    packed, inputs, programs = _with_inputs(chosen, tables.written(quantities, observed), texts)
-    measures = [row.name for row in observed]
-    if len(measures) > MOST_MEASURES:
-        raise WrongValue(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, as {system.name} has")
-    sections = {
-        **blocks.tables(packed, texts), **vars(programs), "start": [*chosen.p.tolist(), *chosen.v.tolist()],
-        "outputs": [measures.index(name) for name in chosen.outputs or ()], "inputs": inputs,
+    sections, counts, measures = _tables(chosen, tables, texts)
+    sections |= {
+        "start": [*chosen.p.tolist(), *chosen.v.tolist()], "outputs": [measures.index(name) for name in chosen.outputs or ()],
         "settings": blocks.settings(chosen.options), "methods": blocks.methods(chosen.options, texts),
         "names": [texts.offset(name) for name in (*(body.name for body in tables.parts), *(joint.name for joint in tables.joints),
-                                                  *tables.relation_names)]}
-    counts = {"bodies": len(packed.bodies), "joints": len(packed.joints), "quantities": len(packed.quantities),
-              "terms": len(sections["terms"]) // 2, "relations": len(packed.relations), "forces": len(packed.forces),
-              "measures": len(packed.measures)}
+                                                  *tables.relation_names)],
+        **_parameter_sections(chosen, sections, texts)}
     return blocks.assembled(system._drawing.dimension, sections, counts, texts)
 
 
-def _with_inputs(chosen: Chosen, packed: Any, texts: blocks.Texts) -> tuple[Any, list[float], Programs]:
+def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str, list[float]], dict[str, int], list[str]]:
+    """Sections of the tables, of user functions and of inputs; numbers of entries; and names of measures."""
+    quantities, observed = read(tables)
+    if chosen.outputs is not None:
+        observed = [row for row in observed if row.name in chosen.outputs]
+    measures = [row.name for row in observed]
+    if len(measures) > MOST_MEASURES:
+        raise ValueError(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, "
+                         f"as {chosen.system.name} has")
+    packed, inputs, programs = _with_inputs(chosen, tables, tables.written(quantities, observed), texts)
+    sections = {**blocks.tables(packed, texts), **vars(programs), "inputs": inputs}
+    counts = {"bodies": len(packed.bodies), "joints": len(packed.joints), "quantities": len(packed.quantities),
+              "terms": len(sections["terms"]) // 2, "relations": len(packed.relations), "forces": len(packed.forces),
+              "measures": len(packed.measures)}
+    return sections, counts, measures
+
+
+def _parameter_sections(chosen: Chosen, sections: Mapping[str, list[float]], texts: blocks.Texts) -> dict[str, list[float]]:
+    """Sections of parameters, and of the words that they change."""
+    system, limits = chosen.system, chosen.limits
+    before = blocks.SECTIONS[:blocks.SECTIONS.index("start")]
+
+    def words(changed: Mapping[str, float]) -> np.ndarray:
+        other = system._with(dict(changed)) if changed else system
+        tables = tables_of(other._drawing, other._numbers, in_tree=system.layout == "joint", starts=system._start.drives)
+        found = _tables(chosen, tables, texts)[0] if changed else sections
+        return np.concatenate([np.asarray(found[name], dtype=float) for name in before])
+
+    found, products = _parameters.effects(words, limits)
+    first = 4 + len(blocks.SECTIONS)
+    found = [each + first if i % 3 == 0 else each for i, each in enumerate(found)]
+    entries = [number for name, (least, most) in limits.items()
+               for number in (texts.offset(name), texts.offset(""), system.parameters[name], least, most)]
+    return {"parameters": entries, "effects": found, "products": products}
+
+
+def _with_inputs(chosen: Chosen, tables: Any, packed: Any, texts: blocks.Texts) -> tuple[Any, list[float], Programs]:
     """Tables whose driven speeds read inputs, the section of inputs, and the programs of all user functions."""
-    tables, programs, sizes = chosen.system._started_tables, Programs(), law_sizes(packed)
+    programs, sizes = Programs(), law_sizes(packed)
     for i, row in enumerate(tables.laws.rows):
         programs.add(row, *sizes[i])
     relations, found = list(packed.relations), []

@@ -5,43 +5,47 @@ from __future__ import annotations
 import os
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from types import MappingProxyType
 
 from ..errors import CompilationFailed
 from ..symbolics.compile import cache
 from .core_files import CoreFiles
 
 
-def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *, last: Sequence[str], product: str) -> bytes:
-    """Product of the sources of a core: compiled with `options`, and joined by the command with the words `last`.
+def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *, last: Sequence[str], product: str,
+             more: Mapping[str, str] = MappingProxyType({})) -> bytes:
+    """Product of the sources of a core, and of `more` by their names: compiled with `options`, and joined by the command with
+    the words `last`.
 
     Raises
     ------
     CompilationFailed
         With the first message of the compiler.
     """
-    key = f"core-{cache.digest_of(list(command), list(options), list(last), files.texts)}"
+    key = f"core-{cache.digest_of(list(command), list(options), list(last), files.texts, dict(more))}"
     found = cache.get(key)
     if found is None:
         with tempfile.TemporaryDirectory() as name:
-            found = _made(files, Path(name), command, options, last, product)
+            here = Path(name)
+            files.write(here)
+            for file, text in more.items():
+                (here / file).write_text(text, encoding="utf-8")
+            found = _made([*files.sources, *more], here, [*command, *options], [*command, *last], product)
         cache.put(key, found)
     return found
 
 
-def _made(files: CoreFiles, here: Path, command: Sequence[str], options: Sequence[str], last: Sequence[str],
-          product: str) -> bytes:
-    files.write(here)
-
+def _made(sources: Sequence[str], here: Path, compiling: Sequence[str], joining: Sequence[str], product: str) -> bytes:
     def compile_one(number: int) -> str:
-        run([*command, *options, "-I", str(here), "-c", "-o", f"{number}.o", str(here / files.sources[number])], here)
+        run([*compiling, "-I.", "-c", "-o", f"{number}.o", sources[number]], here)
         return f"{number}.o"
 
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        objects = list(pool.map(compile_one, range(len(files.sources))))
-    run([*command, *last, "-o", product, *objects], here)
+        objects = list(pool.map(compile_one, range(len(sources))))
+    run([*joining, "-o", product, *objects], here)
     return (here / product).read_bytes()
 
 

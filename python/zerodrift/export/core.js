@@ -1,0 +1,156 @@
+// Mechanisms in the browser and in node: plain functions over the core in WebAssembly and a block of data (csrc/block/block.h).
+//
+//     const core = await load(bytes);                    // the core, an ArrayBuffer or Uint8Array
+//     const crank = create(core, block);                 // the block, a Uint8Array as zd.block() writes it
+//     setInput(crank, "motor.torque", 3);
+//     step(crank, 10);
+//     read(crank, "crank.angle");                        // Float64Array
+//
+// What fails throws an Error with the core's sentence; the mechanism stays at its last good state.
+
+// Functions of the operating system that the core's C library imports. None is needed: a clock that stands gives steps all their time.
+function noSystem(module) {
+  const imports = {};
+  for (const {module: from, name} of WebAssembly.Module.imports(module)) (imports[from] ??= {})[name] = () => 52;
+  return imports;
+}
+
+// Compiles the core; many mechanisms may share it.
+export async function load(bytes) {
+  return WebAssembly.compile(bytes);
+}
+
+function textAt(m, address) {
+  const bytes = new Uint8Array(m.core.memory.buffer);
+  let end = address;
+  while (bytes[end]) end++;
+  return new TextDecoder().decode(bytes.slice(address, end));
+}
+
+// Doubles in the core's memory: a view that is valid until memory grows.
+const doublesAt = (m, address, count) => new Float64Array(m.core.memory.buffer, address, count);
+
+// Copies doubles into the core's memory while a function uses them.
+function withDoubles(m, arrays, use) {
+  const addresses = arrays.map((array) => m.core.page_take(8 * Math.max(array.length, 1)));
+  arrays.forEach((array, i) => doublesAt(m, addresses[i], array.length).set(array));
+  try {
+    return use(...addresses);
+  } finally {
+    addresses.forEach((address) => m.core.page_give(address));
+  }
+}
+
+function check(m, status) {
+  if (status < 0) throw new Error(textAt(m, m.core.page_message(m.run)) || "the core refused this");
+}
+
+function listed(m, count, name) {
+  return Array.from({length: count}, (_, i) => textAt(m, name(i)));
+}
+
+function indexOf(names, name, what) {
+  const index = names.indexOf(name);
+  if (index < 0) throw new Error(`there is no ${what} ${name}; there are ${names.join(", ")}`);
+  return index;
+}
+
+// Makes a mechanism from a block, with its run at time t.
+export function create(core, block, t = 0) {
+  const instance = new WebAssembly.Instance(core, noSystem(core));
+  const m = {core: instance.exports};
+  m.core._initialize?.();
+  const bytes = block instanceof Uint8Array ? block : new Uint8Array(block);
+  const address = m.core.page_take(bytes.length || 1);
+  new Uint8Array(m.core.memory.buffer).set(bytes, address);
+  m.run = m.core.page_open(address, bytes.length, t);
+  m.core.page_give(address);
+  if (!m.run) throw new Error(textAt(m, m.core.page_error()));
+  const {core: c, run} = m;
+  m.measures = listed(m, c.page_measures(run), (i) => c.page_measure_name(run, i));
+  m.inputs = listed(m, c.page_inputs(run), (i) => c.page_input_name(run, i));
+  m.parameters = listed(m, c.page_parameters(run), (i) => c.page_parameter_name(run, i));
+  m.constraints = listed(m, c.page_m(run), (i) => c.page_constraint(run, i));
+  return m;
+}
+
+// Gives the memory of a mechanism back.
+export function close(m) {
+  if (m.run) m.core.page_close(m.run);
+  m.run = 0;
+}
+
+export function setInput(m, name, value) {
+  if (m.core.page_set_input(m.run, indexOf(m.inputs, name, "input"), value) < 0) throw new Error(`input ${name} must be finite, not ${value}`);
+}
+
+export function input(m, name) {
+  return m.core.page_input(m.run, indexOf(m.inputs, name, "input"));
+}
+
+// Changes a parameter; the mechanism is assembled anew, as near to where it is as its constraints allow.
+export function setParameter(m, name, value) {
+  check(m, m.core.page_set_parameter(m.run, indexOf(m.parameters, name, "parameter"), value));
+}
+
+export function parameter(m, name) {
+  return m.core.page_parameter(m.run, indexOf(m.parameters, name, "parameter"));
+}
+
+// Makes steps of the block's size.
+export function step(m, steps = 1) {
+  check(m, m.core.page_step(m.run, steps));
+}
+
+// Steps to a time, the last one being shorter if it must.
+export function advance(m, t) {
+  check(m, m.core.page_advance(m.run, t));
+}
+
+export function time(m) {
+  return m.core.page_time(m.run);
+}
+
+export function positions(m) {
+  return doublesAt(m, m.core.page_p(m.run), m.core.page_nq(m.run)).slice();
+}
+
+export function velocities(m) {
+  return doublesAt(m, m.core.page_v(m.run), m.core.page_nv(m.run)).slice();
+}
+
+// Components of a measure at the present state.
+export function read(m, name) {
+  const index = indexOf(m.measures, name, "measure"), size = m.core.page_measure_size(m.run, index);
+  return withDoubles(m, [new Float64Array(size)], (address) => {
+    if (m.core.page_measure(m.run, index, address) < 0) throw new Error(`measure ${name} is not defined here`);
+    return doublesAt(m, address, size).slice();
+  });
+}
+
+export function unit(m, name) {
+  return textAt(m, m.core.page_measure_unit(m.run, indexOf(m.measures, name, "measure")));
+}
+
+// Degrees of freedom, rank, and redundant constraints by name.
+export function freedoms(m) {
+  const count = m.constraints.length, rank = count ? m.core.page_rank(m.run) : 0, rows = m.core.page_take(4 * Math.max(count, 1));
+  const redundant = count > rank ? m.core.page_redundant(m.run, rows) : 0;
+  const names = Array.from(new Int32Array(m.core.memory.buffer, rows, redundant), (row) => m.constraints[row]);
+  m.core.page_give(rows);
+  return {freedoms: m.core.page_nv(m.run) - rank, rank, redundant: names};
+}
+
+// The state: time, coordinates, velocities and inputs, as JSON can keep them.
+export function save(m) {
+  return {t: time(m), p: [...positions(m)], v: [...velocities(m)], inputs: Object.fromEntries(m.inputs.map((name) => [name, input(m, name)]))};
+}
+
+// Begins a new run at a saved state, which must satisfy the constraints; with `assembled`, at the nearest state that does.
+export function restore(m, state, assembled = false) {
+  if (state.p.length !== m.core.page_nq(m.run) || state.v.length !== m.core.page_nv(m.run))
+    throw new Error("the state must have as many coordinates and velocities as the mechanism");
+  for (const [name, value] of Object.entries(state.inputs ?? {})) setInput(m, name, value);
+  const begin = assembled ? m.core.page_assemble : m.core.page_restart;
+  withDoubles(m, [state.p, state.v], (p, v) => check(m, begin(m.run, state.t, p, v)));
+}

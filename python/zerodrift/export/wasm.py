@@ -1,0 +1,37 @@
+"""The core in WebAssembly, compiled at first use by the package ziglang and kept in the cache."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from importlib import resources
+
+from ..errors import CompilationFailed
+from . import core_build
+from .core_files import ENTRIES, CoreFiles
+
+TARGET = ("-target", "wasm32-wasi")
+FLAGS = ("-Os", "-std=c11", "-ffp-contract=off", "-fvisibility=hidden", "-fno-sanitize=undefined", "-g0")
+# The default methods of `simulate`, the cheapest one, and those with adaptive steps that a page may choose.
+LISTS = {"SYSTEM": (), "FORMULATION": ("zd_augmented", "zd_schur"), "INTEGRATOR": ("zd_heun", "zd_rk4", "zd_dormand_prince"),
+         "CORRECTION": ("zd_projection_row", "zd_energy_row")}
+
+
+def text(name: str) -> str:
+    """A file of this folder: ``core.js``, the functions of a page, or ``core.d.ts``, their types."""
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def core() -> bytes:
+    """The core in WebAssembly.
+
+    Raises
+    ------
+    CompilationFailed
+        If the package ziglang is not installed.
+    """
+    if importlib.util.find_spec("ziglang") is None:
+        raise CompilationFailed("the core for browsers must be compiled once, by ziglang: pip install zerodrift[web]")
+    return core_build.compiled(
+        CoreFiles(LISTS, [*ENTRIES, "block/opened.c"]), [sys.executable, "-m", "ziglang", "cc", *TARGET], FLAGS,
+        more={"page.c": text("page.c")}, last=("-mexec-model=reactor", "-Wl,--strip-all"), product="core.wasm")

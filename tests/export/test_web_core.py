@@ -1,0 +1,111 @@
+"""The core in WebAssembly: its numbers in node are the native core's, to the bit."""
+
+import gzip
+import json
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from zerodrift.export import wasm
+
+NODE = shutil.which("node")
+pytestmark = pytest.mark.skipif(not NODE, reason="needs node")
+STEPS, LARGEST = 100_000, 250_000       # bytes, packed
+SCRIPT = """
+import {readFileSync} from "node:fs";
+import * as zd from "./core.mjs";
+const core = await zd.load(readFileSync("core.wasm"));
+const tell = (value) => console.log(JSON.stringify(value));
+const bits = (array) => Array.from(new BigUint64Array(Float64Array.from(array).buffer), String);
+const block = (name) => readFileSync(name);
+"""
+
+
+@pytest.fixture(scope="module")
+def web(tmp_path_factory):
+    """Function that runs a script in node on blocks, and returns the objects that it tells."""
+    pytest.importorskip("ziglang")
+    folder = tmp_path_factory.mktemp("web")
+    (folder / "core.wasm").write_bytes(wasm.core())
+    (folder / "core.mjs").write_text(wasm.text("core.js"))
+
+    def run(script, **blocks):
+        for name, data in blocks.items():
+            (folder / name).write_bytes(data)
+        (folder / "main.mjs").write_text(SCRIPT + script)
+        result = subprocess.run([NODE, "main.mjs"], cwd=folder, capture_output=True, text=True, check=False, timeout=500)
+        assert result.returncode == 0, result.stderr
+        return [json.loads(line) for line in result.stdout.splitlines()]
+
+    return run
+
+
+def bits(array):
+    return [str(word) for word in np.ascontiguousarray(array, dtype=float).reshape(-1).view(np.uint64)]
+
+
+def test_it_is_small_enough(web):
+    assert len(gzip.compress(wasm.core(), 9)) < LARGEST
+
+
+MODELS = {"four_bar": 1e-3, "slider_crank": 1e-3, "jansen": 1e-4, "rolling_disc": 1e-4}
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_runs_have_the_bits_of_the_native_core(web, name):
+    model, step = getattr(zd.models, name)(), MODELS[name]
+    found, = web(f"const m = zd.create(core, block('{name}')); zd.step(m, {STEPS});"
+                 "tell([bits(zd.positions(m)), bits(zd.velocities(m))]);", **{name: zd.block(model, step=step, outputs=[])})
+    run = zd.Run(model, step=step, direct=False, vector="baseline")
+    run.step(STEPS)
+    assert found == [bits(run.p), bits(run.v)]
+
+
+def test_inputs_measures_parameters_and_states(web):
+    bar = zd.models.four_bar()
+    data = zd.block(bar, step=1e-3, parameters={"coupler.length": (0.8, 1.3)})
+    told = web("""
+        const m = zd.create(core, block("bar"));
+        tell([m.constraints, zd.freedoms(m), zd.unit(m, "crank.angular_velocity")]);
+        zd.step(m, 100);
+        const state = JSON.parse(JSON.stringify(zd.save(m)));
+        zd.advance(m, 0.2);
+        const there = bits(zd.positions(m));
+        zd.restore(m, state);
+        zd.step(m, 100);
+        tell([there.join() === bits(zd.positions(m)).join(), zd.time(m)]);
+        zd.setParameter(m, "coupler.length", 0.95);
+        const [ax, ay] = zd.read(m, "coupler.start.position"), [bx, by] = zd.read(m, "coupler.end.position");
+        tell([Math.hypot(bx - ax, by - ay), zd.parameter(m, "coupler.length"), zd.time(m)]);
+        for (const wrong of [() => zd.setParameter(m, "coupler.length", 9), () => zd.read(m, "no"), () => zd.advance(m, 0),
+                             () => zd.create(core, new Uint8Array(16))])
+          try { wrong(); tell(""); } catch (error) { tell(error.message); }
+        zd.step(m, 10);
+        tell(zd.time(m));
+        zd.close(m);
+    """, bar=data)
+    system = bar.system()
+    assert told[0] == [[each.name for each in system.constraints], {"freedoms": 1, "rank": 2, "redundant": []}, "rad/s"]
+    assert told[1][0] is True
+    assert told[1][1] == pytest.approx(0.2, abs=1e-12)
+    assert told[2] == pytest.approx([0.95, 0.95, 0.2], abs=1e-10)
+    assert "be in its range" in told[3]
+    assert told[4].startswith("there is no measure no; there are ")
+    assert told[5] == "the time must not be before the present one"
+    assert "a block must have at least" in told[6]
+    assert told[7] == pytest.approx(0.21, abs=1e-12)
+
+
+def test_a_redundant_constraint_is_named(web):
+    m = zd.Mechanism("double")
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.revolute("left", m.ground, link.start)
+    m.revolute("right", m.ground, link.end)
+    told, = web("tell(zd.freedoms(zd.create(core, block('m'))));", m=zd.block(m.system("absolute"), step=1e-3, outputs=[]))
+    assert told["freedoms"] == 0
+    assert told["rank"] == 3
+    assert len(told["redundant"]) == 1
+    assert told["redundant"][0].partition(".")[0] in ("left", "right")
