@@ -9,6 +9,8 @@
 
 enum { CACHE_LINE = 64 };
 
+_Static_assert(sizeof(zd_memory) <= CACHE_LINE, "a header fits in the line before its block");
+
 /* Blocks aligned to a cache line; Windows has separate functions to allocate and to free these. */
 #ifdef _WIN32
 #define TAKE_ALIGNED(size) _aligned_malloc(size, CACHE_LINE)
@@ -32,7 +34,10 @@ void *zd_take(zd_arena *arena, size_t bytes)
 
 double *zd_take_doubles(zd_arena *arena, size_t count)
 {
-    return zd_take(arena, count * sizeof(double));
+    const size_t from = arena->used / CACHE_LINE;
+    double *here = zd_take(arena, count * sizeof *here);
+    if (arena->has_numbers) memset(arena->has_numbers + from, 1, arena->used / CACHE_LINE - from);
+    return here;
 }
 
 void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes)
@@ -59,23 +64,53 @@ void zd_release(void *memory)
     GIVE_BACK(memory);
 }
 
+zd_memory *zd_memory_create(size_t bytes)
+{
+    bytes = round_up(bytes);
+    unsigned char *block = zd_allocate(CACHE_LINE + bytes + bytes / CACHE_LINE);
+    if (!block) return NULL;
+    zd_memory *memory = (void *)block;
+    *memory = (zd_memory){.bytes = bytes, .base = block + CACHE_LINE, .has_numbers = block + CACHE_LINE + bytes};
+    return memory;
+}
+
+void zd_memory_free(zd_memory *memory)
+{
+    if (memory) zd_release(memory->image);
+    zd_release(memory);
+}
+
+int zd_memory_keep(zd_memory *memory)
+{
+    if (!memory->image) memory->image = zd_allocate(memory->bytes);
+    if (memory->image) memcpy(memory->image, memory->base, memory->bytes);
+    return !memory->image;
+}
+
+zd_memory *zd_store_add(zd_store *store, size_t bytes)
+{
+    zd_memory *memory = zd_memory_create(bytes);
+    if (!memory) return NULL;
+    memory->previous = store->last;
+    store->last = memory;
+    return memory;
+}
+
 void *zd_store_take(zd_store *store, void *(*take)(zd_arena *arena, const void *of), const void *of)
 {
-    zd_arena counting = {NULL, 0};
+    zd_arena counting = {0};
     take(&counting, of);
-    unsigned char *block = zd_allocate(CACHE_LINE + counting.used);
-    if (!block) return NULL;
-    memcpy(block, &store->last, sizeof store->last);
-    store->last = block;
-    zd_arena arena = {block + CACHE_LINE, 0};
+    zd_memory *memory = zd_store_add(store, counting.used);
+    if (!memory) return NULL;
+    zd_arena arena = zd_arena_in(memory);
     return take(&arena, of);
 }
 
 void zd_store_release(zd_store *store)
 {
     while (store->last) {
-        void *block = store->last;
-        memcpy(&store->last, block, sizeof store->last);
-        zd_release(block);
+        zd_memory *memory = store->last;
+        store->last = memory->previous;
+        zd_memory_free(memory);
     }
 }

@@ -1,4 +1,6 @@
-/* Arena: one block with all memory of a run. The same code is executed twice: first to count bytes, then to assign addresses. */
+/* Arena: one block with all memory of a run. The same code is executed twice: first to count bytes, then to assign addresses. Memory of a run
+ * is in blocks that record where they have numbers, so that its state can be saved: see run/state.c.
+ */
 #ifndef ZD_WORKSPACE_H
 #define ZD_WORKSPACE_H
 
@@ -7,7 +9,22 @@
 typedef struct zd_arena {
     unsigned char *base;    /* NULL while counting: all addresses are NULL then */
     size_t used;
+    unsigned char *has_numbers;     /* for each cache line 1 if it has doubles only, to be recorded; NULL: not recorded */
 } zd_arena;
+
+/* Header of a block of memory. */
+typedef struct zd_memory {
+    struct zd_memory *previous;     /* in a store */
+    size_t bytes;
+    unsigned char *base, *has_numbers;
+    unsigned char *image;   /* (bytes,): copy from zd_memory_keep(); NULL: none */
+} zd_memory;
+
+/* A zeroed block; NULL if there is no memory. */
+zd_memory *zd_memory_create(size_t bytes);
+void zd_memory_free(zd_memory *memory);
+int zd_memory_keep(zd_memory *memory);      /* copies the block to its image; nonzero if there is no memory */
+static inline zd_arena zd_arena_in(zd_memory *memory) { return (zd_arena){memory->base, 0, memory->has_numbers}; }
 
 void *zd_take(zd_arena *arena, size_t bytes);
 double *zd_take_doubles(zd_arena *arena, size_t count);
@@ -27,11 +44,12 @@ void zd_release(void *memory);
 
 /* Memory that a run allocates in rare cases, after its creation: a list of blocks that are freed together. */
 typedef struct zd_store {
-    void *last;             /* last block; each begins with a pointer to the previous one */
+    zd_memory *last;
 } zd_store;
 
 /* Adds a block laid out by `take`, which is called twice as for an arena; NULL without memory. */
 void *zd_store_take(zd_store *store, void *(*take)(zd_arena *arena, const void *of), const void *of);
+zd_memory *zd_store_add(zd_store *store, size_t bytes);     /* adds a zeroed block; NULL without memory */
 void zd_store_release(zd_store *store);
 
 #endif

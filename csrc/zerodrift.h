@@ -312,6 +312,19 @@ void zd_open_runs_advance(const zd_open_runs *self, int64_t first, int64_t count
 /* Stores the states only. */
 void zd_open_runs_read(const zd_open_runs *self, int64_t first, int64_t count);
 
+/* ---- saved states ---- */
+
+/* Allows the state of a run to be saved: called after zd_run_create() from (p0, v0), before its first step. */
+int zd_state_begin(zd_run *run, const double *p0, const double *v0);
+size_t zd_state_size(const zd_run *run);        /* bytes of its state */
+/* Writes the state into a block of zd_state_size() bytes, without addresses. `fingerprint`: text of up to 63 characters that identifies
+ * the system with its parameters, and the build of the core. */
+void zd_state_save(const zd_run *run, const char *fingerprint, void *block);
+/* A run that continues with the bits of the one whose state was saved, by the same build of the core, with the same settings and vector
+ * unit. Its state can be saved again. On failure NULL, with the reason in `status` and `message`. */
+zd_run *zd_state_restore(const zd_system *system, const zd_settings *settings, const void *block, size_t bytes, const char *fingerprint,
+                         int *status, char *message, int message_size);
+
 /* ---- many runs of one system, whose numbers differ ---- */
 
 enum zd_way { ZD_NOT_BEGUN, ZD_BY_ITSELF, ZD_IN_LANES, ZD_UNUSUAL };     /* execution of a run: none, single, SIMD lanes, left to caller */

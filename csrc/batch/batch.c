@@ -15,9 +15,9 @@ static void prepare(const zd_batch *batch)
 
 int zd_batch_run(const zd_batch *batch)
 {
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     zd_single_run_take(&arena, batch);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
     prepare(batch);
     if (!arena.base) return ZD_NO_MEMORY;
     const zd_single_run own = zd_single_run_take(&arena, batch);

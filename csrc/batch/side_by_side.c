@@ -263,9 +263,9 @@ static zd_run *create_first(const zd_batch *batch, const zd_single_run *own, int
 
 static int run_in_lanes(const zd_batch *batch, const zd_single_run *own, zd_run *run, int64_t first, const zd_pins_plan *pins)
 {
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     lay_out(&arena, batch, own, run, pins);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return ZD_NO_MEMORY;
     zd_lane_group group = lay_out(&arena, batch, own, run, pins);
     group.next = first;

@@ -123,9 +123,9 @@ static zd_block *copy_of(const double *word, size_t size, zd_complaint to)
     if (!zd_block_split(word, size / sizeof *word, dimensions, &layout, to)) return NULL;
     const int longest = zd_block_laws_check(&layout, to);
     if (longest < 0) return NULL;
-    zd_arena counting = {NULL, 0};
+    zd_arena counting = {0};
     take(&counting, size, &layout, longest);
-    zd_arena arena = {zd_allocate(counting.used), 0};
+    zd_arena arena = {.base = zd_allocate(counting.used)};
     if (!arena.base) {
         zd_complain(to, "there is no memory for the mechanism");
         return NULL;
@@ -151,9 +151,9 @@ zd_block *zd_block_create(const void *data, size_t size, char *message, int mess
     zd_block *self = aligned ? copy_of(aligned, size, to) : NULL;
     zd_release(aligned);
     if (!self) return NULL;
-    zd_arena counting = {NULL, 0};
+    zd_arena counting = {0};
     take_tables(&self->layout, &counting);
-    zd_arena arena = {zd_allocate(counting.used), 0};
+    zd_arena arena = {.base = zd_allocate(counting.used)};
     const arrays all = take_tables(&self->layout, &arena);
     const int is_made = arena.base ? make(self, &all, to) : zd_complain(to, "there is no memory for the mechanism");
     zd_release(arena.base);

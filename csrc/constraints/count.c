@@ -82,10 +82,10 @@ int zd_structure_count(const zd_system *system, const double *p, zd_structure_wo
 {
     *work = (zd_structure_work){0};
     if (!system->structure) return ZD_DONE;
-    zd_arena counting = {NULL, 0};
+    zd_arena counting = {0};
     zd_layout_take(&counting, system);
     take_place(&counting, system);
-    zd_arena arena = {zd_allocate(counting.used), 0};
+    zd_arena arena = {.base = zd_allocate(counting.used)};
     if (!arena.base) return ZD_NO_MEMORY;
     zd_store store = {NULL};
     const int status = count_and_measure(&store, &arena, system, p, work);

@@ -243,7 +243,7 @@ static int keep_columns(const search *self, zd_ordering *to)
 int zd_ordering_find(const zd_pattern *pattern, const int *given, zd_ordering *ordering)
 {
     const size_t count = (size_t)pattern->count;
-    zd_arena counting = {NULL, 0};
+    zd_arena counting = {0};
     lay_out(&counting, pattern, given);
     *ordering = (zd_ordering){
         .count = pattern->count,
@@ -251,7 +251,7 @@ int zd_ordering_find(const zd_pattern *pattern, const int *given, zd_ordering *o
         .size = zd_allocate(count * sizeof(int)),
         .begin = zd_allocate((count + 1) * sizeof(int)),
     };
-    zd_arena arena = {zd_allocate(counting.used), 0};
+    zd_arena arena = {.base = zd_allocate(counting.used)};
     int found = arena.base && ordering->place && ordering->size && ordering->begin;
     if (found) {
         search it = lay_out(&arena, pattern, given);

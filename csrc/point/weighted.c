@@ -200,9 +200,9 @@ static void *take(zd_arena *arena, const void *of)
 zd_weighted *zd_weighted_create(zd_store *store, const zd_layout *layout)
 {
     plan it = {.layout = layout, .all = count_all(layout)};
-    zd_arena counting = {NULL, 0};
+    zd_arena counting = {0};
     lay_out_pattern(&counting, layout, &it.all);
-    zd_arena arena = {zd_allocate(counting.used), 0};
+    zd_arena arena = {.base = zd_allocate(counting.used)};
     if (!arena.base) return NULL;
     it.pattern = lay_out_pattern(&arena, layout, &it.all);
     zd_weighted *self = NULL;

@@ -117,12 +117,17 @@ static zd_system with_rows(const zd_system *system, enum zd_on_singular on_singu
 static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int rows, int holonomic, char *message, int size)
 {
     zd_system independent = with_rows(system, settings->on_singular, rows, holonomic);
-    zd_arena counting = {NULL, 0};
+    zd_arena counting = {0};
     take_run(&counting, system, settings, &independent);
-    zd_arena arena = {zd_allocate(counting.used), 0};
-    if (arena.base) return take_run(&arena, system, settings, &independent);
-    snprintf(message, (size_t)size, "there is no memory for this: %.3g MiB", (double)counting.used / 0x1p20);
-    return NULL;
+    zd_memory *memory = zd_memory_create(counting.used);
+    if (!memory) {
+        snprintf(message, (size_t)size, "there is no memory for this: %.3g MiB", (double)counting.used / 0x1p20);
+        return NULL;
+    }
+    zd_arena arena = zd_arena_in(memory);
+    zd_run *run = take_run(&arena, system, settings, &independent);
+    run->memory = memory;
+    return run;
 }
 
 static int find_rank(zd_motion *motion, enum zd_on_singular on_singular)
@@ -158,8 +163,10 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
 
 void zd_run_free(zd_run *run)
 {
-    if (run) zd_store_release(&run->motion.store);
-    zd_release(run);    /* the run is at the start of its arena */
+    if (!run) return;
+    zd_store_release(&run->motion.store);
+    zd_memory_free(run->start);
+    zd_memory_free(run->memory);
 }
 
 static zd_run *refuse(zd_run *run, int why, int *status, char *message, int size)

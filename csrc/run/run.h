@@ -31,6 +31,8 @@ typedef struct zd_held_inputs {     /* inputs of the settings, as the present st
 } zd_held_inputs;
 
 struct zd_run {
+    zd_memory *memory;      /* its own, without what is allocated on demand */
+    zd_memory *start;       /* (nq + nv,): p0 and v0, from zd_state_begin(); NULL: its state cannot be saved */
     zd_settings settings;
     zd_motion motion;
     zd_stepper stepper;

@@ -290,14 +290,14 @@ static void forget(zd_run *run, const void *data)
 
 size_t zd_run_start_memory(const zd_run *run)
 {
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     lay_out(&arena, &run->motion);
     return arena.used;
 }
 
 int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const double *p0, const double *v0)
 {
-    zd_arena arena = {memory, 0};
+    zd_arena arena = {.base = memory};
     const workspace work = lay_out(&arena, &run->motion);
     zd_point *point = run->motion.point;
     forget(run, data);
@@ -309,9 +309,9 @@ int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const do
 
 int zd_run_start(zd_run *run, int status, const double *p0, const double *v0)
 {
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     lay_out(&arena, &run->motion);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return ZD_NO_MEMORY;
     const workspace work = lay_out(&arena, &run->motion);
     status = start(run, status, &work, p0, v0);

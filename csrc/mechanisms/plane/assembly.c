@@ -261,10 +261,10 @@ static void find_places(zd_assembly *self, const double *p, double *places)
 
 int zd_assemble(const zd_plane *mechanism, const zd_wanted *wanted, double *p, double *v, double *places)
 {
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     zd_assembly_take(&arena, mechanism, wanted);
     zd_take_doubles(&arena, 3 * (size_t)mechanism->system.nv);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return 0;
     zd_assembly self = zd_assembly_take(&arena, mechanism, wanted);
     double *memory = zd_take_doubles(&arena, 3 * (size_t)mechanism->system.nv);

@@ -290,11 +290,11 @@ static void plan(const zd_plane_tables *tables, parts *all, zd_plane *self)
 zd_plane *zd_plane_create(const zd_plane_tables *tables, char *message, int message_size)
 {
     if (!zd_plane_tables_are_right(tables, message, message_size)) return NULL;
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     parts all = {.quantities = 0};
     zd_take(&arena, sizeof(zd_plane));
     take_parts(tables, &arena, &all);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) {
         snprintf(message, (size_t)message_size, "there is no memory for the mechanism");
         return NULL;

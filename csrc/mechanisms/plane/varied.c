@@ -67,9 +67,9 @@ static int assemble(const zd_varied *self, int64_t run, const zd_plane *drawn, c
 /* The mechanism that moves, and its p and v; NULL: it does not start so. */
 static zd_plane *start(const zd_varied *self, int64_t run, const zd_plane *drawn, double *p, double *v)
 {
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     take(&arena, self, drawn);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return NULL;
     const found at = take(&arena, self, drawn);
     zd_plane *moving = assemble(self, run, drawn, &at) ? create(self, &self->moving, run, at.places) : NULL;

@@ -192,10 +192,10 @@ static int plan(const zd_space_tables *tables, parts *all)
 zd_space *zd_space_create(const zd_space_tables *tables, char *message, int message_size)
 {
     if (!zd_space_tables_are_right(tables, message, message_size)) return NULL;
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     parts all = {.quantities = 0};
     take_parts(tables, &arena, &all);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) {
         snprintf(message, (size_t)message_size, "there is no memory for the mechanism");
         return NULL;

@@ -194,10 +194,10 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
 {
     zd_space *self = zd_space_create(tables, message, message_size);
     if (!self) return NULL;
-    zd_arena arena = {NULL, 0};
+    zd_arena arena = {0};
     parts all = {.quaternions = 0};
     take_parts(tables, &arena, &all);
-    arena = (zd_arena){zd_allocate(arena.used), 0};
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return refuse(self, NULL, "there is no memory for the mechanism", message, message_size);
     take_parts(tables, &arena, &all);
     plan_links(tables, &all);

@@ -252,11 +252,19 @@ class Results(NamedTuple):
         return np.ndarray(len(self.phi_sizes) // 8, float, self.phi_sizes)
 
 
+class Saved(NamedTuple):
+    """The state of a run, and the text that identifies its system and the core: the first 63 characters count."""
+
+    state: bytes
+    fingerprint: str
+
+
 class Run:
-    """A run of the core."""
+    """A run of the core, from a start, or from a saved state (then p0 and v0 are ignored)."""
 
     def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None,
-                 outputs: Outputs | None = None, inputs: Inputs | None = None) -> None:
+                 outputs: Outputs | None = None, inputs: Inputs | None = None,
+                 saved: Saved | None = None) -> None:
         self._core = core = core if inputs else core.for_run()      # with inputs, it is this run's own already
         self.inputs = inputs
         self._watcher, self._outputs = watcher, outputs
@@ -267,10 +275,26 @@ class Run:
             options.outputs = outputs.c
         options.inputs = inputs.c if inputs else ffi.NULL
         status, message = ffi.new(INTEGERS), ffi.new(MESSAGE)
-        run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
+        if saved:
+            run = lib.zd_state_restore(core.c, options, ffi.from_buffer(saved.state), len(saved.state),
+                                       saved.fingerprint.encode(), status, message, MESSAGE_SIZE)
+        else:
+            run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
         if not run:
             raise self._raised or error_of(status[0], text(message))
         self._run = ffi.gc(run, lib.zd_run_free)
+
+    def begin_saving(self, p0: np.ndarray, v0: np.ndarray) -> None:
+        """Allows `save`: called before the first step of a run from this start."""
+        status = lib.zd_state_begin(self._run, doubles(p0, self._core.nq), doubles(v0, self._core.nv))
+        if status:
+            raise error_of(status, "there is no memory for the state of a run")
+
+    def save(self, fingerprint: str) -> Saved:
+        """Its state, after `begin_saving` or from a saved one."""
+        memory = bytearray(lib.zd_state_size(self._run))
+        lib.zd_state_save(self._run, fingerprint.encode(), ffi.from_buffer(memory, require_writable=True))
+        return Saved(bytes(memory), fingerprint)
 
     def advance(self, record: Record | None, seconds: float) -> int:
         """Steps for about that long; the status. The interpreter is free for other threads meanwhile."""

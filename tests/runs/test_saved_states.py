@@ -1,0 +1,85 @@
+"""Saved states of runs: copies continue with the same bits, in this process and another; what does not fit is refused."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import saved_runs
+import zerodrift as zd
+from native_systems import needs_compiler
+from zerodrift import _gateway
+
+
+@needs_compiler
+def test_copies_continue_with_the_same_bits():
+    """Copies of 25 runs of every kind; `python tests/saved_runs.py 0 400` compares more."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        compared, here, elsewhere = saved_runs.compare(0, 40)
+    assert len(compared) > 25
+    assert not here
+    assert not elsewhere
+
+
+@pytest.mark.parametrize("options", [
+    {"step": 0.004}, {"step": 0.004, "direct": False}, {"rtol": 1e-10, "atol": 1e-12, "max_step": 0.01},
+    {"integrator": "radau", "step": 0.01}, {"formulation": "mixed", "step": 0.004, "direct": False},
+    {"formulation": "mixed", "rtol": 1e-10, "atol": 1e-12, "max_step": 0.01}], ids=str)
+def test_a_run_that_is_saved_at_every_sample_has_the_bits_of_one(bar, options):
+    case = saved_runs.of(bar, options, 0.2)
+    run, parts, expected = case.begun(), [], _gateway.Record(case.core, 500)
+    assert case.begun().advance(expected, 1e3) == _gateway.DONE
+    status = _gateway.FULL
+    while status == _gateway.FULL:
+        record = _gateway.Record(case.core, 1)
+        status = run.advance(record, 1e3)
+        parts.append(record.take())
+        run = case.run(run.save("bar")) if status == _gateway.FULL else run
+    whole = expected.take()
+    for name, column in whole.items():
+        assert np.concatenate([part[name] for part in parts]).tobytes() == column.tobytes(), name
+    assert len(parts) > 10
+
+
+def test_states_of_equal_runs_are_equal(bar):
+    case = saved_runs.of(bar, {"step": 0.004}, 0.2)
+    states = []
+    for _ in range(2):
+        run = case.begun()
+        run.advance(_gateway.Record(case.core, 10), 1e3)
+        states.append(run.save("bar"))
+    assert states[0] == states[1]
+    assert case.run(states[0]).save("bar") == states[0]
+
+
+@pytest.mark.parametrize(("change", "sentence"), [
+    (lambda state: state[:-8], "must be whole"), (lambda state: state[:3], "must be what was saved"),
+    (lambda state: state + b"\0" * 8, "must be whole"), (lambda state: b"x" * len(state), "must be what was saved"),
+    (lambda state: state[:180] + bytes([state[180] ^ 1]) + state[181:], "must be unchanged")],
+    ids=["truncated", "very short", "longer", "text", "a bit"])
+def test_other_bytes_are_refused(bar, change, sentence):
+    case = saved_runs.of(bar, {"step": 0.004}, 0.2)
+    saved = case.begun().save("bar")
+    with pytest.raises(zd.ZerodriftError, match=f"a saved state {sentence}"):
+        case.run(saved._replace(state=change(saved.state)))
+
+
+def test_states_of_other_runs_are_refused(bar):
+    case = saved_runs.of(bar, {"step": 0.004}, 0.2)
+    saved = case.begun().save("bar")
+    with pytest.raises(zd.ZerodriftError, match="must be of the same system"):
+        case.run(saved._replace(fingerprint="another"))
+    with pytest.raises(zd.ZerodriftError, match="must be of the same system"):
+        saved_runs.of(zd.systems.pendulum(), {"step": 0.004}, 0.2).run(saved)
+    with pytest.raises(zd.ZerodriftError, match="must be of a run with the same settings"):
+        saved_runs.of(bar, {"step": 0.005}, 0.2).run(saved)
+
+
+def test_a_state_needs_its_vector_unit(bar):
+    units = [unit for unit in ("baseline", "avx2") if unit in saved_runs.units()]
+    if len(units) < 2:
+        pytest.skip("this processor has one vector unit")
+    saved = saved_runs.of(bar, {"step": 0.004, "vector": units[0]}, 0.2).begun().save("bar")
+    with pytest.raises(zd.ZerodriftError, match="vector unit"):
+        saved_runs.of(bar, {"step": 0.004, "vector": units[1]}, 0.2).run(saved)
