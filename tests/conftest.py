@@ -2,10 +2,12 @@
 system and an integrator once for each pair that the core accepts.
 
 With all three, or with more axes by ``@pytest.mark.pairs(name=values, ...)``, they run for cases in which each pair of values of
-two axes occurs. They run for the whole product with ZERODRIFT_PRODUCTS=1 in the environment.
+two axes occurs. With ``@pytest.mark.each_value`` each value of each axis occurs, where other tests have the pairs. They run
+for the whole product with ZERODRIFT_PRODUCTS=1 in the environment.
 """
 
 import atexit
+import functools
 import importlib.util
 import os
 import shutil
@@ -17,7 +19,7 @@ import pytest
 import zerodrift as zd
 from caching import cache_folder, compiler  # noqa: F401  (fixtures)
 from core_objects import core_objects  # noqa: F401  (a fixture)
-from covering import covering, product
+from covering import WHOLE, covering, product
 from native_systems import PENDULUM, compile_library
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
 
@@ -87,10 +89,16 @@ def pytest_generate_tests(metafunc):
         axes |= {name: values if isinstance(values, dict) else {str(value): value for value in values}
                  for name, values in mark.kwargs.items()}
     if axes:
-        choose = product if os.environ.get("ZERODRIFT_PRODUCTS") else covering
-        cases = choose({name: tuple(values) for name, values in axes.items()}, is_accepted)
+        strength = 1 if metafunc.definition.get_closest_marker("each_value") else 2
+        cases = cases_of(tuple((name, tuple(values)) for name, values in axes.items()), strength)
         metafunc.parametrize(tuple(axes), [[axes[name][key] for name, key in case.items()] for case in cases],
                              ids=["-".join(case.values()) for case in cases])
+
+
+@functools.cache
+def cases_of(axes, strength):
+    """Cases for axes, pairs of a name and its values, which several tests have in common."""
+    return product(dict(axes), is_accepted) if WHOLE else covering(dict(axes), is_accepted, strength)
 
 
 def is_accepted(system=None, integrator=None, **_):

@@ -1,6 +1,9 @@
 """Covering arrays: few cases of a product of axes in which each pair of values of two axes occurs."""
 
 import itertools
+import os
+
+WHOLE = bool(os.environ.get("ZERODRIFT_PRODUCTS"))     # products instead of pairs, all values and draws
 
 
 def product(axes, allowed=lambda **case: True):
@@ -9,14 +12,27 @@ def product(axes, allowed=lambda **case: True):
     return [case for case in cases if allowed(**case)]
 
 
-def covering(axes, allowed=lambda **case: True):
+def spread(values, count):
+    """`count` of the values, evenly spread, the first and the last among them; all with ZERODRIFT_PRODUCTS=1."""
+    values = list(values)
+    return values if WHOLE else [values[round(k * (len(values) - 1) / (count - 1))] for k in range(count)]
+
+
+def draws(few, many):
+    """Number of random draws or of repetitions: `few`, or `many` with ZERODRIFT_PRODUCTS=1."""
+    return many if WHOLE else few
+
+
+def covering(axes, allowed=lambda **case: True, strength=2):
     """Cases of the product in which all pairs of values occur that occur in any of it; a single axis has all its values.
+
+    With a strength of 1, each value occurs.
 
     Each is the case with the most pairs that are still missing, the first in the order of the product if there are several: the
     choice is the same in every process.
     """
     cases = product(axes, allowed)
-    pairs = [frozenset(itertools.combinations(case.items(), min(2, len(axes)))) for case in cases]
+    pairs = [frozenset(itertools.combinations(case.items(), min(strength, len(axes)))) for case in cases]
     missing, chosen = set().union(*pairs), []
     while missing:
         best = max(range(len(cases)), key=lambda k: len(pairs[k] & missing))

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import tolerances as tol
 import zerodrift as zd
+from covering import draws
 from support import SYSTEMS, assert_close, motion, with_energy
 
 
@@ -52,7 +53,7 @@ def test_energy_corrections_left_out_are_counted_and_said():
 
 
 @pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning", "ignore::zerodrift.StabilityWarning")
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=draws(30, 150))
 @given(st.floats(-20, 1), st.floats(0.01, 3.0), st.integers(1, 40), st.sampled_from(["euler", "heun", "rk4", "trapezoidal"]))
 def test_energy_corrections_are_bounded_and_counted_where_they_cannot_work(rate, angle, steps, integrator):
     """From nearly no kinetic energy to plenty, over turning points: a factor between 0.7 and 1.3, or none, which the row says."""

@@ -46,6 +46,7 @@ def test_order_against_the_closed_form(spinning, formulation, integrator):
     assert abs(np.log2(clear[-2] / clear[-1]) - order) <= margin, errors
 
 
+@pytest.mark.each_value
 def test_order_with_constraints(formulation, integrator):
     rod = held_at_a_point(*ROD)
     suited(integrator, rod)

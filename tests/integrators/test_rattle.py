@@ -157,8 +157,9 @@ def gyroscope():
                      bias=lambda p, v: turn @ v + np.array([2 * p[1] * v[0] * v[1], -p[1] * v[0] ** 2]))
 
 
-@pytest.mark.parametrize("make", [driven_pendulum, growing_mass, braked_bar, gyroscope, chain])
-@pytest.mark.parametrize("stabilization", [None, "projection", zd.Baumgarte(10, 25, 20)], ids=str)
+@pytest.mark.each_value
+@pytest.mark.pairs(make={each.__name__: each for each in (driven_pendulum, growing_mass, braked_bar, gyroscope, chain)},
+                   stabilization={str(each): each for each in (None, "projection", zd.Baumgarte(10, 25, 20))})
 def test_order_two_against_another_method(make, stabilization):
     system = make()
     exact = zd.simulate(system, 0.5, step=1 / 400, integrator="dop853")

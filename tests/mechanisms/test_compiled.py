@@ -63,8 +63,8 @@ def test_every_joint_and_element_is_among_them():
     assert {kind.card.name for kind in element_kinds().values()} <= {getattr(each, "kind", None) for each in made}
 
 
-@pytest.mark.parametrize("layout", LAYOUTS)
-@pytest.mark.parametrize("name", MADE)
+@pytest.mark.each_value
+@pytest.mark.pairs(name=[*MADE], layout=LAYOUTS)
 def test_terms_are_those_of_the_tables(name, layout):
     interpreted, compiled = both(MADE[name](), layout)
     assert compiled.structure == interpreted.structure

@@ -46,7 +46,8 @@ def test_closed_pendulum_for_a_hundred_seconds(links):
     assert sol.kinetic_energy[-5000:].max() > 0.5 * sol.kinetic_energy.max()      # and it moves to the end
 
 
-@pytest.mark.parametrize("links", LINKS)
+@pytest.mark.each_value
+@pytest.mark.pairs(links=LINKS)
 def test_energy_of_the_closed_pendulum_falls_at_the_order_of_the_method(links, formulation):
     system = zd.models.symbolic.closed_pendulum(links)
     errors = [np.abs(zd.simulate(system, 2.0, step=step, formulation=formulation).energy_violation).max()

@@ -85,7 +85,7 @@ def test_events_and_what_is_saved():
 
 
 def test_reference():
-    one, other = (zd.reference(each, 0.01, t_eval=[0.0, 0.01]) for each in twins())
+    one, other = (zd.reference(each, 0.002, t_eval=[0.0, 0.002]) for each in twins())
     assert max(one.error, other.error) < 1e-9
     assert_close(one.solution.p, other.solution.p, one.error + other.error, what="p")
 
@@ -132,10 +132,10 @@ def scaled_rows_and_mass(e):
     return K * np.outer(scale, scale), scale, right * scale
 
 
-@pytest.mark.parametrize("rods", [
-    chain(50, closed=True), chain(50, closed=True, bend=0.05),
-    chain(50, closed=True, masses=list(10.0 ** np.random.default_rng(0).uniform(-4, 0, 50)))],
-    ids=["bent", "nearly straight", "of masses from 1e-4 to 1"])
+@pytest.mark.each_value
+@pytest.mark.pairs(rods={
+    "bent": chain(50, closed=True), "nearly straight": chain(50, closed=True, bend=0.05),
+    "of masses from 1e-4 to 1": chain(50, closed=True, masses=list(10.0 ** np.random.default_rng(0).uniform(-4, 0, 50)))})
 def test_multipliers_of_a_long_closed_chain_within_a_run(rods, formulation):
     """Condition 1e4 to 1e6. Most of a run's solutions are not compared with what they have to satisfy: these are among them."""
     system = rods.system()

@@ -225,6 +225,7 @@ def test_times_to_save_do_not_end_the_watch(bar):
     assert zd.simulate(bar, 1.0, step=0.01, t_eval=[0.1, 0.5, 0.6], events=at).t.tolist() == [0.1, 0.5]
 
 
+@pytest.mark.each_value
 def test_slicing_changes_no_bit(bar, formulation, integrator, monkeypatch):
     runs = []
     for seconds in (1e9, 0.0, -1.0):
@@ -322,6 +323,7 @@ CORRECTIONS = [None, "projection", zd.Projection(every=2), zd.Projection(every=3
 STEPS = [{"step": 0.03}, {"rtol": 1e-4, "atol": 1e-6}]
 
 
+@pytest.mark.each_value
 @pytest.mark.pairs(system={kind: SYSTEMS[kind] for kind in ("four_bar", "rolling_disc", "driven_four_bar")})
 def test_events_are_zero_whatever_is_corrected(system, formulation, integrator):
     """Corrections at every k-th step, within a wide tolerance, of velocities alone: none makes the function leap."""

@@ -43,10 +43,10 @@ def test_every_method_in_every_formulation(system, integrator, formulation):
         assert_undisturbed(system, 0.5, 17, integrator=integrator, formulation=formulation, **steps)
 
 
-@pytest.mark.parametrize("options", [{"direct": False}, {"energy": True}, {"stabilization": "baumgarte"}, {"stabilization": None},
-                                     {"stabilization": zd.Projection(every=3)}],
-                         ids=["general", "energy", "baumgarte", "none", "every 3"])
-@pytest.mark.parametrize("name", ["four_bar", "pendulum"])
+@pytest.mark.pairs(name=["four_bar", "pendulum"], options={
+    "general": {"direct": False}, "energy": {"energy": True}, "baumgarte": {"stabilization": "baumgarte"},
+    "none": {"stabilization": None}, "every 3": {"stabilization": zd.Projection(every=3)}})
+@pytest.mark.each_value
 @pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning", "ignore::zerodrift.AccuracyWarning")
 def test_whatever_else_is_done(name, options, formulation):
     """Over several turns, in which independent variables are chosen anew."""

@@ -16,8 +16,9 @@ def assert_beginning(part, whole):
     assert_same_bits(whole, part, slice(len(part.t)))
 
 
-@pytest.mark.parametrize("options", [{"step": 0.05}, {"rtol": 1e-4, "integrator": "dormand_prince", "t_eval": [0.1, 0.2, 0.3]}],
-                         ids=["fixed", "chosen"])
+@pytest.mark.each_value
+@pytest.mark.pairs(options={"fixed": {"step": 0.05},
+                            "adaptive": {"rtol": 1e-4, "integrator": "dormand_prince", "t_eval": [0.1, 0.2, 0.3]}})
 def test_an_exception_at_any_call_leaves_what_was_computed(formulation, options):
     options = options | {"formulation": formulation, "energy": True}
     watch = At(-1, None)

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from covering import draws
 from support import assert_same_bits
 from watched import At, throw
 from zerodrift.runs import mapped_samples, memory, sample_file
@@ -176,7 +177,7 @@ def test_a_run_that_is_killed_leaves_its_rows(bar, tmp_path):
 
 @linux
 def test_a_run_that_is_killed_at_any_time_leaves_what_it_flushed(bar, tmp_path, monkeypatch):
-    """Twenty random times; NumPy opens the samples without this package, and they are those of a run in memory."""
+    """Random times; NumPy opens the samples without this package, and they are those of a run in memory."""
     code = """
     import sys, zerodrift as zd
     from zerodrift.runs import sample_file
@@ -186,7 +187,7 @@ def test_a_run_that_is_killed_at_any_time_leaves_what_it_flushed(bar, tmp_path, 
     zd.simulate(zd.systems.four_bar(), 1e4, step=1e-3, save_to=sys.argv[1])
     """
     whole = zd.simulate(bar, 10.0, step=1e-3)
-    for wait in np.random.default_rng(37).uniform(0, 0.05, 20):
+    for wait in np.random.default_rng(37).uniform(0, 0.05, draws(6, 20)):
         path = tmp_path / "run.npy"
         with subprocess.Popen([sys.executable, "-c", textwrap.dedent(code), path], stdout=subprocess.PIPE) as run:
             assert run.stdout.readline() == b"runs\n"

@@ -77,7 +77,7 @@ def test_python_takes_turns_in_the_thread_that_called():
     system = pendulum(lambda: seen.add(threading.get_ident()))
     found = zd.stability_map(system, 0.05, steps=[0.01], values=[1.0, 2.0], reference=lambda t: np.zeros(2))
     assert found.survived("projection").all()
-    zd.reference(system, 0.05)
+    zd.reference(system, 0.05, error=1e-6)
     assert seen == {threading.get_ident()}
 
 

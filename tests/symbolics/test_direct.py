@@ -8,6 +8,7 @@ from zerodrift._core import ffi, lib
 
 import tolerances as tol
 import zerodrift as zd
+from covering import spread
 from native_systems import needs_compiler
 from random_symbolic import random_system
 from support import numbers
@@ -16,7 +17,7 @@ from zerodrift.symbolics.graph.lowering import Lowering
 
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler
-SEEDS = range(12)
+SEEDS = spread(range(12), 5)
 ALWAYS_SOUND = 2.0**-6     # in parts of its rows, a determinant that steps are believed with: SMALL of csrc/motion/direct.c
 
 

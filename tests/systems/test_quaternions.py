@@ -52,14 +52,14 @@ def test_the_core_says_which_formulations_suit():
 
 @pytest.mark.parametrize("which", BODIES)
 def test_a_reference_of_a_body(which):
-    ref = zd.reference(BODIES[which], 2.0)
+    ref = zd.reference(BODIES[which], 0.5)
     assert np.abs(ref.solution.v - precession(ref.solution.t)).max() <= ref.velocity_error < 1e-12
     assert np.abs(ref.solution.p - attitude(ref.solution.t)).max() <= ref.error < 1e-12
 
 
 @pytest.mark.parametrize("which", BODIES)
 def test_work_precision_takes_what_suits(which):
-    found = zd.work_precision(BODIES[which], 0.5, integrators=["rk4"], steps=[0.1], rounds=1)
+    found = zd.work_precision(BODIES[which], 0.2, integrators=["rk4"], steps=[0.1], rounds=1)
     assert [row.setting.formulation for row in found.rows] == list(zd.formulations(BODIES[which]))
     assert all(row.success and row.error < 1e-4 for row in found.rows)
 
@@ -67,13 +67,13 @@ def test_work_precision_takes_what_suits(which):
 @pytest.mark.parametrize("chosen", [None, ["schur"], ["independent"]])
 def test_tuning_a_body(chosen):
     system = BODIES["said to be one"]
-    tuning = zd.tune(system, 0.5, error=1e-6, formulations=chosen, integrators=["rk4"], rounds=1)
-    sol = zd.simulate(system, 0.5, **tuning.settings)
+    tuning = zd.tune(system, 0.2, error=1e-6, formulations=chosen, integrators=["rk4"], rounds=1)
+    sol = zd.simulate(system, 0.2, **tuning.settings)
     assert np.abs(sol.v[-1] - precession(sol.t)[-1]).max() < 1e-5
 
 
 def test_the_stability_of_a_body():
-    found = zd.stability_map(BODIES["said to be one"], 0.5, steps=[0.05], values=[1.0],
+    found = zd.stability_map(BODIES["said to be one"], 0.2, steps=[0.05], values=[1.0],
                              ways={name: {"formulation": name} for name in FORMULATIONS})
     assert all(found.survived(way).all() and found.error(way).max() < 1e-4 for way in found.rows)
 
@@ -85,11 +85,11 @@ def test_a_singular_mass_matrix_suits_those_that_do_not_invert_it():
 
     system = zd.System(["x", "y"], mass=np.diag([1.0, 0.0]), force=force, constraints=lambda p: np.array([p[1] - p[0]**2]),
                        p0=[1.0, 1.0])
-    found = zd.work_precision(system, 0.5, integrators=["rk4"], steps=[0.1], rounds=1)
+    found = zd.work_precision(system, 0.05, integrators=["rk4"], steps=[0.01], rounds=1)
     assert [row.setting.formulation for row in found.rows] == [name for name in FORMULATIONS if name != "schur"]
     assert all(row.error < 1e-4 for row in found.rows)
     with pytest.raises(zd.SingularSystem, match="'schur' inverts it"):
-        zd.work_precision(system, 0.5, formulations=["schur"], integrators=["rk4"], steps=[0.1], rounds=1)
+        zd.work_precision(system, 0.05, formulations=["schur"], integrators=["rk4"], steps=[0.01], rounds=1)
 
 
 def test_independent_coordinates_say_what_they_need():

@@ -60,8 +60,8 @@ def test_what_a_callable_keeps_stays_what_it_was(formulation, options):
         keeper(p, v)
         return p[1] + 0.1
 
-    for _ in range(3):
-        zd.simulate(system, 0.2, **options, formulation=formulation, energy=True, events=event, progress=lambda part: None)
+    for _ in range(2):
+        zd.simulate(system, 0.1, **options, formulation=formulation, energy=True, events=event, progress=lambda part: None)
     del system
     assert keeper.check()
 
