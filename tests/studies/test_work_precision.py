@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import FORMULATIONS, INTEGRATORS, SYSTEMS
+from support import FORMULATIONS, SYSTEMS
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
 BAR, PENDULUM = SYSTEMS["four_bar"], SYSTEMS["pendulum"]
-CHOOSING = [name for name in INTEGRATORS if zd.integrators()[name].error_order]
+CHOOSING = [name for name in zd.integrators() if zd.integrators()[name].error_order]
 
 
 def measured(system=BAR, t_end=0.5, **options):
@@ -31,7 +31,8 @@ def test_every_system_is_measured_by_every_method(system):
     result = measured(system, 0.2, formulations=None, integrators=None, steps=[0.01])
     ways = {(row.setting.formulation, row.setting.integrator, row.setting.tolerance) for row in result.rows}
     assert ways == {(formulation, integrator, tolerance) for formulation in FORMULATIONS for integrator in zd.integrators(system)
-                    for tolerance in (None, 1e-6) if tolerance is None or integrator in CHOOSING}
+                    for tolerance in (None, 1e-6) if (tolerance is None or integrator in CHOOSING)
+                    and not (integrator == "taylor" and formulation in ("mixed", "independent"))}     # whose states are parts
     assert all(row.success and row.seconds > 0 and row.error < 0.1 for row in result.rows)
 
 
