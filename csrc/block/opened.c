@@ -14,7 +14,7 @@ struct zd_opened {
     zd_block *block;
     zd_run *run;
     zd_settings settings;
-    double *p, *v, *vdot, *lambda, *scratch;
+    double *p, *v, *vdot, *lambda, *Phi, *scratch;
     char message[MESSAGE];
 };
 
@@ -25,7 +25,9 @@ static zd_opened *take(zd_arena *arena, const zd_system *system)
     self->v = zd_take_doubles(arena, (size_t)system->nv);
     self->vdot = zd_take_doubles(arena, (size_t)system->nv);
     self->lambda = zd_take_doubles(arena, (size_t)(system->mh + system->mn));
-    self->scratch = zd_take_doubles(arena, (size_t)system->measures->scratch);
+    self->Phi = zd_take_doubles(arena, (size_t)system->mh);
+    const int of_measures = system->measures->scratch;
+    self->scratch = zd_take_doubles(arena, (size_t)(of_measures > system->scratch ? of_measures : system->scratch));
     return here;
 }
 
@@ -174,6 +176,18 @@ int zd_opened_measure(zd_opened *self, int measure, double *value)
     if (measures->measure[measure].depends != ZD_OF_ACCELERATIONS) return evaluate(self, measure, NULL, NULL, value);
     const int status = zd_run_accelerations(self->run, self->vdot, self->lambda);
     return status ? status : evaluate(self, measure, self->vdot, self->lambda, value);
+}
+
+double zd_opened_violation(zd_opened *self)
+{
+    const zd_system *system = zd_block_system(self->block);
+    const zd_terms terms = {.Phi = self->Phi, .scratch = self->scratch};
+    double largest = 0;
+    if (!system->mh) return 0;
+    const double *p = zd_run_p(self->run), *v = zd_run_v(self->run);
+    if (system->evaluate(system->data, ZD_PHI | ZD_MOVED, zd_run_time(self->run), p, v, &terms)) return NAN;
+    for (int i = 0; i < system->mh; i++) largest = fmax(largest, fabs(self->Phi[i]));
+    return largest;
 }
 
 int zd_opened_width(const zd_opened *self)

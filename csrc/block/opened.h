@@ -24,6 +24,8 @@ const zd_run *zd_opened_run(const zd_opened *self);
 const char *zd_opened_message(const zd_opened *self);      /* the last failure in one sentence */
 /* Values of a measure at the present state: (size,). */
 int zd_opened_measure(zd_opened *self, int measure, double *value);
+/* Largest residual of the position constraints at the present state. */
+double zd_opened_violation(zd_opened *self);
 /* Number of components of all outputs, and their values in order. */
 int zd_opened_width(const zd_opened *self);
 int zd_opened_outputs(zd_opened *self, double *value);

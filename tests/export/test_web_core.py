@@ -84,7 +84,12 @@ def test_inputs_measures_parameters_and_states(web):
                              () => zd.create(core, new Uint8Array(16))])
           try { wrong(); tell(""); } catch (error) { tell(error.message); }
         zd.step(m, 10);
-        tell(zd.time(m));
+        tell([zd.time(m), zd.violation(m)]);
+        const end = zd.read(m, "coupler.end.position"), goal = [end[0] - 0.05, end[1]];
+        const far = Math.hypot(...zd.read(m, "coupler.end.position").map((x, i) => x - goal[i]));
+        let left;
+        for (let i = 0; i < 30; i++) left = zd.pull(m, "coupler.end.position", goal);
+        tell([far, left, zd.violation(m)]);
         zd.close(m);
     """, bar=data)
     system = bar.system()
@@ -96,7 +101,10 @@ def test_inputs_measures_parameters_and_states(web):
     assert told[4].startswith("there is no measure no; there are ")
     assert told[5] == "the time must not be before the present one"
     assert "a block must have at least" in told[6]
-    assert told[7] == pytest.approx(0.21, abs=1e-12)
+    assert told[7] == [pytest.approx(0.21, abs=1e-12), pytest.approx(0, abs=1e-11)]
+    far, left, violation = told[8]
+    assert left < 0.5 * far     # the point moves on a circle, which does not pass through the goal
+    assert violation < 1e-11
 
 
 def test_a_redundant_constraint_is_named(web):

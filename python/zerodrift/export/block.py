@@ -146,7 +146,7 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
         observed = [row for row in observed if row.name in chosen.outputs]
     measures = [row.name for row in observed]
     if len(measures) > MOST_MEASURES:
-        raise ValueError(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, "
+        raise WrongValue(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, "
                          f"as {chosen.system.name} has")
     packed, inputs, programs = _with_inputs(chosen, tables, tables.written(quantities, observed), texts)
     sections = {**blocks.tables(packed, texts), **vars(programs), "inputs": inputs}

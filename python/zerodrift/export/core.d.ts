@@ -35,6 +35,10 @@ export function velocities(m: Mechanism): Float64Array;
 export function read(m: Mechanism, name: string): Float64Array;
 export function unit(m: Mechanism, name: string): string;
 export function freedoms(m: Mechanism): {freedoms: number; rank: number; redundant: string[]};
+/** Largest residual of the position constraints. */
+export function violation(m: Mechanism): number;
+/** Moves a measured point nearer to a target and returns the distance that is left. */
+export function pull(m: Mechanism, name: string, target: ArrayLike<number>): number;
 export function save(m: Mechanism): State;
 /** Begins a new run at a saved state; with `assembled`, at the nearest one that satisfies the constraints. */
 export function restore(m: Mechanism, state: State, assembled?: boolean): void;

@@ -141,6 +141,35 @@ export function freedoms(m) {
   return {freedoms: m.core.page_nv(m.run) - rank, rank, redundant: names};
 }
 
+// Largest residual of the position constraints.
+export function violation(m) {
+  return m.core.page_violation(m.run);
+}
+
+// Moves the mechanism so that a measured point comes nearer to a target, and at rest: one step of least squares by differences along the
+// coordinates, each of which the constraints follow. Returns the distance that is left.
+export function pull(m, name, target) {
+  const state = save(m), still = state.v.map(() => 0), at = read(m, name);
+  const begin = (p) => restore(m, {...state, p, v: still}, true);
+  const columns = state.p.map((x, i) => {
+    const p = state.p.slice(), change = 1e-6 * Math.max(1, Math.abs(x));
+    p[i] += change;
+    begin(p);
+    return read(m, name).map((value, k) => (value - at[k]) / change);
+  });
+  const size = at.length, A = Array.from({length: size}, (_, i) => Array.from({length: size + 1}, (_, j) =>
+    j === size ? target[i] - at[i] : columns.reduce((sum, column) => sum + column[i] * column[j], 0)));
+  const damping = 1e-4 * A.reduce((sum, row, i) => sum + row[i], 1e-12);
+  A.forEach((row, i) => { row[i] += damping; });
+  for (let i = 0; i < size; i++)
+    for (let k = 0; k < size; k++)
+      if (k !== i) for (let j = size, factor = A[k][i] / A[i][i]; j >= i; j--) A[k][j] -= factor * A[i][j];
+  const change = columns.map((column) => A.reduce((sum, row, i) => sum + column[i] * row[size] / row[i], 0));
+  const most = 0.3 / Math.max(0.3, ...change.map(Math.abs));
+  begin(state.p.map((x, i) => x + most * change[i]));
+  return Math.hypot(...read(m, name).map((value, k) => value - target[k]));
+}
+
 // The state: time, coordinates, velocities and inputs, as JSON can keep them.
 export function save(m) {
   return {t: time(m), p: [...positions(m)], v: [...velocities(m)], inputs: Object.fromEntries(m.inputs.map((name) => [name, input(m, name)]))};

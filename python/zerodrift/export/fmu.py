@@ -18,7 +18,7 @@ from xml.sax.saxutils import quoteattr
 from .. import _check, _gateway
 from .._gateway.mechanisms import blocks
 from .._writing import write_whole
-from ..errors import CompilationFailed
+from ..errors import CompilationFailed, WrongValue
 from ..symbolics.compile import compilers
 from . import core_build
 from .block import Chosen, choose, written
@@ -110,7 +110,7 @@ def _place(version: str) -> tuple[str, str]:
     """Folder of this platform's library, and its suffix."""
     machine, known = MACHINES.get(platform.machine().lower()), SYSTEMS.get(sys.platform)
     if machine is None or known is None or (version == "2.0" and machine != "x86_64"):
-        raise ValueError(f"FMI {version} has no name for this platform, {sys.platform} on {platform.machine()}")
+        raise WrongValue(f"FMI {version} has no name for this platform, {sys.platform} on {platform.machine()}")
     return (f"{machine}-{known[0]}" if version == "3.0" else OF_FMI2[known[0]]), known[1]
 
 

@@ -9,7 +9,7 @@ import io
 import json
 import tempfile
 import webbrowser
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -132,8 +132,9 @@ def of_solution(solution: Solution, text: str) -> str:
     return words
 
 
-def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any = (), names: bool = False,
-         speed: float | None = None, labels: Sequence[str] | None = None) -> View:
+def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (), names: bool = False,
+         speed: float | None = None, labels: Sequence[str] | None = None, live: bool = False,
+         sliders: Mapping[str, tuple[float, float]] | None = None) -> Any:
     """Film of one motion, or of several over each other, for notebooks and browsers.
 
     Play, pause and step with the space bar and the arrow keys; the slider is the time. Below it are the position violation and
@@ -157,10 +158,17 @@ def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any 
         Seconds of the motion in a second of the film. Left out: 1 for motions of 3 to 15 s, and as much more or less for others.
     labels : sequence of str, optional
         Names of the solutions.
+    live : bool
+        True: instead of solutions a mechanism of the plane is given, which the page simulates itself, by the core in WebAssembly.
+        Points are dragged, and sliders change parameters and motors; what cannot close is refused with a sentence. The core is
+        compiled once, by the package ziglang (the extra ``web``).
+    sliders : dict of (float, float), optional
+        With `live`: parameters and motors of the mechanism, such as ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``, with
+        smallest and largest values. By default some lengths and all motors.
 
     Returns
     -------
-    View
+    View or LiveView
         It shows itself at the end of a notebook's cell; `View.save` writes one HTML file, and `View.show` opens the browser.
 
     Raises
@@ -179,6 +187,12 @@ def view(*solutions: Solution, forces: Any = False, path: Any = (), graphs: Any 
     ...     film.save(folder + "/crank.html").stat().st_size < 100_000
     True
     """
+    if live:
+        from .live import live_view
+
+        if len(solutions) != 1:
+            raise WrongType(f"a live view must be of one mechanism, not of {len(solutions)} arguments")
+        return live_view(solutions[0], sliders, speed=speed)
     if not solutions:
         raise WrongType("view needs at least one solution, as zd.simulate returns")
     for sol in solutions:
