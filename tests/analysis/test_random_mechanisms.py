@@ -6,6 +6,7 @@ import pytest
 import zerodrift as zd
 from covering import draws
 from mechanisms.random_mechanisms import Maker
+from mechanisms.random_starts import mechanism
 
 # Blades leave families of equilibria.
 SEEDS = [seed for seed in range(draws(10, 24)) if "blade" not in Maker(seed).m._elements]
@@ -34,6 +35,16 @@ def test_equilibria_and_spectra_are_the_same(seed):
     if one is not None:
         assert len(one) == len(other)
         assert max((np.abs(other - each).min() for each in one), default=0.0) < 1e-7 * np.abs(one).max(initial=1.0)
+
+
+def test_a_family_of_equilibria_on_a_curve_is_a_free_direction():
+    """A body that hangs between joints may turn about a curved axis: its neighbours follow in second order."""
+    found = [zd.equilibrium(mechanism(104, in_space=True)[0].system(layout)) for layout in ("joint", "absolute")]
+    energies = [eq.system.evaluate(eq.p, eq.v).V for eq in found]
+    assert energies[0] == pytest.approx(energies[1], rel=1e-12)
+    for eq in found:
+        assert eq.stable is True
+        assert eq.free == ("b2 rotation about y",)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

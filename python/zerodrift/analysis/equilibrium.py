@@ -142,7 +142,7 @@ def _found(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.nd
 
 def _nothing(balance: Balance, start: np.ndarray) -> str:
     """The message of a search that found nothing."""
-    at, where = balance.at, np.array2string(balance.at.p, precision=4, threshold=12)
+    at, where = balance.at, np.array2string(balance.at.p, precision=4, threshold=12, max_line_width=1000)
     moved = np.abs(at.p - start) / scales(at.system, start).p
     runs = f"{at.system.coordinates[int(moved.argmax())].name!r} moves on without end" if moved.max() > FAR else (
         f"it accelerates {balance.largest_force()!r}")

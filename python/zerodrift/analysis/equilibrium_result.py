@@ -14,12 +14,13 @@ from .flow import Flow
 from .large import SparseBalance
 from .names import pivots
 from .quantities import components
-from .rest import Balance
-from .retraction import moved, onto, rows_of
+from .rest import Balance, nearest
+from .retraction import consistent, onto, rows_of
 from .spectrum import Spectrum, of_matrix
-from .state import State
+from .state import State, scales
 
 SYMMETRIC = 1e-7        # of the largest stiffness: forces with a potential
+STEPS_ASIDE = 6
 ASIDE = 0.05        # in characteristic scales: distance at which a free direction is verified
 SHOWN = 8
 ROUNDING = 1e-12        # of the largest reaction: a smaller one is printed as zero
@@ -169,12 +170,22 @@ def _names(balance: Balance, free: list[np.ndarray]) -> list[str]:
 
 
 def _balances_along(balance: Balance, axis: np.ndarray) -> bool:
-    at = balance.at
-    try:
-        p = onto(at.system, at.t, moved(at, balance.V @ axis * (ASIDE / max(balance.size(axis), 1e-300))), balance.names)
-    except CorrectionFailed:
-        return False
-    return Balance(at.system, at.t, p, balance.names).residual <= 1e3 * balance.rounding
+    """Forces balance at a distance along an axis, after steps of Newton's method aside where the family is curved."""
+    at, step = balance.at, balance.V @ axis * (ASIDE / max(balance.size(axis), 1e-300))
+    p = at.p
+    for _ in range(STEPS_ASIDE):
+        try:
+            p = onto(at.system, at.t, consistent(at.system, p + at.A @ step), balance.names)
+        except CorrectionFailed:
+            return False
+        there = Balance(at.system, at.t, p, balance.names, is_rough=True)
+        if there.residual <= 1e3 * balance.rounding:
+            return bool(np.abs((p - balance.at.p) / scales(at.system, p).p).max(initial=0.0) > ASIDE / 2)
+        z = nearest(there)
+        if there.size(z) > ASIDE / 2:       # back to where it came from, or away
+            return False
+        at, step = there.at, there.V @ z
+    return False
 
 
 def _stable(balance: Balance, spectrum: Spectrum, free: int) -> bool | None:

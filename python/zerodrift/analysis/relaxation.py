@@ -14,6 +14,7 @@ from .state import scales, state
 
 STOPS = 60
 HORIZON = 20.0      # of a run between two stops, in times that the acceleration takes for a characteristic length
+DISTANT = 100.0     # characteristic scales: what has moved so far falls, or turns on
 CLOSE = 1e-3        # of the first acceleration: a position from where Newton's method goes on
 
 
@@ -25,9 +26,9 @@ def settled(system: BaseSystem, p: np.ndarray) -> np.ndarray:
     Raises
     ------
     ZerodriftError
-        If a run fails.
+        If a run fails, or leads far away.
     """
-    scale, first = scales(system, p).p, 0.0
+    scale, first, start = scales(system, p).p, 0.0, p
     for _ in range(STOPS):
         rest = np.zeros(system.nv)
         at = state(system, 0.0, p, rest)
@@ -36,6 +37,8 @@ def settled(system: BaseSystem, p: np.ndarray) -> np.ndarray:
         if rate <= CLOSE * first:
             break
         p = _to_the_fastest(system, p, rest, HORIZON / np.sqrt(rate))
+        if np.abs((p - start) / scale).max(initial=0.0) > DISTANT:
+            raise ZerodriftError("nothing stops the motion towards rest")
     return p
 
 
