@@ -36,6 +36,7 @@ from .errors import (
     UnsuitedFormulation,
     UnsuitedIntegrator,
     WorkerLost,
+    WrongState,
     ZerodriftError,
 )
 from .runs.control import every
@@ -53,12 +54,12 @@ __all__ = [
     "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "EquilibriumFailed", "Event", "InUse",
     "InconsistentStart", "InconsistentSystem", "InputRefused", "Instant", "Interrupted", "LockedWarning", "Mechanism",
     "NoCompilerWarning", "Projection", "Run", "SingularSystem", "Solution", "StabilityWarning", "StaleCore", "StepFailed",
-    "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "ZerodriftError",
-    "acceleration", "assemble", "bias", "block", "c_source", "check", "compare", "corrections", "ensemble", "equilibria",
-    "equilibrium", "every", "explore", "fmu", "formulations", "from_mechanics", "get_include", "grid", "inertia", "integrators",
-    "inverse_dynamics", "jacobian", "kinematics", "linearize", "linkage", "load", "mass_matrix", "models", "native",
-    "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map", "symbolic",
-    "systems", "table", "trace", "transmission_angle", "tune", "view", "work_precision",
+    "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator", "WorkerLost", "WrongState",
+    "ZerodriftError", "acceleration", "assemble", "bias", "block", "c_source", "check", "compare", "corrections", "ensemble",
+    "equilibria", "equilibrium", "every", "explore", "fmu", "formulations", "from_mechanics", "get_include", "grid", "inertia",
+    "integrators", "inverse_dynamics", "jacobian", "kinematics", "linearize", "linkage", "load", "mass_matrix", "models",
+    "native", "numba_signature", "plot", "project", "reach", "record_size", "reference", "simulate", "stability_map",
+    "symbolic", "systems", "table", "trace", "transmission_angle", "tune", "view", "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
     "Baumgarte": "runs.methods", "EnergyCorrection": "runs.methods", "Mechanism": "mechanisms.mechanism",

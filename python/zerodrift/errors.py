@@ -165,6 +165,12 @@ class StepFailed(ZerodriftError):
     code = "step-failed"
 
 
+class WrongState(ZerodriftError, ValueError):
+    """A saved state of a run is damaged, or of another system, other settings, or another version."""
+
+    code = "wrong-state"
+
+
 class InputRefused(ZerodriftError, ValueError):
     """An input of a run is not a finite number, or beyond its limits; the run has made no step with it."""
 

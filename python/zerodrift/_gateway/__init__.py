@@ -43,6 +43,7 @@ from .runs import (
     Record,
     Results,
     Run,
+    Saved,
     Statistics,
     acceleration,
     accelerations,
@@ -102,6 +103,7 @@ __all__ = [
     "Record",
     "Results",
     "Run",
+    "Saved",
     "Statistics",
     "Variable",
     "Watcher",
@@ -146,7 +148,7 @@ _LATER = {
                 "has_lanes", "run_batch", "tables_of_kind"),
     "compiled.functions": ("Function", "InLibrary", "SET_SINES_OF_LARGE", "address_of", "find", "in_library", "load_data",
                            "numba_signature", "set_sines_of_large"),
-    "open_runs": ("ManyOpenRuns", "OpenRun", "STEP", "NO_RECORD", "MOST_STEPS"),
+    "open_runs": ("ManyOpenRuns", "OpenRun", "STEP", "Saved", "NO_RECORD", "MOST_STEPS"),
     "compiled.native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
 }
 

@@ -65,6 +65,26 @@ class Inputs:
             "count": k, "value": doubles(self.values, k), "lower": doubles(lower, k), "upper": doubles(upper, k),
             "places": len(places), "place": rows, "derivations": len(derivations), "derive": functions, "data": data})
 
+    @property
+    def at_places(self) -> np.ndarray:
+        """Numbers at all places."""
+        return np.array([place.address[i] for place in self._memory[-1] for i in range(3 if place.is_speed else 1)])
+
+    def restore(self, values: np.ndarray, at_places: np.ndarray) -> None:
+        """Set values, and the numbers at all places."""
+        self.values[:], numbers = values, iter(at_places.tolist())
+        for place in self._memory[-1]:
+            for i in range(3 if place.is_speed else 1):
+                place.address[i] = next(numbers)
+        for function, data in zip(*self._memory[1:3], strict=True):
+            function(data)
+
+    def adopt(self, memory: np.ndarray) -> None:
+        """Move the values to other memory (k,), which is read from now on."""
+        memory[:] = self.values
+        self.values = memory
+        self.c.value = doubles(memory, memory.size)
+
     def refused(self) -> str:
         """Rule that an input violates; empty: none does."""
         columns = (each.tolist() for each in (self.values, self.lower, self.upper))

@@ -27,6 +27,8 @@ class OpenRun(Run):
 
     def __init__(self, *given: Any) -> None:
         super().__init__(*given)
+        if given[-1] is None:       # not from a saved state
+            self.begin_saving(given[2], given[3])
         self.c, core = self._run, self._core
         self.sizes = core.nq, core.nv, core.m
         self.c_p, self.c_v = lib.zd_run_p(self.c), lib.zd_run_v(self.c)

@@ -15,6 +15,7 @@ from ..systems.base import BaseSystem, direct_core_of
 from .inputs import declared as declared_inputs
 from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
+from .run_state import restored, saved, unpacked
 from .threads import processors
 
 SMALLEST_PART = 64      # minimum number of runs in a thread
@@ -160,7 +161,53 @@ class ManyRuns:
         return (f"{len(self)} runs of {self.system.name}: t = {core.t.min():.9g} ... {core.t.max():.9g} s, "
                 f"{failed or 'none'} failed")
 
-    # ---- reset ----
+    # ---- save, restore, reset ----
+
+    def save(self) -> list[bytes]:
+        """State of each run, as `Run.save` returns it."""
+        return [saved(ready, self._core[i], []) for i, ready in enumerate(self._ready)]
+
+    def restore(self, states: Any, *, where: Any = None) -> None:
+        """Put runs to saved states, with which they continue with the same bits.
+
+        Parameters
+        ----------
+        states : bytes, or sequence of bytes (k,)
+            One for all, or one for each of the k runs.
+        where : array_like (runs,) of bool, optional
+            True for the k runs to restore; left out: all.
+
+        Raises
+        ------
+        WrongState
+            If one is damaged, or of another system, other parameters or other settings.
+        """
+        places = np.flatnonzero(_mask(where, len(self))).tolist()
+        each = [states] * len(places) if isinstance(states, bytes) else list(states)
+        if len(each) != len(places):
+            raise WrongValue(f"states must be {len(places)}, one for each run, not {len(each)}")
+        for i, state in zip(places, each, strict=True):
+            found, ready = unpacked(state), self._renewed(i)
+            run = restored(ready, found.core)
+            if ready.inputs:
+                ready.inputs.restore(found.inputs, found.places)
+            self._become(i, ready, run)
+        self._core.read()
+
+    def _renewed(self, i: int) -> Prepared:
+        """Arguments of a run, with memory of its own for inputs besides that of their values."""
+        ready = self._ready[i]
+        if not ready.inputs:
+            return ready
+        return with_own(ready._replace(core=ready.source, measured=ready.source_measured), ready.declared.of.system)
+
+    def _become(self, i: int, ready: Prepared, run: _gateway.OpenRun) -> None:
+        """Put another run of the core in the place of one."""
+        if ready.inputs:
+            ready.inputs.adopt(self.inputs[i])
+        self._ready[i] = ready
+        self._core.replace(i, run)
+        self._readings.pop(i, None)
 
     def reset(self, p0: Any = None, v0: Any = None, *, where: Any = None) -> None:
         """Put runs back to t0, with their first inputs.
@@ -175,13 +222,9 @@ class ManyRuns:
         places = np.flatnonzero(_mask(where, len(self)))
         states = _check_states(self._ready[0], p0, v0, len(places))
         for i, (p, v) in zip(places.tolist(), states, strict=True):
-            ready = self._ready[i]
-            if ready.inputs:
-                ready = self._ready[i] = with_own(ready._replace(core=ready.source, measured=ready.source_measured),
-                                                  ready.declared.of.system, self.inputs[i])
+            ready = self._renewed(i)
             start = ready._replace(p0=ready.p0 if p is None else p, v0=ready.v0 if v is None else v)
-            self._core.replace(i, start.created(_gateway.OpenRun))
-            self._readings.pop(i, None)
+            self._become(i, ready, start.created(_gateway.OpenRun))
         self._core.read()
 
 

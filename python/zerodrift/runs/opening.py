@@ -48,10 +48,10 @@ class Prepared(NamedTuple):
         """Measures that are recorded."""
         return self.recorded.core if self.recorded else None
 
-    def created(self, kind: Any = _gateway.Run) -> Any:
+    def created(self, kind: Any = _gateway.Run, saved: Any = None) -> Any:
         """The core's run; the error of a singular system is extended by the system's advice."""
         try:
-            return kind(self.core, self.options, self.p0, self.v0, self.watcher, self.outputs, self.inputs)
+            return kind(self.core, self.options, self.p0, self.v0, self.watcher, self.outputs, self.inputs, saved)
         except SingularSystem as error:
             advice = self.system._advice(error)
             if advice is None:

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import WrongName, WrongType, WrongValue
+from ..errors import WrongName, WrongState, WrongType, WrongValue
 from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
 from .ending import Outcome, finish_file, solution_of, with_solution
 from .inputs import History
-from .opening import Prepared, known_settings, nominal_span, prepared
+from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
+from .run_state import restored, saved, unpacked
 from .run_summary import run_summary
 from .solution import Solution
 
@@ -130,13 +131,16 @@ class Run:
     def _begin(self, ready: Prepared, of: Any) -> None:
         """Create the core's run at the start of `ready`, without a record."""
         self._ready, self.system, self.settings = ready, ready.system, ready.chosen
+        self._controllers = of
         self._sampling = Sampling(of, ready.span[0], ready.chosen["step"]) if of else None
         self._record, self._c_record, self._history, self._seconds = None, _gateway.NO_RECORD, None, 0.0
         self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
         self._places = {name: i for i, name in enumerate(ready.inputs.names)} if ready.inputs else {}
-        self._core = core = ready.created(_gateway.OpenRun)
-        self._c = core.c
-        self._reading = Reading(self._of, core, ready.measured)
+        self._open(ready.created(_gateway.OpenRun))
+
+    def _open(self, core: _gateway.OpenRun) -> None:
+        self._core, self._c = core, core.c
+        self._reading = Reading(self._of, core, self._ready.measured)
 
     @classmethod
     def of(cls, ready: Prepared, controllers: Any) -> Run:
@@ -371,6 +375,111 @@ class Run:
 
     def __repr__(self) -> str:
         return run_summary(self)
+
+    # ---- state ----
+
+    def save(self) -> bytes:
+        """The present state: everything that the next bit depends on.
+
+        A run that is made alike, here or in another process with the same build on a processor with the same vector unit,
+        continues from it with the same bits. Controllers with the methods ``state()`` and ``restore(state)`` are included;
+        others keep what they have. Samples are not.
+
+        Returns
+        -------
+        bytes
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> run = zd.Run(zd.systems.four_bar(), step=0.01)
+        >>> run.step(10)
+        >>> state = run.save()
+        >>> run.step(5)
+        >>> p = run.p
+        >>> run.restore(state)
+        >>> run.step(5)
+        >>> bool((run.p == p).all())
+        True
+        """
+        return saved(self._ready, self._core, [each.state() for each in self._keeping()])
+
+    def restore(self, state: bytes) -> None:
+        """Go back, or on, to a saved state; a record begins anew there.
+
+        Parameters
+        ----------
+        state : bytes
+            From `save` of this run, or of one that was made alike.
+
+        Raises
+        ------
+        WrongState
+            If it is damaged, or of another system, other settings or another version; the run stays as it was.
+        """
+        found, keeping = unpacked(state), self._keeping()
+        if len(found.inputs) != len(self.inputs) or len(found.controllers) != len(keeping):
+            raise WrongState("a state must be of a run with the same inputs and controllers")
+        ready = self._renewed()
+        core = restored(ready, found.core)
+        if ready.inputs:
+            ready.inputs.restore(found.inputs, found.places)
+        self._become(ready, core)
+        for each, kept in zip(keeping, found.controllers, strict=True):
+            each.restore(kept)
+
+    def copy(self) -> Run:
+        """Another run at the present state, which goes on by itself; controllers are shared.
+
+        Returns
+        -------
+        Run
+            Without a record.
+        """
+        twin = object.__new__(type(self))
+        twin._begin(self._renewed(), self._controllers)
+        twin._lock = recording.locked(None)
+        twin.restore(self.save())
+        return twin
+
+    def reset(self, p0: Any = None, v0: Any = None) -> None:
+        """Go back to the start at t0, with the first inputs; a record begins anew.
+
+        Parameters
+        ----------
+        p0, v0 : array_like (nq,), (nv,), optional
+            Another start; left out: the one of this run.
+
+        Raises
+        ------
+        InconsistentStart
+            If the start violates the constraints.
+        """
+        ready = self._renewed()
+        if p0 is not None or v0 is not None:
+            p, v = self._of._state_or_start(p0, v0, t=ready.span[0])
+            ready = ready._replace(p0=p, v0=v)
+        self._become(ready, ready.created(_gateway.OpenRun))
+
+    def _renewed(self) -> Prepared:
+        """Arguments with memory of their own for inputs, events and outputs."""
+        ready = self._ready
+        return with_own(ready._replace(core=ready.source, measured=ready.source_measured), self._of)
+
+    def _become(self, ready: Prepared, core: _gateway.OpenRun) -> None:
+        """Go on as another run of the core."""
+        if ready.inputs:        # the array that the caller may hold stays the one that is read
+            ready.inputs.adopt(self.inputs)
+        self._ready = ready
+        self._open(core)
+        if self._sampling is not None:
+            self._sampling.begin()
+        if self._record is not None and ready.path is None:
+            self._begin_record()
+
+    def _keeping(self) -> list[Any]:
+        """Controllers with a state of their own."""
+        return [each.call for each in self._controllers if hasattr(each.call, "state") and hasattr(each.call, "restore")]
 
     # ---- record ----
 
