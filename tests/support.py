@@ -1,5 +1,6 @@
 """Shared helpers of the tests: the built-in systems, consistent states, the paper's equations in NumPy, and comparisons."""
 
+import contextlib
 import os
 import sys
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from zerodrift import _gateway
+from zerodrift.explanations import codes
 from zerodrift.runs.methods import evaluating_integrators
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -33,6 +35,14 @@ def _instances():
 
 
 SYSTEMS = dict(_instances())
+
+
+@contextlib.contextmanager
+def refused(code, match=None):
+    """Like `pytest.raises`, for an error or warning of a code; `match` are numbers and names in its message, if any."""
+    with pytest.raises(codes()[code][0], match=match) as caught:
+        yield caught
+    assert caught.value.code == code
 
 
 @dataclass

@@ -8,7 +8,7 @@ import tolerances as tol
 import zerodrift as zd
 from covering import draws
 from random_ranks import CHECKS
-from support import FORMULATIONS, assert_close
+from support import FORMULATIONS, assert_close, refused
 
 # Draws of each kind; tests/stress/random_systems.py takes as many as wanted. One of a bifurcation takes a third of a second.
 SEEDS = dict.fromkeys(CHECKS, draws(15, 60)) | {"bifurcation": draws(6, 20)}
@@ -157,7 +157,7 @@ def test_contradicting_constraints_are_named(formulation):
     def rows(order):
         return bar(lambda p, t: np.append(closure(p), closure(p)[0] - t**order))
 
-    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d follows from the others, but row \d requires"):
+    with refused("contradicting-constraints", r"row \d follows from the others, but row \d requires"):
         zd.simulate(rows(2), 1.0, step=0.01, formulation=formulation)
     with pytest.raises(zd.ZerodriftError, match=r"may contradict them|do not determine the others|contradict each other"):
         zd.simulate(rows(3), 1.0, step=0.01, formulation=formulation)
@@ -193,14 +193,14 @@ def test_coordinates_without_mass(name):
 
 
 def test_what_inverts_the_mass_names_what_has_none():
-    with pytest.raises(zd.SingularSystem, match=r"positive definite \(first seen at velocity 2\), and 'schur' inverts it; '"):
+    with refused("mass-not-definite", r"first seen at velocity 2\), and 'schur' inverts it; '"):
         zd.simulate(slack(), 1.0, step=0.01, formulation=INVERTING)
 
 
 def test_a_mass_that_is_missing_where_nothing_holds_it_or_is_negative(formulation):
     with pytest.raises(zd.SingularSystem, match=r"no constraint holds what has no mass|'schur' inverts it"):
         zd.simulate(slack((0.0, 0.0, 0.0)), 1.0, step=0.01, formulation=formulation)
-    with pytest.raises(zd.SingularSystem, match=r"not positive definite \(first seen at velocity 2\)"):
+    with refused("mass-not-definite", "first seen at velocity 2"):
         zd.simulate(slack((1.0, 1.0, -1e-3)), 1.0, step=0.01, formulation=formulation)
 
 

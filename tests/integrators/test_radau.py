@@ -8,7 +8,7 @@ from scipy.optimize import fsolve
 
 import tolerances as tol
 import zerodrift as zd
-from support import assert_close, assert_same_bits, rate
+from support import assert_close, assert_same_bits, rate, refused
 
 C = np.array([(4 - np.sqrt(6)) / 10, (4 + np.sqrt(6)) / 10, 1])
 A = np.array([C ** (k + 1) / (k + 1) for k in range(3)]).T @ np.linalg.inv(np.vander(C, increasing=True))     # its collocation
@@ -217,7 +217,7 @@ def test_a_jacobian_serves_for_many_steps(bar):
 
 
 def test_what_it_cannot_solve_is_said(bar):
-    with pytest.raises(zd.StepFailed, match=r"implicit 'radau' step were not solved; try a smaller step \[zd:implicit-step\]$"):
+    with refused("implicit-step", r"'radau' .*; try a smaller step"):
         zd.simulate(bar, 8.0, step=4.0, integrator="radau")
     chain = zd.Mechanism("chain")
     before = chain.ground

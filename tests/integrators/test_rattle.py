@@ -8,7 +8,7 @@ import zerodrift as zd
 from four_bar_in_python import force as weight
 from four_bar_in_python import four_bar as bar_in_python
 from spinning_body import body
-from support import SYSTEMS, along, assert_close, consistent_states, difference, motion, numbers
+from support import SYSTEMS, along, assert_close, consistent_states, difference, motion, numbers, refused
 
 HOLONOMIC = {name: system for name, system in SYSTEMS.items() if "rattle" in zd.integrators(system)}
 each = pytest.mark.parametrize("mechanism", HOLONOMIC.values(), ids=HOLONOMIC)
@@ -215,7 +215,7 @@ def test_holonomic_systems_are_taken():
 
 
 def test_a_step_far_too_large(bar):
-    with pytest.raises(zd.StepFailed, match="the equations of the implicit 'rattle' step were not solved; try a smaller step"):
+    with refused("implicit-step", "'rattle' .*; try a smaller step"):
         zd.simulate(bar, 8.0, step=0.5, integrator="rattle")
 
 

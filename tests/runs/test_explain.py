@@ -8,13 +8,13 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from large_mechanisms import four_bars
-from support import assert_close, motion
+from support import assert_close, motion, refused
 from zerodrift import _gateway
 
 
-def failed(error, message, call):
-    """The error's solution: consistent, and shorter than the requested span."""
-    with pytest.raises(error, match=message) as caught:
+def failed(code, message, call):
+    """The solution of the error of a code: consistent, and shorter than the requested span."""
+    with refused(code, message) as caught:
         call()
     sol = caught.value.solution
     assert str(caught.value) == f"{sol.message} [zd:{caught.value.code}]"
@@ -32,7 +32,7 @@ def without(bar):
 
 
 def test_a_run_that_blows_up(bar):
-    sol = failed(zd.Diverged, r"^at t = 7\.\d+ \(step 15\d of 160\): the state left the range of doubles; try a smaller step",
+    sol = failed("diverged", r"^at t = 7\.\d+ \(step 15\d of 160\): the state left the range of doubles; try a smaller step",
                  lambda: without(bar))
     assert 7.5 <= sol.t[-1] <= 7.7
     before = zd.simulate(bar, 7.0, step=0.05, stabilization=None)
@@ -51,7 +51,7 @@ def test_a_run_that_blows_up_may_return(bar):
 @pytest.mark.parametrize("gains", [zd.Baumgarte(1e300, 0), zd.Baumgarte(1e155, 1e300)], ids=str)
 def test_a_run_that_blows_up_within_a_step(bar, gains):
     """The first stage that is not a number fails in some factorization, but what is named is the cause."""
-    failed(zd.Diverged, r"^at t = 0\.05 \(step 1 of 20\): the state left the range of doubles",
+    failed("diverged", r"^at t = 0\.05 \(step 1 of 20\): the state left the range of doubles",
            lambda: motion(bar, 1.0, 20, stabilization=gains))
 
 
@@ -65,34 +65,34 @@ def test_a_failed_run_is_saved_like_others(bar, tmp_path):
 def test_an_inconsistent_start(bar):
     message = (r"^the start violates the constraints: max \|Phi\| = 0\.\d+, max \|Psi\| = .* of their sizes \(allowed: 1e-10\), "
                r"most in row \d 'closure_[xy]'; zd\.assemble finds a consistent start nearby \[zd:inconsistent-start\]$")
-    with pytest.raises(zd.InconsistentStart, match=message):
+    with refused("inconsistent-start", message):
         zd.simulate(bar, 1, bar.p0 + 0.1, step=0.1)
-    with pytest.raises(zd.InconsistentStart, match=r"max \|Phi\| = 0, max \|Psi\| = 0\.\d+ "):
+    with refused("inconsistent-start", r"max \|Phi\| = 0, max \|Psi\| = 0\.\d+ "):
         zd.simulate(bar, 1, bar.p0, [1, 0, 0], step=0.1)
     zd.simulate(bar, 0.1, *zd.assemble(bar, bar.p0 + 0.1, [1, 0, 0]), step=0.05)
 
 
 def test_a_tolerance_below_what_doubles_reach(bar):
     message = r"^tol = 1e-17 is below what doubles can reach here: .* near \d.*e-1[67] of its size \[zd:[a-z-]+\]$"
-    with pytest.raises(zd.UnreachableTolerance, match=message):
+    with refused("unreachable-tolerance", message):
         zd.simulate(bar, 1, step=0.1, stabilization=zd.Projection(tol=1e-17))
 
 
 def test_a_correction_that_does_not_converge(bar):
     message = (r"^at t = .* \(step \d+ of 160\): the position correction left max .* of its size after 1 iterations, full and "
                r"shortened \(tolerance 1e-15\), also when it is made in parts \[zd:correction-failed\]$")
-    sol = failed(zd.CorrectionFailed, message,
+    sol = failed("correction-failed", message,
                  lambda: motion(bar, 8.0, 160, stabilization=zd.Projection(tol=1e-15, max_iterations=1)))
     assert_close(sol.t, 0.05 * np.arange(len(sol.t)), tol.SAME)
     assert sol.stats["max_position_iterations"] == 1
 
 
 def test_a_step_far_too_large(bar):
-    failed(zd.CorrectionFailed, r"made in parts \[zd:branch-jump\]$", lambda: zd.simulate(bar, 8.0, step=2.0))
+    failed("branch-jump", r"made in parts \[zd:branch-jump\]$", lambda: zd.simulate(bar, 8.0, step=2.0))
 
 
 def test_an_implicit_step_far_too_large(bar):
-    failed(zd.StepFailed,
+    failed("implicit-step",
            r"^at t = .*: the equations of the implicit 'trapezoidal' step .*; try a smaller step \[zd:implicit-step\]$",
            lambda: zd.simulate(bar, 8.0, step=2.0, integrator="trapezoidal"))
 
@@ -118,7 +118,7 @@ def test_too_much_is_held(bar):
 
 def test_constraints_that_are_dependent(bar, formulation):
     """All links along the x axis: none of them can move its end along x."""
-    with pytest.raises(zd.Bifurcation, match=r"^at t = 0 .*\(a bifurcation: row 0 'closure_x' follows from the others\)"):
+    with refused("bifurcation", r"^at t = 0 .*\(a bifurcation: row 0 'closure_x' follows from the others\)"):
         zd.acceleration(bar, [0, 0, 0], [0, 0, 0], formulation=formulation)
 
 
@@ -131,7 +131,7 @@ def test_a_mass_matrix_that_is_not_definite():
     bar = massless()
     start = bar.p0, bar.v0
     for call in (lambda: zd.simulate(bar, 1, step=0.1), lambda: zd.acceleration(bar, *start), lambda: zd.project(bar, *start)):
-        with pytest.raises(zd.SingularSystem, match=r"the mass matrix is not positive definite \(first seen at velocity \d\)"):
+        with refused("mass-not-definite", r"first seen at velocity \d"):
             call()
 
 
@@ -177,14 +177,14 @@ def test_a_start_that_is_inconsistent_names_the_row(cells):
     size = zd.simulate(system, 1e-3, step=1e-3).position_size
     p = system.p0 + 1e-3 * np.random.default_rng(1).normal(size=system.nq)
     worst = int(np.argmax(np.abs(system.evaluate(p, system.v0).Phi) / size))
-    with pytest.raises(zd.InconsistentStart, match=f"most in row {worst} '{system.constraints[worst].name}';"):
+    with refused("inconsistent-start", f"most in row {worst} '{system.constraints[worst].name}';"):
         zd.simulate(system, 0.1, p, step=0.01)
 
 
 @pytest.mark.parametrize("cells", CELLS)
 def test_rows_that_follow_from_others_are_named(cells):
     system = in_line(cells)
-    with pytest.raises(zd.Bifurcation, match=r"rows \d+ '[ABC]\d+\.[xy]'(, \d+ '[ABC]\d+\.[xy]')* and .* follow") as caught:
+    with refused("bifurcation", r"rows \d+ '[ABC]\d+\.[xy]'(, \d+ '[ABC]\d+\.[xy]')* and .* follow") as caught:
         zd.simulate(system, 0.1, step=0.01)
     for row, name in re.findall(r"(\d+) '([ABC]\d+\.[xy])'", str(caught.value)):
         assert system.constraints[int(row)].name == name
@@ -202,5 +202,5 @@ def test_names_that_are_too_long_are_cut():
     bar = m.link("bar", (0, 0), (1, 0), mass=1.0)
     m.revolute("long" * 25, m.ground, bar.start)
     system = m.system("absolute")
-    with pytest.raises(zd.InconsistentStart, match=r"row 0 '(long){10,15}[long]*';"):
+    with refused("inconsistent-start", r"row 0 '(long){10,15}[long]*';"):
         zd.simulate(system, 0.1, system.p0 + np.array([0.1, 0, 0]), step=0.01)

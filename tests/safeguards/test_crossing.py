@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 import tolerances as tol
 import zerodrift as zd
 from covering import draws, spread
-from support import FORMULATIONS, assert_close
+from support import FORMULATIONS, assert_close, refused
 
 TURN = 2 * np.pi
 STOPS = "a bifurcation"
@@ -34,7 +34,7 @@ def assert_parallel(sol, error=1e-8):
 @pytest.mark.parametrize("steps", [100, 200, 53, 101, 137])
 def test_a_parallelogram_stops(steps, formulation):
     """Flat at a quarter and at three quarters of the turn, at a step's end or within one."""
-    with pytest.raises(zd.Bifurcation, match=r"^at t = 0\.25 \(step .* of .*a bifurcation: row 0 'closure_x' follows from the "
+    with refused("bifurcation", r"^at t = 0\.25 \(step .* of .*a bifurcation: row 0 'closure_x' follows from the "
                                              r"others\); on_singular=\"continue\" takes the branch of least acc.*$") as caught:
         parallelogram(steps, formulation)
     sol = caught.value.solution
@@ -177,7 +177,7 @@ def test_a_slider_crank_turns(steps, formulation):
 def test_a_start_at_a_bifurcation(rates, formulation):
     """Either branch, as the velocities say."""
     system = crank(*FLAT, rates)
-    with pytest.raises(zd.Bifurcation, match="row 1 follows"):
+    with refused("bifurcation", "row 1 follows"):
         zd.simulate(system, 1.0, step=0.01, formulation=formulation)
     sol = zd.simulate(system, 1.0, step=0.01, formulation=formulation, on_singular="continue")
     assert sol.stats["redundant"] == []
@@ -215,14 +215,14 @@ def test_where_there_is_no_branch(name):
         vdot, _ = zd.acceleration(system, system.p0, system.v0, formulation=name, on_singular="continue")
         assert_close(vdot, [1.0, 2.0, 3.0], tol.STEPPED)
     else:
-        with pytest.raises(zd.Bifurcation, match=r"no branch was found .* independent velocities need one"):
+        with refused("bifurcation", r"no branch was found .* independent velocities need one"):
             zd.simulate(system, 1.0, step=0.01, formulation=name, on_singular="continue")
 
 
 def test_a_velocity_along_no_branch(formulation):
     """To first order it satisfies the constraints; to second order nothing does."""
     for on_singular in ("stop", "continue"):
-        with pytest.raises(zd.SingularSystem, match="row 1 requires another acceleration at this velocity"):
+        with refused("contradicting-constraints", "row 1 requires another acceleration at this velocity"):
             zd.simulate(crank(*FLAT, [1.0, -1.0, 0.0]), 1.0, step=0.01, formulation=formulation, on_singular=on_singular)
 
 

@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from support import INTEGRATORS, SYSTEMS
+from support import INTEGRATORS, SYSTEMS, refused
 
 ADAPTIVE = [name for name in INTEGRATORS if zd.integrators()[name].error_order]
 WITHIN = 3000       # global error of tolerance: half a second of the liveliest system multiplies what steps leave by this
@@ -168,7 +168,7 @@ def spike():
 @pytest.mark.parametrize("most", [300, 1000, 3001])
 def test_too_many_steps_end_a_run_and_it_says_where_they_lie(most):
     options = {"rtol": 1e-12, "atol": 1e-14, "integrator": "dormand_prince", "max_step": 0.003}
-    with pytest.raises(zd.StepFailed, match=f"max_steps = {most} steps were taken; half of the steps lie between t = ") as failed:
+    with refused("too-many-steps", f"max_steps = {most} steps .* half of the steps lie between t = ") as failed:
         zd.simulate(spike(), 1.0, max_steps=most, **options)
     partial = failed.value.solution
     assert partial.stats["steps"] == len(partial.t) - 1 == most
