@@ -107,6 +107,13 @@ def is_accepted(system=None, integrator=None, **_):
 
 
 @pytest.fixture
+def few_places(monkeypatch):
+    """References look for what acts in a narrow place with a tenth of the steps: for systems that have no such place."""
+    if not WHOLE:
+        monkeypatch.setattr("zerodrift.studies.reference_search.DENSE", 900)
+
+
+@pytest.fixture
 def bar():
     """The paper's four-bar, for tests that need some particular mechanism."""
     return SYSTEMS["four_bar"]

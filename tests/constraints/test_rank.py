@@ -204,5 +204,6 @@ def test_a_mass_that_is_missing_where_nothing_holds_it_or_is_negative(formulatio
         zd.simulate(slack((1.0, 1.0, -1e-3)), 1.0, step=0.01, formulation=formulation)
 
 
+@pytest.mark.usefixtures("few_places")
 def test_a_reference_where_the_mass_is_singular():
     assert zd.reference(slack(), 0.1).error < 1e-9

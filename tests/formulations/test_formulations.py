@@ -80,6 +80,7 @@ def test_displacements_from_zero(speed, formulation):
     assert_close(sol.p, np.stack([np.cos(speed * sol.t) - 1, np.sin(speed * sol.t)], axis=1), 1e-9)
 
 
+@pytest.mark.usefixtures("few_places")
 def test_tools_take_a_start_at_zero():
     system = zd.System(2, mass=np.diag([1.0, 2.0]), potential=0.0, p0=[0.0, 0.0], v0=[0.0, 0.3],
                        constraints=lambda p, t: np.array([p[1] - 0.3 * np.sin(t)]))

@@ -84,6 +84,7 @@ def test_events_and_what_is_saved():
     assert_close(np.hstack(one(0.0131)), np.hstack(other(0.0131)), AGREES, scale=1.0, what="between rows")
 
 
+@pytest.mark.usefixtures("few_places")
 def test_reference():
     one, other = (zd.reference(each, 0.002, t_eval=[0.0, 0.002]) for each in twins())
     assert max(one.error, other.error) < 1e-9

@@ -72,6 +72,7 @@ def test_a_run_that_cannot_begin_says_why_as_any_other():
     assert str(refused.value) == str(alone.value)
 
 
+@pytest.mark.usefixtures("few_places")
 def test_python_takes_turns_in_the_thread_that_called():
     seen = set()
     system = pendulum(lambda: seen.add(threading.get_ident()))

@@ -182,6 +182,7 @@ def test_a_force_with_corners_is_named(monkeypatch):
         zd.reference(system, 4.0, error=1e-6, t_eval=[1.0, 3.0, 4.0])
 
 
+@pytest.mark.usefixtures("few_places")
 def test_a_formulation_that_cannot_follow_is_left_for_another(monkeypatch):
     """A default formulation that fails is replaced: `schur` cannot take a coordinate without mass."""
     system = zd.System(["x", "y"], mass=np.diag([1.0, 0.0]), force=lambda p: np.array([-p[0], 0.0]), p0=[1.0, 1.0],

@@ -91,6 +91,7 @@ def test_what_the_reference_does_not_exclude_is_told():
                     reference=zd.reference(driven, 0.5, max_step=0.1)).reference_caveats == ()
 
 
+@pytest.mark.usefixtures("few_places")
 def test_a_system_without_constraints_and_potential_has_no_such_numbers():
     free = zd.System(1, mass=[[1.0]], p0=[0.0], v0=[1.0])
     row = measured(free, integrators=["rk4"], steps=[0.1], tolerances=[]).rows[0]

@@ -50,6 +50,7 @@ def test_the_core_says_which_formulations_suit():
     assert list(zd.formulations(zd.systems.rolling_disc())) == FORMULATIONS
 
 
+@pytest.mark.usefixtures("few_places")
 @pytest.mark.parametrize("which", BODIES)
 def test_a_reference_of_a_body(which):
     ref = zd.reference(BODIES[which], 0.5)
@@ -57,6 +58,7 @@ def test_a_reference_of_a_body(which):
     assert np.abs(ref.solution.p - attitude(ref.solution.t)).max() <= ref.error < 1e-12
 
 
+@pytest.mark.usefixtures("few_places")
 @pytest.mark.parametrize("which", BODIES)
 def test_work_precision_takes_what_suits(which):
     found = zd.work_precision(BODIES[which], 0.2, integrators=["rk4"], steps=[0.1], rounds=1)
@@ -64,6 +66,7 @@ def test_work_precision_takes_what_suits(which):
     assert all(row.success and row.error < 1e-4 for row in found.rows)
 
 
+@pytest.mark.usefixtures("few_places")
 @pytest.mark.parametrize("chosen", [None, ["schur"], ["independent"]])
 def test_tuning_a_body(chosen):
     system = BODIES["said to be one"]
@@ -72,12 +75,14 @@ def test_tuning_a_body(chosen):
     assert np.abs(sol.v[-1] - precession(sol.t)[-1]).max() < 1e-5
 
 
+@pytest.mark.usefixtures("few_places")
 def test_the_stability_of_a_body():
     found = zd.stability_map(BODIES["said to be one"], 0.2, steps=[0.05], values=[1.0],
                              ways={name: {"formulation": name} for name in FORMULATIONS})
     assert all(found.survived(way).all() and found.error(way).max() < 1e-4 for way in found.rows)
 
 
+@pytest.mark.usefixtures("few_places")
 def test_a_singular_mass_matrix_suits_those_that_do_not_invert_it():
     """The second coordinate has no mass, and the first decides where it is: x = cos t."""
     def force(p):
