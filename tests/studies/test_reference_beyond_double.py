@@ -37,7 +37,7 @@ def test_the_oscillator_by_its_cosine():
 
 def test_the_pendulum_by_elliptic_functions():
     """From rest at an angle of 1.2: sin(angle / 2) = k sn(K + t (g / L)^(1/2), k), of the doubles that the first sample has."""
-    ref = zd.reference(zd.systems.pendulum(length=1.0, gravity=9.81, angle=1.2), 10.0, t_eval=np.linspace(0, 10, 6))
+    ref = zd.reference(zd.systems.pendulum(length=1.0, gravity=9.81, angle=1.2), 10.0, t_eval=[0.0, 0.3, 4.0, 9.99, 10.0])
     mpmath.mp.dps = DIGITS
     start = mpmath.atan2(mpmath.mpf(float(ref.p[0, 0])) + mpmath.mpf(float(ref.p_low[0, 0])),
                          -mpmath.mpf(float(ref.p[0, 1])) - mpmath.mpf(float(ref.p_low[0, 1])))
@@ -122,6 +122,17 @@ def test_the_four_bar_in_its_cranks_angle():
     rate = max(abs(number(v, low) - each[3]) for v, low, each in zip(ref.v[:, 0], ref.v_low[:, 0], exact, strict=True))
     assert rate <= ref.velocity_error
     assert largest_error(ref, [0, 1, 2], exact[:1]) <= 1e-30      # the start, assembled
+
+
+def test_the_first_sample_may_be_later_than_the_start():
+    """And the first time other than zero."""
+    whole = zd.reference(BAR, (0.5, 1.5), t_eval=[0.5, 1.0, 1.5])
+    later = zd.reference(BAR, (0.5, 1.5), t_eval=[1.0, 1.5])
+    assert whole.precision == later.precision == "double-double"
+    apart = (whole.p[1:] - later.p) + (whole.p_low[1:] - later.p_low)
+    assert np.abs(apart).max() <= whole.error + later.error
+    only = zd.reference(BAR, 0.5, t_eval=[0.5])
+    assert (only.precision, len(only.p)) == ("double-double", 1)
 
 
 def test_the_start_has_what_is_given():

@@ -51,24 +51,25 @@ class PreciseMotion:
         Coordinates and velocities that are exact at the start.
     size : float
         Largest coordinate of the motion, for tolerances.
+    t0 : float
+        Time of the start, in s.
     """
 
     def __init__(self, functions: Precise, p0: np.ndarray, v0: np.ndarray, quaternions: Sequence[int],
-                 held: tuple[Sequence[int], Sequence[int]], size: float) -> None:
+                 held: tuple[Sequence[int], Sequence[int]], size: float, t0: float) -> None:
         self.functions, self.start, self.quaternions, self.held = functions, (dd.of(p0), dd.of(v0)), tuple(quaternions), held
-        self.size = size
+        self.size, self.t0 = size, float(t0)
 
     def run(self, times: np.ndarray, settings: Settings, shift: int = 0) -> PreciseRun:
-        """Samples at increasing times, the first of which is that of the start.
+        """Samples at increasing times from the start on.
 
         `shift` other than 0 perturbs numbers and start by rounding, by chance with this seed.
         """
         functions, (p, v) = self.functions, self.start
-        t = dd.of(times[0])
-        p, v = self._assembled(functions, t, p, v)
+        p, v = self._assembled(functions, dd.of(self.t0), p, v)
         if shift:
             functions, p, v = self._shifted(shift, p, v)
-        return _Run(self, functions, times, settings).made(t, p, v)
+        return _Run(self, functions, times, settings).made(self.t0, p, v)
 
     def _shifted(self, seed: int, p: np.ndarray, v: np.ndarray) -> tuple[Precise, np.ndarray, np.ndarray]:
         chance = np.random.default_rng(seed)
@@ -118,10 +119,10 @@ class _Run:
         self.done = 0
         self.scales = np.full(functions.nq, motion.size), np.full(functions.nv, motion.size)
 
-    def made(self, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> PreciseRun:
-        end, t, steps = float(self.times[-1]), float(t[0]), 0
+    def made(self, t: float, p: np.ndarray, v: np.ndarray) -> PreciseRun:
+        end, steps = float(self.times[-1]), 0
         series = self._series(t, p, v)
-        self.p[0], self.v[0], self.done = p, v, 1
+        self._sample(t, t, series)
         h = self._step(series)
         while self.done < len(self.times):
             t1, steps = min(t + h, end), steps + 1      # times are doubles, and their differences pairs
