@@ -152,10 +152,14 @@ typedef struct zd_given {
  * the run, or continue along the present branch; from rest, along the branch of least acceleration. */
 enum zd_on_singular { ZD_STOP, ZD_CONTINUE };
 
+/* Sizes of steps: given, or by the error estimate of the integrator. */
+enum zd_steps { ZD_FIXED_STEPS, ZD_ADAPTIVE_STEPS };
+
 typedef struct zd_settings {
     int formulation, integrator;    /* indices in their tables */
     double t0, t1;                  /* s */
-    double step;                    /* s: fixed step, the last one shortened to end at t1; 0: adaptive steps */
+    enum zd_steps steps;
+    double step;                    /* fixed steps: size, s; the last one is shortened to end at t1 */
     double rtol, atol;              /* adaptive steps: tolerances of the local error of the state */
     double first_step, max_step;    /* adaptive steps, s; 0: not given, unbounded */
     double max_move;                /* adaptive steps: largest change of an entry of p in one step, in its unit; 0: unbounded */

@@ -48,6 +48,7 @@ int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int
         zd_complain(to, "settings of a block must have a whole number of steps, and 0 or 1 for bifurcations");
         return ZD_BAD_ARGUMENT;
     }
+    settings->steps = word[1] > 0 ? ZD_FIXED_STEPS : ZD_ADAPTIVE_STEPS;
     settings->t0 = word[0], settings->step = word[1], settings->rtol = word[2], settings->atol = word[3];
     settings->first_step = word[4], settings->max_step = word[5], settings->max_move = word[6], settings->max_steps = (int64_t)word[7];
     settings->on_singular = word[8] == 1 ? ZD_CONTINUE : ZD_STOP;

@@ -131,22 +131,25 @@ static int is_increasing_within(const double *t, int64_t count, double t0, doubl
 static const char *wrong_course(const zd_settings *settings)
 {
     double step = settings->step, resolved = 16 * 0x1p-52 * latest(settings);
-    int chosen = step == 0;
+    const int adaptive = settings->steps == ZD_ADAPTIVE_STEPS;
     const rule times[] = {
         {!isfinite(settings->t1 - settings->t0) || !(settings->t1 > settings->t0), "t1 must be after t0, both finite"},
-        {!chosen && !(step >= resolved && step < INFINITY), "step must be finite, and at least 16 roundings of the time"},
+        {settings->steps != ZD_FIXED_STEPS && !adaptive, "steps must be fixed or adaptive"},
+        {!adaptive && !(step >= resolved && step < INFINITY), "step must be finite, and at least 16 roundings of the time"},
         {settings->t_eval && !is_increasing_within(settings->t_eval, settings->t_evals, settings->t0, settings->t1),
          "t_eval must increase, from t0 to t1"},
         {!settings->t_eval && settings->save_every < 1, "save_every must be at least 1"},
-        {chosen && !zd_integrator_of(settings->integrator)->card.error_order, "this integrator must be given a step: it estimates no error"},
-        {chosen && (is_bad(settings->rtol) || is_bad(settings->atol) || settings->atol == 0), "rtol and atol must be finite, atol positive"},
-        {chosen && (!(settings->first_step >= 0) || !(settings->max_step >= 0)), "first_step and max_step must be at least 0"},
-        {chosen && !(settings->max_move >= 0), "max_move must be at least 0"},
+        {adaptive && !zd_integrator_of(settings->integrator)->card.error_order,
+         "this integrator must be given a step: it estimates no error"},
+        {adaptive && (is_bad(settings->rtol) || is_bad(settings->atol) || settings->atol == 0),
+         "rtol and atol must be finite, atol positive"},
+        {adaptive && (!(settings->first_step >= 0) || !(settings->max_step >= 0)), "first_step and max_step must be at least 0"},
+        {adaptive && !(settings->max_move >= 0), "max_move must be at least 0"},
         {settings->max_steps < 0, "max_steps must be at least 0"},
     };
     const char *wrong = FIRST_BROKEN(times);
     if (wrong) return wrong;
-    return zd_count_steps(settings->t0, settings->t1, step) < (double)INT64_MAX ? NULL : "the number of steps must be below 2^63";
+    return adaptive || zd_count_steps(settings->t0, settings->t1, step) < (double)INT64_MAX ? NULL : "the number of steps must be below 2^63";
 }
 
 int zd_check_system(const zd_system *system, char *message, int size)

@@ -82,7 +82,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .motion = motion,
         .stepper = &run->stepper,
         .safeguards = &run->safeguards,
-        .sizes = settings->step > 0 ? &zd_fixed_sizes : &zd_adaptive_sizes,
+        .sizes = settings->steps == ZD_FIXED_STEPS ? &zd_fixed_sizes : &zd_adaptive_sizes,
         .end = settings->t1,
         .t_begin = settings->t0,
     };
@@ -185,7 +185,7 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     if (*status) return NULL;
     zd_run *run = zd_run_open(system, settings, settings->t0, p0, v0, status, message, message_size);
     if (!run) return NULL;
-    run->loop.steps = (int64_t)zd_count_steps(settings->t0, settings->t1, settings->step);
+    if (settings->steps == ZD_FIXED_STEPS) run->loop.steps = (int64_t)zd_count_steps(settings->t0, settings->t1, settings->step);
     int why = zd_run_start(run, *status, p0, v0);
     if (!why && zd_output_looks_between(&run->output)) why = zd_spread_prepare(&run->stepper);
     *status = why;

@@ -8,7 +8,7 @@
 #include "../constraints/rank.h"
 #include "../paths/variables.h"
 
-static int is_fixed(const zd_run *run) { return run->settings.step > 0; }
+static int is_fixed(const zd_run *run) { return run->settings.steps == ZD_FIXED_STEPS; }
 
 static void remove_end(zd_run *run)
 {

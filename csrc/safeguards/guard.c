@@ -46,7 +46,7 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
         .last = last,
         .crossing = crossing,
         .checks_branch = system->mh && holds,
-        .checks_stability = settings->step > 0,
+        .checks_stability = settings->steps == ZD_FIXED_STEPS,
         .astray = 0.5 * astray * astray,
         .nearby = least * least,
         .limit = resolved * resolved * resolved * resolved,

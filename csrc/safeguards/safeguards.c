@@ -9,7 +9,7 @@ void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion,
     self->crossing.rate1 = self->guard.rate;
     self->crossing.constraints_hold = self->guard.checks_branch;
     const zd_guard *guard = &self->guard;
-    if (settings->step > 0)
+    if (settings->steps == ZD_FIXED_STEPS)
         self->resolution = zd_resolution_take(arena, motion, method->order, last, guard->vdot, guard->pdot, guard->rate);
     self->consistency = zd_consistency_take(arena, motion, settings);
 }

@@ -113,7 +113,7 @@ static void try_block(const unsigned char *data, size_t size)
     const double *p = zd_block_start(block);
     message[0] = 0;
     EXPECT(!zd_block_settings(block, &settings, message, MESSAGE) || *message);
-    settings.t1 = settings.t0 + STEPS * (settings.step > 0 ? settings.step : 0.01);
+    settings.t1 = settings.t0 + STEPS * (settings.steps == ZD_FIXED_STEPS ? settings.step : 0.01);
     settings.max_steps = 20;
     if (p) read_measures(system, p, p + system->nq);
     if (p && !*message) run(block, &settings, p, p + system->nq);

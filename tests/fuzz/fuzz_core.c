@@ -266,7 +266,7 @@ static zd_settings make_settings(input *in, double *times)
     settings.of_integrator = make_given(in, ZD_INTEGRATORS, settings.integrator, 1);
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
         settings.correction[row] = make_given(in, ZD_CORRECTIONS, row, below(in, 8) < (named(ZD_CORRECTIONS, row, "projection") ? 7 : 3));
-    if (how & 1) settings.step = 0, settings.rtol = 1e-6, settings.atol = 1e-9;
+    if (how & 1) settings.steps = ZD_ADAPTIVE_STEPS, settings.rtol = 1e-6, settings.atol = 1e-9;
     if (how & 2) settings.t_eval = times, settings.t_evals = TIMES;
     settings.on_singular = below(in, 2) ? ZD_CONTINUE : ZD_STOP;
     for (int i = 0; i < TIMES; i++) times[i] = 0.5 * (i + 1) / TIMES;

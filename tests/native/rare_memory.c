@@ -93,7 +93,8 @@ int main(void)
         int grant = 0;
         settings.formulation = i / 3;
         settings.integrator = zd_row_named(ZD_INTEGRATORS, integrators[i % 3]);
-        settings.step = is_chosen ? 0 : settings.t1 / STEPS;
+        settings.steps = is_chosen ? ZD_ADAPTIVE_STEPS : ZD_FIXED_STEPS;
+        settings.step = settings.t1 / STEPS;
         settings.rtol = settings.atol = is_chosen ? 1e-9 : 0;
         do run(&system, &settings, grant++);
         while (refused);

@@ -19,6 +19,7 @@ def between(core, options, p, v):
     return _gateway.states_between(core, options, t, np.vstack([p, p]), np.vstack([v, v]), None, False, np.array([t.mean()]))
 
 
+ADAPTIVE = _gateway.ADAPTIVE_STEPS
 DOP853 = list(zd.integrators()).index("dop853")
 
 
@@ -32,12 +33,14 @@ DOP853 = list(zd.integrators()).index("dop853")
     ({"step": np.inf}, "step must be finite"),
     ({"step": np.nan}, "step must be finite"),
     ({"t0": 1e9, "t1": 2e9, "step": 1e-9}, "at least 16 roundings of the time"),
-    ({"step": 0.0}, "this integrator must be given a step"),
-    ({"step": 0.0, "integrator": DOP853, "atol": 0.0}, "rtol and atol"),
-    ({"step": 0.0, "integrator": DOP853, "rtol": np.nan}, "rtol and atol"),
-    ({"step": 0.0, "integrator": DOP853, "first_step": -1.0}, "first_step and max_step"),
-    ({"step": 0.0, "integrator": DOP853, "max_step": np.nan}, "first_step and max_step"),
-    ({"step": 0.0, "integrator": DOP853, "max_steps": -1}, "max_steps must be at least 0"),
+    ({"step": 0.0}, "step must be finite"),
+    ({"steps": 2}, "steps must be fixed or adaptive"),
+    ({"steps": ADAPTIVE}, "this integrator must be given a step"),
+    ({"steps": ADAPTIVE, "integrator": DOP853, "atol": 0.0}, "rtol and atol"),
+    ({"steps": ADAPTIVE, "integrator": DOP853, "rtol": np.nan}, "rtol and atol"),
+    ({"steps": ADAPTIVE, "integrator": DOP853, "first_step": -1.0}, "first_step and max_step"),
+    ({"steps": ADAPTIVE, "integrator": DOP853, "max_step": np.nan}, "first_step and max_step"),
+    ({"steps": ADAPTIVE, "integrator": DOP853, "max_steps": -1}, "max_steps must be at least 0"),
     ({"save_every": 0}, "save_every must be at least 1"),
     ({"t_eval": np.array([0.5, 0.5])}, "t_eval must increase, from t0 to t1"),
     ({"t_eval": np.array([0.5, 1.5])}, "t_eval must increase, from t0 to t1"),

@@ -7,6 +7,7 @@ import importlib
 from typing import Any
 
 from .base import (
+    ADAPTIVE_STEPS,
     BAD_ARGUMENT,
     BAD_INPUT,
     CALLBACK,
@@ -14,6 +15,7 @@ from .base import (
     ERRORS,
     EVENT,
     FINGERPRINT,
+    FIXED_STEPS,
     FULL,
     INTERRUPTED,
     PAUSED,
@@ -63,6 +65,7 @@ from .runs import (
 from .systems import CoreSystem, Kind, follow, kinds
 
 __all__ = [
+    "ADAPTIVE_STEPS",
     "BAD_ARGUMENT",
     "BAD_INPUT",
     "CALLBACK",
@@ -74,6 +77,7 @@ __all__ = [
     "ERRORS",
     "EVENT",
     "FINGERPRINT",
+    "FIXED_STEPS",
     "FULL",
     "INTERRUPTED",
     "MOST_STEPS",

@@ -20,6 +20,7 @@ PROCESSOR_UNIT = lib.zd_processor_unit()      # the number of the last vector un
 FINGERPRINT = ffi.string(lib.zd_fingerprint).decode()       # of the sources that the core was compiled from
 ROW_VALUES = lib.ZD_ROW_VALUES      # for how many numbers of a row's parameters settings have room
 
+FIXED_STEPS, ADAPTIVE_STEPS = lib.ZD_FIXED_STEPS, lib.ZD_ADAPTIVE_STEPS
 DONE, PAUSED, FULL, EVENT, CALLBACK = lib.ZD_DONE, lib.ZD_PAUSED, lib.ZD_FULL, lib.ZD_EVENT, lib.ZD_CALLBACK
 BAD_ARGUMENT, BAD_INPUT = lib.ZD_BAD_ARGUMENT, lib.ZD_BAD_INPUT
 INTERRUPTED = 3     # positive, as it is Python that stops early

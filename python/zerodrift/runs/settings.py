@@ -288,7 +288,8 @@ def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
                          chosen.get("direct") is None, VECTOR_UNITS.index(chosen.get("vector") or "baseline"),
                          *corrections_of(chosen))
     changed = {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
-    return _gateway.settings({"t0": span[0], "t1": span[1], **changed}, like)
+    steps = _gateway.ADAPTIVE_STEPS if chosen.get("step") is None else _gateway.FIXED_STEPS
+    return _gateway.settings({"t0": span[0], "t1": span[1], "steps": steps, **changed}, like)
 
 
 @functools.lru_cache(typed=True)
