@@ -101,6 +101,13 @@ def test_the_steer_torque_that_holds_a_turn_is_that_of_the_published_stiffness()
     assert lin.rotation[2] == pytest.approx(yaw_rate, rel=1e-6)
 
 
+@pytest.mark.parametrize(("value", "error"), [(float("nan"), "must be finite"), ("fast", "must be a real number"),
+                                              ([1.0, 2.0], "must have shape")])
+def test_speeds_of_a_steady_motion_are_checked(value, error):
+    with pytest.raises((ValueError, TypeError), match=rf"v\['rear axle\.speed'\] {error}"):
+        zd.equilibrium(zd.models.whipple_bicycle(), v={"rear axle.speed": value})
+
+
 def test_hands_free_turns_have_one_speed_for_each_radius():
     bicycle = zd.models.whipple_bicycle()
     with pytest.raises(zd.EquilibriumFailed, match=r"most at '.*'; prescribe more speeds or fewer in v=, name in hold="):

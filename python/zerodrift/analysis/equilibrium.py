@@ -14,11 +14,11 @@ from ..runs.settings import Projection
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion, of_many
 from .large import MANY, blocks_that_meet, found
-from .quantities import components, names_of, values_of
+from .quantities import components, find, names_of, values_of
 from .relaxation import settled
 from .rest import Balance, Search
 from .retraction import near_to, rows_of
-from .state import scales, state
+from .state import State, scales, state
 from .steady import Steady
 
 FAR = 20.0      # characteristic scales: a coordinate that has moved so far does not stop
@@ -107,9 +107,17 @@ def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, fl
     """The steady motion with given speeds."""
     at = state(system, t, p, np.zeros(system.nv))
     held = [part for name in hold for part in components(name, len(rows_of(at, {name: None})[0]))]
-    search = Steady(system, t, speeds, held)
+    search = Steady(system, t, {name: _speed(at, name, value) for name, value in speeds.items()}, held)
     found = search.run(p, np.array(system._state_or_start(None, None, "near", "v", t)[1]))
     return in_motion(found.at, dict(zip(held, map(float, found.u), strict=True)), search.iterations)
+
+
+def _speed(at: State, name: str, value: Any) -> np.ndarray:
+    """Checked values (size,) of a rate; a number stands for all of its components."""
+    size = len(find(at, name, "v").value)
+    if np.ndim(value) == 0:
+        return np.full(size, _check.number(f"v[{name!r}]", value))
+    return _check.vector(f"v[{name!r}]", value, size)
 
 
 def _unmoved(system: BaseSystem, p: np.ndarray) -> np.ndarray:
