@@ -19,7 +19,7 @@ LOOKS = [(1280, False), (400, True), (1280, True), (400, False)]       # width i
 FIRST = ("index", "how_to", "computation", "generated/gallery", "generated/errors", "generated/models/jansen")     # in all looks
 
 
-@pytest.mark.parametrize("page", ["index", "how_to", "tried", "coming_from", "outside_python"])
+@pytest.mark.parametrize("page", ["index", "how_to", "tried", "coming_from", "outside_python", "beyond_double_precision"])
 def test_code_of_pages_runs(page, tmp_path, monkeypatch, capsys):
     matplotlib.use("Agg")
     monkeypatch.chdir(tmp_path)

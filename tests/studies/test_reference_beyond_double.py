@@ -36,11 +36,10 @@ def test_the_oscillator_by_its_cosine():
 
 
 def test_the_pendulum_by_elliptic_functions():
-    """From rest at an angle of 1.2: sin(angle / 2) = k sn(K + t (g / L)^(1/2), k), of the doubles that the first sample has."""
+    """From rest at an angle of 1.2: sin(angle / 2) = k sn(K + t (g / L)^(1/2), k)."""
     ref = zd.reference(zd.systems.pendulum(length=1.0, gravity=9.81, angle=1.2), 10.0, t_eval=[0.0, 0.3, 4.0, 9.99, 10.0])
     mpmath.mp.dps = DIGITS
-    start = mpmath.atan2(mpmath.mpf(float(ref.p[0, 0])) + mpmath.mpf(float(ref.p_low[0, 0])),
-                         -mpmath.mpf(float(ref.p[0, 1])) - mpmath.mpf(float(ref.p_low[0, 1])))
+    start = mpmath.mpf(1.2)
     m = mpmath.sin(start / 2)**2
     worst = 0
     for i, t in enumerate(ref.solution.t):
@@ -140,6 +139,20 @@ def test_the_start_has_what_is_given():
     assert (ref.p[0, 0], ref.p_low[0, 0]) == (BAR.parameters["crank_angle"], 0.0)
     assert (ref.v[0, 0], ref.v_low[0, 0]) == (BAR.parameters["crank_rate"], 0.0)
     assert np.abs(ref.p[0] - BAR.p0).max() <= 4e-16
+
+
+@pytest.mark.parametrize("name", ["knife_edge", "chaplygin_sleigh", "rolling_disc"])
+def test_starts_at_angles_are_those_of_the_parameters(name):
+    """Of the sine and cosine that mpmath has, and on the constraints as they are."""
+    angle = {"lean": 0.3, "lean_rate": 0.1} if name == "rolling_disc" else {"heading": 0.7, "speed": 1.3}
+    ref = zd.reference(getattr(zd.systems, name)(**angle), 0.2, t_eval=[0.0, 0.2])
+    found = [number(*pair) for pair in zip(ref.v[0], ref.v_low[0], strict=True)]
+    if name == "rolling_disc":
+        radius = mp.mpf(zd.systems.rolling_disc().parameters["radius"])
+        exact, found = [radius * mp.mpf(0.1) * mp.cos(mp.mpf(0.3))], found[:1]
+    else:
+        exact, found = [mp.mpf(1.3) * of(mp.mpf(0.7)) for of in (mp.cos, mp.sin)], found[:2]
+    assert max(abs(a - b) for a, b in zip(found, exact, strict=True)) <= 1e-30
 
 
 # ---- the choice of a precision ----

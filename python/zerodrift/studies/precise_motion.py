@@ -45,7 +45,7 @@ class PreciseMotion:
     Parameters
     ----------
     functions : Precise
-    p0, v0 : ndarray (nq,), (nv,)
+    p0, v0 : ndarray (nq, 2), (nv, 2)
     quaternions : sequence of int
     held : tuple of lists of int
         Coordinates and velocities that are exact at the start.
@@ -57,7 +57,7 @@ class PreciseMotion:
 
     def __init__(self, functions: Precise, p0: np.ndarray, v0: np.ndarray, quaternions: Sequence[int],
                  held: tuple[Sequence[int], Sequence[int]], size: float, t0: float) -> None:
-        self.functions, self.start, self.quaternions, self.held = functions, (dd.of(p0), dd.of(v0)), tuple(quaternions), held
+        self.functions, self.start, self.quaternions, self.held = functions, (p0, v0), tuple(quaternions), held
         self.size, self.t0 = size, float(t0)
 
     def run(self, times: np.ndarray, settings: Settings, shift: int = 0) -> PreciseRun:

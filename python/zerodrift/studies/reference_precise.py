@@ -50,7 +50,8 @@ class PreciseSearch:
 
     def __init__(self, motion: Motion, functions: Precise, found: Reference, wanted: float | None) -> None:
         held = motion.system._held_at_start if motion.is_own_start else ([], [])
-        self.motion = PreciseMotion(functions, *motion.start, motion.system.quaternions, held, motion.size,
+        start = (motion.system._exact_start() if motion.is_own_start else None) or tuple(map(dd.of, motion.start))
+        self.motion = PreciseMotion(functions, *start, motion.system.quaternions, held, motion.size,
                                     motion.span[0])
         self.found, self.wanted = found, wanted
 

@@ -342,6 +342,10 @@ class BaseSystem:
         """Functions of the system in double-double arithmetic; None: it has none."""
         return None
 
+    def _exact_start(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """Start (nq, 2), (nv, 2) of the system as pairs of doubles, if more than doubles is known of it."""
+        return None
+
     @property
     def _held_at_start(self) -> tuple[list[int], list[int]]:
         """Coordinates and velocities that are given as doubles at the start, and from which all others follow."""

@@ -13,7 +13,7 @@ from .. import _check, _gateway
 from .._gateway.compiled.precise import Precise
 from ..errors import WrongType, WrongValue
 from .base import BaseSystem
-from .exact_numbers import HELD_AT_START, exact_numbers
+from .exact_numbers import HELD_AT_START, exact_numbers, exact_start
 from .parameter_tables import NumberTables, not_finite, refusals
 
 _KINDS = _gateway.kinds()
@@ -73,6 +73,9 @@ class BuiltIn(SystemOfKind):
 
     def _precise_functions(self, vector: str = "baseline") -> Precise | None:
         return self._kind.precise(exact_numbers(self.name, self.parameters))
+
+    def _exact_start(self) -> tuple[np.ndarray, np.ndarray] | None:
+        return exact_start(self.name, self.parameters)
 
     @property
     def _held_at_start(self) -> tuple[list[int], list[int]]:

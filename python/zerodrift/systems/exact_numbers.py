@@ -1,7 +1,8 @@
-"""Numbers of built-in systems as pairs of doubles: parameters as they are, and exactly rounded those that follow from them."""
+"""Numbers and starts of built-in systems as pairs of doubles: parameters as they are, all else exactly rounded."""
 
 from __future__ import annotations
 
+import decimal
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
@@ -18,8 +19,58 @@ def exact_numbers(name: str, parameters: Mapping[str, Any]) -> np.ndarray:
     """Numbers (k, 2) of the functions in double-double arithmetic, high and low parts: see zd_precise."""
     given = {key: _exact(value) for key, value in parameters.items() if not isinstance(value, str) and value is not None}
     derive = _DERIVED.get(name, _as_given)
-    numbers = [number for group in derive(given) for number in group]
+    return _pairs([number for group in derive(given) for number in group])
+
+
+def exact_start(name: str, parameters: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
+    """Start p (nq, 2) and v (nv, 2) of a system whose start is computed from angles; None: doubles and constraints give it."""
+    if name not in _STARTS:
+        return None
+    given = {key: Fraction(value) for key, value in parameters.items() if isinstance(value, float)}
+    p, v = _STARTS[name](given)
+    return _pairs(p), _pairs(v)
+
+
+def _pairs(numbers: Sequence[Fraction]) -> np.ndarray:
     return np.array([[float(x), float(x - Fraction(float(x)))] for x in numbers]).reshape(-1, 2)
+
+
+def sine_and_cosine(angle: Fraction) -> tuple[Fraction, Fraction]:
+    """Sine and cosine to some 50 digits: by their series at a small part of the angle, doubled as often as that takes."""
+    halvings = max(0, int(abs(angle)).bit_length() + 4)
+    with decimal.localcontext(decimal.Context(prec=70 + halvings)):
+        x = decimal.Decimal(angle.numerator) / decimal.Decimal(angle.denominator) / 2**halvings
+        term, sine, cosine = decimal.Decimal(1), decimal.Decimal(0), decimal.Decimal(0)
+        for n in range(40):
+            cosine, sine = cosine + term * (1, 0, -1, 0)[n % 4], sine + term * (0, 1, 0, -1)[n % 4]
+            term = term * x / (n + 1)
+        for _ in range(halvings):
+            sine, cosine = 2 * sine * cosine, (cosine - sine) * (cosine + sine)
+        return Fraction(sine), Fraction(cosine)
+
+
+def _pendulum_start(given: Mapping[str, Fraction]) -> tuple[list[Fraction], list[Fraction]]:
+    s, c = sine_and_cosine(given["angle"])
+    length, rate = given["length"], given["rate"]
+    return [length * s, -length * c], [length * rate * c, length * rate * s]
+
+
+def _skate_start(given: Mapping[str, Fraction]) -> tuple[list[Fraction], list[Fraction]]:
+    s, c = sine_and_cosine(given["heading"])
+    zero, speed = Fraction(0), given["speed"]
+    return [zero, zero, given["heading"]], [speed * c, speed * s, given["turn_rate"]]
+
+
+def _disc_start(given: Mapping[str, Fraction]) -> tuple[list[Fraction], list[Fraction]]:
+    """As rolling_disc.c: yaw and spin are 0, and the contact point is the origin."""
+    s, c = sine_and_cosine(given["lean"])
+    zero, R, lean_rate = Fraction(0), given["radius"], given["lean_rate"]
+    w1 = given["spin_rate"] - given["yaw_rate"] * s
+    return ([R * s, zero, R * c, zero, given["lean"], zero],
+            [R * lean_rate * c, -R * w1, -R * lean_rate * s, w1, lean_rate, given["yaw_rate"] * c])
+
+
+_STARTS = {"pendulum": _pendulum_start, "knife_edge": _skate_start, "chaplygin_sleigh": _skate_start, "rolling_disc": _disc_start}
 
 
 def _exact(value: Any) -> tuple[Fraction, ...]:
