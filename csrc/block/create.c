@@ -51,7 +51,7 @@ static int laws_suit(const zd_block_layout *layout, const zd_elements *elements,
 static int laws_know_time(const zd_block_layout *layout)
 {
     for (int i = 0; i < count_of(layout, ZD_BLOCK_INSTRUCTIONS); i++)
-        if (*zd_block_entry(layout, ZD_BLOCK_INSTRUCTIONS, i) == ZD_CODE_TIME) return 1;
+        if (zd_block_is(*zd_block_entry(layout, ZD_BLOCK_INSTRUCTIONS, i), ZD_CODE_TIME)) return 1;
     return 0;
 }
 

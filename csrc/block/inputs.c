@@ -9,8 +9,8 @@ static const double *input_of(const zd_block *block, int input) { return zd_bloc
 
 static int is_settable(const zd_block *block, const double *input)
 {
-    if (input[2] == ZD_INPUT_SPEED) return input[3] == 0;
-    return input[2] == ZD_INPUT_FORCE && zd_block_is_whole(input[3], 0, block->layout.part[ZD_BLOCK_FORCES].count) &&
+    if (zd_block_is(input[2], ZD_INPUT_SPEED)) return input[3] == 0;
+    return zd_block_is(input[2], ZD_INPUT_FORCE) && zd_block_is_whole(input[3], 0, block->layout.part[ZD_BLOCK_FORCES].count) &&
            block->force[(int)input[3]].kind == ZD_FORCE_CONSTANT;
 }
 
@@ -33,11 +33,11 @@ void zd_block_inputs_begin(zd_block *block)
     const int count = zd_block_inputs(block);
     for (int i = 0; i < count; i++) {
         const double *input = input_of(block, i);
-        double *place = input[2] == ZD_INPUT_SPEED ? memory->speed + 3 * i : &block->force[(int)input[3]].value;
+        double *place = zd_block_is(input[2], ZD_INPUT_SPEED) ? memory->speed + 3 * i : &block->force[(int)input[3]].value;
         memory->value[i] = *place = input[4];
         memory->lower[i] = -INFINITY;
         memory->upper[i] = INFINITY;
-        memory->place[i] = (zd_input_place){i, input[2] == ZD_INPUT_SPEED, place};
+        memory->place[i] = (zd_input_place){i, zd_block_is(input[2], ZD_INPUT_SPEED), place};
     }
     block->inputs = (zd_inputs){.count = count, .value = memory->value, .lower = memory->lower, .upper = memory->upper, .places = count,
                                 .place = memory->place};
@@ -82,7 +82,7 @@ static const double MOST = 9;       /* exponents are below it */
 static int effect_is_right(const zd_block_layout *layout, const double *effect)
 {
     const zd_block_part *last = layout->part + ZD_BLOCK_START;
-    const double start = (double)(last->word - layout->part[ZD_BLOCK_GRAVITY].word) + ZD_BLOCK_HEADER;
+    const double start = (double)(last->word - layout->part[ZD_BLOCK_GRAVITY].word) + (int)ZD_BLOCK_HEADER;
     const double products = layout->part[ZD_BLOCK_PRODUCTS].count;
     return zd_block_is_whole(effect[0], ZD_BLOCK_HEADER, start) && zd_block_is_whole(effect[1], 0, products) &&
            zd_block_is_whole(effect[2], 1, products - effect[1] + 1);

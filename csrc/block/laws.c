@@ -52,7 +52,7 @@ static int has_results(const zd_block_layout *layout, const double *law)
         int is_written = 0;
         for (int i = 0; i < (int)law[1]; i++) {
             const double *word = zd_block_entry(layout, ZD_BLOCK_INSTRUCTIONS, (int)law[0] + i);
-            is_written |= word[0] == ZD_CODE_RESULT && word[1] == result;
+            is_written |= zd_block_is(word[0], ZD_CODE_RESULT) && word[1] == result;
         }
         if (!is_written) return 0;
     }

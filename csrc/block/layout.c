@@ -38,7 +38,8 @@ static int header_is_right(const double *word, size_t words, zd_complaint to)
 {
     if (words < ZD_BLOCK_HEADER) return zd_complain(to, "a block must have at least %d words, not %g", ZD_BLOCK_HEADER, (double)words);
     if (memcmp(word, "zdblock", sizeof *word)) return zd_complain(to, "a block must begin with \"zdblock\"");
-    if (word[1] != ZD_BLOCK_VERSION) return zd_complain(to, "the version of the block must be %d, not %g", ZD_BLOCK_VERSION, word[1]);
+    if (!zd_block_is(word[1], ZD_BLOCK_VERSION))
+        return zd_complain(to, "the version of the block must be %d, not %g", ZD_BLOCK_VERSION, word[1]);
     if (word[2] != (double)words)
         return zd_complain(to, "the block must have the %g words that its header counts, not %g", word[2], (double)words);
     return 1;

@@ -41,6 +41,9 @@ int zd_block_is_whole(double word, double low, double end);
 /* Text at an offset; NULL if there is none. */
 const char *zd_block_text(const zd_block_layout *layout, double offset);
 
+/* True if a word has this value of an enumeration. */
+static inline int zd_block_is(double word, int value) { return word == value; }
+
 static inline const double *zd_block_entry(const zd_block_layout *layout, int section, int entry)
 {
     const zd_block_part *part = layout->part + section;

@@ -33,9 +33,9 @@ static zd_opened *take(zd_arena *arena, const zd_system *system)
 
 static zd_opened *allocate(const zd_system *system)
 {
-    zd_arena counting = {NULL, 0};
+    zd_arena counting = {.used = 0};
     take(&counting, system);
-    zd_arena arena = {zd_allocate(counting.used), 0};
+    zd_arena arena = {.base = zd_allocate(counting.used)};
     return arena.base ? take(&arena, system) : NULL;
 }
 
