@@ -143,7 +143,7 @@ def test_the_start_has_what_is_given():
 
 @pytest.mark.parametrize("name", ["knife_edge", "chaplygin_sleigh", "rolling_disc"])
 def test_starts_at_angles_are_those_of_the_parameters(name):
-    """Of the sine and cosine that mpmath has, and on the constraints as they are."""
+    """Sines and cosines are those of mpmath, and the constraints hold as they are."""
     angle = {"lean": 0.3, "lean_rate": 0.1} if name == "rolling_disc" else {"heading": 0.7, "speed": 1.3}
     ref = zd.reference(getattr(zd.systems, name)(**angle), 0.2, t_eval=[0.0, 0.2])
     found = [number(*pair) for pair in zip(ref.v[0], ref.v_low[0], strict=True)]
