@@ -240,3 +240,33 @@ def test_a_controller_that_raises_leaves_a_partial_solution():
         zd.simulate(four_bar(torque=0.0), 1.0, step=0.01, inputs=["drive.torque"],
                     control=zd.every(0.05, call=lambda run: run.inputs.fill(np.nan if run.t > 0.1 else 0.0)))
     assert caught.value.solution.t[-1] == pytest.approx(0.15)
+
+
+@pytest.mark.parametrize(("layout", "compiled"), LAYOUTS)
+def test_reactions_read_afterwards_are_those_under_the_inputs(layout, compiled):
+    """The torque of the last step holds at a sample: the same reactions as of runs with that torque as a number."""
+    system = four_bar(torque=0.0).system(layout, compiled=compiled)
+    run = zd.Run(system, step=2.0**-7, inputs=["drive.torque"], record=True)
+    for value in (3.0, -20.0, 3.0):
+        run["drive.torque"] = value
+        run.step(3)
+    sol = run.solution()
+    for k in (1, 3, 4, 6, 9):
+        alone = four_bar(torque=float(sol["drive.torque"][k])).system(layout)
+        known = zd.Instant(alone, sol.t[k], sol.p[k], sol.v[k])
+        for name in ("A.force", "crank.angular_acceleration", "drive.power"):
+            assert np.allclose(sol[name][k], known[name], rtol=1e-10, atol=1e-10)
+    assert not np.allclose(sol["A.force"][6], zd.Instant(system, sol.t[6], sol.p[6], sol.v[6])["A.force"], rtol=1e-3)
+    with pytest.raises(ValueError, match="outputs=") as caught:
+        sol.at(0.01)["A.force"]
+    assert caught.value.code == "wrong-value"
+
+
+def test_accelerations_under_a_speed_that_is_an_input_are_recorded():
+    run = zd.Run(four_bar(speed=1.0), step=0.01, inputs=["drive.speed"], record=True)
+    run["drive.speed"] = 2.0
+    run.step(3)
+    sol = run.solution()
+    assert np.isclose(sol["crank.angular_velocity"][-1], 2.0, rtol=1e-10)
+    with pytest.raises(ValueError, match="must be recorded by the run"):
+        sol["A.force"]

@@ -79,6 +79,12 @@ class Inputs:
         for function, data in zip(*self._memory[1:3], strict=True):
             function(data)
 
+    def set_constant(self, values: np.ndarray) -> None:
+        """Set values (k,) and write them to their places at once, speeds as constant ones."""
+        numbers = dict(zip(self.names, values.tolist(), strict=True))
+        at_places = [[numbers[place.name]] + [0.0, 0.0] * place.is_speed for place in self._memory[-1]]
+        self.restore(values, np.array([number for each in at_places for number in each]))
+
     def adopt(self, memory: np.ndarray) -> None:
         """Move the values to other memory (k,), which is read from now on."""
         memory[:] = self.values

@@ -56,12 +56,13 @@ class Measuring:
         return DEPENDS[self.c.measures.measure[index].depends]
 
     def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
-                multipliers: np.ndarray | None = None) -> np.ndarray:
+                multipliers: np.ndarray | None = None, *, is_own: bool = False) -> np.ndarray:
         """A measure at many states: t (k,), p (k, nq), v (k, nv), vdot (k, nv), multipliers (k, m) give values (k, size).
 
         vdot and multipliers may be None where the measure depends on positions or velocities alone (`measure_depends`).
+        is_own: the system's data belong to the caller.
         """
-        core, k = self.for_run(), len(t)
+        core, k = self if is_own else self.for_run(), len(t)
         values, scratch = np.zeros((k, self.measure_size(index))), np.zeros(max(1, self.c.measures.scratch))
         status = lib.zd_measure_states(core.c, core.initial_inputs(), index, k, doubles(t, k),
                                        doubles(p, k * self.nq), doubles(v, k * self.nv),

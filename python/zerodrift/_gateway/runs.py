@@ -390,9 +390,9 @@ def acceleration(core: CoreSystem, formulation: int, on_singular: int, t: float,
 
 
 def accelerations(core: CoreSystem, formulation: int, on_singular: int, t: np.ndarray, p: np.ndarray,
-                  v: np.ndarray) -> np.ndarray:
-    """`zd_accelerations`: vdot (k, nv) at t (k,), p (k, nq), v (k, nv)."""
-    core, k = core.for_run(), len(t)
+                  v: np.ndarray, *, is_own: bool = False) -> np.ndarray:
+    """`zd_accelerations`: vdot (k, nv) at t (k,), p (k, nq), v (k, nv). is_own: the system's data belong to the caller."""
+    core, k = core if is_own else core.for_run(), len(t)
     vdot, multipliers, message = np.empty((k, core.nv)), np.empty((k, core.m)), ffi.new("char[]", MESSAGE_SIZE)
     status = lib.zd_accelerations(core.c, formulation, on_singular, k, doubles(t, k), doubles(p, p.size), doubles(v, v.size),
                                   doubles(vdot, vdot.size, writable=True), doubles(multipliers, multipliers.size, writable=True),

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from .. import _check
-from ..errors import WrongName
+from ..errors import WrongName, WrongValue
 from ..systems.base import BaseSystem, core_of, system_of
 from .operations import acceleration
 
@@ -99,9 +100,13 @@ class Instant(Reading):
         core_of(self.system)
         p, v = self.system._state_or_start(p, v, "p", "v", self.t)
         self.p, self.v = np.array(p), np.array(v)
+        self._inputs: Sequence[str] = ()        # inputs of the run that made this state
 
     @functools.cached_property
     def _moving(self) -> tuple[np.ndarray, np.ndarray]:
+        if self._inputs:
+            raise WrongValue(f"accelerations and multipliers must be read at a sample, by sol[name], or be recorded by outputs=: "
+                             f"they depend on {', '.join(self._inputs)}, which may change between samples")
         return acceleration(self.system, self.p, self.v, self.t, "augmented")
 
     @property

@@ -350,7 +350,9 @@ class Solution:
         True
         """
         t = _check.number("t", t)
-        return Instant(self.system, t, *self(t))
+        now = Instant(self.system, t, *self(t))
+        now._inputs = self.settings.get("inputs") or ()
+        return now
 
     def _states_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities at increasing times (k,)."""

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import weakref
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import CoreSystem
-from ..errors import WrongName
+from ..errors import WrongName, WrongValue
 
 AXES = {"x": 0, "y": 1, "z": 2}     # names of components
 SAME = 1e-8             # of the largest: reactions that differ by less do not depend on which multipliers are taken
@@ -66,21 +67,44 @@ class Watching:
         return found.pick(self._evaluate(found.number, solution, solution.multipliers))
 
     def _evaluate(self, number: int, solution: Any, multipliers: np.ndarray) -> np.ndarray:
-        core, parts = self.core, _parts(solution)
-        if core.measure_depends(number) != "accelerations":
-            return _joined([core.measure(number, *_states(solution, part)) for part in parts])
-        return _joined([core.measure(number, *_states(solution, part), self._accelerate(solution, part, len(parts) == 1),
-                                     np.ascontiguousarray(multipliers[part])) for part in parts])
+        values, is_dynamic = [], self.core.measure_depends(number) == "accelerations"
+        for core, part in self._cores(solution, self._measures[number].name if is_dynamic else None):
+            states = _states(solution, part)
+            if is_dynamic:
+                states += self._accelerate(core, solution, part), np.ascontiguousarray(multipliers[part])
+            values.append(core.measure(number, *states, is_own=core is not self.core))
+        return values[0] if len(values) == 1 else np.concatenate(values)
 
-    def _accelerate(self, solution: Any, part: slice, are_all: bool) -> np.ndarray:
+    def _accelerate(self, core: CoreSystem, solution: Any, part: slice) -> np.ndarray:
         """The accelerations (k, nv) at some rows, which are kept if these are all of them."""
         known = self._accelerations.get(solution)
         if known is None:
             formulation = _formulation(solution.settings["formulation"])
-            known = _gateway.accelerations(self.core, formulation, 1, *_states(solution, part))
-            if are_all:
+            known = _gateway.accelerations(core, formulation, 1, *_states(solution, part), is_own=core is not self.core)
+            if part.start == 0 and part.stop >= len(solution.t):
                 self._accelerations[solution] = known
         return known
+
+    def _cores(self, solution: Any, dynamic: str | None) -> Iterator[tuple[CoreSystem, slice]]:
+        """The core's system for all rows in parts: in each of them, inputs have the values with which the run made these rows.
+
+        `dynamic` names a measure of accelerations, which need the rate of a speed that is an input: it is not among the samples.
+        """
+        names = getattr(solution, "settings", {}).get("inputs")
+        if not names:
+            yield from ((self.core, part) for part in _parts(solution))
+            return
+        of = solution.system._with_inputs(names)
+        bound = of.bound(of.system._watching.core, names)
+        if dynamic and any(place.is_speed for place in bound.places):
+            raise WrongValue(f"{dynamic!r} depends on accelerations, and a speed is an input: it must be recorded by the run, by "
+                             f"outputs=[{dynamic!r}]")
+        given = np.column_stack([solution[name] for name in names])
+        inputs = _gateway.Inputs(names, given[0].copy(), given[0], given[0], [bound])
+        ends = [*(np.flatnonzero((given[1:] != given[:-1]).any(axis=1)) + 1), len(given)]
+        for first, end in zip([0, *ends], ends, strict=False):
+            inputs.set_constant(given[first])
+            yield bound.core, slice(first, end)
 
     def unique(self, name: str, solution: Any) -> Any:
         """Which components of a measure are the same for all admissible multipliers at every row; a bool of a scalar."""
@@ -113,10 +137,6 @@ def _parts(solution: Any) -> list[slice]:
     """All rows in parts, as rows that are in a file may be more than memory takes."""
     rows = max(1, PART // (solution.p.itemsize * max(1, solution.p.shape[1])))
     return [slice(first, first + rows) for first in range(0, max(1, len(solution.t)), rows)]
-
-
-def _joined(parts: list[np.ndarray]) -> np.ndarray:
-    return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
 def _states(solution: Any, part: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
