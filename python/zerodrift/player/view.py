@@ -163,8 +163,8 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
         Points are dragged, and sliders change parameters and motors; what cannot close is refused with a sentence. The core is
         compiled once, by the package ziglang (the extra ``web``).
     sliders : dict of (float, float), optional
-        With `live`: parameters and motors of the mechanism, such as ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``, with
-        smallest and largest values. By default some lengths and all motors.
+        With ``live=True``: parameters and motors of the mechanism, with smallest and largest values, such as
+        ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``. By default some lengths and all motors.
 
     Returns
     -------
