@@ -37,11 +37,12 @@ def compile_text(text, library, *options):
 
 def compile_four_bar(library):
     """The built-in one as the library of a user."""
-    source = ROOT / "csrc" / "systems" / "four_bar.c"
-    direct = ROOT / "csrc" / "systems" / "direct" / "four_bar.c"
+    folder = ROOT / "csrc" / "systems"
+    source, direct = folder / "four_bar.c", folder / "direct" / "four_bar.c"
     text = f'#define zd_four_bar zd_kind_four_bar\n#include "{source}"\n#include "{direct}"\n'
     text += "const int zd_interface_version = ZD_INTERFACE_VERSION;\n"
-    return compile_text(text, library, "-O3", "-Wno-pedantic")
+    others = (str(folder / name / "four_bar.c") for name in ("series", "precise"))
+    return compile_text(text, library, "-O3", "-Wno-pedantic", *others)
 
 
 def pendulum(library, symbol="pendulum", **changes):
