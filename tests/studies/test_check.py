@@ -65,12 +65,12 @@ MODELS = sorted(set(zd.models.__all__) - {"chain"})
 
 @pytest.mark.parametrize("name", MODELS)
 def test_derivatives_of_every_model_equal_differences_of_accelerations(name):
-    """Random tangent directions, in which every state and velocity has a part; driven mechanisms have none."""
+    """Tangent directions and parameters; driven mechanisms have no tangent directions."""
     system = getattr(zd.models, name)().system()
     report = zd.check(system, samples=1)
     assert report, report
     is_driven = not zd.mass_matrix(system, tangent=True).size
-    assert ("derivatives of accelerations" in report.checks) != is_driven
+    assert is_driven or "derivatives of accelerations" in report.checks
 
 
 def test_a_wrong_jacobian_of_a_system_is_said(monkeypatch):

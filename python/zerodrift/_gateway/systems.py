@@ -17,6 +17,8 @@ from .measures import Measuring
 from .packed_layout import PACKED, Packing
 
 MOST_ROWS = 1000        # of a matrix that is made dense where it is packed
+SUSPECT = 1e-6          # rows of larger entries are not compared with their terms, which would have to be a million
+CANCELLED = 2.0**-40    # of the terms of a row of C: smaller entries are their rounding error, as in csrc/point/units.c
 
 
 class Kind:
@@ -173,6 +175,20 @@ class CoreSystem(Measuring):
         if self.packing and self.c.followers and "A" in packed:
             packed["A"] = np.vstack([packed["A"], self.follower_rows(t, p, v)])
         return arrays | packed
+
+    def rows_above_rounding(self, t: float, p: np.ndarray, v: np.ndarray, C: np.ndarray) -> np.ndarray:
+        """C (m, nv) or its first rows, with zeros in rows that are the rounding error of terms that cancel, as in constraints
+        that a tree of joints satisfies identically.
+        """
+        if not self.c.magnitudes or not (np.abs(C).max(axis=1, initial=0.0) < SUSPECT).any():
+            return C
+        magnitude, scratch, core = np.zeros((self.m, 2)), np.zeros(max(1, self.c.magnitudes_scratch)), self.for_run()
+        to = doubles(magnitude, magnitude.size, writable=True), doubles(scratch, scratch.size, writable=True)
+        if core.c.magnitudes(core.c.data, t, doubles(p, self.nq), doubles(v, self.nv), *to):
+            return C        # a user function fails, which the terms report
+        is_angle = [int(not (self.c.lengths and self.c.lengths[self.nq + i])) for i in range(self.nv)]
+        terms = magnitude[:len(C), is_angle]
+        return np.where((np.abs(C) <= CANCELLED * terms).all(axis=1, keepdims=True), 0.0, C)
 
     def follower_rows(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """The rows of A (followers, nv) of coordinates that follow others, which are not stored: column by column."""

@@ -16,7 +16,7 @@ from .prescribed import Prescribed, prescribed
 from .quantities import find, values_of
 from .retraction import near_to
 from .state import scales, state
-from .tangent import DEPENDENT
+from .tangent import DEPENDENT, row_lengths
 from .tracker import DeadPoint, Target, Tracker
 
 CONTRADICTION = 1e-9        # of the size of the rates: prescribed ones that contradict each other
@@ -183,7 +183,7 @@ def _solved(system: BaseSystem, p: np.ndarray, rows: np.ndarray, right: np.ndarr
         If there is none.
     """
     scale = scales(system, p).v
-    length = np.maximum(np.linalg.norm(rows * scale, axis=1), 1e-300)
+    length = row_lengths(rows * scale)
     rows, right = rows * scale / length[:, None], right / length
     x = np.linalg.lstsq(rows, right, rcond=DEPENDENT)[0]
     off = float(np.abs(rows @ x - right).max(initial=0.0))

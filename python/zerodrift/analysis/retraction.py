@@ -90,7 +90,10 @@ def _position_terms(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[s
     if not held and not core.c.followers and max(core.nq, core.nv, core.m) <= LARGEST:       # nothing else is evaluated
         terms = core.evaluate_states(("A", "Phi", "C"), np.array([float(t)]), np.ascontiguousarray(p), np.zeros(core.nv))
         A = terms["A"][0] if "A" in terms else np.eye(core.nv)
-        return (A, terms["Phi"][0], terms["C"][0, :core.mh]) if core.mh else (A, np.zeros(0), np.zeros((0, core.nv)))
+        if not core.mh:
+            return A, np.zeros(0), np.zeros((0, core.nv))
+        C = core.rows_above_rounding(float(t), np.ascontiguousarray(p), np.zeros(core.nv), terms["C"][0, :core.mh])
+        return A, terms["Phi"][0], C
     at = state(system, t, p, np.zeros(system.nv))
     value, rows = rows_of(at, held)
     return at.A, np.concatenate([at.Phi, value - target]), np.vstack([at.holonomic, rows])
@@ -100,7 +103,7 @@ def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> tu
     """Minimum-norm solution of rows x = -residual in scaled velocities, the largest residual in these units, and independence."""
     rows = rows * scale
     length = np.linalg.norm(rows, axis=1)
-    longest = length.max(initial=0.0)
+    longest = length.max(initial=0.0) or 1.0
     length = np.maximum(length, max(DEPENDENT * longest, 1e-300))
     off = np.abs(residual) / np.maximum(length, max(SHORT * longest, 1e-300))
     unit, right = rows / length[:, None], -residual / length

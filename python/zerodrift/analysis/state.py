@@ -19,6 +19,7 @@ class State(NamedTuple):
     """Terms of (1)-(6) at (t, p, v).
 
     A (nq, nv), M (nv, nv), force (nv,) = f - d, Phi (mh,), C (m, nv), Phi_t (m,), xi (m,).
+    Rows of C that are rounding error are zero.
     """
 
     system: BaseSystem
@@ -47,9 +48,9 @@ def state(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray) -> State:
                              f"{max(core.nq, core.nv, core.m)}: its matrices are dense here")
     p, v = np.ascontiguousarray(p), np.ascontiguousarray(v)
     terms, nv, m = core.evaluate(t, p, v), core.nv, core.m
-    zero = np.zeros(nv)
+    zero, C = np.zeros(nv), core.rows_above_rounding(t, p, v, terms.get("C", np.zeros((m, nv))))
     return State(system, t, p, v, terms.get("A", np.eye(core.nq, nv)), terms["M"], terms.get("f", zero) - terms.get("d", zero),
-                 terms.get("Phi", np.zeros(core.mh)), terms.get("C", np.zeros((m, nv))), terms.get("Phi_t", np.zeros(m)),
+                 terms.get("Phi", np.zeros(core.mh)), C, terms.get("Phi_t", np.zeros(m)),
                  terms.get("xi", np.zeros(m)))
 
 

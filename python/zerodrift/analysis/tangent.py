@@ -33,6 +33,12 @@ def scaled_rows(rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
     return rows / np.maximum(length, max(DEPENDENT * length.max(initial=0.0), 1e-300))
 
 
+def row_lengths(rows: np.ndarray) -> np.ndarray:
+    """Norms (m,) of rows, one for rows of zeros, which constrain nothing."""
+    length = np.linalg.norm(rows, axis=1)
+    return np.where(length > 0, length, 1.0)
+
+
 def null_space(rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
     """Orthonormal basis (nv, r), in scaled velocities, of the velocities that are allowed by rows (m, nv); returned unscaled."""
     nv = rows.shape[1]
@@ -99,7 +105,7 @@ class Tangent:
         """Minimum-norm x, in scaled velocities, with C x = right."""
         rows = self.at.C * self.scale
         length = np.linalg.norm(rows, axis=1)
-        length = np.maximum(length, max(DEPENDENT * length.max(initial=0.0), 1e-300))
+        length = np.maximum(length, DEPENDENT * (length.max(initial=0.0) or 1.0))
         right = (right.T / length).T
         x = np.linalg.lstsq(rows / length[:, None], right, rcond=DEPENDENT)[0]
         return (x.T * self.scale).T
@@ -137,9 +143,9 @@ def multipliers(at: State, right: np.ndarray, rows: np.ndarray | None = None) ->
         size = np.sqrt(np.maximum((rows * np.linalg.solve(at.M, rows.T).T).sum(axis=1), 0.0))
     except np.linalg.LinAlgError:
         size = np.linalg.norm(rows * scale, axis=1)
-    size = np.maximum(size, max(DEPENDENT * size.max(initial=0.0), 1e-300))
+    size = np.maximum(size, DEPENDENT * (size.max(initial=0.0) or 1.0))
     scaled, given = rows / size[:, None] * scale, (scale * right.T).T
-    length = np.maximum(np.linalg.norm(scaled, axis=1), 1e-300)
+    length = row_lengths(scaled)
     unit = scaled / length[:, None]
     inverse = inverse_factor(unit)
     if inverse is None:

@@ -18,7 +18,7 @@ from .names import dominant
 from .quantities import find
 from .retraction import moved, onto
 from .state import scales, state
-from .tangent import DEPENDENT, null_space, scaled_rows
+from .tangent import DEPENDENT, null_space, row_lengths, scaled_rows
 
 LARGEST_STEP = 0.25         # of a part, in characteristic scales
 LARGEST_CORRECTION = 0.2    # of the predictor's step
@@ -105,7 +105,7 @@ class Tracker:
         values = np.linalg.svd(scaled_rows(rows, scale), compute_uv=False)
         if len(rows) <= self.system.nv or values[self.system.nv - 1] < NEAR_SINGULAR * values[0]:
             return 0.0
-        length = np.maximum(np.linalg.norm(rows * scale, axis=1), 1e-300)
+        length = row_lengths(rows * scale)
         rows, change = rows * scale / length[:, None], change / length
         left = np.abs(rows @ np.linalg.lstsq(rows, change, rcond=DEPENDENT)[0] - change).max(initial=0.0)
         off = float(left / max(np.abs(change).max(initial=0.0), 1e-300))
@@ -136,7 +136,7 @@ class Tracker:
         """The displacement (nv,) that the rates of the targets determine; None where they do not."""
         rows, change = self._rows(p, here, there)
         scale = scales(self.system, p).v
-        length = np.maximum(np.linalg.norm(rows * scale, axis=1), 1e-300)
+        length = row_lengths(rows * scale)
         values = np.linalg.svd(scaled_rows(rows, scale), compute_uv=False)
         if len(values) < self.system.nv or values[self.system.nv - 1] < SINGULAR * values[0]:
             return None

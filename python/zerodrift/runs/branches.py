@@ -66,7 +66,8 @@ class _Branch:
         """Phi (mh,), C (mh, nv) in scaled velocities, and A (nq, nv) in scaled coordinates and velocities."""
         terms = self.core.evaluate(t, np.ascontiguousarray(p), np.zeros(self.core.nv))
         A = terms.get("A", np.eye(self.core.nq, self.core.nv))
-        return terms["Phi"], terms["C"][:self.core.mh] * self.scale_v, A * self.scale_v / self.scale_p[:, None]
+        C = self.core.rows_above_rounding(t, np.ascontiguousarray(p), np.zeros(self.core.nv), terms["C"][:self.core.mh])
+        return terms["Phi"], C * self.scale_v, A * self.scale_v / self.scale_p[:, None]
 
     def signs(self, k: int) -> np.ndarray:
         """Signs of minors at sample k: of the pivots' columns, and with one of them replaced by one of the others."""

@@ -13,7 +13,7 @@ from ..analysis.comparison import Compared, derivatives_by_parameters, derivativ
 from ..errors import ZerodriftError
 from ..runs.operations import acceleration, project
 from ..runs.settings import Projection
-from ..systems.base import BaseSystem, Terms, system_of
+from ..systems.base import BaseSystem, Terms, core_of, system_of
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity
 AGREE = 1e-5                            # relative: far above the error 1e-10 of a difference, far below any mistake
@@ -99,6 +99,8 @@ class _State:
     def __init__(self, system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray, *, in_full: bool) -> None:
         self.system, self.t, self.p, self.v, self.in_full = system, t, p, v, in_full
         self.terms: Terms = system.evaluate(p, v, t)
+        if self.terms.C is not None:
+            self.terms.C = core_of(system).rows_above_rounding(t, p, v, self.terms.C)
         self.pdot = self.rate(v)
 
     def rate(self, v: np.ndarray) -> np.ndarray:
@@ -167,7 +169,7 @@ def _consistency(state: _State) -> Iterator[tuple[str, str]]:
     if C is None:
         return
     length = np.linalg.norm(C, axis=1)
-    length = np.maximum(length, max(NEGLIGIBLE * length.max(), 1e-300))     # a row of zeros consists of rounding
+    length = np.maximum(length, NEGLIGIBLE * (length.max() or 1.0))     # a row of zeros consists of rounding
     C, xi = C / length[:, None], xi / length
     vdot = np.linalg.lstsq(C, xi, rcond=NEGLIGIBLE)[0]
     left = np.abs(C @ vdot - xi).max()
