@@ -18,7 +18,7 @@ from .reference_search import ROUNDED, SLOWLY, SPACING, Search, SearchBySeries
 
 __all__ = ["Difference", "Reference", "reference"]
 
-EVIDENCE = 1e-9     # part of the motion's size, certified in double precision before double-double arithmetic is used
+EVIDENCE = 1e-9     # part of the motion's size, certified in double precision before an error beyond it
 
 
 def reference(
@@ -127,7 +127,7 @@ def reference(
         except UnreachableTolerance:
             if functions is None:
                 raise
-    evidence = Search(motion, pairs, EVIDENCE * motion.size).found()
+    evidence = Search(motion, pairs, None if wanted is None else EVIDENCE * motion.size).found()
     found = PreciseSearch(motion, functions, evidence, wanted).certified()
     return found if found.low and found.error <= (wanted or math.inf) else _in_double(motion, pairs, wanted)
 
