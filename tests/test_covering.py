@@ -16,7 +16,7 @@ def test_each_pair_of_values_occurs(more):
     axes = {name: tuple(values) for name, values in (TABLES | more).items()}
     cases = covering(axes, is_accepted)
     assert len(cases) < 1.3 * max(len(a) * len(b) for a, b in itertools.combinations(axes.values(), 2))
-    assert {(case["system"], case["integrator"]) for case in cases} == TAKEN
+    assert {(case["system"], case["integrator"]) for case in cases} == {pair for pair in TAKEN if pair[1] in INTEGRATORS}
     for (one, values), (other, others) in itertools.combinations(axes.items(), 2):
         if (one, other) != ("system", "integrator"):
             assert {(case[one], case[other]) for case in cases} == set(itertools.product(values, others))
