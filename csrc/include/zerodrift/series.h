@@ -107,7 +107,8 @@ ZD_SERIES_ON static inline void zd_series_sum(const int rows, int order, const d
                                               double *restrict sum)
 {
     for (int first = 0; first < rows; first += ZD_SERIES_TOGETHER) {
-        zd_series_vector total[ZD_SERIES_VECTORS] = {{0}};
+        zd_series_vector total[ZD_SERIES_VECTORS];
+        for (int i = 0; i < ZD_SERIES_VECTORS; i++) total[i] = (zd_series_vector){0};
         const double *x = X + rows + first, *y = Y + (order - 1) * rows + first;
         for (int j = 1; j < order; j++, x += rows, y -= rows)
             for (int i = 0; i < ZD_SERIES_VECTORS; i++)
