@@ -6,6 +6,12 @@
 
 #include "../include/zerodrift/sines.h"
 
+#if defined(__GLIBC__) && defined(__x86_64__) && defined(__PIC__) && !defined(__PIE__)
+/* In shared libraries: the functions as every glibc has them since 2012, of the same bits, so that wheels do not require a newer one. */
+__asm__(".symver exp, exp@GLIBC_2.2.5\n.symver log, log@GLIBC_2.2.5\n.symver log2, log2@GLIBC_2.2.5\n"
+        ".symver pow, pow@GLIBC_2.2.5\n.symver hypot, hypot@GLIBC_2.2.5\n.symver lgamma, lgamma@GLIBC_2.2.5");
+#endif
+
 typedef struct instruction {
     enum zd_block_code code;
     int a, b, c;
