@@ -50,6 +50,13 @@ enum {
 #define ZD_STABILITY_LIMIT 0.95     /* ratio of |lambda h| to the largest stable value */
 #define ZD_STATE_ROUNDING 0x1p-42   /* relative difference of states that errors of accelerations near a bifurcation cause */
 
+/* ---- warnings of completed runs, and runs in lanes that are repeated individually to give them ---- */
+
+#define ZD_REPORTED_PIVOT 0x1p-26           /* relative pivot: below, half of the digits of accelerations are lost */
+#define ZD_LARGEST_ENERGY_ERROR 0.005       /* error of the energy balance (28), relative to the largest kinetic energy */
+#define ZD_LARGEST_ENERGY_CORRECTION 0.02   /* energy of one correction, relative to the largest kinetic energy */
+#define ZD_ENERGY_ROUNDING 1e-10            /* error of the energy balance that is rounding, relative to kinetic and potential energy */
+
 /* ---- events and bifurcations ---- */
 
 #define ZD_TIME_RESOLUTION (4 * 0x1p-52)    /* final width of a bracket of times, relative to the times */

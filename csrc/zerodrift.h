@@ -228,6 +228,14 @@ typedef struct zd_statistics {
     double energy_corrected;       /* J: largest energy added or removed by one energy correction */
 } zd_statistics;
 
+typedef struct zd_warning_limits {  /* beyond these, a completed run gives a warning */
+    double pivot;               /* zd_statistics.smallest_pivot; smaller ones give it */
+    double energy_error, energy_correction;     /* errors of (28) and energy_corrected, relative to the largest kinetic energy */
+    double energy_rounding;     /* errors of (28) that are rounding, relative to kinetic and potential energy */
+} zd_warning_limits;
+
+const zd_warning_limits *zd_limits_of_warnings(void);
+
 typedef struct zd_record {      /* samples of a run, one per saved instant; memory belongs to the caller */
     int64_t capacity, rows;        /* samples allocated and stored; a full record pauses the run, which continues with a new or emptied one */
     double *t;                  /* (capacity,) s */

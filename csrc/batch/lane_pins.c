@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double UNEQUAL_SHARES = 0x1p6;        /* largest ratio of the contributions of bodies to a constraint: see schur_blocks.c */
+#include "../linalg/refinement.h"
 
 /* ---- ends of each body ---- */
 
@@ -156,7 +156,7 @@ int zd_pins_are_unequal(const zd_pinned *of, const double *numbers)
         double least = INFINITY, most = 0;
         widen(numbers, of->first[k], points, &least, &most);
         widen(numbers, of->second[k], points + 2, &least, &most);
-        if (most > UNEQUAL_SHARES * least) return 1;
+        if (most > ZD_UNEQUAL_SHARES * least) return 1;
     }
     return 0;
 }

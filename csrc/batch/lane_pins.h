@@ -38,7 +38,7 @@ typedef struct zd_lane_pins {
     double *S;              /* (blocks->size,) */
     double *diagonal;       /* (2 count,): diagonal of S before its factorization */
     double *is_small;       /* 1: solutions are verified, as a pivot was small */
-    double *is_lost;        /* 1: a pivot was below REPORTED_PIVOT, so that the run has to be made individually, with its warning */
+    double *is_lost;        /* 1: a pivot was below ZD_REPORTED_PIVOT, so that the run has to be made individually, with its warning */
     double *refines;        /* 1: solutions are always verified, as bodies contribute unequally to a pin */
     double *y;              /* (2 count,): right-hand sides and solutions, in the order of elimination */
     double *lambda;         /* (2 count,): accumulated y, if solutions are verified */

@@ -2,11 +2,8 @@
 #include <math.h>
 
 #include "../point/matrices.h"
+#include "../step_limits.h"
 #include "group.h"
-
-/* Thresholds of the energy warning of a single run; beyond, the run is repeated individually and gives the warning itself. */
-static const double LARGEST_ENERGY_ERROR = 0.005;   /* relative to the largest kinetic energy */
-static const double ENERGY_ROUNDING = 1e-10;               /* relative to kinetic and potential energy */
 
 void zd_lane_group_gather(const zd_lane_group *self, int lane, const double *y)
 {
@@ -97,5 +94,5 @@ int zd_lane_group_keeps_energy(zd_lane_group *self, int lane)
     const double largest = fmax(run->kinetic, exchanged);
     self->batch->kinetic[run->number] = largest;
     self->batch->energy_error[run->number] = fabs(violation);
-    return fabs(violation) < fmax(LARGEST_ENERGY_ERROR * largest, ENERGY_ROUNDING * (largest + fabs(potential))) || violation == 0;
+    return fabs(violation) < fmax(ZD_LARGEST_ENERGY_ERROR * largest, ZD_ENERGY_ROUNDING * (largest + fabs(potential))) || violation == 0;
 }

@@ -2,6 +2,7 @@
  * depend on the other lanes.
  */
 #include "../include/zerodrift/lanes.h"
+#include "../linalg/refinement.h"
 #include "../step_limits.h"
 #include "lane_numbers.h"
 

@@ -5,9 +5,6 @@
  *
  * with u and w the arms of a pin and g of gravity, in blocks of two rows. */
 
-static const double GOOD_PIVOT = 0x1p-10;         /* pivot relative to the diagonal of S above which few digits are lost */
-static const double REPORTED_PIVOT = 0x1p-26;         /* relative pivot below which runs give a warning: SMALLEST_PIVOT in solution.py */
-static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;      /* residual relative to the terms of C x that needs no refinement */
 
 typedef struct ZD_NAMED(plane) {
     zd_real x, y;
@@ -94,7 +91,7 @@ ZD_KERNEL void ZD_NAMED(add_pin)(const zd_lanes *self, int place)
     to[3] = diagonal[1] = yy;
 }
 
-/* Lanes with a pivot below GOOD_PIVOT, and below REPORTED_PIVOT. */
+/* Lanes with a pivot below ZD_GOOD_PIVOT, and below ZD_REPORTED_PIVOT. */
 typedef struct ZD_NAMED(flags) {
     zd_condition small, lost;
 } ZD_NAMED(flags);
@@ -104,8 +101,8 @@ ZD_KERNEL void ZD_NAMED(invert)(const zd_lane_pins *pins, int place, ZD_NAMED(fl
 {
     zd_stored *P = REAL(pins->S) + 4 * place, *diagonal = REAL(pins->diagonal) + 2 * place;
     const zd_real a = P[0], b = P[2], c = P[3], determinant = ZD_FNMA(b, b, a * c), other = a * diagonal[1];
-    flags->small |= ~(a >= GOOD_PIVOT * diagonal[0]) | ~(determinant >= GOOD_PIVOT * other);
-    flags->lost |= ~(a >= REPORTED_PIVOT * diagonal[0]) | ~(determinant >= REPORTED_PIVOT * other) | ~(determinant < INFINITY);
+    flags->small |= ~(a >= ZD_GOOD_PIVOT * diagonal[0]) | ~(determinant >= ZD_GOOD_PIVOT * other);
+    flags->lost |= ~(a >= ZD_REPORTED_PIVOT * diagonal[0]) | ~(determinant >= ZD_REPORTED_PIVOT * other) | ~(determinant < INFINITY);
     const zd_real scale = ZD_SPLAT(1.0) / determinant;
     P[0] = c * scale;
     P[1] = P[2] = -b * scale;
@@ -243,7 +240,7 @@ ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
                                 ZD_NAMED(size_of)(rhs[1]) + first.size.y + second.size.y};
         for (int i = 0; i < 2; i++) {
             const zd_real off = ZD_NAMED(size_of)(rest[i]);
-            const zd_condition counts = (off > RESIDUAL_ROUNDING * size[i]) & (off > left * size[i]);
+            const zd_condition counts = (off > ZD_RESIDUAL_ROUNDING * size[i]) & (off > left * size[i]);
             left = ZD_WHERE(counts, off / ZD_WHERE(counts, size[i], ZD_SPLAT(1.0)), left);
             REAL(pins->y)[2 * place + i] = -rest[i];
         }
@@ -254,13 +251,12 @@ ZD_KERNEL zd_real ZD_NAMED(find_rest)(const zd_lane_pins *pins, const double *x)
 /* Refines x until C x = rhs, in lanes with small pivots or unequal masses: as in schur_blocks.c. */
 ZD_KERNEL void ZD_NAMED(refine)(const zd_lanes *self, double *x)
 {
-    enum { MAX_REFINEMENTS = 40 };
     zd_lane_pins *pins = self->pins;
     zd_condition open = HOLDS(pins->is_small);
     zd_real before = ZD_SPLAT(INFINITY), left;
     if (!ZD_ANY(open)) return;
     for (int i = 0; i < 2 * pins->count; i++) REAL(pins->lambda)[i] = REAL(pins->y)[i];
-    for (int i = 0; i < MAX_REFINEMENTS; i++) {
+    for (int i = 0; i < ZD_MAX_REFINEMENTS; i++) {
         left = ZD_NAMED(find_rest)(pins, x);
         open &= (left > 0.0) & (left < 0.5 * before);
         if (!ZD_ANY(open)) break;

@@ -17,15 +17,12 @@
 #include <string.h>
 
 #include "../constraints/rank.h"
+#include "../linalg/refinement.h"
 #include "../point/matrices.h"
 
-enum {
-    MAX_REFINEMENTS = 40,
-    MANY_JOINTS = 12,       /* joints of a body above which it is eliminated last, as it would couple all its neighbours */
-};
+enum { MANY_JOINTS = 12 };      /* joints of a body above which it is eliminated last, as it would couple all its neighbours */
 static const double LARGEST_SHARE = 0x1p-2, LEAST_SHARE = 0x1p-40, SHRINK = 0x1p-2;    /* pivot thresholds relative to a column's square */
 static const double WORSE = 0x1p-4;             /* ratio of the smallest pivot to its reference below which velocities are selected anew */
-static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* residual relative to the terms of C x that needs no refinement */
 static const double FEW_DIGITS = 0x1p-20;       /* residual relative to these terms beyond which it is not rounding */
 
 /* ---- symbolic ---- */
@@ -211,7 +208,7 @@ int zd_partition_solve(zd_partition *self, const double *rhs, double *x)
 {
     const int n = self->bodies->blocks->rows;
     double before = INFINITY, left = find_residual(self, rhs, x);
-    for (int i = 0; i < MAX_REFINEMENTS && left > RESIDUAL_ROUNDING && left < 0.5 * before; i++) {
+    for (int i = 0; i < ZD_MAX_REFINEMENTS && left > ZD_RESIDUAL_ROUNDING && left < 0.5 * before; i++) {
         memset(self->b, 0, (size_t)n * sizeof *self->b);
         for (int k = 0; k < self->rows; k++) {
             const zd_row_of_C row = zd_packed_row(self->bodies->layout, self->C, k);

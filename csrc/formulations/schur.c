@@ -18,11 +18,11 @@
 
 #include "../constraints/rows.h"
 #include "../linalg/orthogonal.h"
+#include "../linalg/refinement.h"
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 #include "structured.h"
 
-static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* residual relative to the terms of C x that needs no refinement */
 static const double MIN_REMAINDER = 1024 * 0x1p-53;     /* relative residual norm of a row that is rounding */
 static const double SMALL_PIVOT = 0x1p-20;           /* pivot of C M^-1 C^T relative to its diagonal below which too many digits are lost */
 static const double TURNED = 0.25;      /* bound of the squared sines by which Q turns: below, Q1 Q0^T + Q0 Q1^T is positive definite */
@@ -253,7 +253,7 @@ ZD_INLINE int is_any_significant(const int n, const int m, const schur *self, co
             size += fabs(term);
         }
         residual[k] = sum;
-        left |= fabs(sum) > RESIDUAL_ROUNDING * size;
+        left |= fabs(sum) > ZD_RESIDUAL_ROUNDING * size;
     }
     return left;
 }

@@ -18,16 +18,12 @@
 #include <string.h>
 
 #include "../constraints/rows.h"
+#include "../linalg/refinement.h"
 #include "../linalg/small.h"
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
-enum {
-    MAX_REFINEMENTS = 40,
-    LONGEST_WAIT = 251,     /* largest number of factorizations between verifications: a prime, so that all stages of a step are covered */
-};
-static const double RESIDUAL_ROUNDING = 8 * 0x1p-52;     /* residual relative to the terms of C x that needs no refinement */
-static const double GOOD_PIVOT = 0x1p-10;             /* pivot relative to the diagonal of S above which few digits are lost */
+enum { LONGEST_WAIT = 251 };     /* largest number of factorizations between verifications: a prime, so that all stages of a step are covered */
 static const double ACCURATE_RESIDUAL = 64 * 0x1p-52;        /* residual relative to the terms of C x of accurate solutions */
 
 zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system)
@@ -131,8 +127,8 @@ static int factor(zd_schur_blocks *self, zd_point *point, zd_pivots *pivots)
 /* True if solutions with these factors are to be verified. */
 static int is_to_be_compared(zd_schur_blocks *self)
 {
-    if (!self->is_accurate || (self->share < GOOD_PIVOT && self->least)) return 1;
-    if (!(self->share < GOOD_PIVOT)) return 0;
+    if (!self->is_accurate || (self->share < ZD_GOOD_PIVOT && self->least)) return 1;
+    if (!(self->share < ZD_GOOD_PIVOT)) return 0;
     if (--self->wait > 0 && self->share > self->compared_share / 2) return 0;
     self->compared_share = self->share;
     self->pause = self->pause < LONGEST_WAIT / 2 ? 2 * self->pause + 1 : LONGEST_WAIT;
@@ -242,7 +238,7 @@ static double find_residual(const zd_schur_blocks *self, const double *rhs, cons
             size += fabs(term);
         }
         residual[k] = sum;
-        if (fabs(sum) > RESIDUAL_ROUNDING * size && fabs(sum) > left * size) left = fabs(sum) / size;
+        if (fabs(sum) > ZD_RESIDUAL_ROUNDING * size && fabs(sum) > left * size) left = fabs(sum) / size;
     }
     return left;
 }
@@ -257,7 +253,7 @@ static void refine(zd_schur_blocks *self, const double *rhs, double *x, double *
 {
     double before = INFINITY, left = find_residual(self, rhs, x, self->residual);
     if (left > ACCURATE_RESIDUAL) self->wait = self->pause = 0;
-    for (int i = 0; i < MAX_REFINEMENTS && left > 0 && left < 0.5 * before; i++) {
+    for (int i = 0; i < ZD_MAX_REFINEMENTS && left > 0 && left < 0.5 * before; i++) {
         zd_blocks_forward(self->weighted->blocks, begin(self, &(zd_right_side){NULL, self->residual, self->step}));
         finish(self, NULL, self->step);
         for (int j = 0; j < self->n; j++) x[j] += self->step[j];

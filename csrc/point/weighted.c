@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "../linalg/refinement.h"
 #include "../linalg/small.h"
 
 enum { TOUCHERS_OF_COPY = 4 };
-static const double UNEQUAL = 0x1p6;    /* largest ratio of the contributions of two bodies to one diagonal entry of S */
 
 /* ---- symbolic ---- */
 
@@ -383,6 +383,6 @@ int zd_weighted_is_alike(const zd_weighted *self, const double *C, const double 
             most[k] = fmax(most[k], share);
         }
     for (int k = 0; k < m; k++)
-        if (most[k] > UNEQUAL * least[k]) return 0;
+        if (most[k] > ZD_UNEQUAL_SHARES * least[k]) return 0;
     return 1;
 }

@@ -21,10 +21,8 @@
 static const uintptr_t EXTENT = (uintptr_t)1 << 26;     /* bytes: functions and tables of the core are closer to each other */
 
 enum { FINGERPRINT_WORDS = 8, WORD = sizeof(uint64_t) };
-enum {
-    ALL_BYTES = 1, CHECKSUM, FINGERPRINT, UNIT = FINGERPRINT + FINGERPRINT_WORDS, SETTINGS, COORDINATES, VELOCITIES, PLACES, KEPT, BLOCKS,
-    HEADER
-};
+enum { ALL_BYTES = 1, CHECKSUM, FINGERPRINT, UNIT = FINGERPRINT + FINGERPRINT_WORDS, SETTINGS, COORDINATES, VELOCITIES, PLACES, KEPT,
+       BLOCKS, HEADER };
 
 /* Kinds of words that differ: first word of an entry is 8 * index + kind. */
 enum kind {
@@ -237,7 +235,6 @@ static size_t write_state(const zd_run *run, const char *fingerprint, unsigned c
 }
 
 size_t zd_state_size(const zd_run *run) { return write_state(run, "", NULL); }
-
 void zd_state_save(const zd_run *run, const char *fingerprint, void *block) { write_state(run, fingerprint, block); }
 
 /* ---- restoring ---- */

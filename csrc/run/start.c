@@ -246,11 +246,11 @@ static int start(zd_run *run, int status, const workspace *work, const double *p
     return status;
 }
 
-/* True if pivots alone prove that the constraints independent at the creation of the run are independent at this start, too. */
+/* True if pivots alone prove that the constraints independent at the creation of the run are independent at this start, too: those of
+ * redundant constraints are much smaller than the ones that are reported. */
 static int are_independent(const zd_motion *motion)
 {
-    const double LEAST = 0x1p-26;       /* smaller relative pivots are reported; those of redundant constraints are much smaller */
-    return motion->point->rank->is_large && motion->statistics.smallest_pivot > LEAST;
+    return motion->point->rank->is_large && motion->statistics.smallest_pivot > ZD_REPORTED_PIVOT;
 }
 
 static int choose_step_directly(zd_run *run, double *states, const double *p0, const double *v0)

@@ -84,6 +84,23 @@ RULES = {lib.ZD_ANY: "any", lib.ZD_POSITIVE: "positive", lib.ZD_NOT_NEGATIVE: "n
          lib.ZD_COUNT: "count", lib.ZD_SWITCH: "switch"}
 
 
+class WarningLimits(NamedTuple):
+    """Limits beyond which a completed run gives a warning: step_limits.h."""
+
+    pivot: float                # smallest relative pivot
+    energy_error: float         # error of the energy balance (28), relative to the largest kinetic energy
+    energy_correction: float    # energy of one correction, relative to the largest kinetic energy
+    energy_rounding: float      # error of (28) that is rounding, relative to kinetic and potential energy
+
+
+def _warning_limits() -> WarningLimits:
+    c = lib.zd_limits_of_warnings()
+    return WarningLimits(c.pivot, c.energy_error, c.energy_correction, c.energy_rounding)
+
+
+WARNING_LIMITS = _warning_limits()
+
+
 def check_fingerprint() -> None:
     """In a source tree, refuses a compiled core that does not belong to the sources beside it."""
     root = os.path.realpath(__file__)

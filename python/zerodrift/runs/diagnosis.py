@@ -15,13 +15,11 @@ from ..systems.base import core_of
 from . import branches
 from .methods import integrators, name_of
 from .solution import Solution
-from .summary import SMALLEST_PIVOT
 
-# Both limits are parts of the largest kinetic energy. Among the runs that were measured, none whose error of the energy balance
-# (28) stayed below the first limit made a wrong number of turns in twenty. Corrections take out more than that without harm, as
-# long as no single one of them has to take out more than the second limit.
-LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION = 0.005, 0.02
-ENERGY_ROUNDING = 1e-10     # of all the energy there is; smaller errors are rounding and say nothing about the steps
+# Both energy limits are relative to the largest kinetic energy. Among the runs that were measured, none whose error of the energy
+# balance (28) stayed below the first limit made a wrong number of turns in twenty. Corrections take out more than that without
+# harm, as long as no single one of them has to take out more than the second limit.
+SMALLEST_PIVOT, LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION, ENERGY_ROUNDING = _gateway.WARNING_LIMITS
 TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
               "of step")
 CATEGORIES = (AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning)

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from .._gateway import WARNING_LIMITS
 from .settings import corrections_of
 
-SMALLEST_PIVOT = 1e-8       # below it, half of the digits of accelerations are lost
 MOST_NAMED = 8              # redundant constraints named in the summary
 PART = 2**26        # bytes of a column that are read at once
 
@@ -42,7 +42,7 @@ def summary(solution: Any) -> str:
         lines.append(f"  redundant   {', '.join(names)}: rank {stats['rank']} of {solution.system.m}")
     if stats.get("rank_drops"):
         lines.append(f"  singular    the rank dropped in {stats['rank_drops']} steps")
-    if 0 < stats.get("smallest_pivot", 0) < SMALLEST_PIVOT:
+    if 0 < stats.get("smallest_pivot", 0) < WARNING_LIMITS.pivot:
         lines.append(f"  digits      lost near a bifurcation: relative pivot {stats['smallest_pivot']:.1g} of "
                      f"{solution.system.constraints[stats['smallest_pivot_row']].name} at t = {stats['smallest_pivot_time']:.6g}")
     if solution.energy_violation is not None:
