@@ -234,7 +234,24 @@ static int correct_velocities(projection *self, zd_motion *motion)
     return ZD_DONE;
 }
 
-/* ---- by the direct functions: one call has the steps of positions and velocities, the latter being of use after the last ---- */
+static int has_positions(const zd_motion *motion) { return motion->target.positions && (motion->corrects & ZD_PHI); }
+static int has_velocities(const zd_motion *motion) { return motion->target.velocities && (motion->corrects & ZD_C); }
+
+static int by_matrices(projection *self, zd_motion *motion, int settles)
+{
+    int status = ZD_DONE;
+    if (has_positions(motion) && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
+    if (status || !zd_constraints(&motion->system)) return status;
+    if (motion->drifts_from & ZD_C) return has_velocities(motion) ? correct_velocities(self, motion) : ZD_DONE;
+    return settles ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
+}
+
+static int after_step(void *self, zd_motion *motion)
+{
+    return by_matrices(self, motion, motion->formulation->settle != NULL);
+}
+
+/* ---- by closed-form functions: one call has the steps of positions and velocities, the latter being of use after the last ---- */
 
 static int direct_residual(void *context, double *size)
 {
@@ -276,27 +293,18 @@ static int correct_directly(projection *self, zd_motion *motion, int positions, 
     return ZD_DONE;
 }
 
-static int after_step(void *memory, zd_motion *motion)
+static int in_closed_form(void *memory, zd_motion *motion)
 {
     projection *self = memory;
-    int positions = motion->target.positions && (motion->corrects & ZD_PHI);
-    int velocities = motion->target.velocities && (motion->corrects & ZD_C);
-    int status = ZD_DONE;
-    if (zd_is_direct(motion) && !self->plain) {
-        positions &= (motion->drifts_from & ZD_PHI) != 0;
-        velocities &= (motion->drifts_from & ZD_C) != 0;
-        if (!zd_constraints(&motion->system) || !(positions || velocities)) return ZD_DONE;
-        zd_point *point = motion->point;
-        if (motion->path.lands) return zd_direct_land(motion, point->t, point->p, point->v);
-        status = correct_directly(self, motion, positions, velocities);
-        /* The next correction needs the dependent velocities at these positions. */
-        return !status && zd_is_embedded(motion) && motion->corrections > 1 ? zd_embed_settle(motion) : status;
-    }
-    if (positions && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
-    if (status || !zd_constraints(&motion->system)) return status;
-    if (motion->drifts_from & ZD_C) return velocities ? correct_velocities(self, motion) : ZD_DONE;
-    const int settles = motion->formulation->settle && !zd_is_direct(motion);
-    return settles ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
+    const int positions = has_positions(motion) && (motion->drifts_from & ZD_PHI);
+    const int velocities = has_velocities(motion) && (motion->drifts_from & ZD_C);
+    zd_point *point = motion->point;
+    if (self->plain) return by_matrices(self, motion, 0);
+    if (!zd_constraints(&motion->system) || !(positions || velocities)) return ZD_DONE;
+    if (motion->path.lands) return zd_direct_land(motion, point->t, point->p, point->v);
+    const int status = correct_directly(self, motion, positions, velocities);
+    /* The next correction needs the dependent velocities at these positions. */
+    return !status && motion->path.embeds && motion->corrections > 1 ? zd_embed_settle(motion) : status;
 }
 
 const zd_correction zd_projection_row = {
@@ -317,4 +325,5 @@ const zd_correction zd_projection_row = {
     .target = target,
     .take = take,
     .after_step = after_step,
+    .in_closed_form = in_closed_form,
 };

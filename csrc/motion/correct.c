@@ -8,7 +8,9 @@ static int correct(zd_motion *motion, int64_t step, int forced, enum which which
         const zd_active *active = &motion->active[i];
         if (!active->row->after_step || !(forced || zd_is_one_of(active->every, step))) continue;
         if (which != ALL && (active->row->target != NULL) != (which == PROJECTION)) continue;
-        int status = active->row->after_step(active->self, motion);
+        int (*in_closed_form)(void *, zd_motion *) = active->row->in_closed_form;
+        int status = in_closed_form && zd_is_direct(motion) ? in_closed_form(active->self, motion)
+                                                            : active->row->after_step(active->self, motion);
         if (status) return status;
     }
     return ZD_DONE;

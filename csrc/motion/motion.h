@@ -71,7 +71,7 @@ typedef struct zd_range {
 } zd_range;
 
 /* Evaluation path of the current step. On the closed-form path accelerations and projections come from the system's closed-form functions; on
- * the matrix path, from the formulation's leading matrix. The latter always exists and is taken in any doubt: direct.c. */
+ * the matrix path, from the formulation's leading matrix. The latter always exists and is taken in any doubt: paths/choose.c. */
 typedef struct zd_path {
     const zd_closed_form *direct;
     const zd_elimination *order;    /* elimination order of the current step; NULL: it takes the matrix path */
@@ -189,39 +189,17 @@ void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* rates
 zd_chain zd_chain_take(const zd_motion *motion, zd_arena *arena);
 int zd_motion_jacobian(void *motion, double t, const double *y, double *J);
 
-/* direct.c */
-/* Closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this formulation. */
-const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
-/* Initializes the closed-form path, if the system has one for the formulation and this vector unit or a narrower one. */
-void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
-/* Chooses the evaluation path of a step that begins at the point. */
-void zd_direct_choose(zd_motion *motion);
-void zd_direct_leave(zd_motion *motion);
-/* Save and restore the counters of the energy correction at the start of a step. */
-void zd_direct_remember_energy(zd_motion *motion);
-void zd_direct_forget_energy(zd_motion *motion);
-/* Computes the scales of the pivots of all orders. */
-void zd_direct_measure(zd_motion *motion);
-/* Compares the pivots at the end of a step with those at its start; `moved`: squared displacement in characteristic scales. ZD_SINGULAR: the
- * step must be repeated on the matrix path. */
-int zd_direct_compare(zd_motion *motion, double moved);
+/* True on the closed-form path. */
 static inline int zd_is_direct(const zd_motion *motion) { return motion->path.order != NULL; }
+
+/* Terms that zd_motion_accelerate() will evaluate at the point, for an evaluation together with others. */
+static inline int zd_motion_acceleration_terms(const zd_motion *motion)
+{
+    return (motion->point->known & ZD_ACCELERATED) || zd_is_direct(motion) ? 0 : motion->acceleration_needs;
+}
 
 /* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path. */
 static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !zd_is_direct(motion); }
-/* True if the quick check at the end of the previous step passed: this step then reuses its elimination order. */
-static inline int zd_direct_continues(zd_motion *motion)
-{
-    int continues = motion->path.continues && (motion->point->known & ZD_ACCELERATED);
-    motion->path.continues = 0;
-    if (!continues) return 0;
-    double *pivots = motion->path.pivots;       /* exchanged, as a copy would wait for the pivots */
-    motion->path.pivots = motion->path.before;
-    motion->path.before = pivots;
-    if (motion->corrections > 1) zd_direct_remember_energy(motion);
-    return 1;
-}
-
 static inline int zd_is_embedded(const zd_motion *motion) { return motion->path.order && motion->path.embeds; }
 /* embed.c: counterparts of a formulation's enter(), leave() and settle() on the closed-form path, for a step that begins or ends at the
  * point. */

@@ -1,4 +1,4 @@
-/* Quick check of the pivots of the closed-form path at the end of a step: direct.c sets the bounds. */
+/* Quick check of the pivots of the closed-form path at the end of a step: paths/choose.c sets the bounds. */
 #ifndef ZD_PIVOTS_H
 #define ZD_PIVOTS_H
 

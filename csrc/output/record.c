@@ -88,8 +88,7 @@ int zd_recorder_add(zd_recorder *self, zd_record *record)
     int64_t row = record->rows;
     zd_point *point = motion->point;
     /* All terms of the sample and of the acceleration come from one evaluation. */
-    const int more = (point->known & ZD_ACCELERATED) || zd_is_direct(motion) ? 0 : motion->acceleration_needs;
-    int status = zd_point_need(point, self->needs | more);
+    int status = zd_point_need(point, self->needs | zd_motion_acceleration_terms(motion));
     if (!status) status = zd_motion_accelerate(motion);
     if (!status) status = record_constraints(motion, record, row);
     if (!status) status = record_energy(motion, record, row);

@@ -3,6 +3,7 @@
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "../safeguards/glance.h"
+#include "choose.h"
 
 /* Zero times what is not finite is not a number; the sum has no branches. */
 ZD_INLINE int is_finite(const int n, const double *y)
@@ -72,7 +73,7 @@ static int correct_state(zd_stepper *stepper, int64_t step, int forced)
 ZD_RARE int check_fully(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
     const int is_number = is_finite(stepper->motion->system.nv, stepper->y);
-    return is_number ? zd_safeguards_judge(safeguards, stepper->last.h, next_step, parts) : ZD_NOT_FINITE;
+    return is_number ? zd_safeguards_judge(safeguards, zd_direct_compare, stepper->last.h, next_step, parts) : ZD_NOT_FINITE;
 }
 
 ZD_INLINE int check(const int n, zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)

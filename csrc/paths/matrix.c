@@ -3,6 +3,7 @@
  */
 #include "../linalg/norms.h"
 #include "../point/quaternions.h"
+#include "choose.h"
 #include "path.h"
 
 static int integrate(zd_stepper *self, double h)
@@ -41,9 +42,15 @@ static int finish(zd_stepper *self, int within)
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
 }
 
-int zd_path_check(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
+static int check_by_matrices(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
-    return zd_safeguards_judge(safeguards, self->t - self->last.t, next_step, parts);
+    return zd_safeguards_judge(safeguards, zd_safeguards_compare, self->t - self->last.t, next_step, parts);
 }
 
-const zd_evaluation_path zd_matrix_path = {"matrices", integrate, project, correct, finish, zd_path_check};
+int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
+{
+    return zd_safeguards_judge(safeguards, zd_direct_compare, self->t - self->last.t, next_step, parts);
+}
+
+const zd_evaluation_path zd_matrix_path = {"matrices", integrate, project, correct, finish, check_by_matrices};
+const zd_evaluation_path zd_converted_path = {"closed form, state converted", integrate, project, correct, finish, zd_path_check_pivots};

@@ -19,17 +19,18 @@ typedef struct zd_evaluation_path {
     int (*check)(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts);    /* acceptance of the step */
 } zd_evaluation_path;
 
-/* matrix.c: states that the formulation converts; independent.c: in independent velocities by closed form; closed_form.c: (p, v) by closed
- * form where the projection ends a step. */
-extern const zd_evaluation_path zd_matrix_path, zd_independent_path, zd_closed_form_path;
+/* matrix.c: states that the formulation converts, by matrices and by closed form; independent.c: in independent velocities by closed form;
+ * closed_form.c: (p, v) by closed form where the projection ends a step. */
+extern const zd_evaluation_path zd_matrix_path, zd_converted_path, zd_independent_path, zd_closed_form_path;
 
-/* zd_evaluation_path.check by full checks, of a step from last.t to t. */
-int zd_path_check(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts);
+/* zd_evaluation_path.check of the closed-form path by full checks, of a step from last.t to t. */
+int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts);
 
 /* The path for any step or a part of one, whose state may differ from the point. */
 static inline const zd_evaluation_path *zd_path_of_state(const zd_motion *motion)
 {
-    return zd_is_embedded(motion) ? &zd_independent_path : &zd_matrix_path;
+    if (!zd_is_direct(motion)) return &zd_matrix_path;
+    return motion->path.embeds ? &zd_independent_path : &zd_converted_path;
 }
 
 /* The path of a step of the run. */

@@ -8,6 +8,7 @@
 #include "../point/units.h"
 #include "../registry.h"
 #include "../step/adaptive.h"
+#include "../paths/choose.h"
 #include "../paths/variables.h"
 #include "arguments.h"
 #include "explain.h"

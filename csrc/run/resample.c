@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "../step/step.h"
+#include "../paths/choose.h"
 #include "../paths/spread.h"
 
 /* One sample of an array with `size` numbers per sample. */

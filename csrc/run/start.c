@@ -9,6 +9,7 @@
 #include "../constraints/rows.h"
 #include "../linalg/norms.h"
 #include "../linalg/small.h"
+#include "../paths/choose.h"
 #include "../point/mass.h"
 #include "../point/matrices.h"
 #include "../point/quaternions.h"
@@ -256,8 +257,7 @@ static int are_independent(const zd_motion *motion)
 static int choose_step_directly(zd_run *run, double *states, const double *p0, const double *v0)
 {
     if (!zd_is_adaptive(&run->loop)) return ZD_DONE;
-    zd_direct_choose(&run->motion);
-    return zd_is_direct(&run->motion) ? choose_step(run, states, p0, v0) : ZD_SINGULAR;
+    return zd_direct_choose(&run->motion) ? choose_step(run, states, p0, v0) : ZD_SINGULAR;
 }
 
 /* Checks of another start; the remaining ones are implied by large pivots. */

@@ -1,5 +1,5 @@
 /* Quick check of a step on the closed-form path. It passes nearly all steps, and only those that the full checks of guard.c and
- * motion/direct.c would pass without saving anything. Executed in every step, it takes fewer instructions by sufficient conditions: if
+ * paths/choose.c would pass without saving anything. Executed in every step, it takes fewer instructions by sufficient conditions: if
  * the detour is at most 1 / ZD_CALM_DETOUR of the displacement, it satisfies the bound by the velocities at both ends, too; and pivots of one
  * sign within a factor of four of one number have neither changed sign nor shrunk by more than 16. */
 #ifndef ZD_GLANCE_H

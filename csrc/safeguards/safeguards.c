@@ -35,13 +35,17 @@ static int look(zd_safeguards *self, const zd_detour *found, double h, int64_t s
     return self->guard.checks_stability ? zd_resolution_look_at_turns(&self->resolution, h, step, parts) : ZD_DONE;
 }
 
-int zd_safeguards_judge(zd_safeguards *self, double h, int64_t next_step, int parts)
+int zd_safeguards_compare(zd_safeguards *self, double h, double moved)
+{
+    return zd_crossing_step(&self->crossing, h, moved);
+}
+
+int zd_safeguards_judge(zd_safeguards *self, zd_comparison *compare, double h, int64_t next_step, int parts)
 {
     zd_detour found;
     if (!self->guard.has_begun) return ZD_DONE;
     int status = zd_guard_compare(&self->guard, h, next_step, &found);
-    if (!status) status = zd_is_direct(self->guard.motion) ? zd_direct_compare(self->guard.motion, found.moved)
-                                                           : zd_crossing_step(&self->crossing, h, found.moved);
+    if (!status) status = compare(self, h, found.moved);
     if (status) return status;
     if (self->guard.watches_step) status = look(self, &found, h, next_step - 1, parts);
     zd_guard_keep(&self->guard, next_step);

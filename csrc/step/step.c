@@ -15,6 +15,7 @@
 
 #include <math.h>
 
+#include "../paths/choose.h"
 #include "../paths/variables.h"
 #include "passage.h"
 

@@ -24,7 +24,7 @@ SAMPLES = 384
 ITERATIONS = 12         # of Newton's method
 CLOSED = 1e-9           # in parts of its row: a violation that is none
 LARGE = {1: 0.5, 2: 0.1, 3: 0.05}     # of a determinant of so many rows, in parts of the largest entries of these
-ENOUGH = {size: share / 4 for size, share in LARGE.items()}     # a step may begin with 2^-3: csrc/motion/direct.c
+ENOUGH = {size: share / 4 for size, share in LARGE.items()}     # a step may begin with 2^-3: csrc/step_limits.h
 TRIPLES = 9             # rows and columns up to which three at a time are tried
 SPREADS = (0.2, 0.7, 2.0)       # of configurations around the start, in rad or parts of the mechanism's length
 

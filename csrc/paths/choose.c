@@ -7,14 +7,15 @@
  *
  * Pivots of constraints are measured by the sizes that these rows of C had at the start of the run, in characteristic scales.
  */
+#include "choose.h"
+
 #include <math.h>
 #include <string.h>
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
+#include "../motion/embed.h"
 #include "../step_limits.h"
-#include "embed.h"
-#include "pivots.h"
 
 const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
 {
@@ -203,7 +204,7 @@ static int find_embedding(zd_motion *motion)
     return order && takes(motion, order, ZD_SUFFICIENT_PIVOT);
 }
 
-void zd_direct_choose(zd_motion *motion)
+int zd_direct_choose(zd_motion *motion)
 {
     const zd_path *path = &motion->path;
     int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
@@ -212,10 +213,13 @@ void zd_direct_choose(zd_motion *motion)
     else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, ZD_LARGE_PIVOT) ||
                              find_order(motion, ZD_SUFFICIENT_PIVOT)))
         use(motion, NULL);
+    return zd_is_direct(motion);
 }
 
-int zd_direct_compare(zd_motion *motion, double moved)
+int zd_direct_compare(zd_safeguards *safeguards, double h, double moved)
 {
+    (void)h;
+    zd_motion *motion = safeguards->guard.motion;
     zd_path *path = &motion->path;
     int status = zd_motion_accelerate(motion);
     if (status) return status;
