@@ -151,7 +151,7 @@ void zd_motion_attach(zd_motion *motion, double *state);
 /* Sets rate.pairs, after the formulation and all corrections are known. */
 void zd_motion_count_pairs(zd_motion *motion);
 
-/* solve.c */
+/* accelerate.c: solutions with the leading matrix */
 int zd_motion_factor_anew(zd_motion *motion);
 /* Factors the leading matrix at the point. */
 static inline int zd_motion_factor(zd_motion *motion)
@@ -174,7 +174,6 @@ void zd_solve_with(const zd_point *point, const zd_formulation *formulation, voi
 /* Solves with the factors at the point. */
 void zd_motion_solve(zd_motion *motion, const double *force, const double *rhs, double *x, double *lambda);
 
-/* accelerate.c */
 int zd_motion_accelerate_anew(zd_motion *motion);
 /* vdot and lambda at the point. */
 static inline int zd_motion_accelerate(zd_motion *motion)
@@ -207,7 +206,7 @@ int zd_embed_enter(zd_motion *motion, double t, const double *y);
 int zd_embed_leave(zd_motion *motion, double *y);
 int zd_embed_settle(zd_motion *motion);
 
-/* land.c: projection of p and v at the end t of a step on the closed-form path, and the point's acceleration there, if path.lands. p and v
+/* correct.c: projection of p and v at the end t of a step on the closed-form path, and the point's acceleration there, if path.lands. p and v
  * are the point's own, or the caller copies them there. */
 int zd_direct_land(zd_motion *motion, double t, double *p, double *v);
 
@@ -219,7 +218,7 @@ static inline void zd_count_position_iterations(zd_motion *motion, int iteration
     if (iterations > motion->tally->iterations) motion->tally->iterations = iterations;
 }
 
-/* correct.c: applies the corrections that are due in this step, in their order; `forced`: all */
+/* Applies the corrections that are due in this step, in their order; `forced`: all */
 int zd_motion_correct(zd_motion *motion, int64_t step, int forced);
 /* The projection alone, (25)-(27); and the corrections that follow it. */
 int zd_motion_project(zd_motion *motion, int64_t step, int forced);

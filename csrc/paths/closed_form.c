@@ -1,8 +1,9 @@
 #include "closed_form.h"
 
+#include <string.h>
+
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../safeguards/glance.h"
 #include "choose.h"
 
 /* Zero times what is not finite is not a number; the sum has no branches. */
@@ -70,6 +71,77 @@ static int correct_state(zd_stepper *stepper, int64_t step, int forced)
     return ZD_SIZED(correct, stepper->motion->system.nv, stepper, stepper->y, step, forced);
 }
 
+/* ---- quick check of a step ----
+ *
+ * It passes nearly all steps, and only those that the full checks of guard.c and choose.c would pass without saving anything. Executed in
+ * every step, it takes fewer instructions by sufficient conditions: if the detour is at most 1 / ZD_CALM_DETOUR of the displacement, it
+ * satisfies the bound by the velocities at both ends, too; and pivots of one sign within a factor of four of one number have neither changed
+ * sign nor shrunk by more than 16.
+ */
+
+/* Displacement and detour (p1 - p0 - h (v0 + v1) / 2) of a step: sums of squares in characteristic scales. Below, `half` is h / 2. */
+typedef struct seen_step {
+    double moved, detour;
+} seen_step;
+
+ZD_INLINE void see_one(seen_step *seen, int i, double half, const double *p0, const double *v0, const double *p, const double *v,
+                       const double *inverse_unit)
+{
+    const double path = p[i] - p0[i], missed = path - half * (v0[i] + v[i]);
+    seen->moved += (path * inverse_unit[i]) * (path * inverse_unit[i]);
+    seen->detour += (missed * inverse_unit[i]) * (missed * inverse_unit[i]);
+}
+
+/* Sums over n coordinates with pdot = v, from (p0, v0) to (p, v), two at a time in vectors. */
+ZD_INLINE seen_step see(const int n, double half, const double *p0, const double *v0, const double *p, const double *v,
+                        const double *inverse_unit)
+{
+    seen_step seen = {0, 0};
+#ifdef ZD_HAS_VECTORS
+#define ZD_TWO(x) (*(const zd_stored_two *)((x) + i))
+    const zd_two halves = {half, half};
+    zd_two moved = {0, 0}, detour = {0, 0};
+    for (int i = 0; i + 1 < n; i += 2) {
+        const zd_two path = ZD_TWO(p) - ZD_TWO(p0), missed = path - halves * (ZD_TWO(v0) + ZD_TWO(v));
+        const zd_two a = path * ZD_TWO(inverse_unit), b = missed * ZD_TWO(inverse_unit);
+        moved = i ? moved + a * a : a * a;
+        detour = i ? detour + b * b : b * b;
+    }
+#undef ZD_TWO
+    if (n > 1) seen = (seen_step){moved[0] + moved[1], detour[0] + detour[1]};
+    if (n % 2) see_one(&seen, n - 1, half, p0, v0, p, v, inverse_unit);
+#else
+    for (int i = 0; i < n; i++) see_one(&seen, i, half, p0, v0, p, v, inverse_unit);
+#endif
+    return seen;
+}
+
+/* True if all pivots are within their ranges; the next step then uses the same elimination order, the first. Bits are compared as integers,
+ * which are ordered as the magnitudes are, because the floating-point units are busy with the next step. */
+ZD_INLINE int pivots_stay(zd_path *path)
+{
+    for (int k = 0; k < path->ranges; k++) {
+        uint64_t bits;
+        memcpy(&bits, path->pivots + k, sizeof bits);
+        if (bits - path->range[k].least > path->range[k].width) return 0;
+    }
+    path->was_taken = path->continues = 1;
+    return 1;
+}
+
+/* True if the step to (p, v) passes, with n coordinates and pdot = v. NaN and infinity fail each comparison. */
+ZD_INLINE int passes_quick_check(const int n, zd_safeguards *self, double h, int64_t next_step, const double *p, const double *v)
+{
+    zd_guard *guard = &self->guard;
+    const zd_last *last = guard->last;
+    if (guard->watches_step) return 0;
+    const seen_step seen = see(n, 0.5 * h, last->p, last->v, p, v, guard->motion->point->inverse_unit_p);
+    if (!(ZD_CALM_DETOUR * ZD_CALM_DETOUR * seen.detour <= seen.moved + guard->nearby) || !(seen.moved <= guard->reach)) return 0;
+    if (!pivots_stay(&guard->motion->path)) return 0;
+    if (next_step >= guard->next_look) zd_guard_watch_next(guard);
+    return 1;
+}
+
 ZD_RARE int check_fully(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
     const int is_number = is_finite(stepper->motion->system.nv, stepper->y);
@@ -79,7 +151,7 @@ ZD_RARE int check_fully(zd_stepper *stepper, zd_safeguards *safeguards, int64_t 
 ZD_INLINE int check(const int n, zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
     const double *y = stepper->y;
-    if (!parts && zd_safeguards_glance(n, safeguards, stepper->last.h, next_step, y, y + n)) return ZD_DONE;
+    if (!parts && passes_quick_check(n, safeguards, stepper->last.h, next_step, y, y + n)) return ZD_DONE;
     return check_fully(stepper, safeguards, next_step, parts);
 }
 
