@@ -9,7 +9,7 @@
 
 enum which { ALL, PROJECTION, REST };
 
-static int correct(zd_motion *motion, int64_t step, int forced, enum which which)
+ZD_INLINE int correct(zd_motion *motion, int64_t step, int forced, const enum which which)
 {
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
