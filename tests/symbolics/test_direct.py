@@ -18,7 +18,7 @@ from zerodrift.symbolics.graph.lowering import Lowering
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler
 SEEDS = spread(range(12), 5)
-ALWAYS_SOUND = 2.0**-6     # in parts of its rows, a determinant that steps are believed with: ZD_SMALL_PIVOT of csrc/step_limits.h
+ALWAYS_SOUND = 2.0**-6     # relative determinant with which steps are accepted: ZD_SMALL_PIVOT of csrc/step_limits.h
 
 
 def doubles(*shape):
