@@ -8,9 +8,17 @@ from docutils import nodes
 from latex2mathml.converter import convert
 
 
+def mathml(text: str, display: str = "inline") -> str:
+    """An equation, whose matrices have a class: the style draws their brackets, as fonts without a table of mathematics do not
+    stretch them.
+    """
+    return re.sub(r"<mo[^>]*>&#x0005B;</mo>(<mtable.*?</mtable>)<mo[^>]*>&#x0005D;</mo>",
+                  r'<mrow class="matrix"><mo>[</mo>\1<mo>]</mo></mrow>', convert(text, display=display))
+
+
 def inline(writer: object, node: nodes.math) -> None:
     """An equation within a line."""
-    writer.body.append(convert(node.astext()))
+    writer.body.append(mathml(node.astext()))
     raise nodes.SkipNode
 
 
@@ -20,7 +28,7 @@ def block(writer: object, node: nodes.math_block) -> None:
         writer.body.append(f'<span id="{name}"></span>')
     text, number = re.subn(r"\s*\\tag\{([^}]*)\}", "", node.astext()), re.search(r"\\tag\{([^}]*)\}", node.astext())
     target = f'<a class="number" id="equation-{number[1]}" href="#equation-{number[1]}">({number[1]})</a>' if number else ""
-    writer.body.append(f'<div class="equation">{convert(text[0], display="block")}{target}</div>')
+    writer.body.append(f'<div class="equation">{mathml(text[0], display="block")}{target}</div>')
     raise nodes.SkipNode
 
 

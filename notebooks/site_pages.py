@@ -51,7 +51,7 @@ CARDS = (("a_mechanism_in_ten_minutes", "slider_crank", "Ten minutes", "a mechan
 
 def cards() -> Iterable[str]:
     """Four links of the first page, whose films play."""
-    yield '<div class="films">'
+    yield '<div class="films four">'
     yield from (f'<a href="{page}.html" data-film="films/{film}.html" data-plays=""><span class="still"><img src="films/{film}.png" alt="" '
                 f'class="dark-light" loading="lazy"></span><b>{title}</b><small>{text}</small></a>' for page, film, title, text in CARDS)
     yield from ("</div>", PLAYING)
@@ -103,10 +103,10 @@ def messages() -> Iterable[str]:
                 "`python -m zerodrift explain branch-jump` prints the section below it.", "",
                 "Errors of the package are {py:class}`zerodrift.ZerodriftError`; most carry the solution up to the place where it "
                 "stopped, as `error.solution`. Errors of arguments are `ValueError`, `TypeError` and `KeyError`, whose message states the "
-                "rule, the value and a hint, and ends without the code.", "")
+                "rule, the value and a hint, and ends without the code; theirs are the first three.", "")
     known, explained = codes(), explanations()
-    yield from ("| code | class | meaning |", "|---|---|---|")
-    yield from (f"| [`{code}`](#{code}) | `{each.__name__}` | {first_clause(meaning)} |" for code, (each, meaning) in known.items())
+    yield from ("| code | meaning |", "|---|---|")
+    yield from (f"| [`{code}`](#{code}) | {first_clause(meaning)} |" for code, (_, meaning) in known.items())
     for code, (each, meaning) in known.items():
         found = explained[code]
         yield from ("", f"({code})=", f"## {code}", "", f"`zerodrift.{each.__name__}`. {meaning}", "")
