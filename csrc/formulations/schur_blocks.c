@@ -23,7 +23,7 @@
 #include "../point/mass.h"
 #include "../point/matrices.h"
 
-enum { LONGEST_WAIT = 251 };     /* largest number of factorizations between verifications: a prime, so that all stages of a step are covered */
+enum { LONGEST_WAIT = 251 };  /* largest number of factorizations between verifications: a prime, so that all stages of a step are covered */
 static const double ACCURATE_RESIDUAL = 64 * 0x1p-52;        /* residual relative to the terms of C x of accurate solutions */
 
 zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system)

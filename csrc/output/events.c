@@ -16,6 +16,7 @@
 
 #include <math.h>
 
+#include "../paths/choose.h"
 #include "../point/quaternions.h"
 #include "../step_limits.h"
 

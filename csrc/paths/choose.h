@@ -2,7 +2,7 @@
 #ifndef ZD_CHOOSE_H
 #define ZD_CHOOSE_H
 
-#include "../safeguards/safeguards.h"
+#include "path.h"
 
 /* Closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this formulation. */
 const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
@@ -10,6 +10,20 @@ const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
 /* Chooses the evaluation path of a step that begins at the point; true: the closed-form path. */
 int zd_direct_choose(zd_motion *motion);
+
+/* The path for any step or a part of one, whose state may differ from the point. */
+static inline const zd_evaluation_path *zd_path_of_state(const zd_motion *motion)
+{
+    if (!zd_is_direct(motion)) return &zd_matrix_path;
+    return motion->path.embeds ? &zd_independent_path : &zd_converted_path;
+}
+
+/* The path of a step of the run. */
+static inline const zd_evaluation_path *zd_path_of(const zd_motion *motion)
+{
+    return motion->path.is_short ? &zd_closed_form_path : zd_path_of_state(motion);
+}
+
 /* Changes to the matrix path. */
 void zd_direct_leave(zd_motion *motion);
 /* Save and restore the counters of the energy correction at the start of a step. */

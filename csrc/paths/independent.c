@@ -25,4 +25,5 @@ static int finish(zd_stepper *self, int within)
     return status || zd_point_is_finite(self->motion->point) ? status : ZD_NOT_FINITE;
 }
 
-const zd_evaluation_path zd_independent_path = {"independent velocities, closed form", integrate, project, correct, finish, zd_path_check_pivots};
+const zd_evaluation_path zd_independent_path = {
+    "independent velocities, closed form", integrate, project, correct, finish, zd_path_check_pivots};

@@ -4,7 +4,6 @@
 #include "../linalg/norms.h"
 #include "../point/quaternions.h"
 #include "choose.h"
-#include "path.h"
 
 static int integrate(zd_stepper *self, double h)
 {

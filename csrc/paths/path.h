@@ -1,5 +1,5 @@
 /* Evaluation paths: the parts of a step, by the functions that suit its state. Integrators and corrections do not know which path they are
- * on. A new path is a new file and one line in zd_path_of().
+ * on. A new path is a new file and one line in zd_path_of(), choose.h.
  */
 #ifndef ZD_PATH_H
 #define ZD_PATH_H
@@ -25,19 +25,6 @@ extern const zd_evaluation_path zd_matrix_path, zd_converted_path, zd_independen
 
 /* zd_evaluation_path.check of the closed-form path by full checks, of a step from last.t to t. */
 int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts);
-
-/* The path for any step or a part of one, whose state may differ from the point. */
-static inline const zd_evaluation_path *zd_path_of_state(const zd_motion *motion)
-{
-    if (!zd_is_direct(motion)) return &zd_matrix_path;
-    return motion->path.embeds ? &zd_independent_path : &zd_converted_path;
-}
-
-/* The path of a step of the run. */
-static inline const zd_evaluation_path *zd_path_of(const zd_motion *motion)
-{
-    return motion->path.is_short ? &zd_closed_form_path : zd_path_of_state(motion);
-}
 
 /* Moves the point to y at t1 and applies the corrections that are due in this step, or all if `forced`, to both. */
 static inline int zd_path_end(const zd_evaluation_path *path, zd_stepper *self, double t1, int64_t step, int forced, int within)

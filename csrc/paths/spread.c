@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#include "choose.h"
 #include "closed_form.h"
 
 static int are_reviewed(const zd_motion *motion)
