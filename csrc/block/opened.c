@@ -6,20 +6,14 @@
 #include <string.h>
 
 #include "../workspace.h"
+#include "opened_memory.h"
 
-enum { MESSAGE = 500 };
+enum { MESSAGE = ZD_OPENED_MESSAGE };
 static const double SPAN = 1;       /* s: time scale of the checks of the start */
 
-struct zd_opened {
-    zd_block *block;
-    zd_run *run;
-    zd_settings settings;
-    double *p, *v, *vdot, *lambda, *Phi, *scratch;
-    char message[MESSAGE];
-};
-
-static zd_opened *take(zd_arena *arena, const zd_system *system)
+static zd_opened *take(zd_arena *arena, const zd_block *block)
 {
+    const zd_system *system = zd_block_system(block);
     zd_opened nowhere, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
     self->p = zd_take_doubles(arena, (size_t)system->nq);
     self->v = zd_take_doubles(arena, (size_t)system->nv);
@@ -28,21 +22,25 @@ static zd_opened *take(zd_arena *arena, const zd_system *system)
     self->Phi = zd_take_doubles(arena, (size_t)system->mh);
     const int of_measures = system->measures->scratch;
     self->scratch = zd_take_doubles(arena, (size_t)(of_measures > system->scratch ? of_measures : system->scratch));
+    const size_t inputs = (size_t)zd_block_inputs(block);
+    self->initial = zd_take_doubles(arena, inputs);
+    self->present = zd_take_doubles(arena, inputs);
+    self->places = zd_take_doubles(arena, ZD_OPENED_PLACE * inputs);
     return here;
 }
 
-static zd_opened *allocate(const zd_system *system)
+static zd_opened *allocate(const zd_block *block)
 {
     zd_arena counting = {.used = 0};
-    take(&counting, system);
+    take(&counting, block);
     zd_arena arena = {.base = zd_allocate(counting.used)};
-    return arena.base ? take(&arena, system) : NULL;
+    return arena.base ? take(&arena, block) : NULL;
 }
 
 static zd_opened *open_run(zd_block *block, double t, char *message, int size)
 {
     const double *start = zd_block_start(block);
-    zd_opened *self = start ? allocate(zd_block_system(block)) : NULL;
+    zd_opened *self = start ? allocate(block) : NULL;
     if (!self) {
         snprintf(message, (size_t)size, start ? "there is no memory for the run" : "the block must have a start");
         return NULL;
@@ -77,14 +75,20 @@ zd_block *zd_opened_block(const zd_opened *self) { return self->block; }
 const zd_run *zd_opened_run(const zd_opened *self) { return self->run; }
 const char *zd_opened_message(const zd_opened *self) { return self->message; }
 
+int zd_opened_settings(zd_opened *self, double t, zd_settings *settings)
+{
+    if (zd_block_settings(self->block, settings, self->message, MESSAGE)) return ZD_BAD_ARGUMENT;
+    *settings = self->settings;
+    settings->t0 = t;
+    settings->t1 = t + SPAN;
+    return ZD_DONE;
+}
+
 int zd_opened_restart(zd_opened *self, double t, const double *p, const double *v)
 {
     int status;
     zd_settings settings;
-    if (zd_block_settings(self->block, &settings, self->message, MESSAGE)) return ZD_BAD_ARGUMENT;
-    settings = self->settings;
-    settings.t0 = t;
-    settings.t1 = t + SPAN;
+    if (zd_opened_settings(self, t, &settings)) return ZD_BAD_ARGUMENT;
     zd_run *run = zd_run_create(zd_block_system(self->block), &settings, p, v, &status, self->message, MESSAGE);
     if (!run) return status;
     zd_run_free(self->run);

@@ -10,6 +10,8 @@ typedef struct zd_opened zd_opened;
 zd_opened *zd_opened_create(const void *data, size_t size, double t, char *message, int message_size);
 void zd_opened_free(zd_opened *self);
 zd_block *zd_opened_block(const zd_opened *self);
+/* Settings of a run from time t on; writes the inputs to their places. Returns ZD_DONE, or ZD_BAD_ARGUMENT with a message. */
+int zd_opened_settings(zd_opened *self, double t, zd_settings *settings);
 /* Begins a new run at (t, p, v), with the inputs as set; on failure the old one stays. */
 int zd_opened_restart(zd_opened *self, double t, const double *p, const double *v);
 /* The same from a state that is first projected onto the constraints. */
@@ -29,5 +31,14 @@ double zd_opened_violation(zd_opened *self);
 /* Number of components of all outputs, and their values in order. */
 int zd_opened_width(const zd_opened *self);
 int zd_opened_outputs(zd_opened *self, double *value);
+
+/* ---- saved states, as those of a run: see zd_state_save() ---- */
+
+/* Begins a new run whose state can be saved, at time t from the start of the block, with the inputs as set; on failure the old one stays. */
+int zd_opened_begin(zd_opened *self, double t);
+size_t zd_opened_state_size(const zd_opened *self);
+void zd_opened_save(const zd_opened *self, const char *fingerprint, void *state);
+/* Continues from a state of the same block, which has the inputs, too. On failure the present run and inputs stay. */
+int zd_opened_restore(zd_opened *self, const void *state, size_t size, const char *fingerprint);
 
 #endif

@@ -221,6 +221,12 @@ class LockedWarning(_Coded, UserWarning):
     code = "locked"
 
 
+class StateWarning(_Coded, UserWarning):
+    """A saved state of a run lacks the states of controllers, since these have no methods ``state()`` and ``restore(state)``."""
+
+    code = "controller-state"
+
+
 class CostWarning(_Coded, UserWarning):
     """A run would take much time or memory, and could take less; issued before it starts."""
 

@@ -1,5 +1,7 @@
 """`zd.fmu`: valid by FMPy, with the numbers of open runs, and the core's sentences as messages."""
 
+import subprocess
+import sys
 import zipfile
 
 import numpy as np
@@ -14,20 +16,63 @@ OUTPUTS = ["lower.end.position", "elbow.force", "upper.angle"]
 STEP = 1e-3
 
 
-def crane(torque=0.0, **more):
+def crane(torque=0.0, speed=None):
+    """Two links, whose upper one has a motor with this torque or this speed."""
     m = zd.Mechanism("two links", gravity=(0, -9.81))
     upper, lower = m.link("upper", (0, 0), (0, -1), mass=1.0), m.link("lower", (0, -1), (0, -2), mass=1.0)
     pin = m.revolute("pin", m.ground, upper.start)
     m.revolute("elbow", upper.end, lower.start)
-    m.motor("drive", pin, torque=torque)
+    m.motor("drive", pin, **({"torque": torque} if speed is None else {"speed": speed}))
     return m
 
 
 @pytest.fixture(scope="module", params=["3.0", "2.0"])
-def unit(request, tmp_path_factory):
+def version(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def unit(version, tmp_path_factory):
     """File of a crane whose torque is an input."""
     path = tmp_path_factory.mktemp("fmu") / "crane 1.fmu"
-    return zd.fmu(crane(), path, step=STEP, inputs=["drive.torque"], outputs=OUTPUTS, version=request.param)
+    return zd.fmu(crane(), path, step=STEP, inputs=["drive.torque"], outputs=OUTPUTS, version=version)
+
+
+class Opened:
+    """An instance of a unit that is stepped, after its initialization with some inputs."""
+
+    def __init__(self, unit, inputs=(), told=None):
+        description = fmpy.read_model_description(str(unit))
+        self.reference = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self.slave = fmpy.instantiate_fmu(fmpy.extract(str(unit)), description, fmi_type="CoSimulation",
+                                          **({} if told is None else {"logger": lambda *words: told.append(str(words))}))
+        self.three, self.t = description.fmiVersion == "3.0", 0.0
+        if not self.three:
+            self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+        self.set(dict(inputs))
+        self.slave.exitInitializationMode()
+
+    def set(self, inputs):
+        for name, value in inputs.items():
+            (self.slave.setFloat64 if self.three else self.slave.setReal)([self.reference[name]], [value])
+
+    def __getitem__(self, name):
+        return float((self.slave.getFloat64 if self.three else self.slave.getReal)([self.reference[name]])[0])
+
+    def step(self, steps, inputs=()):
+        self.set(dict(inputs))
+        self.slave.doStep(currentCommunicationPoint=self.t, communicationStepSize=steps * STEP)
+        self.t += steps * STEP
+
+    def call(self, name, *given):
+        """Function for states, which FMPy names as the version of the standard does."""
+        name = name if self.three else name.replace("FMUState", "FMUstate").replace("deserialize", "deSerialize")
+        return getattr(self.slave, name)(*given)
+
+    def close(self):
+        self.slave.terminate()
+        self.slave.freeInstance()
 
 
 def columns(result):
@@ -40,6 +85,9 @@ def test_it_is_valid(unit):
     assert validate_fmu(str(unit)) == []
     names = set(zipfile.ZipFile(unit).namelist())
     assert {"modelDescription.xml", "sources/block/plane.c", "sources/data.h"} <= names
+    description = fmpy.read_model_description(str(unit)).coSimulation
+    assert description.canGetAndSetFMUstate
+    assert description.canSerializeFMUstate
     variables = {variable.name: variable for variable in fmpy.read_model_description(str(unit)).modelVariables}
     assert {"drive.torque", "lower.end.position[1]", "elbow.force[2]", "upper.angle"} <= set(variables)
     assert variables["elbow.force[1]"].unit == "N"
@@ -54,24 +102,80 @@ def test_a_constant_input_gives_the_numbers_of_simulate(unit):
 
 
 def test_an_input_that_jumps_between_steps_gives_the_bits_of_an_open_run(unit):
-    description = fmpy.read_model_description(str(unit))
-    references = {variable.name: variable.valueReference for variable in description.modelVariables}
-    slave = fmpy.instantiate_fmu(fmpy.extract(str(unit)), description, fmi_type="CoSimulation")
-    three = description.fmiVersion == "3.0"
-    if not three:
-        slave.setupExperiment(startTime=0.0)
-    slave.enterInitializationMode()
-    slave.exitInitializationMode()
+    slave = Opened(unit)
     run = zd.Run(crane(), step=STEP, inputs=["drive.torque"], vector="baseline")
-    put, get = (slave.setFloat64, slave.getFloat64) if three else (slave.setReal, slave.getReal)
-    for i, torque in enumerate([1.0, -3.0, 0.5, 8.0]):
-        put([references["drive.torque"]], [torque])
+    for torque in [1.0, -3.0, 0.5, 8.0]:
         run["drive.torque"] = torque
-        slave.doStep(currentCommunicationPoint=0.05 * i, communicationStepSize=0.05)
+        slave.step(50, {"drive.torque": torque})
         run.step(50)
-        assert list(get([references["upper.angle"]])) == [run["upper.angle"]]
-    slave.terminate()
-    slave.freeInstance()
+        assert slave["upper.angle"] == run["upper.angle"]
+    slave.close()
+
+
+@pytest.mark.parametrize(("drive", "value"), [("torque", 3.0), ("speed", 0.5)])
+def test_a_restored_state_continues_with_the_same_bits(drive, value, version, tmp_path):
+    """Saved after one step with a new input, so that a speed is on its way to it; the torque began with another one."""
+    name = f"drive.{drive}"
+    unit = zd.fmu(crane(**{drive: 0.0}), tmp_path / "crane", step=STEP, inputs=[name], outputs=OUTPUTS, version=version)
+    one, other = Opened(unit, {name: 0.25 if drive == "torque" else 0.0}), Opened(unit)     # the links start at rest
+    one.step(30)
+    one.step(1, {name: value})
+    state = one.call("getFMUState")
+    saved = bytes(one.call("serializeFMUState", state))
+    expected = rest(one, drive)
+    one.call("setFMUState", state)
+    assert one[name] == value
+    assert rest(one, drive) == expected
+    one.call("freeFMUState", state)
+    other.step(7)
+    other.t = one.t
+    other.call("setFMUState", other.call("deserializeFMUState", saved))
+    assert rest(other, drive) == expected
+    (tmp_path / "state").write_bytes(saved)
+    program = f"import sys; sys.path[:0] = {sys.path!r}; import export.test_fmu as here; here.answer(*sys.argv[1:])"
+    said = subprocess.run([sys.executable, "-W", "ignore", "-c", program, unit, tmp_path / "state", drive], check=True,
+                          capture_output=True, text=True).stdout
+    assert said.split()[-1] == expected
+    one.close()
+    other.close()
+
+
+def rest(slave, drive):
+    """Digits of the outputs over some steps from a state on, with inputs that jump."""
+    start, found = slave.t, []
+    for i, value in enumerate([None, 1.0, -2.0]):
+        slave.step(20 + i, {} if value is None else {f"drive.{drive}": value})
+        found += [slave[name].hex() for name in ("upper.angle", "elbow.force[1]")]
+    slave.t = start
+    return ",".join(found)
+
+
+def answer(unit, state, drive):
+    """Print the rest of a run from a state in a file."""
+    slave = Opened(unit)
+    slave.t = 31 * STEP
+    with open(state, "rb") as file:
+        slave.call("setFMUState", slave.call("deserializeFMUState", file.read()))
+    print(rest(slave, drive))
+
+
+def test_a_state_that_is_damaged_is_refused_and_the_unit_goes_on(unit):
+    told = []
+    one, twin = Opened(unit, told=told), Opened(unit)
+    for each in (one, twin):
+        each.step(10, {"drive.torque": 2.0})
+    saved = bytes(one.call("serializeFMUState", one.call("getFMUState")))
+    for wrong, reason in ((saved[:-8], "must be whole"), (saved[:4], "must be whole"),
+                          (saved[:-1] + bytes([saved[-1] ^ 1]), "must be unchanged")):
+        told.clear()
+        with pytest.raises(Exception, match=r"SetFMU[sS]tate|failed|status"):
+            one.call("setFMUState", one.call("deserializeFMUState", wrong))
+        assert reason in "".join(told)
+    for each in (one, twin):
+        each.step(10)
+    assert one["upper.angle"] == twin["upper.angle"]
+    one.close()
+    twin.close()
 
 
 def test_failures_are_reported_with_the_sentence_of_the_core(unit):

@@ -104,6 +104,22 @@ def test_states_of_controllers_are_saved():
     assert same(run, other)
 
 
+def test_controllers_without_a_state_are_named():
+    def damp(run):
+        run["drive.torque"] = -run["pin.speed"]
+
+    run = zd.Run(arm(), step=0.01, inputs=["drive.torque"], control=[zd.every(0.02, call=Integral()), zd.every(0.03, call=damp)])
+    with pytest.warns(zd.StateWarning, match=r"nothing of the control <every 0\.03 s: damp>: .* \[zd:controller-state\]") as told:
+        run.save()
+    assert [each.filename for each in told] == [__file__]
+
+
+def test_a_copy_shares_its_controllers_and_names_none(recwarn):
+    run = zd.Run(arm(), step=0.01, inputs=["drive.torque"], control=zd.every(0.02, call=lambda run: None))
+    run.copy().step()
+    assert not recwarn.list
+
+
 def test_reset_goes_back_to_the_start():
     run = zd.Run(arm(), step=0.01, inputs=["drive.torque"], record=True)
     run["drive.torque"] = 3.0

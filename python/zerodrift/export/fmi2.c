@@ -81,13 +81,28 @@ FMU_EXPORT int fmi2GetRealStatus(void *instance, int kind, double *value)
     return FMU_OK;
 }
 
+FMU_EXPORT int fmi2GetFMUstate(void *instance, void **state) { return fmu_save(instance, state); }
+FMU_EXPORT int fmi2SetFMUstate(void *instance, void *state) { return fmu_restore(instance, state); }
+FMU_EXPORT int fmi2FreeFMUstate(void *instance, void **state) { return (void)instance, fmu_release(state); }
+
+FMU_EXPORT int fmi2SerializedFMUstateSize(void *instance, void *state, size_t *size) { return fmu_state_size(instance, state, size); }
+
+FMU_EXPORT int fmi2SerializeFMUstate(void *instance, void *state, unsigned char bytes[], size_t size)
+{
+    return fmu_serialize(instance, state, bytes, size);
+}
+
+FMU_EXPORT int fmi2DeSerializeFMUstate(void *instance, const unsigned char bytes[], size_t size, void **state)
+{
+    return fmu_deserialize(instance, bytes, size, state);
+}
+
 /* Functions for capabilities that the model description does not declare. */
 #define REFUSED(name) \
     FMU_EXPORT int name(void *instance); \
     FMU_EXPORT int name(void *instance) { return fmu_refuse(instance, #name " is not available"); }
 
 REFUSED(fmi2GetInteger) REFUSED(fmi2GetBoolean) REFUSED(fmi2GetString) REFUSED(fmi2SetInteger) REFUSED(fmi2SetBoolean) REFUSED(fmi2SetString)
-REFUSED(fmi2GetFMUstate) REFUSED(fmi2SetFMUstate) REFUSED(fmi2FreeFMUstate) REFUSED(fmi2SerializedFMUstateSize)
-REFUSED(fmi2SerializeFMUstate) REFUSED(fmi2DeSerializeFMUstate) REFUSED(fmi2GetDirectionalDerivative)
+REFUSED(fmi2GetDirectionalDerivative)
 REFUSED(fmi2SetRealInputDerivatives) REFUSED(fmi2GetRealOutputDerivatives) REFUSED(fmi2CancelStep) REFUSED(fmi2GetStatus)
 REFUSED(fmi2GetIntegerStatus) REFUSED(fmi2GetBooleanStatus) REFUSED(fmi2GetStringStatus)

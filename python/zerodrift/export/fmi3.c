@@ -68,6 +68,22 @@ FMU_EXPORT int fmi3DoStep(void *instance, double t, double size, bool no_set, bo
     return status;
 }
 
+FMU_EXPORT int fmi3GetFMUState(void *instance, void **state) { return fmu_save(instance, state); }
+FMU_EXPORT int fmi3SetFMUState(void *instance, void *state) { return fmu_restore(instance, state); }
+FMU_EXPORT int fmi3FreeFMUState(void *instance, void **state) { return (void)instance, fmu_release(state); }
+
+FMU_EXPORT int fmi3SerializedFMUStateSize(void *instance, void *state, size_t *size) { return fmu_state_size(instance, state, size); }
+
+FMU_EXPORT int fmi3SerializeFMUState(void *instance, void *state, unsigned char bytes[], size_t size)
+{
+    return fmu_serialize(instance, state, bytes, size);
+}
+
+FMU_EXPORT int fmi3DeserializeFMUState(void *instance, const unsigned char bytes[], size_t size, void **state)
+{
+    return fmu_deserialize(instance, bytes, size, state);
+}
+
 /* Functions for capabilities that the model description does not declare. */
 #define REFUSED(name) \
     FMU_EXPORT int name(void *instance); \
@@ -77,8 +93,7 @@ FMU_EXPORT int fmi3DoStep(void *instance, double t, double size, bool no_set, bo
 
 NONE(fmi3InstantiateModelExchange) NONE(fmi3InstantiateScheduledExecution)
 OF_TYPE(Float32) OF_TYPE(Int8) OF_TYPE(UInt8) OF_TYPE(Int16) OF_TYPE(UInt16) OF_TYPE(Int32) OF_TYPE(UInt32) OF_TYPE(Int64) OF_TYPE(UInt64)
-OF_TYPE(Boolean) OF_TYPE(String) OF_TYPE(Binary) OF_TYPE(Clock) OF_TYPE(FMUState)
-REFUSED(fmi3FreeFMUState) REFUSED(fmi3SerializedFMUStateSize) REFUSED(fmi3SerializeFMUState) REFUSED(fmi3DeserializeFMUState)
+OF_TYPE(Boolean) OF_TYPE(String) OF_TYPE(Binary) OF_TYPE(Clock)
 REFUSED(fmi3GetNumberOfVariableDependencies) REFUSED(fmi3GetVariableDependencies) REFUSED(fmi3GetDirectionalDerivative)
 REFUSED(fmi3GetAdjointDerivative) REFUSED(fmi3EnterConfigurationMode) REFUSED(fmi3ExitConfigurationMode) REFUSED(fmi3EnterEventMode)
 OF_TYPE(IntervalDecimal) OF_TYPE(IntervalFraction) OF_TYPE(ShiftDecimal) OF_TYPE(ShiftFraction)

@@ -51,6 +51,7 @@ static int fmu_begin(fmu *self)
     self->opened = zd_opened_create(block_words, sizeof block_words, self->start, self->message, sizeof self->message);
     self->is_new = true;
     if (!self->opened) return fmu_refuse(self, NULL);
+    if (zd_opened_begin(self->opened, self->start)) return fmu_refuse(self, zd_opened_message(self->opened));
     for (int i = 0; i < INPUTS; i++) self->inputs[i] = zd_block_input(zd_opened_block(self->opened), i);
     return FMU_OK;
 }
@@ -76,9 +77,8 @@ static void fmu_free(fmu *self)
 static int fmu_initialize(fmu *self)
 {
     if (fmu_pass_inputs(self)) return FMU_ERROR;
-    const zd_run *run = zd_opened_run(self->opened);
     self->is_new = true;
-    return zd_opened_restart(self->opened, self->start, zd_run_p(run), zd_run_v(run)) ? fmu_refuse(self, zd_opened_message(self->opened)) : FMU_OK;
+    return zd_opened_begin(self->opened, self->start) ? fmu_refuse(self, zd_opened_message(self->opened)) : FMU_OK;
 }
 
 static int fmu_step(fmu *self, double t, double size)
@@ -108,6 +108,76 @@ static int fmu_set(fmu *self, const uint32_t *reference, size_t count, const dou
         if (reference[i] < 1 || reference[i] > INPUTS) return fmu_refuse(self, "only inputs may be set");
         self->inputs[reference[i] - 1] = value[i];
     }
+    return FMU_OK;
+}
+
+/* ---- saved states ---- */
+
+typedef struct fmu_state {
+    size_t size;                /* of `bytes` */
+    unsigned char bytes[];
+} fmu_state;
+
+/* Text that identifies the mechanism and this library: another one lays out its memory in its own way. */
+static const char *fmu_fingerprint(char text[64])
+{
+    snprintf(text, 64, "%s%llx", TOKEN, (unsigned long long)((uintptr_t)zd_opened_restore - (uintptr_t)zd_run_create));
+    return text;
+}
+
+static int fmu_save(fmu *self, void **state)
+{
+    char text[64];
+    const size_t size = zd_opened_state_size(self->opened);
+    fmu_state *made = realloc(*state, sizeof *made + size);
+    if (!made) return fmu_refuse(self, "there is no memory for the state");
+    made->size = size;
+    zd_opened_save(self->opened, fmu_fingerprint(text), made->bytes);
+    *state = made;
+    return FMU_OK;
+}
+
+static int fmu_restore(fmu *self, const fmu_state *state)
+{
+    char text[64];
+    if (!state) return fmu_refuse(self, "a state must be given");
+    if (zd_opened_restore(self->opened, state->bytes, state->size, fmu_fingerprint(text)))
+        return fmu_refuse(self, zd_opened_message(self->opened));
+    for (int i = 0; i < INPUTS; i++) self->inputs[i] = zd_block_input(zd_opened_block(self->opened), i);
+    self->is_new = true;
+    return FMU_OK;
+}
+
+static int fmu_release(void **state)
+{
+    if (state) {
+        free(*state);
+        *state = NULL;
+    }
+    return FMU_OK;
+}
+
+static int fmu_state_size(fmu *self, const fmu_state *state, size_t *size)
+{
+    if (!state) return fmu_refuse(self, "a state must be given");
+    *size = state->size;
+    return FMU_OK;
+}
+
+static int fmu_serialize(fmu *self, const fmu_state *state, unsigned char *bytes, size_t size)
+{
+    if (!state || size < state->size) return fmu_refuse(self, "the bytes must have the size of the state");
+    memcpy(bytes, state->bytes, state->size);
+    return FMU_OK;
+}
+
+static int fmu_deserialize(fmu *self, const unsigned char *bytes, size_t size, void **state)
+{
+    fmu_state *made = realloc(*state, sizeof *made + size);
+    if (!made) return fmu_refuse(self, "there is no memory for the state");
+    made->size = size;
+    memcpy(made->bytes, bytes, size);
+    *state = made;
     return FMU_OK;
 }
 

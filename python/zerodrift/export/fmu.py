@@ -26,7 +26,7 @@ from .c_source import core_of, data
 from .core_files import CoreFiles
 
 VERSIONS = ("3.0", "2.0")
-OPENED = ("block/opened.c",)
+OPENED = ("block/opened.c", "block/opened_states.c")
 FLAGS = ("-O2", "-std=c11", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden")
 MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
 SYSTEMS = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
@@ -52,7 +52,8 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
 
     The file has the mechanism as a block of data (see `block`), the core's sources, and a library for this platform, which the C
     compiler makes; the core is compiled once for the same methods and kept in the cache. The unit makes fixed steps; if those of
-    the importer are not a whole number of them, the last one is shorter.
+    the importer are not a whole number of them, the last one is shorter. Its state can be saved, restored and serialized; a
+    restored unit continues with the same bits, in another process with the same library, too.
 
     Parameters
     ----------
@@ -117,7 +118,7 @@ def _place(version: str) -> tuple[str, str]:
 def _packed(made: Chosen, identifier: str, version: str, place: tuple[str, str]) -> bytes:
     """The zip file."""
     scalars = _scalars(made)
-    token = "{" + hashlib.sha256(written(made) + version.encode()).hexdigest()[:32] + "}"
+    token = "{" + hashlib.sha256(written(made) + version.encode() + _gateway.FINGERPRINT.encode()).hexdigest()[:32] + "}"
     files = core_of(made, OPENED)
     own = {f"fmi{version[0]}.c": _text(f"fmi{version[0]}.c"), "fmu.h": _text("fmu.h"),
            "data.h": f'#define TOKEN "{token}"\n{data(made)}'}
@@ -214,7 +215,7 @@ def _description3(made: Chosen, identifier: str, token: str, scalars: Sequence[S
     structure = "".join(f'    <{kind} valueReference="{reference}"/>\n' for kind in ("Output", "InitialUnknown")
                         for reference in outputs)
     return (f"""{_heading(made, "3.0", f"instantiationToken={quoteattr(token)}")}  <CoSimulation modelIdentifier="{identifier}"\
- canHandleVariableCommunicationStepSize="true"/>
+ canHandleVariableCommunicationStepSize="true" canGetAndSetFMUState="true" canSerializeFMUState="true"/>
 {_units(scalars)}{_experiment(made)}  <ModelVariables>
     <Float64 name="time" valueReference="0" causality="independent" variability="continuous" unit="s"/>
 {variables}  </ModelVariables>
@@ -234,7 +235,7 @@ def _description2(made: Chosen, identifier: str, token: str, scalars: Sequence[S
     structure = "".join(f"    <{kind}>\n{unknowns}    </{kind}>\n" for kind in kinds)
     sources = "".join(f'      <File name="{name}"/>\n' for name in ["fmi2.c", *files.sources])
     return (f"""{_heading(made, "2.0", f"guid={quoteattr(token)}")}  <CoSimulation modelIdentifier="{identifier}"\
- canHandleVariableCommunicationStepSize="true">
+ canHandleVariableCommunicationStepSize="true" canGetAndSetFMUstate="true" canSerializeFMUstate="true">
     <SourceFiles>
 {sources}    </SourceFiles>
   </CoSimulation>

@@ -26,6 +26,20 @@ class ManyRuns:
 
     Each has the bits that it has alone. They execute in one thread per available processor if the system does not call Python.
 
+    Parameters
+    ----------
+    system : system
+        As of `Run`; fastest from ``mechanism.system(compiled=True)``.
+    p0, v0 : array_like (nq,), (nv,), or of each run (runs, nq), (runs, nv), optional
+        Starts; by default that of the system.
+    runs : int
+        Number of runs.
+    parameters : dict of str to float or array_like (runs,), optional
+        Parameters of the system in each run.
+    t0, step, inputs, **settings
+        As of `Run`, except `events`, `outputs`, `control`, `record` and `save_to`, which are not available: a controller is a
+        loop that sets ``runs[name]`` between calls of `step`.
+
     Attributes
     ----------
     system : system
@@ -53,6 +67,13 @@ class ManyRuns:
     >>> runs.reset(where=runs["pin.speed"] > 1.5)
     >>> runs.t
     array([1., 1., 0., 0.])
+
+    Some of them continue from the state of another one:
+
+    >>> states = runs.save()
+    >>> runs.restore(states[1], where=runs.t == 0.0)
+    >>> runs.t, runs["drive.torque"]
+    (array([1., 1., 1., 1.]), array([0., 1., 1., 1.]))
     """
 
     def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, runs: int, parameters: Any = None, t0: float = 0.0,

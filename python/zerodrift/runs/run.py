@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import time
+import warnings
 from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import WrongName, WrongState, WrongType, WrongValue
+from ..errors import StateWarning, WrongName, WrongState, WrongType, WrongValue
 from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
@@ -50,7 +51,7 @@ class Run:
     save_to : str or Path, optional
         File to which samples are written, as of `simulate`; includes `record`.
     runs : int, optional
-        Number of runs: then a ``ManyRuns`` is made, which takes `p0` (runs, nq), `v0` (runs, nv), `t0`, `step`, `inputs`,
+        Number of runs: then a `ManyRuns` is made, which takes `p0` (runs, nq), `v0` (runs, nv), `t0`, `step`, `inputs`,
         `parameters` and settings except `events` and `outputs`, and has arrays (runs, ...) in the place of numbers.
     parameters : dict of str to array_like (runs,)
         With `runs`: parameters of the system in each run.
@@ -74,6 +75,7 @@ class Run:
     See Also
     --------
     simulate : the shortest use of a run: to a given end, with a record of all samples.
+    ManyRuns : many runs of one system.
 
     Notes
     -----
@@ -82,6 +84,9 @@ class Run:
 
     A step that fails raises the error that `simulate` raises, and leaves the run at the start of that step: it can be read and go
     on, for example after another input. The same holds for Ctrl-C, and for what events and controllers raise.
+
+    Not available: speeds as inputs with adaptive steps; jumps of a speed within no time, as an impulse; and user functions of a
+    mechanism and events that read reactions, which controllers and ``run[name]`` do.
 
     Examples
     --------
@@ -383,11 +388,16 @@ class Run:
 
         A run that is made alike, here or in another process with the same build on a processor with the same vector unit,
         continues from it with the same bits. Controllers with the methods ``state()`` and ``restore(state)`` are included;
-        others keep what they have. Samples are not.
+        others keep what they have, and are named in a warning. Samples are not.
 
         Returns
         -------
         bytes
+
+        Warns
+        -----
+        StateWarning
+            If a controller has no methods ``state()`` and ``restore(state)``.
 
         Examples
         --------
@@ -402,6 +412,12 @@ class Run:
         >>> bool((run.p == p).all())
         True
         """
+        if others := [repr(each) for each in self._controllers if not _has_state(each.call)]:
+            warnings.warn(f"a saved state has nothing of the control {', '.join(others)}: what it keeps between calls is "
+                          "restored only if it has the methods state() and restore(state)", StateWarning, stacklevel=2)
+        return self._saved()
+
+    def _saved(self) -> bytes:
         return saved(self._ready, self._core, [each.state() for each in self._keeping()])
 
     def restore(self, state: bytes) -> None:
@@ -439,7 +455,7 @@ class Run:
         twin = object.__new__(type(self))
         twin._begin(self._renewed(), self._controllers)
         twin._lock = recording.locked(None)
-        twin.restore(self.save())
+        twin.restore(self._saved())
         return twin
 
     def reset(self, p0: Any = None, v0: Any = None) -> None:
@@ -479,7 +495,7 @@ class Run:
 
     def _keeping(self) -> list[Any]:
         """Controllers with a state of their own."""
-        return [each.call for each in self._controllers if hasattr(each.call, "state") and hasattr(each.call, "restore")]
+        return [each.call for each in self._controllers if _has_state(each.call)]
 
     # ---- record ----
 
@@ -537,3 +553,8 @@ class Run:
         if self._record is not None and self._ready.path:
             finish_file(self._record, self._solution(Outcome(_gateway.DONE, self._seconds, None)), None)
         self.close()
+
+
+def _has_state(controller: Any) -> bool:
+    """True if a state of the controller can be saved."""
+    return hasattr(controller, "state") and hasattr(controller, "restore")

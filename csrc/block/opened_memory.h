@@ -1,0 +1,22 @@
+/* Memory of the mechanism of a block with its open run. */
+#ifndef ZD_BLOCK_OPENED_MEMORY_H
+#define ZD_BLOCK_OPENED_MEMORY_H
+
+#include "block.h"
+
+enum {
+    ZD_OPENED_MESSAGE = 500,
+    ZD_OPENED_PLACE = 3         /* numbers at most at the place of an input */
+};
+
+struct zd_opened {
+    zd_block *block;
+    zd_run *run;
+    zd_settings settings;
+    double *p, *v, *vdot, *lambda, *Phi, *scratch;
+    double t0, *initial;        /* time and inputs (inputs,) at the start of the run, if its state can be saved */
+    double *present, *places;   /* (inputs,), (inputs, 3): copies of the inputs and of their places, put back if a state is refused */
+    char message[ZD_OPENED_MESSAGE];
+};
+
+#endif
