@@ -164,7 +164,7 @@ def test_rows_of_a_large_structure_that_contradict_each_other_are_named():
                          constraints=lambda p, t: np.append(p[::2] - p[1::2], p[0] - p[1] - t**order),
                          structure=zd.Structure([2] * n, [*((1, [b]) for b in range(n)), (1, [0])], "constant diagonal"))
 
-    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d+ follows from the others, but row \d+ asks"):
+    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d+ follows from the others, but row \d+ requires"):
         zd.simulate(system(2), 0.01, **STEP)
 
 

@@ -76,7 +76,8 @@ def onto(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[str, np.ndar
         p = consistent(system, p + change)
         if size < CONVERGED or (size < STAGNATED and size > last / 4):
             return p
-        if is_independent and size < QUADRATIC and size**3 < CONVERGED * last**2 / 10:     # as large as the next step would be
+        is_quadratic = is_independent and size < QUADRATIC and last < np.inf
+        if is_quadratic and size**3 < CONVERGED * last**2 / 10:     # as large as the next step would be
             return p
         last = size
     raise CorrectionFailed(f"no position satisfies the constraints{' and ' + ', '.join(held) if held else ''} near the guess: "
