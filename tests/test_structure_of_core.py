@@ -10,8 +10,10 @@ import pytest
 
 from core_objects import CSRC, unit_of
 from room_order import ORDER, height
+from support import ROOT
 
 LONGEST = 40        # lines of a function
+WIDEST = 142        # columns of a line
 
 
 def includes():
@@ -111,10 +113,15 @@ def test_plane_and_space_share_the_room_common_alone():
     assert included == {"common": {"common"}, "plane": {"plane", "common"}, "space": {"space", "common"}}
 
 
+def is_generated(path):
+    """True for closed forms, series and double-double kernels of the core's own systems, which are written by a program."""
+    return path.parent.parent == CSRC / "systems"
+
+
 def functions():
     """The lines of each function, from its name to the closing brace: both are at the margin, and nothing else of it is."""
     for path in CSRC.rglob("*.[ch]"):
-        if path.parent.parent == CSRC / "systems":      # written by a program, for none to read
+        if is_generated(path):
             continue
         for match in re.finditer(r"^[A-Za-z][^;={}/]*?(\w+)\([^;{}]*\)\n\{\n.*?^\}$", path.read_text(), re.MULTILINE | re.DOTALL):
             yield f"{unit_of(path)}: {match[1]}", match[0].count("\n") + 1
@@ -124,6 +131,14 @@ def test_functions_are_short():
     lengths = dict(functions())
     assert len(lengths) > 300
     assert {name: lines for name, lines in lengths.items() if lines > LONGEST} == {}
+
+
+def test_lines_of_c_are_within_their_columns():
+    """Of the core, of what exported models contain, and of the tests' own programs."""
+    files = [path for folder in (CSRC, ROOT / "python", ROOT / "tests") for path in folder.rglob("*.[ch]") if not is_generated(path)]
+    assert len(files) > 300
+    assert [f"{path.relative_to(ROOT)}:{number}" for path in files
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1) if len(line) > WIDEST] == []
 
 
 def test_lanes_and_single_runs_share_the_limits_of_steps():

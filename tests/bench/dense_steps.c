@@ -1,10 +1,12 @@
-/* A large system whose rows are independent all the way, through the core's public interface: what an ordinary run costs, in time and in memory.
+/* A large system whose rows are independent all the way, through the core's public interface: what an ordinary run costs, in time and in
+ * memory.
  *
  *     M constant, f = -p - c v,    Phi_k = b_k p + 1/2 sum_i q_ki p_i^2
  *
  * with n = 60 velocities and m = 50 rows of random numbers, so that every entry of C moves at every step. Prints for each formulation "<name>
  * <ns per step> <bytes held while it steps> <most bytes at once> <p_0 at the end>", the least time of so many rounds.
- * Compiled with -DEARLIER for cores whose settings were others. Linked with --wrap=aligned_alloc,--wrap=free, so that memory is counted where the core asks for it.
+ * Compiled with -DEARLIER for cores whose settings were others. Linked with --wrap=aligned_alloc,--wrap=free, so that memory is counted where
+ * the core asks for it.
  */
 #include <malloc.h>
 #include <math.h>

@@ -1,4 +1,5 @@
-/* What a corrected RK4 step of the paper's four-bar costs by hand where LANES runs go side by side in a vector: the yardstick of bench_lanes.py.
+/* What a corrected RK4 step of the paper's four-bar costs by hand where LANES runs go side by side in a vector: the yardstick of
+ * bench_lanes.py.
  *
  *     cc -O3 -std=gnu11 -march=native -mprefer-vector-width=512 -DLANES=8 -shared -fPIC -o floor.so four_bar_lanes_floor.c
  *
@@ -105,11 +106,13 @@ static inline void look(const real *p, pose *a)
 static inline void eliminate(pose *a)
 {
     const real *s = a->s, *c = a->c;
-    const real det = L2 * L3 * (s[2] * c[1] - c[2] * s[1]), e2 = L1 * L3 * (s[0] * c[2] - c[0] * s[2]), e3 = L1 * L2 * (s[1] * c[0] - c[1] * s[0]);
+    const real det = L2 * L3 * (s[2] * c[1] - c[2] * s[1]), e2 = L1 * L3 * (s[0] * c[2] - c[0] * s[2]);
+    const real e3 = L1 * L2 * (s[1] * c[0] - c[1] * s[0]);
     a->m12 = K12 * (c[0] * c[1] + s[0] * s[1]);
     a->m13 = K13 * (c[0] * c[2] + s[0] * s[2]);
     a->m23 = K23 * (c[1] * c[2] + s[1] * s[2]);
-    const real z1 = M11 * det + a->m12 * e2 + a->m13 * e3, z2 = a->m12 * det + M22 * e2 + a->m23 * e3, z3 = a->m13 * det + a->m23 * e2 + M33 * e3;
+    const real z1 = M11 * det + a->m12 * e2 + a->m13 * e3, z2 = a->m12 * det + M22 * e2 + a->m23 * e3;
+    const real z3 = a->m13 * det + a->m23 * e2 + M33 * e3;
     const real energy = z1 * det + z2 * e2 + z3 * e3, both = 1 / (det * energy);
     a->inverse = both * energy;
     a->d2 = e2 * a->inverse, a->d3 = e3 * a->inverse;
@@ -160,7 +163,8 @@ static inline void correct(real *p, real *v)
         for (int i = 0; i < 3; i++) p[i] -= (real)((word)x[i] & open);
     }
     eliminate(&a);
-    solve(&a, -(L1 * a.s[0] * v[0] + L2 * a.s[1] * v[1] + L3 * a.s[2] * v[2]), L1 * a.c[0] * v[0] + L2 * a.c[1] * v[1] + L3 * a.c[2] * v[2], NULL, x);
+    solve(&a, -(L1 * a.s[0] * v[0] + L2 * a.s[1] * v[1] + L3 * a.s[2] * v[2]),
+          L1 * a.c[0] * v[0] + L2 * a.c[1] * v[1] + L3 * a.c[2] * v[2], NULL, x);
     for (int i = 0; i < 3; i++) v[i] -= x[i];
 }
 
@@ -190,9 +194,11 @@ void floor_in_lanes(int groups, int steps, double h, double *all_p, double *all_
     for (int g = 0; g < groups; g++) {
         real p[3], v[3];
         for (int i = 0; i < 3; i++)
-            for (int lane = 0; lane < LANES; lane++) p[i][lane] = all_p[(3 * g + i) * LANES + lane], v[i][lane] = all_v[(3 * g + i) * LANES + lane];
+            for (int lane = 0; lane < LANES; lane++)
+                p[i][lane] = all_p[(3 * g + i) * LANES + lane], v[i][lane] = all_v[(3 * g + i) * LANES + lane];
         for (int k = 0; k < steps; k++) step(p, v, h);
         for (int i = 0; i < 3; i++)
-            for (int lane = 0; lane < LANES; lane++) all_p[(3 * g + i) * LANES + lane] = p[i][lane], all_v[(3 * g + i) * LANES + lane] = v[i][lane];
+            for (int lane = 0; lane < LANES; lane++)
+                all_p[(3 * g + i) * LANES + lane] = p[i][lane], all_v[(3 * g + i) * LANES + lane] = v[i][lane];
     }
 }

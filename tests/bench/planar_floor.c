@@ -1,11 +1,12 @@
-/* What a corrected step of a row of N parallelograms costs by hand: RK4 on (13), one position iteration (27a) and one velocity correction (27b), in
- * absolute coordinates. Factors of the velocity correction serve the first stage of the next step. Rods have 1 m and 1 kg.
+/* What a corrected step of a row of N parallelograms costs by hand: RK4 on (13), one position iteration (27a) and one velocity correction
+ * (27b), in absolute coordinates. Factors of the velocity correction serve the first stage of the next step. Rods have 1 m and 1 kg.
  *
  *     planar_floor N ...      prints "bodies N microseconds" and "blocks N microseconds" of a step, and what Phi is in the end
  *
- * For "bodies" C is never stored; for "blocks" each pin fills blocks of 2 x 3 that are multiplied as they are, and W = M^-1 is a full block of each
- * body. S = C W C^T has 2 x 2 blocks. Pins on the ground are eliminated first, which adds no fill; the others are a chain then, and are taken from
- * its ends in turn, so that two chains of operations need not wait for one another. The ground is body 0, without inverse mass.
+ * For "bodies" C is never stored; for "blocks" each pin fills blocks of 2 x 3 that are multiplied as they are, and W = M^-1 is a full block
+ * of each body. S = C W C^T has 2 x 2 blocks. Pins on the ground are eliminated first, which adds no fill; the others are a chain then, and
+ * are taken from its ends in turn, so that two chains of operations need not wait for one another. The ground is body 0, without inverse
+ * mass.
  */
 #include <math.h>
 #include <stdio.h>

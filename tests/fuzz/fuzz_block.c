@@ -32,7 +32,8 @@ static unsigned below(unsigned n)
 
 static double number(double old)
 {
-    static const double special[] = {0, -1, 1, 2, 3, -2, 7, 0.5, NAN, INFINITY, -INFINITY, DBL_MAX, 5e-324, 1e-12, 1e8, 0x1p24, 0x1p31, 0x1p53, 1e300};
+    static const double special[] = {0, -1, 1, 2, 3, -2, 7, 0.5, NAN, INFINITY, -INFINITY, DBL_MAX, 5e-324,
+                                     1e-12, 1e8, 0x1p24, 0x1p31, 0x1p53, 1e300};
     const unsigned kind = below(8);
     if (kind == 0) return old + 1;
     if (kind == 1) return old - 1;
@@ -64,7 +65,8 @@ static size_t spoil(unsigned char *block, size_t size)
 static void read_measures(const zd_system *system, const double *p, const double *v)
 {
     const int count = system->measures->count, m = system->mh + system->mn;
-    double *zeros = calloc((size_t)(system->nv + m + 1), sizeof *zeros), *scratch = calloc((size_t)system->measures->scratch + 1, sizeof *scratch);
+    double *zeros = calloc((size_t)(system->nv + m + 1), sizeof *zeros);
+    double *scratch = calloc((size_t)system->measures->scratch + 1, sizeof *scratch);
     for (int i = 0; i < count && i < 100; i++) {
         double *value = calloc((size_t)system->measures->measure[i].size, sizeof *value), t = 0;
         zd_measure_states(system, NULL, i, 1, &t, p, v, zeros, zeros + system->nv, value, scratch);

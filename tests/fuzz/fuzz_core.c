@@ -349,7 +349,8 @@ static void simulate(input *in, const zd_system *system, const zd_settings *sett
     for (int call = 0; call < CALLS && (status == ZD_PAUSED || status == ZD_FULL); call++) {
         zd_record record = make_record(system, below(in, 12) + (settings->t_eval && below(in, 4) ? TIMES + 1 : 0));
         status = zd_run_advance(run, &record, 0);
-        EXPECT((status <= ZD_FULL || (status == ZD_EVENT && settings->events)) && (status < 0 || status == ZD_EVENT) == (zd_run_message(run)[0] != '\0'));
+        EXPECT(status <= ZD_FULL || (status == ZD_EVENT && settings->events));
+        EXPECT((status < 0 || status == ZD_EVENT) == (zd_run_message(run)[0] != '\0'));
         check_rows(system, settings, zd_run_sizes(run), &record, &last);
         free_record(&record);
         double now = zd_run_progress(run);

@@ -1,10 +1,10 @@
 /* What the core's cheap looks say of one matrix after another, that has read them: for constraints/test_rank_monitor.py.
  *
- * Reads n, m, how many matrices C there are, a matrix M (n, n), and then the matrices (m, n), all as doubles, again and again. Prints for each matrix
- * of constraints/rank_monitor.c whether it is doubtful and whether it may have been turned; of formulations/schur.c the same. That file is included for what
- * it holds against both numbers of an orthogonalization, and the start is the first matrix. With an argument, rows are of a chain of bodies with
- * three velocities each, as many for each two neighbours, and what rank_monitor.c says of them packed takes the place of what `schur` says. It fails where
- * rows that both keep may change by different amounts, or there never are such rows.
+ * Reads n, m, how many matrices C there are, a matrix M (n, n), and then the matrices (m, n), all as doubles, again and again. Prints for
+ * each matrix of constraints/rank_monitor.c whether it is doubtful and whether it may have been turned; of formulations/schur.c the same.
+ * That file is included for what it holds against both numbers of an orthogonalization, and the start is the first matrix. With an argument,
+ * rows are of a chain of bodies with three velocities each, as many for each two neighbours, and what rank_monitor.c says of them packed
+ * takes the place of what `schur` says. It fails where rows that both keep may change by different amounts, or there never are such rows.
  */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
-/* Memory that ends while a run steps: parallelograms that pass the bifurcation of each of them, in every formulation. What the core asks for is only
- * granted so many times once the run is there, one time more in each run until nothing is refused. Linked with --wrap, so that each call of the core
- * itself arrives here. Steps are of fixed size, where rows come to depend in a stage or, as Euler's method has none, while positions are corrected;
- * and chosen. Prints "<formulation> <integrator> <granted> <status> <blocks left when the run is freed> <message>".
+/* Memory that ends while a run steps: parallelograms that pass the bifurcation of each of them, in every formulation. What the core asks for
+ * is only granted so many times once the run is there, one time more in each run until nothing is refused. Linked with --wrap, so that each
+ * call of the core itself arrives here. Steps are of fixed size, where rows come to depend in a stage or, as Euler's method has none, while
+ * positions are corrected; and chosen. Prints "<formulation> <integrator> <granted> <status> <blocks left when the run is freed> <message>".
  */
 #include <math.h>
 #include <stdio.h>
@@ -33,8 +33,8 @@ void __wrap_free(void *memory)
     __real_free(memory);
 }
 
-/* Each with cranks of 0.3 m and a coupler of 1 m, whose inertia is constant; no forces. The second crank's angle is s + BEND s^2, so that no step ends
- * on the constraints by itself. */
+/* Each with cranks of 0.3 m and a coupler of 1 m, whose inertia is constant; no forces. The second crank's angle is s + BEND s^2, so that no
+ * step ends on the constraints by itself. */
 static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     static const double length[3] = {0.3, 1, -0.3};
@@ -75,8 +75,8 @@ static void run(const zd_system *system, const zd_settings *settings, int grant)
     if (it) status = zd_run_advance(it, &record, 1e9);
     if (it) snprintf(message, sizeof message, "%s", zd_run_message(it));
     zd_run_free(it);
-    printf("%s %s %d %d %d %s\n", zd_row(ZD_FORMULATIONS, settings->formulation)->name, zd_row(ZD_INTEGRATORS, settings->integrator)->name, grant,
-           status, blocks, message);
+    printf("%s %s %d %d %d %s\n", zd_row(ZD_FORMULATIONS, settings->formulation)->name, zd_row(ZD_INTEGRATORS, settings->integrator)->name,
+           grant, status, blocks, message);
 }
 
 int main(void)
