@@ -9,6 +9,12 @@
 enum { CLOCK_EVERY = 16 };      /* steps between readings of the clock */
 static const double SLICE = 0.03;   /* s: time slice of zd_run_step() */
 
+/* True if a step has nothing before it and nothing after it except its sample: no events, inputs, output times, or return after a failure. */
+static int is_plain(const zd_settings *settings)
+{
+    return !settings->t_eval && !settings->events && !settings->inputs && !settings->is_open;
+}
+
 static int take_step(zd_run *run)
 {
     const zd_settings *settings = &run->settings;
@@ -18,24 +24,19 @@ static int take_step(zd_run *run)
     return zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);
 }
 
-static int save_what_is_due(zd_run *run, zd_record *record)
-{
-    const zd_settings *settings = &run->settings;
-    if (settings->t_eval) return zd_output_after(&run->output, record, run->watch.ended);
-    return zd_step_loop_is_due(&run->loop, settings->save_every) ? zd_recorder_add(&run->recorder, record) : ZD_DONE;
-}
-
 static int save(zd_run *run, zd_record *record)
 {
-    int status = save_what_is_due(run, record);
+    const zd_settings *settings = &run->settings;
+    if (!settings->t_eval && !zd_step_loop_is_due(&run->loop, settings->save_every)) return ZD_DONE;
+    int status = settings->t_eval ? zd_output_after(&run->output, record, run->watch.ended) : zd_recorder_add(&run->recorder, record);
     run->output.is_waiting = status == ZD_FULL;
     return status;
 }
 
-static int is_over(const zd_run *run)
+static int has_all_samples(const zd_run *run)
 {
     const zd_settings *settings = &run->settings;
-    return run->stepper.t == run->loop.end || (settings->t_eval && !settings->events && zd_output_is_complete(&run->output));
+    return settings->t_eval && !settings->events && zd_output_is_complete(&run->output);
 }
 
 /* Saves the sample of the start, or the one for which the previous record had no room. */
@@ -46,13 +47,12 @@ static int begin(zd_run *run, zd_record *record)
     return save(run, record);
 }
 
-/* One step with what follows it. An open run can go on after a step that failed: it returns to the start of that step. */
-static int go_on(zd_run *run, zd_record *record)
+/* One step with what precedes it. An open run can go on after a step that failed: it returns to the start of that step. */
+static int go_on(zd_run *run)
 {
     if (run->settings.is_open) zd_run_keep_good(run);
     int status = run->settings.inputs ? zd_inputs_begin_step(run) : ZD_DONE;
-    if (!status) status = take_step(run);
-    return status || !record ? status : save(run, record);
+    return status ? status : take_step(run);
 }
 
 /* Explains why the run ends, or why an open run stops before its goal. */
@@ -71,13 +71,15 @@ static int finish(zd_run *run, int status)
 int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     double deadline = zd_seconds_now() + seconds;
+    const int plain = is_plain(&run->settings);
     const int64_t first = run->loop.step;    /* each slice makes at least one step */
     int status = run->outcome.status ? run->outcome.status : begin(run, record);
     if (!status && zd_inputs_read(run)) return ZD_BAD_INPUT;
-    while (!status && !is_over(run) && run->loop.step < run->goal.step) {
+    while (!status && run->stepper.t != run->loop.end && run->loop.step < run->goal.step && (plain || !has_all_samples(run))) {
         const int64_t step = run->loop.step;
         if (step > first && step % CLOCK_EVERY == 0 && zd_seconds_now() >= deadline) return ZD_PAUSED;
-        status = go_on(run, record);
+        status = plain ? zd_step(&run->loop) : go_on(run);
+        if (!status && record) status = save(run, record);
     }
     return status == ZD_FULL ? status : finish(run, status);
 }

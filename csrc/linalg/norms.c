@@ -28,18 +28,7 @@ int zd_is_finite(int n, const double *x)
     return ZD_SIZED(is_finite, n, x);
 }
 
-ZD_INLINE double largest_scaled(const int n, const double *x, const double *scale)
-{
-    double largest = 0, sum = 0;            /* the sum is NaN if any entry is */
-    for (int i = 0; i < n; i++) {
-        double size = fabs(x[i]) * scale[i];
-        largest = size > largest ? size : largest;
-        sum += size;
-    }
-    return isnan(sum) ? INFINITY : largest;
-}
-
 double zd_max_scaled(int n, const double *x, const double *scale)
 {
-    return ZD_SIZED(largest_scaled, n, x, scale);
+    return ZD_SIZED(zd_largest_scaled, n, x, scale);
 }

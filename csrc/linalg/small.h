@@ -153,6 +153,18 @@ ZD_INLINE double zd_largest(const int n, const double *x)
     return broken ? INFINITY : largest;
 }
 
+/* max |x_i| scale_i; infinite if any is not a number */
+ZD_INLINE double zd_largest_scaled(const int n, const double *x, const double *scale)
+{
+    double largest = 0, sum = 0;            /* the sum is NaN if any entry is */
+    for (int i = 0; i < n; i++) {
+        double size = fabs(x[i]) * scale[i];
+        largest = size > largest ? size : largest;
+        sum += size;
+    }
+    return isnan(sum) ? INFINITY : largest;
+}
+
 /* The power of two at or below x > 0; 0 where x is too small to be scaled by one. */
 ZD_INLINE double zd_power_below(double x)
 {

@@ -5,7 +5,6 @@
 
 #include "../linalg/small.h"
 #include "../point/quaternions.h"
-#include "../point/units.h"
 
 enum which { ALL, PROJECTION, REST };
 
@@ -59,7 +58,8 @@ int zd_motion_is_corrected(const zd_motion *motion, int64_t step)
 static int improve(zd_motion *motion, int iteration, double *first, double *p)
 {
     zd_point *point = motion->point;
-    const double residual = point->residual_left = zd_point_violation(point);
+    const double residual = point->residual_left =
+        ZD_SIZED(zd_largest_scaled, point->system->mh, point->terms.Phi, point->inverse_size);
     if (!isfinite(residual)) return ZD_NOT_FINITE;
     if (iteration == motion->target.max_iterations) return ZD_NO_CONVERGENCE;
     if (iteration == 0) *first = residual;

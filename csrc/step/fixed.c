@@ -81,7 +81,7 @@ static int begin_parts(zd_step_loop *loop, int *status)
     return divide(loop, status);
 }
 
-ZD_RARE int repeats_in_parts(zd_step_loop *loop, int *status)
+static int repeats(zd_step_loop *loop, int *status)
 {
     if (!loop->parts) return is_too_far(*status) ? begin_parts(loop, status) : 0;
     if (*status) return divide(loop, status);
@@ -89,11 +89,6 @@ ZD_RARE int repeats_in_parts(zd_step_loop *loop, int *status)
     loop->parts = 0;
     loop->motion->statistics.subdivided++;
     return 0;
-}
-
-static int repeats(zd_step_loop *loop, int *status)
-{
-    return *status || loop->parts ? repeats_in_parts(loop, status) : 0;
 }
 
 const zd_step_sizes zd_fixed_sizes = {.next = next, .repeats = repeats};

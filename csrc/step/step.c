@@ -127,12 +127,12 @@ static int attempt_again(zd_step_loop *loop, const zd_attempt *a, int status)
 }
 
 /* Attempts on the chosen path, by matrices, and in (p, v), until one succeeds. */
-ZD_INLINE int attempt_on_each_path(zd_step_loop *loop, const zd_attempt *a, const int kind)
+ZD_INLINE int attempt_on_each_path(zd_step_loop *loop, const zd_attempt *a, const int kind, const zd_rank *rank)
 {
     const zd_stiffness before = loop->control.stiffness;
     const int64_t stiff = loop->motion->statistics.stiff;
     int status = attempt_or_pass(loop, a, kind);
-    if (!status && !loop->motion->point->rank->was_ill_conditioned) return ZD_DONE;
+    if (!status && !rank->was_ill_conditioned) return ZD_DONE;
     if (status && zd_is_direct(loop->motion)) {     /* the step is counted once */
         loop->control.stiffness = before;
         loop->motion->statistics.stiff = stiff;
@@ -142,20 +142,28 @@ ZD_INLINE int attempt_on_each_path(zd_step_loop *loop, const zd_attempt *a, cons
 
 /* ---- steps ---- */
 
+/* Attempts, with the sizes of the settings, until one is the step, or none can be. */
+ZD_INLINE int attempt_sizes(zd_step_loop *loop, const zd_rank *rank)
+{
+    zd_attempt next = {.kind = ZD_NEW_STEP, .step = loop->step};
+    for (;;) {
+        int status = loop->sizes->next(loop, &next);
+        if (status) return status;
+        status = attempt_on_each_path(loop, &next, ZD_NEW_STEP, rank);
+        if (!status && !loop->sizes->estimate && !loop->parts) return ZD_DONE;      /* a fixed step that is not divided */
+        if (!loop->sizes->repeats(loop, &status)) return status;
+    }
+}
+
 int zd_step(zd_step_loop *loop)
 {
     zd_motion *motion = loop->motion;
     zd_rank *rank = motion->point->rank;
-    zd_attempt next = {.kind = ZD_NEW_STEP, .step = ++loop->step};
+    loop->step++;
     int status = choose_path(loop);
     if (status) return status;
     if (loop->sizes->begin) status = loop->sizes->begin(loop);
-    for (int again = !status; again;) {
-        status = loop->sizes->next(loop, &next);
-        if (status) break;
-        status = attempt_on_each_path(loop, &next, ZD_NEW_STEP);
-        again = loop->sizes->repeats(loop, &status);
-    }
+    if (!status) status = attempt_sizes(loop, rank);
     if (rank->was_deficient) motion->statistics.rank_drops++;
     rank->was_deficient = rank->was_doubtful = 0;
     if (!status) motion->statistics.steps++;
@@ -171,7 +179,7 @@ static int is_too_long(int status)
 static int attempt_to(zd_step_loop *loop, double t)
 {
     const zd_attempt substep = {.kind = ZD_SUBSTEP, .h = t - loop->stepper->t, .t1 = t, .forced = 1};
-    return attempt_on_each_path(loop, &substep, ZD_SUBSTEP);
+    return attempt_on_each_path(loop, &substep, ZD_SUBSTEP, loop->motion->point->rank);
 }
 
 /* Divided into parts if a single step fails: the run's own step may have converged only because its iteration started from the polynomial of

@@ -47,7 +47,8 @@ typedef struct zd_step_sizes {
     int (*next)(zd_step_loop *loop, zd_attempt *attempt);   /* size and end of the next attempt */
     void (*weigh)(zd_step_loop *loop);  /* passes the approximate error scale to an integrator that needs it */
     int (*estimate)(zd_step_loop *loop, const zd_attempt *attempt);     /* control.norm and control.move of an integrated step */
-    /* True if another attempt follows this one with *status; otherwise *status is that of the step. */
+    /* True if another attempt follows this one with *status; otherwise *status is that of the step. Not called for a whole fixed step that
+     * succeeded. */
     int (*repeats)(zd_step_loop *loop, int *status);
 } zd_step_sizes;
 
