@@ -72,12 +72,14 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 {
     double deadline = zd_seconds_now() + seconds;
     const int plain = is_plain(&run->settings);
-    const int64_t first = run->loop.step;    /* each slice makes at least one step */
+    int64_t clock_step = (run->loop.step / CLOCK_EVERY + 1) * CLOCK_EVERY;    /* a slice makes at least one step */
     int status = run->outcome.status ? run->outcome.status : begin(run, record);
     if (!status && zd_inputs_read(run)) return ZD_BAD_INPUT;
     while (!status && run->stepper.t != run->loop.end && run->loop.step < run->goal.step && (plain || !has_all_samples(run))) {
-        const int64_t step = run->loop.step;
-        if (step > first && step % CLOCK_EVERY == 0 && zd_seconds_now() >= deadline) return ZD_PAUSED;
+        if (run->loop.step == clock_step) {
+            if (zd_seconds_now() >= deadline) return ZD_PAUSED;
+            clock_step += CLOCK_EVERY;
+        }
         status = plain ? zd_step(&run->loop) : go_on(run);
         if (!status && record) status = save(run, record);
     }

@@ -135,7 +135,8 @@ def test_functions_are_short():
 
 def test_lines_of_c_are_within_their_columns():
     """The core, what exported models contain, and the tests' own programs."""
-    files = [path for folder in (CSRC, ROOT / "python", ROOT / "tests") for path in folder.rglob("*.[ch]") if not is_generated(path)]
+    files = [path for folder in (CSRC, ROOT / "python", ROOT / "tests") for path in folder.rglob("*.[ch]")
+             if not is_generated(path)]
     assert len(files) > 300
     assert [f"{path.relative_to(ROOT)}:{number}" for path in files
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1) if len(line) > WIDEST] == []

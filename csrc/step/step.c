@@ -151,7 +151,8 @@ ZD_INLINE int attempt_sizes(zd_step_loop *loop, const zd_rank *rank)
         if (status) return status;
         status = attempt_on_each_path(loop, &next, ZD_NEW_STEP, rank);
         if (!status && !loop->sizes->estimate && !loop->parts) return ZD_DONE;      /* a fixed step that is not divided */
-        if (!loop->sizes->repeats(loop, &status)) return status;
+        int found = status;
+        if (!loop->sizes->repeats(loop, &found)) return found;
     }
 }
 
