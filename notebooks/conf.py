@@ -18,6 +18,7 @@ exclude_patterns = ["templates", "generated/extra"]
 templates_path = ["templates"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
 
+nb_render_markdown_format = "myst"      # with tables
 nb_execution_mode = "off"               # stored outputs are shown; the test suite executes the notebooks
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3

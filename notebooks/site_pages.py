@@ -76,8 +76,14 @@ def methods(title: str, rows: dict[str, object]) -> Iterable[str]:
             yield from (f"Source: {row.reference}", "")
         if row.parameters:
             yield from ("| parameter | initially | meaning |", "|---|---|---|")
-            yield from (f"| `{each.name}` | {', '.join(f'{value:g}' for value in each.initial)} | {each.text} |" for each in row.parameters)
+            yield from (f"| `{each.name}` | {', '.join(f'{value:g}' for value in each.initial)} | {cell(each.text)} |"
+                       for each in row.parameters)
             yield ""
+
+
+def cell(text: str) -> str:
+    """Text of a table's cell, whose bars end no column."""
+    return text.replace("|", "\\|")
 
 
 COUPLINGS = ("motor", "actuator", "gear", "rack_pinion", "coupler", "cam", "constraint", "nonholonomic")
