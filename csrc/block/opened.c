@@ -42,7 +42,7 @@ static zd_opened *open_run(zd_block *block, double t, char *message, int size)
     const double *start = zd_block_start(block);
     zd_opened *self = start ? allocate(block) : NULL;
     if (!self) {
-        snprintf(message, (size_t)size, start ? "there is no memory for the run" : "the block must have a start");
+        snprintf(message, (size_t)size, start ? "memory for the run was not allocated" : "the block must have a start");
         return NULL;
     }
     self->block = block;

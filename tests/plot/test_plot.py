@@ -149,7 +149,7 @@ def test_energy_draws_the_input_only_where_there_is_one(oscillator):
 
 @pytest.mark.parametrize("draw", [plot.energy, plot.energy_violation])
 def test_energy_needs_a_potential(oscillator, draw):
-    with pytest.raises(ValueError, match="oscillator declares no potential energy"):
+    with pytest.raises(ValueError, match="oscillator must declare a potential energy"):
         draw(altered(oscillator, potential_energy=None, energy_input=None, energy_violation=None))
 
 

@@ -159,7 +159,7 @@ def test_ctrl_c_inside_a_callable_is_an_interruption():
     ({"xi": lambda p: np.zeros(3)}, r"xi must return shape \(2,\)"),
     ({"constraints": lambda p: 0.0, "jacobian": None, "xi": None}, r"constraints must return shape \(mh\)"),
     ({"constraints": None, "xi": None}, "jacobian is given without constraints"),
-    ({"potential": None, "power": 0.0}, "power is given without potential"),
+    ({"potential": None, "power": 0.0}, "power must be given together with potential"),
     ({"p0": [0.0, 1.0]}, r"p0 must have shape \(3,\)"),
     ({"p0": [0.0, np.nan, 1.0]}, "p0 must be finite"),
 ])

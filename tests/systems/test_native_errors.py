@@ -61,7 +61,7 @@ WRONG = [
     (untyped, TypeError, "set argtypes and restype of .*, as of a int"),
     (other_ctypes, TypeError, r"the ctypes function is double \(double\), and must be int \(const void \*data, int want"),
     (other_cffi, TypeError, r"the cffi function is double \(double\), and must be int"),
-    (with_user_data, ValueError, "the LowLevelCallable has user_data"),
+    (with_user_data, ValueError, "the LowLevelCallable must have no user_data"),
     (lambda lib: zd.native(address(lib), 2, **GIVEN), TypeError, "version is needed with an address: .* has 4"),
     (lambda lib: zd.native(address(lib), 2, version=7, **GIVEN), ValueError, "version is 7, and this core has version 4"),
     (lambda lib: zd.native(0, 2, version=4, **GIVEN), ValueError, "function must be the address of a function, not 0"),

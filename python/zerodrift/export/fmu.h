@@ -95,7 +95,7 @@ static int fmu_get(fmu *self, const uint32_t *reference, size_t count, double *v
     self->is_new = false;
     for (size_t i = 0; i < count; i++) {
         const uint32_t variable = reference[i];
-        if (variable > INPUTS + OUTPUTS) return fmu_refuse(self, "there is no such variable");
+        if (variable > INPUTS + OUTPUTS) return fmu_refuse(self, "the value reference must be that of a variable of this unit");
         value[i] = variable == 0 ? zd_run_time(zd_opened_run(self->opened)) : variable <= INPUTS ? self->inputs[variable - 1] :
                    self->outputs[variable - 1 - INPUTS];
     }

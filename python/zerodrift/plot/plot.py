@@ -285,7 +285,7 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
 
 def _require_energy(sol: Solution) -> None:
     if _check.instance("sol", sol, Solution, A_SOLUTION).potential_energy is None:
-        raise WrongValue(f"{sol.system.name} declares no potential energy, so there is no energy balance to draw")
+        raise WrongValue(f"{sol.system.name} must declare a potential energy for its energy balance to be drawn")
 
 
 def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:

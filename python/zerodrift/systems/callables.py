@@ -325,7 +325,7 @@ def _sizes(functions: dict[str, _Function], p: np.ndarray) -> tuple[int, int, in
         raise WrongValue(f"mass is for {nv} velocities and there are {nq} coordinates: then kinematics is needed")
     mh, mn = shape("constraints", 1)[0], shape("nonholonomic", 2)[0]
     if "power" in functions and "potential" not in functions:
-        raise WrongValue("power is given without potential: without it there is no energy balance")
+        raise WrongValue("power must be given together with potential, which the energy balance needs")
     _check_shapes(functions, {"nq": nq, "nv": nv, "mh": mh, "mn": mn, "m": mh + mn}, p)
     return nq, nv, mh, mn
 

@@ -320,7 +320,7 @@ def _from_scipy(function: Any) -> Function:
     types = re.fullmatch(r"\s*(.*?)\s*\((.*)\)\s*", function.signature)
     _check_signature([types[1], *map(str.strip, types[2].split(","))], "the LowLevelCallable")
     if function.user_data is not None:
-        raise WrongValue("the LowLevelCallable has user_data: what the function is handed are the parameters")
+        raise WrongValue("the LowLevelCallable must have no user_data: the argument of that place passes the parameters")
     if _is_ctypes(function.function) or _is_cffi(function.function):
         return find(function.function, None, None)
     api = ctypes.pythonapi
