@@ -3,12 +3,17 @@
     python tests/stress/mutations.py FOLDER [COUNT]     writes tests/bench/results/mutations.csv; CC="ccache gcc" makes it shorter
 
 Operators of random lines of csrc are changed one at a time (SEED) in a copy of the sources below FOLDER, a new one. The
-copy is built and tested until the first failure, the rooms of the changed file first. A test that fails is run without the
-mutation as well, and left out if it fails then, too. A mutation that survives is tested with the whole products
-(ZERODRIFT_PRODUCTS=1). The script exits with the number of mutations that only the products notice. Mutations that nothing
-notices are listed, but not counted: many of them change nothing that can be observed, such as the order of equal candidates.
+copy is built and tested until the first failure, by the tests of the changed room first. A test that fails is run without the
+mutation as well, and left out if it fails then, too. A mutation that these tests do not notice is tested by all tests that
+have been thinned, with the whole products (ZERODRIFT_PRODUCTS=1): if these do not notice it either, no thinning has lost it.
+If they do, the same tests run with pairs, and then all others.
+
+The script ends after COUNT mutations that are noticed, and exits with the number of those that only the products notice.
+Mutations that neither the tests of the room nor the products notice are listed, but not counted: many of them change nothing
+that can be observed, such as the order of equal candidates.
 """
 
+import ast
 import csv
 import os
 import random
@@ -21,19 +26,20 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "tests" / "bench" / "results" / "mutations.csv"
 SEED, COUNT = 2002, 20
-TIMEOUT = 1800      # s: a mutation may make a loop endless, which is noticed
+TIMEOUT = 900      # s: a mutation may make a loop endless, which is noticed
 KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", ".pytest_cache", ".hypothesis", ".venv")
 OPERATORS = {" + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ",
              " == ": " != ", " != ": " == ", " && ": " || ", " || ": " && ", " += ": " -= ", " -= ": " += ", "0.5": "0.25",
              " ? 1 : 0": " ? 0 : 1", "return 0;": "return 1;", "fabs(": "(", "fmax(": "fmin(", "fmin(": "fmax("}
 PATTERN = re.compile("|".join(map(re.escape, sorted(OPERATORS, key=len, reverse=True))))
 NO_CODE = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"|^[ \t]*#[^\n]*(?:\\\n[^\n]*)*', re.DOTALL | re.MULTILINE)
-# Tests whose products are thinned: those with marked axes, and those with all three tables.
-THINNED = re.compile(r"mark\.pairs|def test_\w+\((?=[^)]*\bsystem\b)(?=[^)]*\bformulation\b)(?=[^)]*\bintegrator\b)")
+THINNED = re.compile(r"mark\.pairs|mark\.each_value|\bspread\(|\bdraws\(|\bfew_places\b")     # see conftest.py
+TABLES = {"system", "formulation", "integrator"}    # arguments of a test that make it one, too
 HEADER = ("place", "line", "change", "noticed with pairs by", "noticed with products by")
 # Notebooks, documentation, sources and peers are about other things; test_core.py compiles the core again.
 LEFT_OUT = ("test_notebooks.py", "test_documentation.py", "test_vocabulary.py", "test_structure.py", "test_structure_of_core.py",
-            "test_peers.py", "test_site.py", "test_core.py")
+            "test_peers.py", "test_site.py", "test_core.py", "test_cache.py", "test_cache_trust.py", "test_keyboard.py",
+            "test_benchmarks.py", "test_first_minutes.py")
 
 
 def sites():
@@ -61,15 +67,31 @@ def build(folder):
                           check=False).returncode == 0
 
 
-def groups_of_tests(file):
-    """The test files that are likely to notice a change of this file, and all others."""
-    room = file.parts[1]
-    first = {"tests/test_registry.py", f"tests/{room}", *(f"tests/{name}" for name in
-             ("corrections", "formulations", "integrators", "motion", "constraints", "safeguards", "runs/test_runs.py"))}
+def paths_of_tests():
+    """All files of tests of the core, relative to the sources."""
     paths = [path for path in sorted((ROOT / "tests").rglob("test_*.py")) if path.name not in LEFT_OUT]
-    files = [path.relative_to(ROOT).as_posix() for path in paths]
-    near = [path for path in files if any(path.startswith(name) for name in first)]
-    return [sorted(near, key=lambda path: not path.startswith(f"tests/{room}")), [path for path in files if path not in near]]
+    return [path.relative_to(ROOT).as_posix() for path in paths]
+
+
+def near(file):
+    """The test files that are likely to notice a change of this file, those of its room first."""
+    room = file.parts[1]
+    first = (f"tests/{room}", "tests/test_registry.py", *(f"tests/{name}" for name in
+             ("corrections", "formulations", "integrators", "motion", "safeguards/test_guard.py", "runs/test_runs.py")))
+    files = [path for path in paths_of_tests() if path.startswith(first)]
+    return sorted(files, key=lambda path: not path.startswith(f"tests/{room}"))
+
+
+def thinned(path):
+    """The tests of a file that run for fewer cases than with ZERODRIFT_PRODUCTS=1, as arguments of pytest."""
+    text = (ROOT / path).read_text(encoding="utf-8")
+    body = ast.parse(text).body
+    constants = [target.id for node in body if isinstance(node, ast.Assign) and THINNED.search(ast.unparse(node))
+                 for target in node.targets if isinstance(target, ast.Name)]
+    marks = re.compile("|".join([THINNED.pattern, *(rf"\b{name}\b" for name in constants)]))
+    tests = [node for node in body if isinstance(node, ast.FunctionDef) and node.name.startswith("test_")]
+    return [f"{path}::{test.name}" for test in tests
+            if marks.search(ast.unparse(test)) or {argument.arg for argument in test.args.args} >= TABLES]
 
 
 def first_failure(folder, files, left_out, environment):
@@ -97,12 +119,17 @@ def noticed_by(folder, files, failing, **environment):
 
 
 def tested(folder, file, failing):
-    """The test that notices the change with pairs, or else with the products."""
-    for files in groups_of_tests(file):
-        if test := noticed_by(folder, files, failing):
+    """The test that notices the change with pairs, or else that with the products, where none does with pairs."""
+    if test := noticed_by(folder, near(file), failing):
+        return test, ""
+    tests = [test for path in paths_of_tests() for test in thinned(path)]
+    if not (of_products := noticed_by(folder, tests, failing, ZERODRIFT_PRODUCTS="1")):
+        return "", ""
+    same = of_products.partition("[")[0]
+    for others in ([same] if "::" in same else [], tests, paths_of_tests()):
+        if others and (test := noticed_by(folder, others, failing)):
             return test, ""
-    with_pairs = [path for files in groups_of_tests(file) for path in files if THINNED.search((ROOT / path).read_text())]
-    return "", noticed_by(folder, with_pairs, failing, ZERODRIFT_PRODUCTS="1")
+    return "", of_products
 
 
 def main(folder, count):
