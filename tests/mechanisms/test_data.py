@@ -63,6 +63,25 @@ def test_tables_that_are_refused(x, y, message):
         zd.table(x, y)
 
 
+@pytest.mark.parametrize("heading", ["", "t,angle\n", "\ufefft [s], angle [rad]\r\n"])
+def test_a_table_from_a_csv_file(tmp_path, heading):
+    (tmp_path / "motion.csv").write_text(heading + "0,0\n0.5,0.2\n1,0.1\n\n", encoding="utf-8")
+    given, known = zd.table(tmp_path / "motion.csv"), zd.table([0, 0.5, 1], [0, 0.2, 0.1])
+    assert [given(t) for t in (0, 0.3, 0.9)] == [known(t) for t in (0, 0.3, 0.9)]
+    assert repr(zd.table(str(tmp_path / "motion.csv"))) == repr(known)
+
+
+@pytest.mark.parametrize(("text", "message"), [("t,x\n0,1\n1,2,3\n", "line 3 .* '1,2,3'"), ("0;1\n1;2\n2;3\n", "line 2"), ("", "shape")])
+def test_files_that_are_no_tables(tmp_path, text, message):
+    (tmp_path / "motion.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=message):
+        zd.table(tmp_path / "motion.csv")
+    with pytest.raises(TypeError, match="x and y"):
+        zd.table([0, 1])
+    with pytest.raises(TypeError, match="y of a table must be left out"):
+        zd.table(tmp_path / "motion.csv", [0, 1])
+
+
 def test_functions_without_derivatives_name_the_table():
     with pytest.raises(TypeError, match=r"zd\.table\(t, y\)"):
         zd.simulate(driven(lambda t: np.interp(t, [0, 1], [0, 1])), 0.5, step=0.1)

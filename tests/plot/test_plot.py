@@ -222,6 +222,14 @@ def test_a_drawing_in_space_has_equal_scales(animated):
     assert np.ptp(scales) < 1e-12 * scales.max()
 
 
+def test_a_plane_curve_in_space_has_room_for_its_ticks():
+    """The rod of the spatial slider-crank turns in the plane x = 0, but for rounding."""
+    sol = zd.simulate(zd.models.spatial_slider_crank(), 1.0)
+    ax = plot.path(sol, "crank.end", ax=plt.figure().add_subplot(projection="3d"))
+    spans = [np.ptp(limits) for limits in (ax.get_xlim(), ax.get_ylim(), ax.get_zlim())]
+    assert np.ptp(sol["crank.end.position.x"]) < 1e-12 < 0.2 * max(spans) < min(spans)
+
+
 def shapes(ax, kind):
     (found,) = [each for each in ax.collections if each.get_label() == f"_{kind}"]
     return [path.vertices for path in found.get_paths()]

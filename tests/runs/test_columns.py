@@ -27,6 +27,15 @@ def test_without_names_a_file_has_coordinates_velocities_and_multipliers(sol, tm
     assert np.array_equal(np.array(rows, dtype=float), np.column_stack([sol.t, sol.p, sol.v, sol.multipliers]))
 
 
+def test_the_multiplier_of_a_drive_is_not_named_as_its_force(tmp_path):
+    m = zd.Mechanism("crank")
+    m.motor("drive", m.revolute("pin", m.ground, m.link("link", (0, 0), (1, 0), mass=1.0).start), angle=lambda t: t**2)
+    sol = zd.simulate(m, 0.1, step=0.05)
+    heading, first = sol.to_csv(tmp_path / "all.csv").read_text().splitlines()[:2]
+    assert heading.split(",")[-1] == "multiplier of drive"
+    assert float(first.split(",")[-1]) == -sol["drive.torque"][0] != 0.0
+
+
 def test_an_excel_file(sol, tmp_path):
     pandas = pytest.importorskip("pandas")
     pytest.importorskip("openpyxl")

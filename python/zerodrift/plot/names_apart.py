@@ -13,6 +13,7 @@ from mpl_toolkits.mplot3d import proj3d
 LINE = 1.35         # height of a line of text, in units of its font
 LETTER = 0.62       # width of a letter, in the same units
 LINES = 12          # by so many lines a name is moved at most
+ABOVE = 1e4         # z-order of names in space: above surfaces, which matplotlib numbers by their depth
 
 
 def keep_apart(ax: Axes, texts: Sequence[Text]) -> None:

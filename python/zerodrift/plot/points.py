@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
 
 from ..errors import WrongValue
 from ..systems.base import BaseSystem
@@ -14,6 +15,7 @@ from ..systems.shapes import Shape
 from .style import COLOURS
 
 JOINTS = 12     # the most points that are drawn as joints; more points are taken for a curve
+NARROWEST = 0.25    # of the longest axis in space: shortest one
 RESTING = 1e-6  # of the drawing: what moves by less rests
 
 
@@ -87,7 +89,17 @@ def moved_in_space(ax: Axes, drawings: np.ndarray) -> Callable[[int], Any]:
 
 
 def with_equal_scales(ax: Axes) -> Axes:
-    """Equal scales; spatial axes take them from the limits of the moment, so that all must have been drawn."""
+    """Equal scales; spatial axes take them from the limits of the moment, so that all must have been drawn.
+
+    A curve in a plane of two axes would have no room for the third: its ticks would stand in one place.
+    """
+    if ax.name == "3d":
+        limits = {axis: sorted(getattr(ax, f"get_{axis}lim")()) for axis in "xyz"}
+        narrowest = NARROWEST * max(high - low for low, high in limits.values())
+        for axis, (low, high) in limits.items():
+            if high - low < narrowest:
+                getattr(ax, f"set_{axis}lim")((low + high - narrowest) / 2, (low + high + narrowest) / 2)
+                getattr(ax, f"{axis}axis").set_major_locator(MaxNLocator(2))
     ax.set_aspect("equal", adjustable="box")
     return ax
 

@@ -11,6 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from .annotations import KEY, LONGEST, SHORTEST, Arrow, round_number, with_prefix
 from .marks import LOAD
+from .names_apart import ABOVE
 
 
 class SpaceArrows:
@@ -22,7 +23,8 @@ class SpaceArrows:
         self.largest = max(float(np.linalg.norm(each.vectors, axis=1).max()) for each in arrows)
         self.scale = scale or self.largest / (LONGEST * extent) or 1.0
         self._drawn = ax.add_collection3d(Line3DCollection([np.zeros((2, 3))], colors=LOAD, linewidths=2.0, label="_forces"))
-        self._texts = [ax.text(0, 0, 0, each.name, fontsize="small", color=LOAD, label="_force") for each in arrows]
+        self._texts = [ax.text(0, 0, 0, each.name, fontsize="small", color=LOAD, zorder=ABOVE,
+                               label="_force") for each in arrows]
         said = round_number(self.scale * KEY * extent)
         ax.text2D(0.02, 0.95, f"{with_prefix(said)} is {said / self.scale:.3g} m long", transform=ax.transAxes, fontsize="small",
                   color=LOAD, label="_scale")

@@ -20,7 +20,7 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from ..systems.shapes import Shape
 from .mechanism import NOTHING, Extras
-from .names_apart import keep_apart
+from .names_apart import ABOVE, keep_apart
 from .points import with_equal_scales
 from .space_arrows import SpaceArrows
 from .style import COLOURS
@@ -148,7 +148,7 @@ class SpacePicture:
         for i, path in enumerate(paths):
             ax.plot(*path.T, color=COLOURS[(i + 3) % len(COLOURS)], linewidth=1.2)
         named = dict.fromkeys(shape.name for shape in moments[0] if shape.name) if extras.names else {}
-        self._texts = {name: ax.text(0, 0, 0, name, fontsize="small") for name in named if len(named) <= MOST_NAMES}
+        self._texts = {name: ax.text(0, 0, 0, name, fontsize="small", zorder=ABOVE) for name in named if len(named) <= MOST_NAMES}
 
     def faintly(self, moments: Sequence[int]) -> None:
         """Other moments, as thin lines and for good."""

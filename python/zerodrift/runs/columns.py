@@ -24,9 +24,15 @@ def columns(solution: Any, names: Any = None) -> list[tuple[Variable, np.ndarray
         If nothing has a name.
     """
     if names is None:
-        return [(variable, array[:, i]) for array, variables in solution._named() for i, variable in enumerate(variables)]
+        return [(_told_apart(solution, variable), array[:, i])
+                for array, variables in solution._named() for i, variable in enumerate(variables)]
     names = [names] if isinstance(names, str) or not isinstance(names, Sequence) else names
     return [column for name in names for column in _components(solution, getattr(name, "name", name))]
+
+
+def _told_apart(solution: Any, variable: Variable) -> Variable:
+    """The variable, or that of a multiplier which has the name of an element, whose force has the opposite sign."""
+    return Variable(f"multiplier of {variable.name}", variable.unit) if solution._force_of(variable.name) else variable
 
 
 def _components(solution: Any, name: str) -> list[tuple[Variable, np.ndarray]]:

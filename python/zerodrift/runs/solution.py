@@ -208,11 +208,14 @@ class Solution:
 
     def _check_sign(self, name: str) -> None:
         """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
-        for effort in ("force", "torque"):
-            measure = f"{name}.{effort}"
-            if self.system._is_scalar_measure(measure):
-                raise WrongName(f"{name!r} names an element, whose {effort} is sol[{measure!r}], and a constraint, whose "
-                               "multiplier is in sol.multipliers and has the opposite sign, by (7)")
+        if measure := self._force_of(name):
+            raise WrongName(f"{name!r} names an element, whose {measure.rpartition('.')[2]} is sol[{measure!r}], and a constraint, "
+                            "whose multiplier is in sol.multipliers and has the opposite sign, by (7)")
+
+    def _force_of(self, name: str) -> str | None:
+        """Name of the scalar force or torque of a drive or coupling of that name; None if there is none."""
+        measures = (f"{name}.{quantity}" for quantity in ("force", "torque"))
+        return next((measure for measure in measures if self.system._is_scalar_measure(measure)), None)
 
     def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
         """Values of a vector measure in the axes of a body."""
@@ -383,7 +386,7 @@ class Solution:
         path : str or Path
         names : str, measure, or sequence of these, optional
             Coordinates, velocities, constraints and measures, as in ``sol[name]``. Left out: all coordinates, velocities and
-            multipliers.
+            multipliers. The multiplier of a drive or coupling is named so, as its force has the opposite sign.
 
         Returns
         -------

@@ -2,30 +2,32 @@
 
 from __future__ import annotations
 
+import csv
 import inspect
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ... import _check
-from ...errors import WrongValue
+from ...errors import WrongType, WrongValue
 from ...systems import autodiff
 
 BEYOND = 1e-9       # of the table's length: rounding beyond its ends that is accepted
 
 
-def table(x: Any, y: Any, *, argument: str = "t") -> Table:
+def table(x: Any, y: Any = None, *, argument: str = "t") -> Table:
     """A smooth function through measured data, for prescribed motions and for forces.
 
     The cubic spline with continuous first and second derivatives, and a continuous third one at the second and the last but one
     point (not-a-knot, as SciPy's ``CubicSpline``); through two or three points the straight line or the parabola. A prescribed
-    motion has the speed and the acceleration of the spline. From a CSV file with a heading and two columns:
-    ``zd.table(*np.loadtxt("data.csv", delimiter=",", skiprows=1).T)``.
+    motion has the speed and the acceleration of the spline.
 
     Parameters
     ----------
     x, y : array_like (n,)
         The data, at least two points; x increases. In the units of what the law takes and gives: s, m, rad, N, N m.
+        Instead of both, the path of a CSV file of two columns, ``zd.table("data.csv")``; its first line may name them.
     argument : str
         The name of x as the law has it: "t", or of a force the name in its ``of``.
 
@@ -37,7 +39,7 @@ def table(x: Any, y: Any, *, argument: str = "t") -> Table:
     Raises
     ------
     ValueError, TypeError
-        If x does not increase, or sizes differ, or a value is not finite.
+        If x does not increase, or sizes differ, or a value is not finite, or a file does not have two columns of numbers.
 
     Examples
     --------
@@ -51,6 +53,12 @@ def table(x: Any, y: Any, *, argument: str = "t") -> Table:
     >>> bool(abs(sol["pin.speed"] - 0.6 * sol.t**2).max() < 1e-12)
     True
     """
+    if isinstance(x, str | Path):
+        if y is not None:
+            raise WrongType("y of a table must be left out where x is the path of a file")
+        x, y = _read(Path(x))
+    elif y is None:
+        raise WrongType(f"a table must have x and y, or the path of a CSV file, not {type(x).__name__} alone")
     x = np.array(_check.real("x of a table must hold", x), dtype=float)
     if x.ndim != 1 or x.size < 2:
         raise WrongValue(f"x of a table must have shape (n,) with n at least 2, not {x.shape}")
@@ -59,6 +67,27 @@ def table(x: Any, y: Any, *, argument: str = "t") -> Table:
         place = int(np.flatnonzero(~(np.diff(x) > 0))[0])
         raise WrongValue(f"x of a table must increase, and x[{place + 1}] = {x[place + 1]:g} follows x[{place}] = {x[place]:g}")
     return Table(x, _coefficients(x, y), argument)
+
+
+def _read(path: Path) -> tuple[list[float], list[float]]:
+    """The two columns of a CSV file; the first line is a heading if it has no number."""
+    with path.open(newline="", encoding="utf-8-sig") as file:
+        lines = [(number, line) for number, line in enumerate(csv.reader(file), 1) if any(map(str.strip, line))]
+    if lines and not any(_is_number(entry) for entry in lines[0][1]):
+        del lines[0]
+    for number, line in lines:
+        if len(line) != 2 or not all(map(_is_number, line)):
+            raise WrongValue(f"a table's file must have two numbers in each line, separated by a comma; line {number} of "
+                             f"{path} is {','.join(line)!r}")
+    return [float(line[0]) for _, line in lines], [float(line[1]) for _, line in lines]
+
+
+def _is_number(entry: str) -> bool:
+    try:
+        float(entry)
+    except ValueError:
+        return False
+    return True
 
 
 class Table:
