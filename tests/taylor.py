@@ -11,7 +11,7 @@ from mpmath import MPContext
 
 BITS = 150
 ORDER = 40
-SMALL = 1 << (BITS - 110)       # 2^-110 = 8e-34: of the last terms of a series
+SMALL_TERM = 1 << (BITS - 110)  # 2^-110 = 8e-34: of the last terms of a series
 mp = MPContext()        # of its own: others may be using mpmath's
 mp.prec = BITS
 
@@ -157,7 +157,7 @@ def _series(nodes, t, state, rates, now, x, h):
 
 def _reach(state, h):
     """Reach of the series: the time within which its last terms are small."""
-    part = min(mp.power(mp.mpf(SMALL) / max(1, abs(node.c[k])), mp.mpf(1) / k) for node in state for k in (ORDER - 1, ORDER))
+    part = min(mp.power(mp.mpf(SMALL_TERM) / max(1, abs(node.c[k])), mp.mpf(1) / k) for node in state for k in (ORDER - 1, ORDER))
     return fixed(min(part, mp.mpf(4)) * number(h))
 
 

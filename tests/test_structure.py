@@ -178,6 +178,17 @@ def test_every_way_to_import_counts(source):
     assert imported("zerodrift.runs.settings", source) == {"zerodrift.systems.base"}
 
 
+def test_constants_have_a_noun():
+    """ROUNDING once had eight values in 17 files."""
+    words = "ROUNDING|SMALL|LARGE|LONG|SHORT|LEAST|CALM|AMPLE|ENOUGH"
+    bare = re.compile(rf"^(?:static const \w+ |#define (?:ZD_)?)?({words})\b(?! *\()", re.MULTILINE)
+    texts = {path: path.read_text(encoding="utf-8") for folder in ("csrc", "python", "tests")
+             for path in (ROOT / folder).rglob("*.*") if path.suffix in (".c", ".h", ".py")}
+    assert len(texts) > 800
+    assert bare.findall("static const double ROUNDING = 1e-12;\n#define ZD_LONG 3\nSMALL = 1") == ["ROUNDING", "LONG", "SMALL"]
+    assert {path.name: found for path, text in texts.items() if (found := bare.findall(text))} == {}
+
+
 def test_a_circle_is_found():
     assert circle({"a": {"b"}, "b": {"c"}, "c": set()}) is None
     assert set(circle({"a": {"b"}, "b": {"c"}, "c": {"a"}, "d": {"a"}})) == {"a", "b", "c"}

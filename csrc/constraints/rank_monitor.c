@@ -23,7 +23,7 @@
 static const double NEAR = 0.4;             /* change (the sum above): smaller changes need no full check */
 static const double FAR = 0.9;              /* change: beyond, the row space may have reversed */
 static const double DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL, ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
-static const double AMPLE = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;   /* squared relative residual for which rows may change by NEAR */
+static const double AMPLE_RESIDUAL = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED; /* squared, relative: rows may change by NEAR */
 
 zd_rank_monitor *zd_rank_monitor_take(zd_arena *arena, const zd_system *system, double *Q, double *G)
 {
@@ -164,7 +164,7 @@ static void store(zd_rank_monitor *self, const zd_point *point)
     self->is_known = 1;
     for (int k = 0; k < m; k++) {
         const double weight = self->weight[row_of(self, k)];
-        self->is_known &= 1 > AMPLE * square[k] * weight * weight && square[k] > AMPLE * start_square[row_of(self, k)];
+        self->is_known &= 1 > AMPLE_RESIDUAL * square[k] * weight * weight && square[k] > AMPLE_RESIDUAL * start_square[row_of(self, k)];
     }
     for (int i = 0; i < stored; i++) self->C[i] = (float)C[i];
     for (int b = 0; point->layout && b < point->layout->blocks; b++) find_shares(self, point->layout, b);

@@ -15,7 +15,7 @@
 #include "../point/matrices.h"
 
 static const double LARGEST_SHARE = 0.5;    /* largest correction relative to T: the factor is then between 0.7 and 1.3 */
-static const double ROUNDING = 8 * 0x1p-52;     /* violation relative to the energies below which it is rounding error */
+static const double ENERGY_ROUNDING = 8 * 0x1p-52; /* violation relative to the energies below which it is rounding error */
 
 typedef struct given_energy {
     double every;
@@ -71,7 +71,7 @@ static int after_step(void *memory, zd_motion *motion)
     energy *self = memory;
     double violation, kinetic, *scaled = self->scaled;
     int status = zd_motion_energy_violation(motion, &violation, &kinetic);
-    double rounding = ROUNDING * (kinetic + fabs(zd_point_potential(motion->point)) + fabs(motion->balance.initial));
+    double rounding = ENERGY_ROUNDING * (kinetic + fabs(zd_point_potential(motion->point)) + fabs(motion->balance.initial));
     if (!status) status = split(self, motion, &kinetic);
     if (status) return status;
     if (!(fabs(violation) <= LARGEST_SHARE * kinetic)) {

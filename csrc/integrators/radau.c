@@ -24,8 +24,8 @@ static const double *const c = zd_radau_c;
 static const double e[STAGES] = {-10.048809399827415562, 1.3821427331607488952, -1.0 / 3};
 
 static const double SLOW = 0.001;               /* contraction of an iteration above which J is computed anew for the next step */
-static const double ROUNDING = 4 * 0x1p-52;     /* change relative to the state below which a fixed step is solved */
-static const double LEAST = 1e-3;               /* smallest increment of any entry, relative to that of the largest entry of the state */
+static const double CHANGE_ROUNDING = 4 * 0x1p-52; /* change relative to the state below which a fixed step is solved */
+static const double LEAST_INCREMENT = 1e-3;     /* smallest increment of any entry, relative to that of the largest entry of the state */
 static const double WORTH_STAGES = 2;           /* ratio of the step to the bound above which each stage gets its own J */
 static const double LONGER = 2;                 /* ratio to the previous step up to which its polynomial predicts the stages for J */
 static const double SHORTER = 0.5;              /* ratio of the bound to a step that was too long for the iteration with one J */
@@ -84,7 +84,7 @@ static void remember(radau *self, double t, double h, const zd_rate *rate)
         zd_radau_matrices_resize(&it->matrices, rate->size, rate->pairs);
     }
     const double end = it->t0 + it->h;
-    if (it->h != 0 && fabs(t - end) <= ROUNDING * fabs(end)) {
+    if (it->h != 0 && fabs(t - end) <= CHANGE_ROUNDING * fabs(end)) {
         zd_exchange(&self->before, &it->z);
         self->before_h = it->h;
         if (it->by_stages) zd_radau_stages_give_J(&it->stages, &it->matrices);
@@ -150,7 +150,7 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     it->y0 = y;
     int status = zd_rate_of_beginning(rate, t, y, self->f0);
     if (status) return status;
-    it->matrices.differences.least_size = LEAST * zd_max_abs(rate->size, y);
+    it->matrices.differences.least_size = LEAST_INCREMENT * zd_max_abs(rate->size, y);
     memcpy(self->seen_before, it->seen, (size_t)rate->size * sizeof *it->seen);
     for (int i = 0; i < rate->size; i++) it->seen[i] = fmax(it->seen[i], fabs(y[i]) + fabs(h * self->f0[i]));
     status = solve_somehow(self, y, statistics);

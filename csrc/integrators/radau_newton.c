@@ -13,11 +13,11 @@ enum {
     WORTHWHILE = 10,        /* iterations to a tolerance: shorter steps are cheaper than more */
 };
 
-static const double SMALL = 0.0001;             /* error of the iteration relative to the tolerance of the step: it adds up over steps */
-static const double ROUNDING = 4 * 0x1p-52;     /* change relative to the state below which a fixed step is solved */
+static const double ITERATION_ERROR = 0.0001;   /* error of the iteration relative to the tolerance of the step: it adds up over steps */
+static const double CHANGE_ROUNDING = 4 * 0x1p-52; /* change relative to the state below which a fixed step is solved */
 static const double NEARLY = 1e-12;             /* change relative to the state: a smaller one that no longer shrinks is rounding error */
 static const double NEVER = 1e-9;               /* change relative to the state: a larger one is never taken for rounding error */
-static const double MOST_ROUNDING = 16;         /* ratio of the change to that by a disturbance of the last bit: rounding error below */
+static const double ROUNDING_RATIO = 16;        /* ratio of the change to that by a disturbance of the last bit: rounding error below */
 static const double STALLED = 0.5;              /* ratio of two successive changes above which the iteration has stalled */
 
 zd_radau_newton zd_radau_newton_take(zd_arena *arena, int size)
@@ -61,7 +61,7 @@ static double measure(const zd_radau_newton *self)
         sum += part * part;
         largest = fmax(largest, part);
     }
-    return self->has_scale ? sqrt(sum / (STAGES * n)) / SMALL : largest / ROUNDING;
+    return self->has_scale ? sqrt(sum / (STAGES * n)) / ITERATION_ERROR : largest / CHANGE_ROUNDING;
 }
 
 /* change <- Newton's correction of w */
@@ -118,7 +118,7 @@ static int test_for_rounding(zd_radau_newton *self, double norm, int *is_roundin
     zd_exchange(&self->change, &self->other);
     solve(self);
     for (int k = 0; k < STAGES * n; k++) self->change[k] -= self->other[k];
-    *is_rounding = norm <= MOST_ROUNDING * measure(self);
+    *is_rounding = norm <= ROUNDING_RATIO * measure(self);
     zd_exchange(&self->change, &self->other);
     return ZD_DONE;
 }

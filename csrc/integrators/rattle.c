@@ -32,9 +32,9 @@
 
 enum { MAX_ITERATIONS = 60, MOST_LEARNT = 16 };
 static const double RESOLUTION = 1.0 / 64;      /* distance of the points for Mdot, relative to the step */
-static const double LEAST = 0.1;                /* ratio of s^T H y to s^T s: below, the update is skipped */
-static const double ROUNDING = 2 * 0x1p-52;     /* change relative to w below which the iteration has converged */
-static const double SMALL = 1e-12;              /* change relative to w + p / h: a smaller one that no longer shrinks is rounding error */
+static const double LEAST_CURVATURE = 0.1;      /* ratio of s^T H y to s^T s: below, the update is skipped */
+static const double CHANGE_ROUNDING = 2 * 0x1p-52; /* change relative to w below which the iteration has converged */
+static const double STALLED_CHANGE = 1e-12;     /* change relative to w + p / h: a smaller one that no longer shrinks is rounding error */
 
 typedef struct rattle {
     int n, m, varies;
@@ -161,7 +161,7 @@ static int residual(void *context, double *size)
     zd_motion_solve(motion, self->F, self->rhs, self->x, NULL);
 
     double change = zd_max_abs(n, self->x), speed = zd_max_abs(n, self->w);
-    int rounding = change >= self->before / 2 && change <= SMALL * (speed + zd_max_abs(n, self->p) / fabs(self->h));
+    int rounding = change >= self->before / 2 && change <= STALLED_CHANGE * (speed + zd_max_abs(n, self->p) / fabs(self->h));
     self->before = change;
     *size = change > 0 && !rounding ? change / fmax(change, speed) : 0;
     return ZD_DONE;
@@ -175,7 +175,7 @@ static void learn(rattle *self)
     zd_subtract(n, self->y, self->x, y);
     multiply(self, y, Hy);
     const double denominator = zd_dot(n, self->s, Hy);
-    if (self->learnt == MOST_LEARNT || !(fabs(denominator) > LEAST * zd_dot(n, self->s, self->s))) return;
+    if (self->learnt == MOST_LEARNT || !(fabs(denominator) > LEAST_CURVATURE * zd_dot(n, self->s, self->s))) return;
     double *u = self->u_of_H + self->learnt * n;
     for (int i = 0; i < n; i++) u[i] = (self->s[i] - Hy[i]) / denominator;
     zd_copy(n, self->s, self->s_of_H + self->learnt++ * n);
@@ -194,7 +194,7 @@ static int improve(void *context)
 
 static int find_positions(rattle *self)
 {
-    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL, 0};
+    const zd_newton newton = {residual, improve, CHANGE_ROUNDING, MAX_ITERATIONS, 0, NULL, 0};
     zd_motion *motion = self->motion;
     int iterations, status = zd_motion_accelerate(motion);    /* for samples, and for the first estimate of w */
     double left;

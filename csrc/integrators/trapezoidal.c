@@ -19,11 +19,11 @@ enum {
     STALLS = 3,             /* successive iterations: by then every entry that can converge has done so */
 };
 static const double SLOW = 0.01;                /* contraction of the residual above which the matrix is computed anew */
-static const double ROUNDING = 4 * 0x1p-52;     /* residual relative to its terms below which the step is solved */
+static const double STEP_ROUNDING = 4 * 0x1p-52; /* residual relative to its terms below which the step is solved */
 static const double NEARLY = 1e-12;             /* residual relative to its terms: a smaller one that no longer shrinks is rounding error */
 static const double NEVER = 1e-9;               /* residual relative to the largest terms: a larger one is not taken for rounding error */
 /* ratio to the change by a disturbance of the last bit: a larger residual is not rounding error */
-static const double MOST_ROUNDING = 16;
+static const double ROUNDING_RATIO = 16;
 /* relative to the largest terms: smaller terms may themselves be the rounding error of others */
 static const double LEAST_TERMS = 0x1p-12;
 static const double STALLED = 0.5;              /* contraction of the residual above which the iteration has stalled */
@@ -120,7 +120,7 @@ static int test_for_rounding(trapezoidal *self, double largest, double scale, in
     int status = self->rate->evaluate(self->rate->context, self->t1, disturbed, change);
     if (status) return status;
     for (int i = 0; i < self->size; i++) change[i] = 0.5 * self->h * (change[i] - self->f1[i]);
-    *is_rounding = defect <= MOST_ROUNDING * measure_stalled(self, change, scale);
+    *is_rounding = defect <= ROUNDING_RATIO * measure_stalled(self, change, scale);
     return ZD_DONE;
 }
 
@@ -169,7 +169,7 @@ static int improve(void *context)
 
 static int solve_step(trapezoidal *self, zd_statistics *statistics)
 {
-    const zd_newton newton = {residual, improve, ROUNDING, MAX_ITERATIONS, 0, NULL, 0};
+    const zd_newton newton = {residual, improve, STEP_ROUNDING, MAX_ITERATIONS, 0, NULL, 0};
     int iterations;
     double left;
     self->before = INFINITY;

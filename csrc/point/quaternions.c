@@ -10,7 +10,7 @@
 
 #include "matrices.h"
 
-static const double ROUNDING = 4 * 0x1p-52;     /* deviation of the squared length from 1 that is rounding */
+static const double LENGTH_ROUNDING = 4 * 0x1p-52; /* deviation of the squared length from 1 that is rounding */
 static const double WRITTEN = 1e-6;     /* deviation of a start's length from 1 that is accepted: numbers written with seven digits */
 static const double KEPT = 1e-9;        /* allowed rate of the length, relative to the largest entry of a column of A */
 enum { ENTRIES = 4, TRIES = 4 };        /* one normalization is nearly always enough, more remove the rounding of the first */
@@ -22,7 +22,7 @@ static double squared_length(const double *q)
 
 static int is_off(double squared)
 {
-    return fabs(squared - 1) > ROUNDING && squared > 0 && squared < INFINITY;
+    return fabs(squared - 1) > LENGTH_ROUNDING && squared > 0 && squared < INFINITY;
 }
 
 int zd_quaternions_bring_back(const zd_system *system, double *p)

@@ -19,7 +19,7 @@
 #include "../step/adaptive.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start relative to sizes, if the corrections' own is tighter */
-static const double ROUNDING = 0x1p-46;         /* rounding of Phi relative to the largest size: tens of roundings of its terms */
+static const double CONSTRAINT_ROUNDING = 0x1p-46;  /* rounding of Phi relative to the largest size: tens of roundings of its terms */
 static const double NEGATIVE_MASS = 1e-12;      /* negative eigenvalue of the scaled M that may be rounding */
 
 typedef struct workspace {
@@ -43,7 +43,7 @@ static void note(violation *largest, double size, int row)
 static violation position_violation(const zd_point *point)
 {
     const int mh = point->system->mh;
-    const double rounding = ROUNDING * zd_max_abs(mh, point->size);
+    const double rounding = CONSTRAINT_ROUNDING * zd_max_abs(mh, point->size);
     violation largest = {0, 0};
     for (int k = 0; k < mh; k++) {
         const double size = fabs(point->terms.Phi[k]);

@@ -17,9 +17,9 @@
 #include "../linalg/norms.h"
 #include "../point/matrices.h"
 
-static const double ROUNDING = 1e-12;       /* |M_ij - M_ji| allowed, relative to the largest entry of M */
-static const double ASYMMETRY = 1e-9;       /* the same, relative to sqrt(M_ii M_jj), the bound of |M_ij|; either tolerance suffices */
-static const double SHORT = 0x1p-17;        /* e, in characteristic scales */
+static const double ASYMMETRY_OF_M = 1e-12;  /* |M_ij - M_ji| allowed, relative to the largest entry of M */
+static const double ASYMMETRY_OF_ENTRY = 1e-9;  /* the same, relative to sqrt(M_ii M_jj), the bound of |M_ij|; either tolerance suffices */
+static const double OFFSET = 0x1p-17;       /* e, in characteristic scales */
 static const double WRONG = 1e-3;           /* error reported, relative to the size of a constraint; Jacobians by differences are closer */
 static const double AGREEMENT = 0.1;        /* difference allowed between quotients that agree, relative to the error found */
 enum { COMPARE_EVERY = 64 };                /* steps between checks of C; also checked after 0, 1, 2, 4, 8 ... steps */
@@ -29,8 +29,8 @@ enum { COMPARE_EVERY = 64 };                /* steps between checks of C; also c
 static int is_symmetric(const zd_point *point, int i, int j)
 {
     double off = fabs(zd_entry_of_M(point, i, j) - zd_entry_of_M(point, j, i));
-    return off <= ROUNDING * zd_max_abs(zd_size_of_M(point->system), point->terms.M)
-        || off <= ASYMMETRY * sqrt(fabs(zd_entry_of_M(point, i, i) * zd_entry_of_M(point, j, j)));
+    return off <= ASYMMETRY_OF_M * zd_max_abs(zd_size_of_M(point->system), point->terms.M)
+        || off <= ASYMMETRY_OF_ENTRY * sqrt(fabs(zd_entry_of_M(point, i, i) * zd_entry_of_M(point, j, j)));
 }
 
 int zd_consistency_mass(zd_point *point)
@@ -144,7 +144,7 @@ static void set_rates(zd_consistency *self)
 /* True if difference quotients with other ends agree with this one, which differs by `off` from the given derivative. */
 static int is_sure(zd_consistency *self, int k, double quotient, double off, int *status)
 {
-    static const double ends[][2] = {{0, SHORT}, {-SHORT, 0}, {0, SHORT / 16}, {-SHORT / 16, 0}, {-16 * SHORT, 16 * SHORT}};
+    static const double ends[][2] = {{0, OFFSET}, {-OFFSET, 0}, {0, OFFSET / 16}, {-OFFSET / 16, 0}, {-16 * OFFSET, 16 * OFFSET}};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         *status = differentiate(self, ends[i][0], ends[i][1]);
         if (*status || !(fabs(self->quotient[k] - quotient) <= AGREEMENT * fabs(off))) return 0;
@@ -159,7 +159,7 @@ static int name_entry(zd_consistency *self, int k)
     for (int i = 0; i <= self->motion->system.nv; i++) {
         for (int j = 0; j <= self->motion->system.nv; j++) self->direction[j] = j == i ? unit(self, i) : 0;
         set_rates(self);
-        int status = differentiate(self, -SHORT, SHORT);
+        int status = differentiate(self, -OFFSET, OFFSET);
         if (status) return status;
         double off = fabs(self->quotient[k] - entry(self, k, i) * unit(self, i));
         if (!(off > worst)) continue;
@@ -180,7 +180,7 @@ int zd_consistency_jacobian(zd_consistency *self, int64_t step)
     self->of_time = 1 / (zd_max_scaled(n, self->motion->point->v, self->motion->point->inverse_unit) + self->slowest);
     for (int i = 0; i <= n; i++) self->direction[i] = unit(self, i) * scattered((uint64_t)step * (uint64_t)(n + 1) + (uint64_t)i);
     set_rates(self);
-    status = differentiate(self, -SHORT, SHORT);
+    status = differentiate(self, -OFFSET, OFFSET);
     memcpy(self->central, self->quotient, (size_t)self->motion->system.mh * sizeof(double));
     for (int k = 0; !status && k < self->motion->system.mh; k++) {
         double size, quotient = self->central[k], off = given(self, k, &size) - quotient;

@@ -29,7 +29,7 @@
 #include "../point/units.h"
 
 enum { MOST_POINTS = 64 };     /* maximum number of points at which C is evaluated along a long displacement */
-static const double LONG = 1;       /* in characteristic scales: along a longer displacement, intermediate points are evaluated */
+static const double LONGEST = 1;    /* displacement in characteristic scales: along a longer one, intermediate points are evaluated */
 static const double NEAR = 0.5;     /* in characteristic scales: distance of these points */
 static const double NEARBY = 1e-3;  /* in characteristic scales: with a larger violation the motion is not held on the constraints */
 
@@ -221,7 +221,7 @@ static int compare(zd_crossing *self, double h, double moved, int *is_kept)
     const zd_point *point = self->motion->point;
     int status = zd_crossing_need_rows(self);
     if (status) return status;
-    if (moved > LONG * LONG) return follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_POINTS), is_kept);
+    if (moved > LONGEST * LONGEST) return follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_POINTS), is_kept);
     *is_kept = determinant(self, point, self->memory->C) > 0;
     return ZD_DONE;
 }
@@ -241,7 +241,7 @@ static int is_ordinary(const zd_crossing *self, double moved)
 {
     const zd_point *point = self->motion->point;
     return point->rank->m == ZD_FEW_ROWS && zd_rank_is_full(point) && !point->layout && self->has_begun && self->has_rows && !self->may_pass
-        && moved <= LONG * LONG;
+        && moved <= LONGEST * LONGEST;
 }
 
 /* Saves two rows if they have the orientation of the saved ones; returns false otherwise. */
@@ -268,7 +268,7 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
         return ZD_DONE;
     }
     zd_rank_monitor_compare(point);
-    const int may_differ = point->rank->was_turned || moved > LONG * LONG || are_few(&motion->system);
+    const int may_differ = point->rank->was_turned || moved > LONGEST * LONGEST || are_few(&motion->system);
     if (self->has_begun && !self->may_pass && may_differ) status = compare(self, h, moved, &is_kept);
     if (!status && !is_kept) status = judge(self);
     if (!status) keep(self);

@@ -7,14 +7,14 @@
 #include "../linalg/bracket.h"
 #include "../step_limits.h"
 
-static const double SHORT = 0.25 * ZD_LIMITS_REGION;    /* in characteristic scales: displacements that only a jump exceeds */
+static const double JUMP = 0.25 * ZD_LIMITS_REGION;     /* in characteristic scales: displacements that only a jump exceeds */
 
 int zd_passage_find(zd_step_loop *loop, double t1, int (*make)(zd_step_loop *loop, double t), int *found)
 {
     zd_stepper *stepper = loop->stepper;
     zd_point *point = loop->motion->point;
     const zd_safeguards *safeguards = loop->safeguards;
-    double t0 = stepper->last.t, resolution = fmin(SHORT / zd_guard_speed(&safeguards->guard), (t1 - t0) / 2);
+    double t0 = stepper->last.t, resolution = fmin(JUMP / zd_guard_speed(&safeguards->guard), (t1 - t0) / 2);
     resolution = fmax(resolution, ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(t1)));
     *found = 0;
     int status = zd_rows_find(point);

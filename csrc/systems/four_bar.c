@@ -18,7 +18,7 @@
 
 static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 
-static const double ROUNDING = 8 * 0x1p-52;         /* rounding error of a cosine */
+static const double COSINE_ROUNDING = 8 * 0x1p-52;  /* rounding error of a cosine */
 static const double FLAT = 1e-9;                    /* gap allowed with all links in line, relative to the ground link */
 
 enum { ALPHA_1, ALPHA_2, ALPHA_3, N = ZD_FOUR_BAR_N };
@@ -103,7 +103,7 @@ static int close_loop(double l0, const double *l, double side, double *p)
 {
     double x = l0 - l[0] * zd_cos(p[ALPHA_1]), y = -l[0] * zd_sin(p[ALPHA_1]), diagonal = zd_hypotenuse(x, y), direction = atan2(y, x);
     double cosine = (l[1] * l[1] + diagonal * diagonal - l[2] * l[2]) / (2 * l[1] * diagonal);
-    if (!(fabs(cosine) <= 1 + ROUNDING)) return 0;
+    if (!(fabs(cosine) <= 1 + COSINE_ROUNDING)) return 0;
     if (side == 0) side = p[ALPHA_2] - direction < TURN * round((p[ALPHA_2] - direction) / TURN) ? -1 : 1;
     p[ALPHA_2] = direction + side * acos(fmax(-1, fmin(cosine, 1)));
     p[ALPHA_3] = atan2(y - l[1] * zd_sin(p[ALPHA_2]), x - l[1] * zd_cos(p[ALPHA_2]));

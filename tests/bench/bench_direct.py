@@ -22,7 +22,7 @@ from measuring import least, record
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "peers"))
 STEP, TOLERANCE = 0.01, 1e-12
-SHORT, LONG = 800, 8000     # steps; the difference leaves out what a call costs
+SHORT_RUN, LONG_RUN = 800, 8000  # steps; the difference leaves out what a call costs
 ERRORS = (1e-3, 1e-6, 1e-9)
 LIMITS = {"four-bar": (0.9, 0.7, 0.7)}
 OTHERS = (0.8, 0.8, 0.8)
@@ -52,8 +52,8 @@ def steps(problems, ours):
                 ours_by[f"{kind}, {name}"] = yardsticks.get(name)
                 calls[f"{kind}, {name}"] = functools.partial(simulated, ours.system_of(chain, kind), settings)
         times = least(30, *(functools.partial(processor_time, call, count)
-                            for call in calls.values() for count in (SHORT, LONG)))
-    ns = {name: 1e9 * (times[2 * i + 1] - times[2 * i]) / (LONG - SHORT) for i, name in enumerate(calls)}
+                            for call in calls.values() for count in (SHORT_RUN, LONG_RUN)))
+    ns = {name: 1e9 * (times[2 * i + 1] - times[2 * i]) / (LONG_RUN - SHORT_RUN) for i, name in enumerate(calls)}
     for name, value in ns.items():
         yield f"a corrected step of rk4, {name.replace('_', ' ')}", value, "ns", None
         if ours_by.get(name):

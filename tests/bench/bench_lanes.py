@@ -40,7 +40,7 @@ LANES = {"avx2": 4, "avx512": 8}
 RUNS, STEPS, STEP, END = 1024, 800, 0.01, 8.0
 RTOLS = {1e-6: 10.0 ** -np.arange(7, 8.6, 0.25), 1e-9: 10.0 ** -np.arange(10, 12.6, 0.25)}
 ROUNDS = 20
-SHORT, MORE, IN_A_ROW = (1, 2, 4, 8), 72, 5     # steps of runs that hardly make any, and of some more; their calls of a round
+FEW_STEPS, MORE_STEPS, IN_A_ROW = (1, 2, 4, 8), 72, 5     # steps of short and longer runs; calls of a round
 FEW, FINE = 32, 1e-3     # runs and steps of many bodies
 BAR = zd.systems.four_bar()
 SPEEDS = np.linspace(0.9, 1.1, RUNS)
@@ -97,8 +97,8 @@ def floor(folder, unit, *flags):
 
 def beyond_steps(seconds):
     """Overhead of a run beyond its steps, s, from the times of all runs by number of steps, as described above."""
-    step = (seconds[MORE] - seconds[SHORT[-1]]) / (MORE - SHORT[-1])
-    return np.mean([seconds[n] - n * step for n in SHORT]) / RUNS
+    step = (seconds[MORE_STEPS] - seconds[FEW_STEPS[-1]]) / (MORE_STEPS - FEW_STEPS[-1])
+    return np.mean([seconds[n] - n * step for n in FEW_STEPS]) / RUNS
 
 
 def steps_of_fixed_size():
@@ -110,7 +110,7 @@ def steps_of_fixed_size():
             calls[unit, "by hand"] = floor(folder, unit)
             calls[unit, "factored by hand"] = floor(folder, unit, "-DSCHUR")
             calls[unit, "here"] = runs(step=STEP, vector=unit)
-            for n in (*SHORT, MORE):
+            for n in (*FEW_STEPS, MORE_STEPS):
                 calls[unit, "here", n] = runs(n * STEP, step=STEP, vector=unit)
                 calls[unit, "alone", n] = without_lanes(calls[unit, "here", n])
             for hand in ("by hand", "factored by hand"):
@@ -120,8 +120,8 @@ def steps_of_fixed_size():
         times = dict(zip(calls, least(ROUNDS, *measures), strict=True))
     for unit in units:
         hand, factored, step = (times[unit, what] / RUNS for what in ("by hand", "factored by hand", "here"))
-        step = (step - times[unit, "here", SHORT[-1]] / RUNS) / (STEPS - SHORT[-1])
-        lanes, alone = (beyond_steps({n: times[unit, what, n] for n in (*SHORT, MORE)}) for what in ("here", "alone"))
+        step = (step - times[unit, "here", FEW_STEPS[-1]] / RUNS) / (STEPS - FEW_STEPS[-1])
+        lanes, alone = (beyond_steps({n: times[unit, what, n] for n in (*FEW_STEPS, MORE_STEPS)}) for what in ("here", "alone"))
         yield f"{unit}: a corrected step of rk4 by hand in {LANES[unit]} lanes", 1e9 * hand / STEPS, "ns", None
         yield f"{unit}: the same where M and S are factored", 1e9 * factored / STEPS, "ns", None
         yield f"{unit}: the same here", 1e9 * step, "ns", None

@@ -28,7 +28,7 @@ PEERS = {"zerodrift": "zerodrift", "scipy": "SciPy", "sundials": "SUNDIALS", "ca
 DISTRIBUTIONS = {"sundials": "scikit-sundae", "pinocchio": "pin"}
 KINDS = {"Python system": ":", "absolute": "--"}      # how lines of zerodrift that run another kind of system are drawn
 ROUNDS = 3
-LONG = 0.3              # s: what takes longer is timed once more only
+LONG_RUN = 0.3          # s: what takes longer is timed once more only
 AT = (1e-3, 1e-6, 1e-9)     # errors at which methods are compared
 
 
@@ -82,7 +82,7 @@ def measured(chain, exact, peers, every):
         rows[case] = first(chain, peers, case, exact)
     for round_ in range(ROUNDS):
         for case, row in rows.items():
-            if math.isfinite(row.error) and (row.seconds < LONG or round_ == 0):
+            if math.isfinite(row.error) and (row.seconds < LONG_RUN or round_ == 0):
                 seconds = peers[case[0]].solve(chain, case[2])[1]
                 rows[case] = row._replace(seconds=seconds if round_ == 0 else min(row.seconds, seconds))
     return list(rows.values())

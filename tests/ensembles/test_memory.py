@@ -19,7 +19,7 @@ def scarce(monkeypatch):
     """Memory of so many bytes."""
     def only(free):
         monkeypatch.setattr(free_space, "free_memory", lambda: free)
-    monkeypatch.setattr(memory, "SMALL", 1000)
+    monkeypatch.setattr(memory, "UNCHECKED_BYTES", 1000)
     return only
 
 

@@ -16,7 +16,7 @@ from zerodrift._gateway.mechanisms.blocks import SECTIONS, BlockCore
 
 STEPS, STEP = 40, 1e-3
 t = sp.Symbol("t")
-LARGE = {"chain"}       # thousands of bodies
+LARGE_MODELS = {"chain"}  # thousands of bodies
 
 
 def run(core, duration, **inputs):
@@ -39,7 +39,7 @@ def assert_bits(system, duration=STEPS * STEP, **settings):
     return core
 
 
-@pytest.mark.parametrize("name", sorted({*MECHANISMS, *IN_SPACE} - LARGE))
+@pytest.mark.parametrize("name", sorted({*MECHANISMS, *IN_SPACE} - LARGE_MODELS))
 def test_runs_of_blocks_have_the_bits_of_simulate(name):
     system = getattr(zd.models, name)().system()
     core = assert_bits(system)

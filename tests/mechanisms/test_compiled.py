@@ -18,7 +18,7 @@ from mechanisms.random_mechanisms import Maker
 from tolerances import EPS
 from zerodrift._gateway.mechanisms.plane import element_kinds, joint_kinds
 
-ROUNDING = 1024 * EPS       # the same sums in another order, of a chain of four bodies
+TERM_ROUNDING = 1024 * EPS  # the same sums in another order, of a chain of four bodies
 MOVED = 1e-10               # after 0.1 s: rounding, multiplied by the motion and by solves of condition 1e3
 LAYOUTS = "joint", "absolute"
 
@@ -69,7 +69,7 @@ def test_terms_are_those_of_the_tables(name, layout):
     interpreted, compiled = both(MADE[name](), layout)
     assert compiled.structure == interpreted.structure
     for term, difference in differences(interpreted, compiled):
-        assert difference < ROUNDING, term
+        assert difference < TERM_ROUNDING, term
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
@@ -108,7 +108,7 @@ def test_numbers_stay_numbers_and_zeros_and_ones_are_in_the_code():
         assert (changed._written.key == system._written.key) == is_same, changes
         assert changed.parameters == interpreted.parameters
         for term, difference in differences(interpreted, changed):
-            assert difference < ROUNDING, (changes, term)
+            assert difference < TERM_ROUNDING, (changes, term)
 
 
 def test_a_changed_system_keeps_its_direct_functions_and_so_does_one_that_was_sent():
@@ -132,7 +132,7 @@ def test_own_parameters_are_numbers_too():
         changed = system.with_parameters(k=k)
         assert changed._written.key == system._written.key
         for term, difference in differences(m.with_parameters(k=k), changed):
-            assert difference < ROUNDING, term
+            assert difference < TERM_ROUNDING, term
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
@@ -156,7 +156,7 @@ def test_a_cam_by_an_expression_is_written_out():
     m.cam("cam", m["pin"], m.prismatic("rail", m.ground, m.body("tappet", 0.2, 0.1, at=(2, 0)), axis=(0, 1), at=(2, 0)),
           profile=0.1 * sp.sin(sp.Symbol("turn")))
     for term, difference in differences(*both(m, "joint")):
-        assert difference < ROUNDING, term
+        assert difference < TERM_ROUNDING, term
 
 
 def test_without_expressions_there_need_be_no_sympy(tmp_path):

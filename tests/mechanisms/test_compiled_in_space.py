@@ -11,7 +11,7 @@ import zerodrift as zd
 from covering import spread
 from every_model import IN_SPACE
 from mechanisms.plain_space import Plain
-from mechanisms.test_compiled import ROUNDING, differences
+from mechanisms.test_compiled import TERM_ROUNDING, differences
 from mechanisms.test_files_of_space import everything
 from zerodrift._gateway.mechanisms.space import joint_kinds
 from zerodrift.mechanisms.elements.immutable import amend
@@ -50,7 +50,7 @@ def assert_same_terms(m):
     system = m.system("joint", compiled=True)
     assert system.compiled
     for term, difference in differences(m.system("joint"), system):
-        assert difference < ROUNDING, term
+        assert difference < TERM_ROUNDING, term
 
 
 def test_every_kind_of_joint_is_among_them():
@@ -118,7 +118,7 @@ def test_numbers_stay_numbers_and_what_is_sent_is_the_same():
     changed = system.with_parameters({"wheel.mass": 3.0, "coil.stiffness": 0.5})
     assert changed._written.key == system._written.key
     for term, difference in differences(m.with_parameters({"wheel.mass": 3.0, "coil.stiffness": 0.5}), changed):
-        assert difference < ROUNDING, term
+        assert difference < TERM_ROUNDING, term
     sent = pickle.loads(pickle.dumps(changed))
     one, other = (zd.simulate(each, 0.1, step=1e-2) for each in (changed, sent))
     assert one.p.tobytes() == other.p.tobytes()

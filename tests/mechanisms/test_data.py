@@ -71,7 +71,11 @@ def test_a_table_from_a_csv_file(tmp_path, heading):
     assert repr(zd.table(str(tmp_path / "motion.csv"))) == repr(known)
 
 
-@pytest.mark.parametrize(("text", "message"), [("t,x\n0,1\n1,2,3\n", "line 3 .* '1,2,3'"), ("0;1\n1;2\n2;3\n", "line 2"), ("", "shape")])
+@pytest.mark.parametrize(("text", "message"), [
+    ("t,x\n0,1\n1,2,3\n", "line 3 .* '1,2,3'"),
+    ("0;1\n1;2\n2;3\n", "line 2"),
+    ("", "shape"),
+])
 def test_files_that_are_no_tables(tmp_path, text, message):
     (tmp_path / "motion.csv").write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=message):

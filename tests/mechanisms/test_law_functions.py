@@ -14,7 +14,7 @@ from zerodrift.mechanisms.equations.function_calls import Laws
 from zerodrift.symbolics.compile import compilers, shared_library
 
 t, x, u, k = sp.symbols("t x u k")
-ROUNDING = 1e-12    # of sines and products in another order, over some hundred steps
+FUNCTION_ROUNDING = 1e-12  # of sines and products in another order, over some hundred steps
 WAVE = 0.3 * sp.sin(2.5 * t + 0.2) * sp.exp(-0.4 * t) + k * t**2
 BENT = sp.Piecewise((x**3, x < 0.1), (sp.sqrt(x + 1.5) ** 3 + sp.Max(x, 0.25), True))
 PLACE, RATE = "body.position.x", "body.velocity.x"
@@ -96,7 +96,7 @@ def test_every_kind_says_what_it_says_in_python(kind, layout, dimension, monkeyp
         assert asked
         assert terms.keys() == expected.keys() >= ({"power"} if kind in (effort, whole_numbers) else {"C", "xi"})
         for name, value in expected.items():
-            np.testing.assert_allclose(terms[name], value, rtol=ROUNDING, atol=ROUNDING, err_msg=name)
+            np.testing.assert_allclose(terms[name], value, rtol=FUNCTION_ROUNDING, atol=FUNCTION_ROUNDING, err_msg=name)
         asked.clear()
 
 
@@ -110,7 +110,7 @@ def test_models_move_as_by_python(model, monkeypatch):
     expected = zd.simulate(other, 0.1, step=2e-3)
     assert asked
     for ours, theirs in ((sol.p, expected.p), (sol.v, expected.v)):
-        assert np.abs(ours - theirs).max() <= ROUNDING * np.abs(theirs).max()
+        assert np.abs(ours - theirs).max() <= FUNCTION_ROUNDING * np.abs(theirs).max()
 
 
 def test_other_numbers_and_parameters_are_not_compiled_again(monkeypatch):
@@ -120,11 +120,11 @@ def test_other_numbers_and_parameters_are_not_compiled_again(monkeypatch):
     changed = first.with_parameters(k=0.1)
     sol = zd.simulate(changed, 1.0, step=0.01)
     assert sol["guide.displacement"] == pytest.approx(0.3 * np.sin(2.5 * sol.t + 0.2) * np.exp(-0.4 * sol.t) + 0.1 * sol.t**2,
-                                                      abs=ROUNDING)
+                                                      abs=FUNCTION_ROUNDING)
     m = scene(lambda m, guide: m.motor("drive", guide, displacement=WAVE.subs(sp.Float(2.5), sp.Float(1.25))), 2)
     sol = zd.simulate(m, 1.0, step=0.01)
     assert sol["guide.displacement"] == pytest.approx(0.3 * np.sin(1.25 * sol.t + 0.2) * np.exp(-0.4 * sol.t) + 0.7 * sol.t**2,
-                                                      abs=ROUNDING)
+                                                      abs=FUNCTION_ROUNDING)
 
 
 def test_what_is_pickled_or_saved_is_compiled_again(tmp_path, monkeypatch):
@@ -143,7 +143,7 @@ def test_without_a_compiler_python_is_asked(without, monkeypatch):
     monkeypatch.setattr(function_code, "_functions", {})
     without(monkeypatch)
     asked = called(monkeypatch)
-    assert np.abs(zd.simulate(scene(effort, 2), 0.2, step=0.01).p - expected).max() < ROUNDING
+    assert np.abs(zd.simulate(scene(effort, 2), 0.2, step=0.01).p - expected).max() < FUNCTION_ROUNDING
     assert asked
 
 

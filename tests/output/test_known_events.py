@@ -12,7 +12,7 @@ from zerodrift.errors import ZerodriftError
 from zerodrift.symbolics.compile import compilers
 
 A1, A3, RATE, GRAVITY, T = sp.symbols("alpha1 alpha3 alpha1_dot gravity t")
-ROUNDING = 1e-13    # of an expression that SymPy or the compiler may write in another order
+EXPRESSION_ROUNDING = 1e-13  # of an expression that SymPy or the compiler may write in another order
 
 
 def pendulum():
@@ -66,13 +66,13 @@ def test_expressions_of_symbolic_systems_have_their_own_symbols():
     known = found(pendulum, event)
     asked = found(pendulum, lambda t, p, v: p[0] * v[0] + v[1] / 1.0 + np.cos(t) - 1)
     assert len(known[0]) == len(asked[0]) > 0
-    assert np.abs(known[0] - asked[0]).max() < ROUNDING
+    assert np.abs(known[0] - asked[0]).max() < EXPRESSION_ROUNDING
 
 
 def test_parameters_have_the_values_of_the_system():
     bar = zd.systems.four_bar(gravity=5.0)
     expression = zd.Event(sp.sin(A1) + RATE * GRAVITY / 50)
-    assert np.abs(found(bar, expression)[0] - found(bar, lambda t, p, v: np.sin(p[0]) + v[0] / 10)[0]).max() < ROUNDING
+    assert np.abs(found(bar, expression)[0] - found(bar, lambda t, p, v: np.sin(p[0]) + v[0] / 10)[0]).max() < EXPRESSION_ROUNDING
 
 
 def test_without_a_compiler_it_is_evaluated_in_python(monkeypatch):
@@ -80,7 +80,7 @@ def test_without_a_compiler_it_is_evaluated_in_python(monkeypatch):
     monkeypatch.setattr(compilers, "find", lambda: None)
     without = found(bar, expression)
     monkeypatch.undo()
-    assert np.abs(without[0] - found(bar, expression)[0]).max() < ROUNDING
+    assert np.abs(without[0] - found(bar, expression)[0]).max() < EXPRESSION_ROUNDING
 
 
 def test_what_has_no_finite_value_is_named():

@@ -19,7 +19,7 @@ from zerodrift.runs.settings import VECTOR_UNITS
 
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler
-SHORT = 0.5     # s
+SPAN = 0.5      # s
 
 
 @functools.cache
@@ -39,7 +39,7 @@ STABILIZATIONS = {
 }
 
 
-def both(moving, span=SHORT, **options):
+def both(moving, span=SPAN, **options):
     """The motion along the matrix path and along the direct one."""
     return [zd.simulate(moving, span, direct=direct, on_failure="return", **options) for direct in (False, None)]
 
@@ -75,7 +75,7 @@ def test_integrators_take_it(method):
 
 
 def test_steps_that_are_chosen_take_it():
-    general, direct = both(system("four_bar"), rtol=1e-9, atol=1e-9, integrator="dop853", t_eval=np.linspace(0, SHORT, 7))
+    general, direct = both(system("four_bar"), rtol=1e-9, atol=1e-9, integrator="dop853", t_eval=np.linspace(0, SPAN, 7))
     assert direct.stats["direct_steps"] == direct.stats["steps"]
     assert_close(direct.p, general.p, 1e-8)     # what the tolerance leaves, as rounding may choose other steps
     assert direct.stats["factorizations"] < 5
@@ -126,15 +126,15 @@ def test_redundant_constraints_take_the_matrix_path():
 
 
 def test_values_between_steps_are_those_of_shorter_steps():
-    sol = zd.simulate(system("four_bar"), SHORT, step=0.01)
+    sol = zd.simulate(system("four_bar"), SPAN, step=0.01)
     p, v = sol(0.123)
-    again = zd.simulate(system("four_bar"), SHORT, step=0.01, t_eval=[0.123])
+    again = zd.simulate(system("four_bar"), SPAN, step=0.01, t_eval=[0.123])
     assert (p == again.p[0]).all()
     assert (v == again.v[0]).all()
 
 
 def test_repeated_to_the_last_bit():
-    first, second = (zd.simulate(system("driven_four_bar"), SHORT, step=0.01) for _ in range(2))
+    first, second = (zd.simulate(system("driven_four_bar"), SPAN, step=0.01) for _ in range(2))
     assert (first.p == second.p).all()
     assert (zd.simulate(first.system, first.t_span, **first.settings).p == first.p).all()
 
@@ -194,8 +194,8 @@ def test_where_neither_order_nor_choice_lasts_the_matrix_path_does():
 @pytest.mark.parametrize("equations", INDEPENDENT)
 def test_independent_velocities_between_steps_and_again(equations):
     options = {"formulation": equations, "step": 0.01}
-    sol = zd.simulate(system("four_bar"), SHORT, **options)
-    again = zd.simulate(system("four_bar"), SHORT, t_eval=[0.123, 0.3], **options)
+    sol = zd.simulate(system("four_bar"), SPAN, **options)
+    again = zd.simulate(system("four_bar"), SPAN, t_eval=[0.123, 0.3], **options)
     assert again.stats["direct_steps"] == again.stats["steps"]
     assert (again.p[1] == sol.p[30]).all()
     p, v = sol(0.123)       # by a shorter step in velocities that are chosen there: here the same

@@ -56,12 +56,12 @@ def fan(arms, closed=False):
     return Rods(centres, angles, pins)
 
 
-LARGE = {"chain": chain(40), "four-bars": four_bars(14), "fan": fan(60), "closed fan": fan(30, closed=True),
+LARGE_NETWORKS = {"chain": chain(40), "four-bars": four_bars(14), "fan": fan(60), "closed fan": fan(30, closed=True),
          "light and heavy": chain(25, masses=[1.0, 1e-4] * 12 + [1e3])}
 
 
 @needs_compiler
-@pytest.mark.parametrize("rods", LARGE.values(), ids=LARGE)
+@pytest.mark.parametrize("rods", LARGE_NETWORKS.values(), ids=LARGE_NETWORKS)
 def test_accelerations_of_many_rows_are_those_of_dense_matrices(rods, formulation):
     system, twin = rods.system(speed=0.3), rods.system(packed=False, speed=0.3)
     v = np.random.default_rng(3).normal(size=system.nv)

@@ -22,7 +22,7 @@ pytestmark = needs_compiler
 
 METHODS = ["euler", "midpoint", "heun", "rk4", "dormand_prince", "dop853"]
 POLYNOMIALS = {"dormand_prince": 4, "dop853": 6}        # whose conditions they meet
-ROUNDING = 1e-13        # entries of up to 1200 are rounded at 2^-53, and multiplied by (x z)^2 <= 1 / 16
+CONDITION_ROUNDING = 1e-13  # entries of up to 1200 are rounded at 2^-53, and multiplied by (x z)^2 <= 1 / 16
 OFF = 1e-6
 
 NATIVE = """
@@ -173,7 +173,7 @@ def worst(of, method, orders):
 @pytest.mark.parametrize("method", METHODS)
 def test_tables_meet_all_conditions_of_their_orders_and_no_more(tables, method):
     order = zd.integrators()[method].order
-    assert worst(tables[method], method, order) <= ROUNDING
+    assert worst(tables[method], method, order) <= CONDITION_ROUNDING
     assert misses(tables[method], order + 1)[-1] > 1e-6
 
 
@@ -183,7 +183,7 @@ def test_what_the_polynomial_of_dop853_misses(tables):
     assert 7e-8 < seven < 8e-8
     assert 1.3e-5 < eight < 1.4e-5
     for x in SHARES:        # but the quadrature
-        assert abs(float(weights_between(tables["dop853"], x) @ tables["dop853"]["c"] ** 6 - x**7 / 7)) <= ROUNDING
+        assert abs(float(weights_between(tables["dop853"], x) @ tables["dop853"]["c"] ** 6 - x**7 / 7)) <= CONDITION_ROUNDING
 
 
 def test_what_the_polynomial_of_dormand_prince_misses(tables):
@@ -198,7 +198,7 @@ def test_polynomials_are_those_that_the_core_sums(tables, method):
     for x in SHARES:
         arguments = [pointer(change), pointer(identity), count, ctypes.c_double(x), pointer(found)]
         getattr(tables["library"], f"{method}_weights")(*arguments)
-        assert found == pytest.approx(weights_between(of, x).astype(float), rel=0, abs=ROUNDING)
+        assert found == pytest.approx(weights_between(of, x).astype(float), rel=0, abs=CONDITION_ROUNDING)
 
 
 def in_doubles(of):
@@ -218,4 +218,4 @@ def test_an_entry_that_is_off_is_noticed(tables, method):
         of[name][at] += OFF
         if name == "b":
             of["A"][of["end"]] = of["b"]
-        assert worst(of, method, zd.integrators()[method].order) > 1000 * ROUNDING, (name, at)
+        assert worst(of, method, zd.integrators()[method].order) > 1000 * CONDITION_ROUNDING, (name, at)

@@ -34,7 +34,7 @@ def written_twice(make, monkeypatch):
     one = make()
     monkeypatch.setattr(splitting, "MOST_STATEMENTS", 0)
     monkeypatch.setattr(splitting, "PIECE", 5)
-    monkeypatch.setattr(splitting, "LEAST", 2)
+    monkeypatch.setattr(splitting, "FEWEST_STATEMENTS", 2)
     monkeypatch.setattr(sys.modules["zerodrift.symbolics.define"], "fingerprint", lambda expressions: None)
     return one, make()
 

@@ -21,7 +21,7 @@ SCALES = (1.0, 1e-2, 1e-4)              # of a parameter: that which is varied b
 LARGEST_STEP = 8 * differences.STEPS[0]
 JUMP = 100.0                            # times the derivative: a larger change over a short step is none of a smooth function
 EXACT = 1e-7                            # relative: agreement of derivatives
-SMALL = 1e-2                            # of accelerations: a smaller change by a relative one counts as small
+SMALL_CHANGE = 1e-2                     # of accelerations: a smaller change by a relative one counts as small
 ACCURATE = 1e-10                        # relative error of a difference that is good enough
 
 
@@ -102,7 +102,7 @@ def derivatives_by_parameters(system: BaseSystem, t: float, p: np.ndarray, v: np
 
 def _small(vdot: np.ndarray) -> float:
     """A change of the acceleration that counts as small, per characteristic scale."""
-    return SMALL * (1.0 + float(np.abs(vdot).max(initial=0.0)))
+    return SMALL_CHANGE * (1.0 + float(np.abs(vdot).max(initial=0.0)))
 
 
 class _Varied:

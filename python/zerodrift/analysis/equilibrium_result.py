@@ -23,7 +23,7 @@ SYMMETRIC = 1e-7        # of the largest stiffness: forces with a potential
 STEPS_ASIDE = 6
 ASIDE = 0.05        # in characteristic scales: distance at which a free direction is verified
 SHOWN = 8
-ROUNDING = 1e-12        # of the largest reaction: a smaller one is printed as zero
+REACTION_ROUNDING = 1e-12  # of the largest reaction: a smaller one is printed as zero
 REACTIONS = (".force", ".torque", ".tension")
 
 
@@ -99,7 +99,7 @@ class Equilibrium(Reading):
     def _reactions(self) -> list[str]:
         names = [name for name in self.system._names_of_measures() if name.endswith(REACTIONS)]
         values = [np.asarray(self[name]) for name in names[:2 * SHOWN]]
-        least = ROUNDING * max((float(np.abs(value).max(initial=0.0)) for value in values), default=0.0)
+        least = REACTION_ROUNDING * max((float(np.abs(value).max(initial=0.0)) for value in values), default=0.0)
         values = [np.where(np.abs(value) < least, 0.0, value) for value in values]
         units = (self.system._watching.unit(name) for name in names)
         shown = [f"{name} = {_shown(value)} {unit}" for name, value, unit in zip(names, values, units, strict=False)]

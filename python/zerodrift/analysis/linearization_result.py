@@ -17,7 +17,7 @@ from .quantities import find, names_of
 from .spectrum import complement, of_matrix
 from .state import State, scales, state
 
-ROUNDING = 1e-12        # of an eigenvalue: a smaller real part is printed as zero
+EIGENVALUE_ROUNDING = 1e-12  # of an eigenvalue: a smaller real part is printed as zero
 
 
 class Linearization:
@@ -140,7 +140,7 @@ class Linearization:
         for i, value in enumerate(self.eigenvalues):
             if value.imag < 0:
                 continue
-            is_damped = abs(value.real) > ROUNDING * abs(value)
+            is_damped = abs(value.real) > EIGENVALUE_ROUNDING * abs(value)
             number = f"{value.real if is_damped else 0.0:+.6g}" + (f" ± {value.imag:.6g}i" if value.imag else "")
             damping = self.damping[i] if is_damped else 0.0
             lines.append(f"    {self.frequencies[i]:<16.6g} {damping:<15.4g} {number:<27} {self.dominant(i)}")

@@ -18,7 +18,7 @@ from ..errors import WrongType, WrongValue
 from ..systems import autodiff
 
 NEAREST = 7
-ROUNDING = 1e-12        # of values, over the square of the distance: 1e-13 was measured
+VALUE_ROUNDING = 1e-12  # of values, over the square of the distance: 1e-13 was measured
 
 
 class Prescribed(NamedTuple):
@@ -100,7 +100,7 @@ def _of_array(values: np.ndarray, t: np.ndarray) -> Prescribed:
     """Derivatives of an array over time."""
     rates, seconds = _of_polynomials(values, t, NEAREST)
     _, coarse = _of_polynomials(values, t, NEAREST - 1)
-    rounding = ROUNDING * float(np.abs(values).max() / np.diff(t).min(initial=np.inf)**2)
+    rounding = VALUE_ROUNDING * float(np.abs(values).max() / np.diff(t).min(initial=np.inf)**2)
     if len(t) < NEAREST:        # a single polynomial
         error = float(np.abs(seconds - _of_polynomials(values, t, len(t) - 1)[1]).max())
         return Prescribed(values, rates, seconds, error, rounding)

@@ -15,7 +15,7 @@ from .state import LARGEST, State, scales, state
 from .tangent import DEPENDENT, inverse_factor
 
 ITERATIONS = 30
-SHORT = 1e-3            # of the longest row: residuals of shorter ones are compared with that
+SHORT_ROW = 1e-3        # of the longest row: residuals of shorter ones are compared with that
 CONVERGED = 1e-13       # of the characteristic scales: the last step of Newton's method
 SMALLEST_PART = 1e-4    # of the way to a position that is led to
 QUADRATIC = 1e-5        # characteristic scales: steps that converge quadratically
@@ -106,7 +106,7 @@ def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> tu
     length = np.linalg.norm(rows, axis=1)
     longest = length.max(initial=0.0) or 1.0
     length = np.maximum(length, max(DEPENDENT * longest, 1e-300))
-    off = np.abs(residual) / np.maximum(length, max(SHORT * longest, 1e-300))
+    off = np.abs(residual) / np.maximum(length, max(SHORT_ROW * longest, 1e-300))
     unit, right = rows / length[:, None], -residual / length
     if (inverse := inverse_factor(unit)) is not None:
         return scale * (unit.T @ (inverse.T @ (inverse @ right))), float(off.max()), True

@@ -11,9 +11,9 @@ import numpy as np
 
 from ..errors import CostWarning
 from ..runs import memory as free_space
+from ..runs.recording import UNCHECKED_BYTES
 from ..runs.saving import read_arrays
 
-SMALL = 2**26       # bytes that are not checked
 IN_STORE = 0.5      # outputs that take more than this part of the free memory stay in the files of a store
 LESS = "keep fewer outputs or times (outputs, t_eval, save_every), or a value of each run (reduce)"
 
@@ -24,7 +24,7 @@ def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel
     Outputs are joined one after the other when all runs are done: memory for the largest of them is needed besides.
     """
     size = sum(sizes or ())
-    if not sizes or size <= SMALL:
+    if not sizes or size <= UNCHECKED_BYTES:
         return
     takes = f"the outputs of {runs} runs take {free_space.in_words(size)}"
     if store is not None:
@@ -57,7 +57,7 @@ def shortage(size: int, runs: int) -> str:
 
 def exceeds(size: int, part: float) -> bool:
     """True if outputs of `size` bytes in memory exceed the fraction `part` of the memory that is still free."""
-    return size > SMALL and (free := free_space.free_memory()) is not None and size > part * free
+    return size > UNCHECKED_BYTES and (free := free_space.free_memory()) is not None and size > part * free
 
 
 class InFile(Mapping):
@@ -118,7 +118,7 @@ class Joined(Mapping):
     def _empty(self, name: str, like: np.ndarray) -> np.ndarray:
         """Uninitialized array for all samples of an output; MemoryError if it exceeds the free memory."""
         size = self._rows * int(np.prod(like.shape[1:])) * like.itemsize
-        if size > SMALL and (free := free_space.free_memory()) is not None and size > free:
+        if size > UNCHECKED_BYTES and (free := free_space.free_memory()) is not None and size > free:
             raise MemoryError(f"output {name!r} of all runs takes {free_space.in_words(size)}, and {free_space.in_words(free)} "
                               "of memory are free: ens[i] makes a run again, and each file of the store has outputs of some runs")
         return np.empty((self._rows, *like.shape[1:]), like.dtype)

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import _check
-from ..analysis.linearization_result import ROUNDING, Linearization
+from ..analysis.linearization_result import EIGENVALUE_ROUNDING, Linearization
 from ..analysis.retraction import onto
 from ..errors import WrongValue
 from . import style as _style
@@ -63,7 +63,7 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     for p in positions:
         ax.plot(*lin.system.points(p).T, **{"color": _style.COLOURS[1], "alpha": 0.6, "linewidth": 1.0, "zorder": 20} | style)
     value = lin.eigenvalues[index]
-    damping = lin.damping[index] if abs(lin.damping[index]) > ROUNDING else 0.0
+    damping = lin.damping[index] if abs(lin.damping[index]) > EIGENVALUE_ROUNDING else 0.0
     pair = f"{lin.frequencies[index]:.4g} Hz, damping ratio {damping:.3g}"
     ax.set_title(pair if value.imag else f"{value.real:.4g} 1/s")
     return ax

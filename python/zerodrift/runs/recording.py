@@ -11,7 +11,7 @@ from ..systems.base import BaseSystem
 from .outputs import Recorded
 
 FIRST_BLOCK = 1024  # samples of a new record if the number of steps is not known in advance
-SMALL = 2**26       # bytes of a record below which free memory is not checked: the check takes as long as a short run
+UNCHECKED_BYTES = 2**26  # bytes of a record below which free memory is not checked: the check takes as long as a short run
 
 
 def record_of(core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows: int | None, path: Any) -> Any:
@@ -24,7 +24,7 @@ def record_of(core: _gateway.CoreSystem, outputs: _gateway.Outputs | None, rows:
 
 def check_memory(rows: int, row: int, stacklevel: int) -> None:
     """Check that memory has room for `rows` samples of `row` bytes; see `memory.check_memory`."""
-    if rows * row > SMALL:
+    if rows * row > UNCHECKED_BYTES:
         from . import memory  # slow to import
 
         memory.check_memory(rows, row, stacklevel + 1)

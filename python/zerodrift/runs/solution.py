@@ -209,8 +209,9 @@ class Solution:
     def _check_sign(self, name: str) -> None:
         """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
         if measure := self._force_of(name):
-            raise WrongName(f"{name!r} names an element, whose {measure.rpartition('.')[2]} is sol[{measure!r}], and a constraint, "
-                            "whose multiplier is in sol.multipliers and has the opposite sign, by (7)")
+            quantity = measure.rpartition(".")[2]
+            raise WrongName(f"{name!r} names an element, whose {quantity} is sol[{measure!r}], and a constraint, whose "
+                            "multiplier is in sol.multipliers and has the opposite sign, by (7)")
 
     def _force_of(self, name: str) -> str | None:
         """Name of the scalar force or torque of a drive or coupling of that name; None if there is none."""

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-ROUNDING = 2.0**-104    # bound of the relative error of an operation
+EPS = 2.0**-104    # bound of the relative error of an operation
 SPLITTER = 134217729.0
 
 

@@ -75,7 +75,7 @@ class PreciseMotion:
         chance = np.random.default_rng(seed)
 
         def off(x: np.ndarray) -> np.ndarray:
-            return dd.times(x, np.stack([np.ones(len(x)), dd.ROUNDING * chance.choice([-2.0, -1.0, 1.0, 2.0], len(x))], axis=-1))
+            return dd.times(x, np.stack([np.ones(len(x)), dd.EPS * chance.choice([-2.0, -1.0, 1.0, 2.0], len(x))], axis=-1))
 
         return self.functions.with_numbers(off(self.functions.numbers)), off(p), off(v)
 

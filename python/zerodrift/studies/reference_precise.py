@@ -21,13 +21,13 @@ from ..systems.base import BaseSystem
 from . import double_double as dd
 from .certificate import Reference
 from .precise_motion import PreciseMotion, PreciseRun, Settings
-from .reference_runs import ROUNDING, Difference, Motion
+from .reference_runs import EPS, Difference, Motion
 
 PRECISIONS = ("double", "double-double")
 VECTOR = "avx2" if _gateway.PROCESSOR_UNIT else "baseline"      # same bits, but faster with fma
 METHOD = "taylor, order {}"
 SAFETY = 10             # the certified error, in units of the largest difference
-FLOOR = 8 * dd.ROUNDING     # part of the motion's size; the accuracy of sums and differences of samples
+FLOOR = 8 * dd.EPS     # part of the motion's size; the accuracy of sums and differences of samples
 FINEST, COARSEST = 1e-30, 1e-18     # tolerance of the motion, relative to its size
 MARGIN = 1000           # of the wanted error over the tolerance, times what the motion makes of rounding
 FINER = 0.03            # tolerance of the run of higher order, relative to that of the motion
@@ -71,7 +71,7 @@ class PreciseSearch:
         """Tolerances to try: the one that the wanted error asks for, by what the motion makes of rounding, and the finest."""
         if self.wanted is None:
             return [FINEST]
-        growth = max(1.0, self.found.differences[1].p / (ROUNDING * self.motion.size))
+        growth = max(1.0, self.found.differences[1].p / (EPS * self.motion.size))
         asked = self.wanted / (MARGIN * growth * self.motion.size)
         return [min(asked, COARSEST), FINEST] if asked > FINEST else [FINEST]
 

@@ -20,7 +20,7 @@ from ..runs.threads import side_by_side
 from ..systems.base import BaseSystem, core_of
 
 SERIES = "taylor"   # integrator of arbitrary order
-ROUNDING = np.finfo(float).eps
+EPS = np.finfo(float).eps
 PROBE = 1e-5        # tolerance of the adaptive run that determines the number of steps
 _NOT_MADE = object()
 UNIT = 3            # numbers of steps are multiples of this, as other runs have two and five thirds of them
@@ -40,7 +40,7 @@ class Difference(NamedTuple):
 class Perturbed(BaseSystem):
     """A system whose arguments and terms are perturbed by rounding."""
 
-    def __init__(self, system: BaseSystem, seed: int, size: float = ROUNDING) -> None:
+    def __init__(self, system: BaseSystem, seed: int, size: float = EPS) -> None:
         self.name, self.parameters, self.p0, self.v0 = system.name, system.parameters, None, None
         self.coordinates, self.velocities, self.constraints = system.coordinates, system.velocities, system.constraints
         self._core, self._system = _gateway.perturbed(core_of(system), size, seed), system
@@ -50,7 +50,7 @@ class Perturbed(BaseSystem):
 
     def shifted(self, x: np.ndarray, seed: int) -> np.ndarray:
         """A state with each entry perturbed by one or two units of rounding."""
-        return x * (1.0 + ROUNDING * np.random.default_rng(seed).choice([-2.0, -1.0, 1.0, 2.0], x.shape))
+        return x * (1.0 + EPS * np.random.default_rng(seed).choice([-2.0, -1.0, 1.0, 2.0], x.shape))
 
 
 class Rows(NamedTuple):
@@ -178,4 +178,4 @@ class Motion:
 def _shift(t: np.ndarray, x: np.ndarray) -> float:
     """Largest change of x by rounding of the time and of the elapsed time."""
     rates = np.abs(np.diff(x, axis=0)).max(axis=1) / np.diff(t)
-    return float(ROUNDING * (rates * (np.abs(t) + t - t[0])[1:]).max())
+    return float(EPS * (rates * (np.abs(t) + t - t[0])[1:]).max())

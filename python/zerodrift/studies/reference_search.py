@@ -40,7 +40,7 @@ from ..runs import settings
 from ..runs.solution import Solution
 from ..systems.base import core_of
 from .certificate import Reference
-from .reference_runs import ROUNDING, UNIT, Difference, Motion, Way
+from .reference_runs import EPS, UNIT, Difference, Motion, Way
 
 SAFETY = 3          # the certified error, in units of the largest difference; no random motion erred by twice that difference
 SAFETY_ROUGH = 10   # the same where terms are not smooth for the steps
@@ -55,7 +55,7 @@ FORGOTTEN = 3       # a motion has forgotten its start where rounding alone make
 GROWTH = 1e4        # a motion is sensitive where it makes so many times as much of rounding as its own size and speed do
 LARGEST_GAP = 0.21  # part of a step, between the instants at which the integrator of highest order evaluates
 DENSE = 9000        # steps of the run that looks for what acts in a narrow place, or more
-SPACING = 4 * ROUNDING      # part of the motion's size; doubles cannot express a smaller error
+SPACING = 4 * EPS      # part of the motion's size; doubles cannot express a smaller error
 
 TIME = ("terms depend on t, and no max_step was said: what acts for less than the time between the instants at which they were "
         "evaluated, some {apart:.2g} s, may have been missed")
@@ -198,13 +198,13 @@ class Search:
         if not self._looks_for_places:
             return False
         others, dense = found.differences[:CHECKS], found.differences[CHECKS]
-        return dense.p > EXPLAINED * (max(each.p for each in others) + ROUNDING * self.motion.size)
+        return dense.p > EXPLAINED * (max(each.p for each in others) + EPS * self.motion.size)
 
     def _is_rounding(self, found: Reference) -> bool:
         """True if the differences of runs are explained by rounding, observed or accumulated with the same sign in each step."""
         size, steps = self.motion.size, max(d.steps for d in found.differences)
         seen = found.differences[1].p + self.motion.shift[0] + SPACING * size
-        return max(d.p for d in found.differences) <= EXPLAINED * seen + steps * ROUNDING / 2 * size
+        return max(d.p for d in found.differences) <= EXPLAINED * seen + steps * EPS / 2 * size
 
     def _caveats(self, found: Reference, steps: int, previous: float) -> Iterator[str]:
         motion = self.motion
@@ -219,7 +219,7 @@ class Search:
         ratios = [a / b for a, b in ((previous, halved), (halved, finer)) if b]      # the finer run differs by the error itself
         if not self._is_rounding(found) and min(ratios, default=math.inf) < SMOOTH_RATIO:
             yield SMOOTH.format(ratio=min(ratios), most=2.0**settings.integrators()[motion.method].order)
-        own = ROUNDING * motion.size + motion.shift[0]
+        own = EPS * motion.size + motion.shift[0]
         if rounded > GROWTH * own:
             yield SENSITIVE.format(growth=rounded / own)
 

@@ -30,7 +30,7 @@ PEERS = ("zerodrift", "mujoco", "exudyn", "pinocchio")
 NUMBERS = (2, 5, 10, 20, 40, 100, 200)
 ERRORS = (1e-3, 1e-6)
 LIMIT = 10.0            # s: of one run
-ROUNDS, SHORT = 5, 1.0
+ROUNDS, SHORT_RUN = 5, 1.0
 FEW, MANY, WHILE = 10, 1000, 0.2     # steps, and seconds
 DENSE = 40              # four-bars, up to which dense solvers are tried
 A_STEP = {              # the setting of each method of which a step is timed, with k steps between outputs
@@ -92,7 +92,7 @@ def time_to(module, drawing, moved, settings):
         error = np.abs(got - moved).max() if got.shape == moved.shape and np.isfinite(got).all() else math.inf
         reached = [each for each in ERRORS if error <= each and math.isnan(found[each])]
         if reached:
-            again = [module.solve(drawing, setting)[1] for _ in range(0 if last > SHORT else 3)]
+            again = [module.solve(drawing, setting)[1] for _ in range(0 if last > SHORT_RUN else 3)]
             found |= dict.fromkeys(reached, min([last, *again]))
         if not math.isnan(found[ERRORS[-1]]):
             break

@@ -23,8 +23,8 @@ MOST = 4                # orders, as the interface has it
 SAMPLES = 384
 ITERATIONS = 12         # of Newton's method
 CLOSED = 1e-9           # in parts of its row: a violation that is none
-LARGE = {1: 0.5, 2: 0.1, 3: 0.05}     # of a determinant of so many rows, in parts of the largest entries of these
-ENOUGH = {size: share / 4 for size, share in LARGE.items()}     # a step may begin with 2^-3: csrc/step_limits.h
+DETERMINANTS = {1: 0.5, 2: 0.1, 3: 0.05}      # of a determinant of so many rows, in parts of the largest entries of these
+USABLE = {size: share / 4 for size, share in DETERMINANTS.items()}      # a step may begin with 2^-3: csrc/step_limits.h
 TRIPLES = 9             # rows and columns up to which three at a time are tried
 SPREADS = (0.2, 0.7, 2.0)       # of configurations around the start, in rad or parts of the mechanism's length
 
@@ -67,9 +67,10 @@ def _for_places(C: np.ndarray) -> list[Order]:
     """An order, and others for where it does not serve."""
     orders: list[Order] = []
     while len(orders) < MOST and len(C):
-        order, served = max((_Search(C, LARGE, at_once).run() for at_once in (True, False)), key=lambda each: each[1].sum())
+        order, served = max((_Search(C, DETERMINANTS, at_once).run() for at_once in (True, False)),
+                            key=lambda each: each[1].sum())
         if not served.any() and not orders:     # the start ought to be served, if less well
-            order, served = _Search(C, ENOUGH).run()
+            order, served = _Search(C, USABLE).run()
         if not served.any():
             break
         orders.append(order)
@@ -83,7 +84,7 @@ def _for_sets(C: np.ndarray) -> list[Order]:
     found = [(chosen, C[[other == chosen for other in sets]]) for chosen, _ in Counter(sets).most_common()]
     orders: list[Order] = []
     for chosen, where in sorted(found, key=lambda each: each[0] != sets[0]):
-        order, served = _Search((where / _largest(where))[:, :, chosen], ENOUGH).run()
+        order, served = _Search((where / _largest(where))[:, :, chosen], USABLE).run()
         if served.any():
             orders.append(tuple(Solve(solve.rows, tuple(chosen[j] for j in solve.columns)) for solve in order))
     return orders[:MOST]

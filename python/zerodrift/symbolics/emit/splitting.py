@@ -11,7 +11,7 @@ from .loops import element, number, plain, rolled
 from .writers import LONGEST, CWriter, indented, turn_of, unwrapped, wanted
 
 MOST_STATEMENTS = 400       # of one function: compilers take the square of it; a run with loops takes 0.96 to 1.06 of one without
-LEAST = 8                   # statements alike that are worth a loop
+FEWEST_STATEMENTS = 8       # statements alike that are worth a loop
 PIECE = 250                 # of one function of a large program
 ARGUMENTS = "const double *restrict k, double t, const double *restrict p, const double *restrict v,"
 PIECES = ["#if defined(__GNUC__)", "#define PIECE static __attribute__((noinline)) void",     # or they are made one again
@@ -87,7 +87,7 @@ class LargeWriter(CWriter):
 
     def _calls(self, statements: list[str], name: str, takes: str, given: str) -> list[str]:
         """Calls of functions that do this."""
-        items, calls = rolled(statements, LEAST), []
+        items, calls = rolled(statements, FEWEST_STATEMENTS), []
         for i in range(0, len(items), PIECE):
             function = f"{name}_{i // PIECE}"
             lines = [line for item in items[i : i + PIECE] for line in item.splitlines()]

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby, pairwise
 from typing import Any
 
-LEAST = 12          # velocities: below, small dense kernels are faster
+FEWEST_VELOCITIES = 12  # velocities: below, small dense kernels are faster
 SPARSE = 0.5        # of the entries of M and C may be stored: with more, little is saved
 PART = 3            # entries that going to one more block costs as much as
 
@@ -29,7 +29,7 @@ class Pattern:
     def structure(self) -> dict[str, list[Any]] | None:
         """The arguments of `zd.Structure`; None where there is none that pays."""
         _, nv, mh, mn = self._sizes
-        if nv < LEAST:
+        if nv < FEWEST_VELOCITIES:
             return None
         ends = self._merged(self._uncoupled())
         coordinates = self._coordinates(ends)
