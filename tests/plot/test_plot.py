@@ -223,7 +223,7 @@ def test_a_drawing_in_space_has_equal_scales(animated):
 
 
 def test_a_plane_curve_in_space_has_room_for_its_ticks():
-    """The rod of the spatial slider-crank turns in the plane x = 0, but for rounding."""
+    """The rod of the spatial slider-crank turns in the plane x = 0, except for rounding."""
     sol = zd.simulate(zd.models.spatial_slider_crank(), 1.0)
     ax = plot.path(sol, "crank.end", ax=plt.figure().add_subplot(projection="3d"))
     spans = [np.ptp(limits) for limits in (ax.get_xlim(), ax.get_ylim(), ax.get_zlim())]
