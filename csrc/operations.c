@@ -7,7 +7,7 @@
 #include "point/quaternions.h"
 #include "point/terms.h"
 #include "registry.h"
-#include "run/arguments.h"
+#include "run/arguments/arguments.h"
 #include "run/create.h"
 #include "run/explain.h"
 #include "run/resample.h"

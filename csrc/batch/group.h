@@ -5,7 +5,7 @@
 #include "../linalg/bracket.h"
 #include "../output/reading.h"
 #include "../run/run.h"
-#include "lane_numbers.h"
+#include "lanes/numbers.h"
 #include "single_run.h"
 
 /* Statistics of a lane's energy corrections. */

@@ -4,7 +4,7 @@
  */
 #include <string.h>
 
-#include "../point/weighted.h"
+#include "../point/sparse/weighted.h"
 #include "../zerodrift.h"
 #include "rank.h"
 

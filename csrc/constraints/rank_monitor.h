@@ -3,7 +3,7 @@
 #define ZD_RANK_MONITOR_H
 
 #include "../linalg/orthogonal.h"
-#include "../point/weighted.h"
+#include "../point/sparse/weighted.h"
 #include "rank.h"
 
 struct zd_rank_monitor {

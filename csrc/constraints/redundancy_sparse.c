@@ -21,7 +21,7 @@
 
 #include "../linalg/norms.h"
 #include "../point/matrices.h"
-#include "../point/weighted.h"
+#include "../point/sparse/weighted.h"
 
 enum { PROJECTIONS = 6 };
 static const double SMALL_PIVOTS[] = {0x1p-20, 0x1p-30, 0x1p-40}; /* relative to the squared row: candidates for dependent rows */

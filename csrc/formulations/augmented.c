@@ -18,7 +18,7 @@
 #include "../linalg/small.h"
 #include "../linalg/symmetric.h"
 #include "../point/matrices.h"
-#include "structured.h"
+#include "sparse/structured.h"
 
 typedef struct augmented {
     int n, m;

@@ -14,7 +14,7 @@
 #include "../point/matrices.h"
 #include "complement.h"
 #include "dependent.h"
-#include "structured.h"
+#include "sparse/structured.h"
 
 typedef struct nullspace {
     zd_structured *many;    /* replaces all that follows for a declared structure with many constraints */

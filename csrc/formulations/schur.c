@@ -21,7 +21,7 @@
 #include "../linalg/refinement.h"
 #include "../linalg/small.h"
 #include "../point/matrices.h"
-#include "structured.h"
+#include "sparse/structured.h"
 
 static const double MIN_REMAINDER = 1024 * 0x1p-53;     /* relative residual norm of a row that is rounding */
 static const double SMALL_PIVOT = 0x1p-20;           /* pivot of C M^-1 C^T relative to its diagonal below which too many digits are lost */

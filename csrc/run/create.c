@@ -10,7 +10,7 @@
 #include "../step/adaptive.h"
 #include "../paths/choose.h"
 #include "../paths/variables.h"
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "explain.h"
 #include "goal.h"
 #include "inputs.h"

@@ -1,0 +1,312 @@
+/* Checks of the optional members of zd_system, one function per pointer: their sizes must match those of the system, and declared arrays
+ * and functions must exist. Messages count from 0, as the interface does.
+ */
+#include "interface.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+
+#include "../../point/layout.h"
+
+typedef struct text {
+    char *here;
+    int size;
+} text;
+
+static int refuse(text message, const char *sentence, ...)
+{
+    va_list values;
+    va_start(values, sentence);
+    vsnprintf(message.here, (size_t)message.size, sentence, values);
+    va_end(values);
+    return ZD_BAD_ARGUMENT;
+}
+
+static const double LARGEST_MATRICES = 0x1p28;      /* entries; offsets of packed matrices are ints */
+
+static int is_no_size(int scratch) { return scratch < 0 || scratch > ZD_LARGEST * ZD_LARGEST; }
+
+static int is_no_count(int count) { return count < 0 || count > ZD_LARGEST; }
+
+/* ---- structure ---- */
+
+static int check_blocks(const zd_system *system, text message)
+{
+    const zd_structure *structure = system->structure;
+    int nq = 0, nv = 0;
+    if (structure->blocks < 1 || structure->blocks > system->nv || !structure->coordinates || !structure->velocities)
+        return refuse(message, "structure: there must be 1 to %d blocks, each with its coordinates and velocities, not %d", system->nv,
+                      structure->blocks);
+    for (int b = 0; b < structure->blocks; b++) {
+        int p = structure->coordinates[b], v = structure->velocities[b], mass = structure->mass ? structure->mass[b] : 0;
+        if (p < 1 || v < 1 || p > system->nq || v > system->nv)
+            return refuse(message, "structure: block %d must have at least one coordinate and one velocity, not %d and %d", b, p, v);
+        if (p != v && !(system->provides & ZD_A))
+            return refuse(message, "structure: block %d has %d coordinates and %d velocities: the system must provide a kinematic matrix",
+                          b, p, v);
+        if (mass & ~(ZD_CONSTANT | ZD_DIAGONAL))
+            return refuse(message, "structure: the mass of block %d must be a sum of ZD_CONSTANT and ZD_DIAGONAL, not %d", b, mass);
+        nq += p, nv += v;
+    }
+    if (nq == system->nq - system->followers && nv == system->nv) return ZD_DONE;
+    return refuse(message, "structure: the blocks must have the %d coordinates and %d velocities of the system, not %d and %d",
+                  system->nq - system->followers, system->nv, nq, nv);
+}
+
+static int check_touched(const zd_structure *structure, int g, text message)
+{
+    int first = structure->first[g], end = structure->first[g + 1];
+    if (first >= end || end - first > structure->blocks || (g == 0 && first != 0))
+        return refuse(message, "structure: group %d must touch at least one block, the first group from 0 on, not those at %d to %d of "
+                      "the list", g, first, end - 1);
+    for (int i = first; i < end; i++) {
+        int b = structure->block[i];
+        if (b < 0 || b >= structure->blocks || (i > first && b <= structure->block[i - 1]))
+            return refuse(message, "structure: the blocks of group %d must increase, from 0 to %d at most; it touches block %d", g,
+                          structure->blocks - 1, b);
+    }
+    return ZD_DONE;
+}
+
+static int check_groups_of_rows(const zd_system *system, text message)
+{
+    const zd_structure *structure = system->structure;
+    int m = system->mh + system->mn, rows = 0, status = ZD_DONE;
+    if (structure->groups < 0 || structure->groups > m || (structure->groups && !(structure->rows && structure->first && structure->block)))
+        return refuse(message, "structure: there must be at most %d groups, each with its rows and the blocks it touches, not %d", m,
+                      structure->groups);
+    for (int g = 0; g < structure->groups && !status; g++) {
+        if (structure->rows[g] < 1 || structure->rows[g] > m - rows)
+            return refuse(message, "structure: group %d must have at least one row, and at most the %d of %d that are left for it, not %d", g,
+                          m - rows, m, structure->rows[g]);
+        if (rows < system->mh && rows + structure->rows[g] > system->mh)
+            return refuse(message, "structure: the rows of group %d must all be holonomic, or all nonholonomic", g);
+        rows += structure->rows[g];
+        status = check_touched(structure, g, message);
+    }
+    if (status || rows == m) return status;
+    return refuse(message, "structure: the groups must have the %d rows of the system, not %d", m, rows);
+}
+
+/* Number of entries of all blocks of A, M and C, as a double: it may exceed the range of int. */
+static double numbers_in(const zd_structure *structure)
+{
+    double numbers = 0;
+    for (int b = 0; b < structure->blocks; b++)
+        numbers += ((double)structure->coordinates[b] + structure->velocities[b]) * structure->velocities[b];
+    for (int g = 0; g < structure->groups; g++)
+        for (int i = structure->first[g]; i < structure->first[g + 1]; i++)
+            numbers += (double)structure->rows[g] * structure->velocities[structure->block[i]];
+    return numbers;
+}
+
+static int check_structure(const zd_system *system, text message)
+{
+    if (!system->structure) return ZD_DONE;
+    if (system->provides & ZD_COMPLEMENT)
+        return refuse(message, "structure: a system with structure must not provide a complement D of its own");
+    int status = check_blocks(system, message);
+    if (!status) status = check_groups_of_rows(system, message);
+    if (!status && numbers_in(system->structure) > LARGEST_MATRICES)
+        return refuse(message, "structure: blocks and groups must have at most %.3g numbers in all, not %.3g", LARGEST_MATRICES,
+                      numbers_in(system->structure));
+    return status;
+}
+
+/* ---- other members ---- */
+
+static int check_operations(const zd_system *system, text message)
+{
+    const zd_operations *operations = system->operations;
+    if (!operations || (!operations->subtract_weighted && !operations->add_weighted)) return ZD_DONE;
+    if (operations->times_C && operations->subtract_weighted && operations->add_weighted && zd_mass_is(system, ZD_DIAGONAL)) return ZD_DONE;
+    return refuse(message, "operations: subtract_weighted and add_weighted must come together, with times_C, and a structure whose M is "
+                  "diagonal");
+}
+
+/* Checks an order: each constraint is eliminated once, for as many different velocities, in solves numbered from 0. */
+static int is_an_elimination(const zd_system *system, const zd_elimination *order, int embeds)
+{
+    int m = system->mh + system->mn, last = -1;
+    if (!(embeds ? order->embed != NULL : order->accelerate != NULL) || order->solves < 0 || order->solves > m ||
+        (order->solves == 0) != (m == 0))
+        return 0;
+    if (m && !(order->correct && order->solve && order->row && order->column)) return 0;
+    for (int k = 0; k < m; k++) {
+        int row = order->row[k], column = order->column[k];
+        if (row < 0 || row >= m || column < 0 || column >= system->nv || order->solve[k] < last || order->solve[k] > last + 1) return 0;
+        for (int i = 0; i < k; i++)
+            if (order->row[i] == row || order->column[i] == column) return 0;
+        last = order->solve[k];
+    }
+    return last + 1 == order->solves;
+}
+
+static int check_orders(const zd_system *system, int set, text message)
+{
+    const zd_closed_form *direct = &system->closed_form[set];
+    for (int i = 0; i < direct->orders + direct->embeddings; i++) {
+        const int embeds = i >= direct->orders;
+        const zd_elimination *order = embeds ? direct->embedding + (i - direct->orders) : direct->order + i;
+        if (!is_an_elimination(system, order, embeds))
+            return refuse(message, "closed_form: order %d of set %d must eliminate %d rows, each once, for as many of %d velocities", i, set,
+                          system->mh + system->mn, system->nv);
+    }
+    return ZD_DONE;
+}
+
+static int is_no_number_of_orders(int count, const zd_elimination *order)
+{
+    return count < 0 || count > 4 || (count > 0 && !order);
+}
+
+static int check_direct(const zd_system *system, text message)
+{
+    int known[ZD_AVX512 + 1] = {0};
+    if (system->closed_forms < 0 || system->closed_forms > 12 || (system->closed_forms > 0) != (system->closed_form != NULL))
+        return refuse(message, "closed_form: there must be at most one set of functions for each vector unit and number of lanes, "
+                      "not %d sets",
+                      system->closed_forms);
+    for (int i = 0; i < system->closed_forms; i++) {
+        const zd_closed_form *direct = &system->closed_form[i];
+        if (is_no_number_of_orders(direct->orders, direct->order) || is_no_number_of_orders(direct->embeddings, direct->embedding))
+            return refuse(message, "closed_form: set %d must have arrays of up to 4 orders of elimination, and of up to 4 for independent "
+                          "velocities, not of %d and %d", i, direct->orders, direct->embeddings);
+        if (!(direct->orders + direct->embeddings)) return refuse(message, "closed_form: set %d must have an order of elimination", i);
+        if (direct->lanes != 1 && direct->lanes != 2 && direct->lanes != 4 && direct->lanes != 8)
+            return refuse(message, "closed_form: set %d must have 1, 2, 4 or 8 lanes, not %d", i, direct->lanes);
+        if ((unsigned)direct->unit > ZD_AVX512)
+            return refuse(message, "closed_form: the vector unit of set %d must be from 0 to 2, not %d", i, (int)direct->unit);
+        if (known[direct->unit] & direct->lanes)
+            return refuse(message, "closed_form: set %d must not be a second one of %d lanes for its vector unit", i, direct->lanes);
+        known[direct->unit] |= direct->lanes;
+        int status = check_orders(system, i, message);
+        if (status) return status;
+    }
+    return ZD_DONE;
+}
+
+static int check_measures(const zd_system *system, text message)
+{
+    const zd_measures *measures = system->measures;
+    if (!measures) return ZD_DONE;
+    if (is_no_count(measures->count) || (measures->count && (!measures->measure || !measures->evaluate)))
+        return refuse(message, "measures: there must be 0 to 8192, with a function that evaluates them, not %d", measures->count);
+    if (is_no_size(measures->scratch)) return refuse(message, "measures: their scratch must be a size, not %d", measures->scratch);
+    for (int i = 0; i < measures->count; i++) {
+        const zd_measure *measure = &measures->measure[i];
+        if (!measure->name || !*measure->name || !measure->unit)
+            return refuse(message, "measures: measure %d must have a name and a unit", i);
+        if (measure->size < 1 || measure->size > ZD_LARGEST)
+            return refuse(message, "measures: %s must have 1 to 8192 components, not %d", measure->name, measure->size);
+        if ((int)measure->depends < ZD_OF_POSITIONS || (int)measure->depends > ZD_OF_ACCELERATIONS)
+            return refuse(message, "measures: %s must depend on positions, velocities or accelerations (0 to 2), not on %d", measure->name,
+                          (int)measure->depends);
+    }
+    return ZD_DONE;
+}
+
+static int check_series(const zd_system *system, text message)
+{
+    const zd_series *series = system->series;
+    if (!series || (series->evaluate && !is_no_size(series->scratch))) return ZD_DONE;
+    return refuse(message, "series: they must have evaluate(), and a scratch that is a size, not %d", series->scratch);
+}
+
+static int check_jacobian(const zd_system *system, text message)
+{
+    const zd_jacobian *jacobian = system->jacobian;
+    if (!jacobian || (jacobian->evaluate && !is_no_size(jacobian->scratch))) return ZD_DONE;
+    return refuse(message, "jacobian: it must have evaluate(), and a scratch that is a size, not %d", jacobian->scratch);
+}
+
+static int check_residuals(const zd_system *system, text message)
+{
+    const zd_residuals *residuals = system->residuals;
+    if (!residuals || (residuals->evaluate && !is_no_size(residuals->scratch))) return ZD_DONE;
+    return refuse(message, "residuals: they must have evaluate(), and a scratch that is a size, not %d", residuals->scratch);
+}
+
+static int check_magnitudes(const zd_system *system, text message)
+{
+    if (!system->magnitudes || !is_no_size(system->magnitudes_scratch)) return ZD_DONE;
+    return refuse(message, "magnitudes: their scratch must be a size, not %d", system->magnitudes_scratch);
+}
+
+static int check_inputs(const zd_system *system, text message)
+{
+    if (is_no_count(system->inputs) || (system->inputs && !system->input))
+        return refuse(message, "inputs: there must be 0 to 8192, each with its name, unit and initial value, not %d", system->inputs);
+    for (int i = 0; i < system->inputs; i++) {
+        const zd_input *input = &system->input[i];
+        if (!input->name || !*input->name || !input->unit) return refuse(message, "inputs: input %d must have a name and a unit", i);
+        if (input->kind != ZD_EFFORT && input->kind != ZD_SPEED)
+            return refuse(message, "inputs: %s must be an effort or a speed", input->name);
+        if (!isfinite(input->initial)) return refuse(message, "inputs: the initial value of %s must be finite", input->name);
+    }
+    return ZD_DONE;
+}
+
+/* Checks groups of constraints that can be switched: they must be in order and must not overlap. */
+static int check_switched_groups(const zd_system *system, text message)
+{
+    int end = 0, m = system->mh + system->mn;
+    if (system->groups < 0 || system->groups > 64 || (system->groups && !system->group))
+        return refuse(message, "groups: there must be 0 to 64, each with its name and rows, not %d", system->groups);
+    for (int i = 0; i < system->groups; i++) {
+        const zd_group *group = &system->group[i];
+        if (!group->name || !*group->name) return refuse(message, "groups: group %d must have a name", i);
+        if (group->rows < 1 || group->first < end || group->first > m - group->rows)
+            return refuse(message, "groups: %s must have at least one of the %d rows, after those of the group before, not %d rows from "
+                          "row %d on", group->name, m, group->rows, group->first);
+        if (group->kind != ZD_TWO_SIDED || !group->is_active)
+            return refuse(message, "groups: %s must be active and two-sided, as others are not simulated yet", group->name);
+        end = group->first + group->rows;
+    }
+    return ZD_DONE;
+}
+
+static int check_quaternions(const zd_system *system, text message)
+{
+    int end = 0;
+    if (system->quaternions < 0 || system->quaternions > system->nq / 4 || (system->quaternions && !system->quaternion))
+        return refuse(message, "quaternions: there must be 0 to %d, each with its first coordinate, not %d", system->nq / 4,
+                      system->quaternions);
+    if (system->quaternions && !(system->provides & ZD_A))
+        return refuse(message, "quaternions: a system with quaternions must have a kinematic matrix, since their rates are not velocities");
+    for (int k = 0; k < system->quaternions; k++) {
+        const int first = system->quaternion[k];
+        if (first < end || first > system->nq - 4)
+            return refuse(message, "quaternions: quaternion %d must be four of the %d coordinates, after those of the one before; it "
+                          "begins at p[%d]", k, system->nq, first);
+        end = first + 4;
+        for (int i = first; i < end; i++)
+            if (system->lengths && system->lengths[i])
+                return refuse(message, "quaternions: p[%d] is in quaternion %d, and must not be declared a length", i, k);
+    }
+    return ZD_DONE;
+}
+
+static int check_followers(const zd_system *system, text message)
+{
+    const int may_be = system->nq > 0 ? system->nq - 1 : 0;
+    if (system->followers < 0 || system->followers > may_be || (system->followers && !system->follow))
+        return refuse(message, "followers: there must be 0 to %d, after the other coordinates, with follow(), not %d", may_be,
+                      system->followers);
+    const int has_rates = system->structure ? system->operations && system->operations->times_A : system->provides & ZD_A;
+    if (system->followers && !has_rates)
+        return refuse(message, "followers: their rates must be in A, or with a structure, whose blocks do not have them, in times_A");
+    return ZD_DONE;
+}
+
+int zd_check_interface(const zd_system *system, char *message, int size)
+{
+    static int (*const checks[])(const zd_system *, text) = {
+        check_followers, check_structure, check_operations, check_direct, check_measures, check_series, check_jacobian,
+        check_residuals, check_magnitudes, check_inputs, check_switched_groups, check_quaternions,
+    };
+    int status = ZD_DONE;
+    for (size_t i = 0; i < sizeof checks / sizeof checks[0] && !status; i++) status = checks[i](system, (text){message, size});
+    return status;
+}
