@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "linalg/norms.h"
+#include "paths/spread.h"
 #include "point/quaternions.h"
 #include "point/terms.h"
 #include "registry.h"
@@ -12,7 +13,6 @@
 #include "run/explain.h"
 #include "run/resample.h"
 #include "run/status.h"
-#include "paths/spread.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)

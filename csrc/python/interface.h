@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 #include "../block/block.h"
-#include "../mechanisms/plane/varied.h"
+#include "../mechanisms/plane/assembly/varied.h"
 #include "../mechanisms/space_tree/tree.h"
 #include "../zerodrift.h"
 

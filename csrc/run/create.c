@@ -4,12 +4,12 @@
 #include <stdio.h>
 
 #include "../constraints/redundancy.h"
+#include "../paths/choose.h"
+#include "../paths/variables.h"
 #include "../point/quaternions.h"
 #include "../point/units.h"
 #include "../registry.h"
 #include "../step/adaptive.h"
-#include "../paths/choose.h"
-#include "../paths/variables.h"
 #include "arguments/arguments.h"
 #include "explain.h"
 #include "goal.h"

@@ -2,8 +2,8 @@
 #ifndef ZD_BODYWISE_H
 #define ZD_BODYWISE_H
 
-#include "../../point/sparse/bodies.h"
 #include "../../point/point.h"
+#include "../../point/sparse/bodies.h"
 
 typedef struct zd_bodywise {
     const zd_layout *layout;

@@ -3,8 +3,8 @@
 #ifndef ZD_PARTITION_H
 #define ZD_PARTITION_H
 
-#include "../../point/sparse/bodies.h"
 #include "../../point/point.h"
+#include "../../point/sparse/bodies.h"
 
 typedef struct zd_partition {
     zd_bodies *bodies;      /* C_w^T W C_w of the dependent velocities w; NULL before the first point */

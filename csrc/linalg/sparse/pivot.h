@@ -2,8 +2,8 @@
 #ifndef ZD_PIVOT_H
 #define ZD_PIVOT_H
 
-#include "blocks.h"
 #include "../small.h"
+#include "blocks.h"
 
 /* True if this pivot is positive; updates the smallest relative pivot. Ratios are compared by products, to avoid divisions. */
 ZD_INLINE int zd_judge_pivot(zd_pivots *pivots, int row, double pivot, double diagonal, double rounding)

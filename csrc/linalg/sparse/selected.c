@@ -7,8 +7,8 @@
  */
 #include <string.h>
 
-#include "blocks.h"
 #include "../small.h"
+#include "blocks.h"
 
 static int size_at(const zd_blocks *self, int k) { return self->at[k + 1] - self->at[k]; }
 

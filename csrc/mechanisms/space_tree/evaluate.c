@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "../space/forces.h"
-#include "../space/rows.h"
+#include "../space/system/forces.h"
+#include "../space/system/rows.h"
 #include "inertia.h"
 #include "inward.h"
 #include "motion.h"

@@ -2,8 +2,8 @@
 #include "reactions.h"
 
 #include "../common/laws.h"
-#include "../space/forces.h"
 #include "../space/marker_quantity.h"
+#include "../space/system/forces.h"
 #include "inertia.h"
 #include "inward.h"
 #include "motion.h"

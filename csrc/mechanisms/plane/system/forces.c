@@ -1,0 +1,36 @@
+/* A generalized force along a marker quantity acts on each body with its value times the unit wrench of that quantity. */
+#include "forces.h"
+
+#include "../../common/laws.h"
+#include "../marker_quantity.h"
+
+int zd_plane_forces_apply(const zd_plane *self, const zd_plane_frame *frame, double t)
+{
+    const zd_readings at = zd_plane_frame_readings(self, frame);
+    for (int i = 0; i <= self->tree.bodies; i++)
+        frame->wrench[i] = (zd_plane_wrench){zd_times(self->tree.link[i].mass, self->gravity), 0};
+    for (const zd_generalized_force *force = self->elements.force; force < self->elements.force + self->elements.forces; force++) {
+        double value;
+        if (zd_force_evaluate(&self->elements, &at, force, t, &value, NULL)) return ZD_CALLBACK;
+        const zd_plane_quantity *quantity = self->quantity + force->quantity;
+        zd_plane_reading reading = zd_plane_quantity_read(quantity, frame->pose);
+        zd_plane_add_wrench(frame->wrench + quantity->first, value, reading.first);
+        zd_plane_add_wrench(frame->wrench + quantity->second, value, reading.second);
+    }
+    return ZD_DONE;
+}
+
+int zd_plane_power(const zd_plane *self, const zd_plane_frame *frame, double t, double *power)
+{
+    const zd_readings at = zd_plane_frame_readings(self, frame);
+    return zd_forces_power(&self->elements, &at, t, power);
+}
+
+double zd_plane_potential(const zd_plane *self, const zd_plane_frame *frame)
+{
+    const zd_readings at = zd_plane_frame_readings(self, frame);
+    double V = 0;
+    for (int i = 1; i <= self->tree.bodies; i++)
+        V -= self->tree.link[i].mass * zd_inner(self->gravity, frame->pose[i].at);
+    return zd_springs_potential(&self->elements, &at, V);
+}

@@ -1,0 +1,117 @@
+/* Numerics of measures in the plane: see ../common/measures.h. */
+#include "measures.h"
+
+#include "../../common/measures.h"
+#include "../marker_quantity.h"
+#include "reactions.h"
+
+static void place(const void *mechanism, const void *frame, const double *p)
+{
+    const zd_plane *self = mechanism;
+    const zd_plane_frame *at = frame;
+    zd_plane_tree_turn(&self->tree, p, at->sines);
+    zd_plane_tree_place(&self->tree, p, at->sines, at->pose);
+}
+
+static void move(const void *mechanism, const void *frame, const double *v)
+{
+    const zd_plane *self = mechanism;
+    const zd_plane_frame *at = frame;
+    zd_plane_tree_move(&self->tree, at->pose, v, at->twist);
+}
+
+static double bias_of(const void *mechanism, const void *frame, int quantity)
+{
+    const zd_plane *self = mechanism;
+    const zd_plane_frame *at = frame;
+    double bias;
+    zd_plane_quantity_rate(self->quantity + quantity, at->pose, at->twist, &bias);
+    return bias;
+}
+
+static void write_row(const void *mechanism, const void *frame, int index, double scale, double *row)
+{
+    const zd_plane *self = mechanism;
+    const zd_plane_frame *at = frame;
+    const zd_plane_quantity *quantity = self->quantity + index;
+    const zd_plane_reading reading = zd_plane_quantity_read(quantity, at->pose);
+    memset(row, 0, (size_t)self->tree.nv * sizeof *row);
+    zd_plane_tree_inward(&self->tree, at->pose, quantity->first, scale, reading.first, row);
+    zd_plane_tree_inward(&self->tree, at->pose, quantity->second, scale, reading.second, row);
+}
+
+static void write_wrench(zd_plane_wrench from, double *to)
+{
+    to[0] = from.force.x, to[1] = from.force.y, to[ZD_WRENCH_FORCE] = from.torque;
+}
+
+static void unit_wrench(const void *mechanism, const void *frame, int quantity, double *wrench)
+{
+    const zd_plane *self = mechanism;
+    const zd_plane_frame *at = frame;
+    write_wrench(zd_plane_quantity_read(self->quantity + quantity, at->pose).second, wrench);
+}
+
+static int reaction_of(const void *mechanism, const void *frame, int joint, const zd_measured_state *at, double *wrench)
+{
+    zd_plane_wrench reaction;
+    const int status = zd_plane_joint_reaction(mechanism, frame, joint, at->t, at->vdot, at->lambda, &reaction);
+    write_wrench(reaction, wrench);
+    return status;
+}
+
+static void apart_of(const void *mechanism, const void *frame, int joint, double *vector)
+{
+    const zd_plane_joint *ends = ((const zd_plane *)mechanism)->joint + joint;
+    const zd_plane_pose *pose = ((const zd_plane_frame *)frame)->pose;
+    const zd_vector apart = zd_minus(zd_point_of(pose + ends->second, ends->point2), zd_point_of(pose + ends->first, ends->point1));
+    vector[0] = apart.x, vector[1] = apart.y;
+}
+
+static const zd_measure_numerics NUMERICS = {2, 1, place, move, bias_of, write_row, unit_wrench, reaction_of, apart_of};
+
+static int evaluate(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
+                    const double *lambda, const zd_measured *out, double *scratch)
+{
+    (void)inputs;
+    const zd_plane *self = data;
+    const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
+    const zd_measured_state at = {t, p, v, vdot, lambda};
+    const zd_measuring measuring = {
+        &NUMERICS, &self->elements, zd_plane_frame_readings(self, &frame), self->tree.nv, frame.is_placed, frame.is_moving, frame.row};
+    return zd_measures_evaluate(&measuring, measure, &at, out);
+}
+
+static int act_on_body(const zd_plane *self, int body, double scale, zd_plane_wrench what, double *own)
+{
+    memset(own, 0, 3 * sizeof *own);
+    if (!body) return -1;
+    zd_plane_tree_act_on_free(self->tree.link + body, scale, what, own);
+    return self->tree.link[body].coordinate;
+}
+
+void zd_plane_components(const zd_plane *self, const double *p, const double *v, int count, const int *which, double *value,
+                             int *at, double *row, double *scratch)
+{
+    const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
+    zd_plane_tree_turn(&self->tree, p, frame.sines);
+    zd_plane_tree_place(&self->tree, p, frame.sines, frame.pose);
+    zd_plane_tree_move(&self->tree, frame.pose, v, frame.twist);
+    for (int i = 0; i < count; i++) {
+        const zd_output_spec *measure = self->elements.output + which[2 * i];
+        const zd_plane_quantity *quantity = self->quantity + measure->index + which[2 * i + 1];
+        const zd_plane_reading reading = zd_plane_quantity_read(quantity, frame.pose);
+        double bias;
+        const double rate = zd_plane_quantity_rate(quantity, frame.pose, frame.twist, &bias);
+        value[i] = measure->scale * (measure->kind == ZD_RATES ? rate : reading.value);
+        at[2 * i] = act_on_body(self, quantity->first, measure->scale, reading.first, row + 6 * i);
+        at[2 * i + 1] = act_on_body(self, quantity->second, measure->scale, reading.second, row + 6 * i + 3);
+    }
+}
+
+zd_measures zd_plane_measures(const zd_plane *self, zd_measure *measure)
+{
+    const int count = self->measures.count;
+    zd_output_list(&self->elements, count, NUMERICS.forces, NUMERICS.torques, measure);
+    return (zd_measures){count, measure, self->system.scratch, evaluate};
+}

@@ -1,0 +1,12 @@
+/* Forces along marker quantities: springs, dampers, drives by generalized force, forces and torques. */
+#ifndef ZD_SPACE_FORCES_H
+#define ZD_SPACE_FORCES_H
+
+#include "../plan.h"
+
+/* frame->wrench <- all applied forces on the bodies, without constraint forces. Returns ZD_DONE or ZD_CALLBACK. */
+int zd_space_forces_apply(const zd_space *self, const zd_space_frame *frame, double t);
+int zd_space_power(const zd_space *self, const zd_space_frame *frame, double t, double *power);     /* sum over all of them, for (28) */
+double zd_space_potential(const zd_space *self, const zd_space_frame *frame);
+
+#endif
