@@ -195,7 +195,7 @@ def test_a_circle_is_found():
 
 
 def test_folders_of_tests_are_named_after_rooms():
-    """The folders of `csrc/`, nested ones themselves or with the room around them, and of `python/zerodrift/`; `run/` is `runs/`."""
+    """The folders of `csrc/`, nested ones alone or with the room around them, and of `python/zerodrift/`; `run/` is `runs/`."""
     of_core = {path.parent.relative_to(ROOT / "csrc").as_posix() for path in ROOT.glob("csrc/*/**/*.c")}
     of_package = {path.parent.name.removeprefix("_") for path in ROOT.glob("python/zerodrift/*/*.py")}
     rooms = {room for room in of_core if room.split("/")[0] != "run"} | of_package
