@@ -7,7 +7,7 @@
 typedef struct zd_integrator {
     zd_card card;
     const void *table;      /* coefficients, for methods that share an implementation */
-    int takes_series;       /* true if it integrates the system's Taylor series in (p, v), without changes of the constraints: zd_series */
+    int takes_series;       /* true if it integrates the Taylor series of the system, without changes of the constraints: zd_series */
     int takes_jacobian;     /* true if it uses rate->jacobian */
     int (*suits)(const zd_system *system);      /* NULL: it suits any system */
     /* given: its parameters, in the order of its card */

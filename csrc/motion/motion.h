@@ -29,6 +29,10 @@ typedef struct zd_rate {
     const double *vdot;     /* (nv,): acceleration at the start of a step, if known; otherwise NULL */
     /* J (size, size) <- derivatives with respect to the state; nonzero: not available at this state. NULL: never available. */
     int (*jacobian)(void *context, double t, const double *y, double *J);
+    /* For states in independent velocities: (p, v) (nq + nv,) of a state, and the formulation's part of the state of (p, v). NULL: the state
+     * begins with p and v. */
+    int (*expand)(void *context, double t, const double *y, double *whole);
+    int (*reduce)(void *context, double t, const double *whole, double *y);
 } zd_rate;
 
 /* Rates at the start of a step, and at a stage within it. */
@@ -148,8 +152,11 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given);
 /* Attaches the state (rate.size,), after all corrections have been enabled. */
 void zd_motion_attach(zd_motion *motion, double *state);
-/* Sets rate.pairs, after the formulation and all corrections are known. */
-void zd_motion_count_pairs(zd_motion *motion);
+/* Sets what of the rate depends on the formulation and on all corrections, after these are known. */
+void zd_motion_describe_rate(zd_motion *motion);
+/* whole.c: the rate's expand() and reduce() */
+int zd_motion_expand(void *motion, double t, const double *y, double *whole);
+int zd_motion_reduce(void *motion, double t, const double *whole, double *y);
 
 /* accelerate.c: solutions with the leading matrix */
 int zd_motion_factor_anew(zd_motion *motion);

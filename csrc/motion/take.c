@@ -56,14 +56,16 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .system = &motion->system,
         .jacobian = system->jacobian ? zd_motion_jacobian : NULL,
     };
-    zd_motion_count_pairs(motion);
+    zd_motion_describe_rate(motion);
     motion->chain = zd_chain_take(motion, arena);
 }
 
-void zd_motion_count_pairs(zd_motion *motion)
+void zd_motion_describe_rate(zd_motion *motion)
 {
     const int are_pairs = !motion->formulation->settle && !(motion->system.provides & ZD_A) && !motion->corrections_size;
     motion->rate.pairs = are_pairs ? motion->system.nv : 0;
+    motion->rate.expand = motion->formulation->settle ? zd_motion_expand : NULL;
+    motion->rate.reduce = motion->formulation->settle ? zd_motion_reduce : NULL;
 }
 
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given)
@@ -79,7 +81,7 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *c
     motion->others_after_step += correction->after_step && !correction->target;
     motion->corrections_size += size;
     motion->rate.size += size;
-    zd_motion_count_pairs(motion);
+    zd_motion_describe_rate(motion);
 }
 
 void zd_motion_attach(zd_motion *motion, double *state)

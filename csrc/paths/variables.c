@@ -38,7 +38,7 @@ static void use(zd_stepper *stepper, const zd_variables *variables, const double
     motion->drifts_from = variables->formulation->drifts_from;
     motion->formulation_size = variables->size;
     motion->rate.size = variables->size + size;
-    zd_motion_count_pairs(motion);
+    zd_motion_describe_rate(motion);
     motion->point->known &= ~(ZD_FACTORED | ZD_ACCELERATED);
     zd_motion_attach(motion, stepper->y);
 }

@@ -159,17 +159,13 @@ int zd_check_system(const zd_system *system, char *message, int size)
     return wrong ? ZD_BAD_ARGUMENT : zd_check_interface(system, message, size);
 }
 
-/* A Taylor series of the motion is that of all of p and v, with unstabilized constraints. */
+/* A Taylor series of the motion is that with unstabilized constraints. */
 int zd_check_methods_agree(const zd_settings *settings, char *message, int size)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
-    const zd_formulation *formulation = zd_formulation_of(settings->formulation);
     const size_t room = (size_t)size;
     int said = 0;
     if (!integrator || !integrator->takes_series) return ZD_DONE;
-    if (formulation->settle)
-        said = snprintf(message, room, "'%s' must be run with 'schur', 'augmented' or 'nullspace', as it steps all of p and v, of which the "
-                        "state of '%s' is a part", integrator->card.name, formulation->card.name);
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS) && !said; row++)
         if (settings->correction[row].given && zd_correction_of(row)->stabilize)
             said = snprintf(message, room, "'%s' must be run without '%s', which changes the constraints of its series; 'projection' does "

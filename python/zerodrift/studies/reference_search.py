@@ -257,5 +257,5 @@ class SearchBySeries(Search):
         return dataclasses.replace(super()._dense(steps), integrator=self.motion.other)
 
     def _of_finer(self) -> str:
-        """The formulation of the check, or the next of which there is a series."""
-        return next((other for _, other in self.pairs if self.motion.follows_series(other)), self.pairs[0][0])
+        """Another formulation than those of the motion and of the check, if there is one."""
+        return self.pairs[min(1, len(self.pairs) - 1)][1]
