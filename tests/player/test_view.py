@@ -2,8 +2,10 @@
 
 import base64
 import html
+import itertools
 import json
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -149,6 +151,21 @@ def test_a_solution_shows_its_film_above_its_text(crank):
     assert 'alt="slider_crank at the start of the motion"' in shown
     assert html.escape(repr(crank)) in shown
     assert len(shown) < 125_000         # the film, and a still picture behind it
+
+
+@pytest.mark.parametrize("model", ["closed_pendulum", "chain"])
+def test_work_grows_with_the_number_of_bodies(model):
+    """Calls of functions, those of C included, in the plane and in space: four times as many for four times the bodies."""
+    def calls(bodies):
+        sol, count = zd.simulate(getattr(zd.models, model)(bodies), 2e-3, step=1e-3), itertools.count()
+        sys.setprofile(lambda _, event, __: next(count) if "call" in event else None)
+        try:
+            zd.view(sol)
+        finally:
+            sys.setprofile(None)
+        return next(count)
+    calls(5)        # imports
+    assert calls(80) < 5 * calls(20)
 
 
 def test_a_long_chain_shows_its_text_alone():

@@ -35,7 +35,7 @@ from .equations.tables import Tables, constraint_names
 from .files.to_json import described
 from .pictures.arrows import acting, chosen
 from .pictures.plane_outline import outline
-from .pictures.plane_pose import Parts, Posed
+from .pictures.plane_pose import Parts, at_moments
 from .pictures.plane_shapes import sketches
 from .pictures.space_outline import space_outline
 from .pictures.space_pose import SpacePosed
@@ -322,8 +322,7 @@ class MechanismSystem(BaseSystem):
             inertias = SpaceInertias(drawing, numbers)
             moments = [SpacePosed(drawing, numbers, inertias, pose) for pose in poses]
         else:
-            parts = Parts(drawing, numbers)
-            moments = [Posed(parts, pose) for pose in poses]
+            moments = at_moments(Parts(drawing, numbers), poses)
         return [(element.name, *acting(element, moments, np.asarray(solution[f"{element.name}.force"])[rows]))
                 for element in elements]
 

@@ -23,7 +23,7 @@ def forces(posed: Posed) -> Iterator[Shape]:
     for element in drawing.of((Spring, MadeForce, Actuator, Bushing)):
         yield from _between(element, posed)
     for spring in drawing.of(TorsionSpring):
-        angle = posed.pose[spring.joint.bodies[1].name].angle - posed.pose[spring.joint.bodies[0].name].angle
+        angle = posed.pose(spring.joint.bodies[1].name).angle - posed.pose(spring.joint.bodies[0].name).angle
         yield Shape("spiral", posed.at(spring.joint.second)[None], spring.name, angle)
     for motor in drawing.of(Motor):
         yield _motor(motor, posed)
@@ -40,8 +40,8 @@ def forces(posed: Posed) -> Iterator[Shape]:
 
 def _to_outside(place: np.ndarray, point: Point, posed: Posed) -> Iterator[Shape]:
     """Line from the outline of a body to a point of it farther out."""
-    places = [posed.pose[point.body.name].point(each) for each in posed.parts.outline.get(point.body.name, [])]
-    if not places:
+    places = posed.outline(point.body.name)
+    if not len(places):
         return
     middle = np.mean(places, axis=0)
     if np.hypot(*(place - middle)) > max(np.hypot(*(each - middle)) for each in places) + APART:

@@ -1,6 +1,8 @@
-"""Planar mechanism in a pose: positions of its points, for `plane_shapes`."""
+"""Planar mechanism in its poses: positions of its points, for `plane_shapes`. Those of all moments are computed together."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -55,23 +57,59 @@ class Parts:
         return normal if points_up else -normal
 
 
-class Posed:
-    """Mechanism with its mass centres at poses (bodies, 3)."""
+class Poses:
+    """Frames of all bodies at several moments, and positions of points, each computed once for all of them."""
 
     def __init__(self, parts: Parts, poses: np.ndarray) -> None:
-        self.parts = parts
-        self.pose = {"ground": Pose(np.zeros(2), 0.0)}
-        for body, (x, y, angle) in zip(parts.drawing.parts(), poses, strict=True):
-            com = parts.inertias.of[body.name][2]
-            self.pose[body.name] = Pose(np.array([x, y]) - turned(angle, com), angle)
+        """Of mass centres at poses (moments, bodies, 3)."""
+        self.parts, count = parts, len(poses)
+        self.frames = {"ground": (np.zeros((count, 2)), np.zeros(count))}       # origins (moments, 2) and angles (moments,)
+        for i, body in enumerate(parts.drawing.parts()):
+            angle, com = poses[:, i, 2], parts.inertias.of[body.name][2]
+            self.frames[body.name] = poses[:, i, :2] - turned(angle, com).T, angle
+        self._points: dict[int, tuple[Point, np.ndarray]] = {}       # a point goes on existing while its identity is a key
+        self._outlines: dict[str, np.ndarray] = {}
+
+    def _moved(self, name: str, local: np.ndarray) -> np.ndarray:
+        origin, angle = self.frames[name]
+        return origin + turned(angle, local).T
+
+    def at(self, point: Point) -> np.ndarray:
+        """Positions (moments, 2) of a point."""
+        if id(point) not in self._points:
+            self._points[id(point)] = point, self._moved(point.body.name, point.local_with(self.parts.numbers))
+        return self._points[id(point)][1]
+
+    def outline(self, name: str) -> np.ndarray:
+        """Points (moments, n, 2) of a body's outline."""
+        if name not in self._outlines:
+            places = [self._moved(name, place) for place in self.parts.outline.get(name, ())]
+            self._outlines[name] = np.stack(places, axis=1) if places else np.zeros((len(self.frames[name][0]), 0, 2))
+        return self._outlines[name]
+
+
+class Posed:
+    """Mechanism at one of several moments."""
+
+    def __init__(self, poses: Poses, moment: int) -> None:
+        self.parts, self._poses, self._moment = poses.parts, poses, moment
+
+    def pose(self, name: str) -> Pose:
+        """Frame of a body in the drawing."""
+        origin, angle = self._poses.frames[name]
+        return Pose(origin[self._moment], angle[self._moment])
 
     def at(self, point: Point) -> np.ndarray:
         """Position of a point, (2,)."""
-        return self.pose[point.body.name].point(point.local_with(self.parts.numbers))
+        return self._poses.at(point)[self._moment]
+
+    def outline(self, name: str) -> np.ndarray:
+        """Points (n, 2) of a body's outline."""
+        return self._poses.outline(name)[self._moment]
 
     def direction(self, body: Body, local: np.ndarray) -> np.ndarray:
         """Direction (2,) in the drawing, from one in a body's frame."""
-        return self.pose[body.name].direction(local)
+        return self.pose(body.name).direction(local)
 
     def contact(self, joint: Joint) -> np.ndarray:
         """Contact point of a wheel with its line, (2,)."""
@@ -91,3 +129,10 @@ class Posed:
         axis, now, place = self.direction(joint.bodies[0], joint.axis), self.displacement(joint), self.at(joint.second)
         low, high = ranges[joint.name]
         return np.array([place + (low - now) * axis, place + (high - now) * axis])
+
+
+def at_moments(parts: Parts, moments: Iterable[np.ndarray]) -> list[Posed]:
+    """Mechanism at each moment, with its mass centres at poses (bodies, 3)."""
+    stacked = np.array(list(moments)).reshape(-1, len(parts.drawing.parts()), 3)
+    poses = Poses(parts, stacked)
+    return [Posed(poses, moment) for moment in range(len(stacked))]

@@ -17,7 +17,7 @@ from ..elements.numbers import Numbers
 from .coupling_shapes import Couplings
 from .force_shapes import forces, walls
 from .plane_outline import APART
-from .plane_pose import Parts, Posed
+from .plane_pose import Parts, Posed, at_moments
 
 ASSUMED = 0.35      # of the distance to the end of its body: length of a groove without a known motion
 
@@ -35,6 +35,7 @@ class Sketch:
         self.guided = [*self.sliding, *(joint for joint in drawing.of(Joint) if joint.row.at_contact)]
         self.has_shape = {joint.bodies[1].name for joint in self.guided} | self.couplings.wheels
         self.held = _held_by_ground(self.parts)
+        self.kinds = [(joint, _kind(joint), is_pinned(joint)) for joint in drawing.of(Joint)]
 
     def ranges(self, moments: Iterable[Posed]) -> Ranges:
         """Range of each slider and each wheel over all moments, from the position of its joint on the first body."""
@@ -62,20 +63,18 @@ class Sketch:
 
     def _bodies(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
         for body in self.parts.drawing.parts():
-            pose = posed.pose[body.name]
             if isinstance(body, Particle):
                 if body.name not in self.has_shape:
-                    yield Shape("particle", pose.origin[None], body.name)
+                    yield Shape("particle", posed.pose(body.name).origin[None], body.name)
                 continue
-            places = [pose.point(place) for place in self.parts.outline[body.name]]
+            places = posed.outline(body.name)
             if body.name in self.slotted:
-                for joint in self.sliding:
-                    if joint.bodies[0] is body:
-                        places += [*posed.track(joint, ranges)]
+                tracks = [posed.track(joint, ranges) for joint in self.sliding if joint.bodies[0] is body]
+                places = np.concatenate([places, *tracks])
             if len(places) > 1:
-                yield Shape("link", np.array(places), body.name, float(body.name in self.slotted))
+                yield Shape("link", places, body.name, float(body.name in self.slotted))
             elif body.name not in self.has_shape:
-                yield Shape("disc", np.array([places[0], pose.direction(np.array([1.0, 0.0]))]), body.name)
+                yield Shape("disc", np.array([places[0], posed.direction(body, np.array([1.0, 0.0]))]), body.name)
         for particle in self.parts.drawing.of(Particle):
             if particle.carrier:
                 yield Shape("particle", posed.at(particle.carrier)[None], particle.name)
@@ -83,25 +82,38 @@ class Sketch:
             yield Shape("mark", posed.at(point)[None], point.name or "")
 
     def _joints(self, posed: Posed, ranges: Ranges) -> Iterator[Shape]:
-        for joint in self.parts.drawing.of(Joint):
-            first, second = posed.at(joint.first), posed.at(joint.second)
-            if "distance" in quantities(joint):
-                yield Shape("rod", np.array([first, second]), joint.name)
-            elif joint.row.at_contact:
+        for joint, kind, pinned in self.kinds:
+            second = posed.at(joint.second)
+            if kind in ("rod", "coupled"):
+                yield Shape(kind, np.array([posed.at(joint.first), second]), joint.name)
+            elif kind == "wheel":
                 axis, radius = posed.direction(joint.bodies[0], joint.axis), joint.length_with(self.parts.numbers)
                 down = radius * np.array([axis[1], -axis[0]])
                 yield Shape("road", np.array([*(posed.track(joint, ranges) + down), axis]), joint.name)
                 yield Shape("wheel", np.array([second, posed.spoke(joint)]), joint.name, radius)
-            elif slides(joint):
+            elif kind == "slider":
                 yield from _slider(joint, posed, ranges, self.couplings.lifted.get(joint.name, 0.0))
-            elif joint.is_of_one_body:
+            elif kind == "blade":
                 yield Shape("blade", np.array([second, posed.direction(joint.bodies[1], joint.axis)]), joint.name)
-            elif {"x", "y", "angle"} <= quantities(joint):
+            elif kind == "weld":
                 yield Shape("weld", np.array([second, posed.spoke(joint)]), joint.name)
-            elif not is_pinned(joint):
-                yield Shape("coupled", np.array([first, second]), joint.name)
-            if is_pinned(joint):
+            if pinned:
                 yield Shape("pin", second[None], joint.name)
+
+
+def _kind(joint: Joint) -> str:
+    """Kind of shape of a joint, besides its pin; "" for none."""
+    if "distance" in quantities(joint):
+        return "rod"
+    if joint.row.at_contact:
+        return "wheel"
+    if slides(joint):
+        return "slider"
+    if joint.is_of_one_body:
+        return "blade"
+    if {"x", "y", "angle"} <= quantities(joint):
+        return "weld"
+    return "" if is_pinned(joint) else "coupled"
 
 
 def _slider(joint: Joint, posed: Posed, ranges: Ranges, lifted: float) -> Iterator[Shape]:
@@ -157,7 +169,7 @@ def sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray],
     Rails and grooves are as long as these moments and those of a motion need.
     """
     sketch = Sketch(drawing, numbers)
-    posed = [Posed(sketch.parts, poses) for poses in moments]
-    others = [Posed(sketch.parts, poses) for poses in motion] if sketch.guided else []
-    ranges = sketch.ranges([*posed, *others])
-    return [sketch.shapes(each, ranges) for each in posed]
+    drawn = at_moments(sketch.parts, moments)
+    others = at_moments(sketch.parts, motion) if sketch.guided else []
+    ranges = sketch.ranges([*drawn, *others])
+    return [sketch.shapes(each, ranges) for each in drawn]

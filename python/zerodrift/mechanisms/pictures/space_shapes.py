@@ -1,5 +1,7 @@
 """Shapes of a mechanism in space in its poses, in m, for `zerodrift.plot.space_picture`.
 
+Which shapes there are does not depend on the pose, so that points of all moments are computed together, (moments, points, 3).
+
 A body is a bar between two joints, a plate between three or more in a plane, otherwise a star of bars; with fewer than two
 joints it is a disc or a box of its inertia. A rolling body is a disc or an ellipsoid.
 """
@@ -25,7 +27,11 @@ APART = 1e-9        # m: smaller distances count as zero
 FLAT = 1e-6         # of the extent of points: deviation from a plane, at most
 ALIKE = 1e-6        # of the largest moment: difference of equal moments, at most
 ROUND = np.linspace(0, 2 * np.pi, 49)
+ORIGIN = np.zeros((1, 3))
 CORNERS = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+
+
+Placed = tuple[np.ndarray, np.ndarray]      # mass centres (moments, 3) and rotations (moments, 3, 3) of a body
 
 
 class SpaceSketch:
@@ -35,6 +41,10 @@ class SpaceSketch:
         self.drawing, self.numbers, self.inertias = drawing, numbers, SpaceInertias(drawing, numbers)
         self.rolling = {joint.bodies[1].name for joint in drawing.of(SpaceRolling)}
         self.held = self._held()
+        self.carried: dict[str, list[Particle]] = {}
+        for particle in drawing.of(Particle):
+            if particle.carrier:
+                self.carried.setdefault(particle.carrier.body.name, []).append(particle)
 
     def _held(self) -> dict[str, np.ndarray]:
         """Points (n, 3) of each body that its shape connects."""
@@ -53,108 +63,124 @@ class SpaceSketch:
         return np.asarray(self.inertias.local(point, self.numbers))
 
     def shapes(self, poses: np.ndarray) -> list[Shape]:
-        """All shapes, with the mass centres at poses (bodies, 7)."""
-        at = {body.name: (pose[:3], rotation_of(pose[3:])) for body, pose in zip(self.drawing.parts(), poses, strict=True)}
-        at["ground"] = np.zeros(3), np.eye(3)
-        bodies = [shape for body in self.drawing.parts() for shape in self._body(body, *at[body.name])]
+        """All shapes, with the mass centres at poses (moments, bodies, 7)."""
+        parts = self.drawing.parts()
+        at = {body.name: (poses[:, i, :3], rotation_of(poses[:, i, 3:])) for i, body in enumerate(parts)}
+        at["ground"] = np.zeros((len(poses), 3)), np.tile(np.eye(3), (len(poses), 1, 1))
+        bodies = [shape for body in parts for shape in self._body(body, at[body.name])]
         joints = [shape for joint in self.drawing.of(SpaceJoint) for shape in self._joint(joint, at)]
         return [*bodies, *joints, *self._forces(at)]
 
-    def _body(self, body: Body, centre: np.ndarray, R: np.ndarray) -> Iterator[Shape]:
+    def _body(self, body: Body, at: Placed) -> Iterator[Shape]:
         if isinstance(body, Particle):
-            yield Shape("dot", centre[None], body.name)
+            yield Shape("dot", _moved(ORIGIN, at), body.name)
             return
-        for particle in self.drawing.of(Particle):
-            if particle.carrier and particle.carrier.body is body:
-                yield Shape("dot", (centre + R @ self.local(particle.carrier))[None], particle.name)
+        for particle in self.carried.get(body.name, ()):
+            yield Shape("dot", _moved(self.local(particle.carrier)[None], at), particle.name)
         places = self.held[body.name]
         if body.name in self.rolling and len(places) < 2:
             return
         if len(places) == 1 and np.linalg.norm(places[0]) > APART:
             places = np.vstack([places, np.zeros(3)])       # the mass centre shows the body's orientation
         if any(np.linalg.norm(place) < APART for place in places) and len(places) > 1 and not isinstance(body, Link):
-            yield Shape("dot", centre[None], body.name)
+            yield Shape("dot", _moved(ORIGIN, at), body.name)
         if len(places) < 2:
-            yield from self._by_inertia(body, centre, R)
+            yield from self._by_inertia(body, at)
             return
         plate = _around(places) if len(places) > 2 else None
         if plate is not None:
-            yield Shape("plate", centre + plate @ R.T, body.name)
+            yield Shape("plate", _moved(plate, at), body.name)
         else:
             middle = places.mean(axis=0) if len(places) > 2 else places[0]
             for place in places if len(places) > 2 else places[1:]:
-                yield Shape("bar", centre + np.array([middle, place]) @ R.T, body.name)
+                yield Shape("bar", _moved(np.array([middle, place]), at), body.name)
 
-    def _by_inertia(self, body: Body, centre: np.ndarray, R: np.ndarray) -> Iterator[Shape]:
+    def _by_inertia(self, body: Body, at: Placed) -> Iterator[Shape]:
         """Disc with the body's mass and largest moment, if the two others are equal; otherwise the uniform box."""
         known = self.inertias.of[body.name]
         a, b, c = known.moments
         axis = next((i for i in range(3) if _is_axial(*np.roll(known.moments, -i))), None)
         if axis is not None and known.mass:
-            radius, one, other = np.sqrt(2 * known.moments[axis] / known.mass), R[:, (axis + 1) % 3], R[:, (axis + 2) % 3]
-            rim = centre + radius * (np.outer(np.cos(ROUND), one) + np.outer(np.sin(ROUND), other))
-            yield Shape("disc", rim, body.name)
-            yield Shape("rod", np.array([centre, rim[0]]), body.name)
+            rim = _ring(axis, *np.full(2, np.sqrt(2 * known.moments[axis] / known.mass)))
+            yield Shape("disc", _moved(rim, at), body.name)
+            yield Shape("rod", _moved(np.concatenate([ORIGIN, rim[:1]]), at), body.name)
             return
         squares = 6 * np.array([b + c - a, c + a - b, a + b - c]) / known.mass if known.mass else np.zeros(3)
-        yield Shape("box", centre + CORNERS * np.sqrt(np.maximum(squares, 0.0)) @ R.T, body.name)
+        yield Shape("box", _moved(CORNERS * np.sqrt(np.maximum(squares, 0.0)), at), body.name)
 
-    def _joint(self, joint: SpaceJoint, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> Iterator[Shape]:
+    def _joint(self, joint: SpaceJoint, at: dict[str, Placed]) -> Iterator[Shape]:
         first, second = (self._placed(point, at) for point in (joint.first, joint.second))
         axes = [self._turned(joint, i, at) for i in (0, 1)]
         if isinstance(joint, SpaceRolling):
-            yield from self._rolled(joint, second, axes[1])
+            yield from self._rolled(joint, (second, axes[1].swapaxes(1, 2)))
             return
         if is_on_plane(joint.row) or is_blade(joint.row):
-            yield Shape("patch", np.array([second, *axes[0][1 if is_on_plane(joint.row) else 0:][:2]]), joint.name)
+            beside = axes[0][:, 1 if is_on_plane(joint.row) else 0:][:, :2]
+            yield Shape("patch", np.concatenate([second[:, None], beside], axis=1), joint.name)
             return
         if holds_distance(joint.row):
-            yield Shape("rod", np.array([first, second]), joint.name)
+            yield Shape("rod", _together(first, second), joint.name)
         elif is_at_point(joint.row) and joint.row.axes:
-            yield from (Shape("pin", np.array([second, axes[i][i]]), joint.name) for i in range(joint.row.axes))
+            yield from (Shape("pin", _together(second, axes[i][:, i]), joint.name) for i in range(joint.row.axes))
         elif joint.row.axes:
-            yield Shape("track", np.array([first, second]), joint.name)
-            yield Shape("sleeve", np.array([second, axes[0][0]]), joint.name)
+            yield Shape("track", _together(first, second), joint.name)
+            yield Shape("sleeve", _together(second, axes[0][:, 0]), joint.name)
         else:
-            yield Shape("weld" if has_torque(joint.row) else "ball", second[None], joint.name)
+            yield Shape("weld" if has_torque(joint.row) else "ball", _together(second), joint.name)
         for side, place in ((joint.first, first), (joint.second, second)):
             if side.body is self.drawing.ground:
-                yield Shape("ground", place[None], joint.name)
+                yield Shape("ground", _together(place), joint.name)
 
-    def _rolled(self, joint: SpaceRolling, centre: np.ndarray, axes: np.ndarray) -> Iterator[Shape]:
-        """Rim of a disc with a spoke, or three sections of an ellipsoid; rows of `axes` are the shape's axes in the drawing."""
-        semiaxes = np.array(joint.semiaxes_with(self.numbers))
+    def _rolled(self, joint: SpaceRolling, at: Placed) -> Iterator[Shape]:
+        """Rim of a disc with a spoke, or three sections of an ellipsoid, in the axes of the shape."""
+        semiaxes = joint.semiaxes_with(self.numbers)
         flat = [i for i in range(3) if semiaxes[i] == 0]
         for i in flat or range(3):
-            one, other = ((i + 1) % 3, (i + 2) % 3)
-            rim = np.outer(np.cos(ROUND), semiaxes[one] * axes[one]) + np.outer(np.sin(ROUND), semiaxes[other] * axes[other])
-            yield Shape("disc" if flat else "ring", centre + rim, joint.bodies[1].name)
+            rim = _ring(i, semiaxes[(i + 1) % 3], semiaxes[(i + 2) % 3])
+            yield Shape("disc" if flat else "ring", _moved(rim, at), joint.bodies[1].name)
             if flat:
-                yield Shape("rod", np.array([centre, centre + rim[0]]), joint.bodies[1].name)
+                yield Shape("rod", _moved(np.concatenate([ORIGIN, rim[:1]]), at), joint.bodies[1].name)
 
-    def _forces(self, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> Iterator[Shape]:
+    def _forces(self, at: dict[str, Placed]) -> Iterator[Shape]:
         for spring in self.drawing.of((Spring, Actuator)):
-            ends = np.array([self._placed(spring.first, at), self._placed(spring.second, at)])
+            ends = _together(self._placed(spring.first, at), self._placed(spring.second, at))
             yield Shape("spring" if isinstance(spring, Spring) else "rod", ends, spring.name)
         for made in self.drawing.of(MadeForce):
-            ends = np.array([self._placed(made.first, at), self._placed(made.second, at)])
+            ends = _together(self._placed(made.first, at), self._placed(made.second, at))
             is_spring = made.row.is_spring and made.has("distance")
-            yield Shape("spring", ends, made.name) if is_spring else Shape("bushing", ends[1:], made.name)
+            yield Shape("spring", ends, made.name) if is_spring else Shape("bushing", ends[:, 1:], made.name)
         for bushing in self.drawing.of(Bushing):
-            yield Shape("bushing", self._placed(bushing.second, at)[None], bushing.name)
+            yield Shape("bushing", _together(self._placed(bushing.second, at)), bushing.name)
             for side in (bushing.first, bushing.second):
                 if side.body is self.drawing.ground:
-                    yield Shape("ground", self._placed(side, at)[None], bushing.name)
+                    yield Shape("ground", _together(self._placed(side, at)), bushing.name)
 
-    def _placed(self, point: Point, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
-        centre, R = at[point.body.name]
-        return centre + R @ self.local(point)
+    def _placed(self, point: Point, at: dict[str, Placed]) -> np.ndarray:
+        """Positions (moments, 3) of a point."""
+        return _moved(self.local(point)[None], at[point.body.name])[:, 0]
 
-    def _turned(self, joint: SpaceJoint, side: int, at: dict[str, tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
-        """Rows of a joint's frame on one of its bodies, in the drawing."""
+    def _turned(self, joint: SpaceJoint, side: int, at: dict[str, Placed]) -> np.ndarray:
+        """Rows of a joint's frame on one of its bodies, in the drawing: (moments, axes, 3)."""
         body = joint.bodies[side]
         own = np.array([self.inertias.direction(body, row) for row in joint.frames[side]])
-        return own @ at[body.name][1].T
+        return own @ at[body.name][1].swapaxes(1, 2)
+
+
+def _moved(places: np.ndarray, at: Placed) -> np.ndarray:
+    """Points (n, 3) of a body at all moments, (moments, n, 3)."""
+    return at[0][:, None] + places @ at[1].swapaxes(1, 2)
+
+
+def _together(*points: np.ndarray) -> np.ndarray:
+    """Points (moments, 3) as those of one shape, (moments, n, 3)."""
+    return np.stack(points, axis=1)
+
+
+def _ring(axis: int, one: float, other: float) -> np.ndarray:
+    """Ellipse around an axis, (49, 3), whose semiaxes are those that follow it."""
+    rim = np.zeros((len(ROUND), 3))
+    rim[:, (axis + 1) % 3], rim[:, (axis + 2) % 3] = one * np.cos(ROUND), other * np.sin(ROUND)
+    return rim
 
 
 def _is_axial(own: float, one: float, other: float) -> bool:
@@ -182,5 +208,6 @@ def _around(places: np.ndarray) -> np.ndarray | None:
 
 def space_sketches(drawing: Drawing, numbers: Numbers, moments: Iterable[np.ndarray]) -> list[list[Shape]]:
     """Shapes of a mechanism at each moment, whose mass centres are at poses (bodies, 7)."""
-    sketch = SpaceSketch(drawing, numbers)
-    return [sketch.shapes(poses) for poses in moments]
+    poses = np.array(list(moments))
+    shapes = SpaceSketch(drawing, numbers).shapes(poses) if len(poses) else []
+    return [[Shape(kind, points[k], name, number) for kind, points, name, number in shapes] for k in range(len(poses))]
