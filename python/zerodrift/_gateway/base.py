@@ -27,7 +27,7 @@ INTERRUPTED = 3     # positive, as it is Python that stops early
 
 
 class Card(NamedTuple):
-    """A row of one of the core's tables."""
+    """An entry of one of the core's tables."""
 
     name: str
     summary: str
@@ -48,7 +48,7 @@ class Variable(NamedTuple):
 
 
 class Parameter(NamedTuple):
-    """A parameter of a row of a table; `initial` is None where it is derived from the others; `words` are those of a choice."""
+    """A parameter of a table entry; `initial` is None if it is derived from the others; `words` are the options of a choice."""
 
     name: str
     unit: str
@@ -68,7 +68,7 @@ def lengths(variables: Iterable[Variable]) -> Any:
 
 
 def set_quaternions(system: Any, places: Sequence[int]) -> Any:
-    """Says in a `zd_system` where unit quaternions begin in p; what it returns has to live as long as that."""
+    """Set the offsets of unit quaternions in p in a `zd_system`; the returned memory must be kept as long as it."""
     if not places:
         return None
     system.quaternions, system.quaternion = len(places), (memory := ffi.new("int[]", list(places)))
@@ -121,7 +121,7 @@ def text(characters: Any) -> str:
 
 
 def doubles(array: np.ndarray, size: int, *, writable: bool = False) -> Any:
-    """The memory of a C-contiguous float64 array of `size` entries, and no other: CFFI itself would reinterpret it."""
+    """Memory of a C-contiguous float64 array of `size` entries; other arrays are refused, which CFFI would reinterpret."""
     if array.dtype != np.float64 or not array.flags.c_contiguous or array.size != size:
         raise WrongType(f"expected {size} contiguous float64 values, got {array.dtype} of shape {array.shape}")
     if writable and not array.flags.writeable:
@@ -138,7 +138,7 @@ def strided_doubles(array: np.ndarray, size: int) -> Any:
 
 
 def cards(table: str) -> tuple[Card, ...]:
-    """The rows of a table of the core."""
+    """Entries of a table of the core."""
     rows = (lib.zd_row(TABLES[table], row) for row in range(lib.zd_rows(TABLES[table])))
     return tuple(map(card_of, rows))
 
@@ -168,7 +168,7 @@ def statuses() -> list[Status]:
 
 
 def _errors() -> dict[int, type[Exception]]:
-    """The exceptions that stand for failed statuses, whose names the core's list of statuses has."""
+    """Exceptions of failed statuses, by the names in the core's list of statuses."""
     named = {**vars(builtins), **vars(errors)}
     return {row.status: named[row.error] for row in statuses()}
 
@@ -178,7 +178,7 @@ CODES = {row.status: row.code for row in statuses() if row.code}
 
 
 class Term(NamedTuple):
-    """A term of the equations that a system may have: the core's list of them has one in each line."""
+    """A term of the equations of motion that a system may have, an entry of the core's list."""
 
     bit: int
     symbol: str     # what C calls the bit
@@ -189,7 +189,7 @@ class Term(NamedTuple):
     text: str
 
     def shape(self, system: Any) -> tuple[int, ...]:
-        """Its shape in a system, a `zd_system`."""
+        """Shape of the term in a `zd_system`."""
         shape = lib.zd_term_shape(system, self.row)
         return tuple(shape.size[0:shape.dimensions])
 
@@ -224,7 +224,7 @@ def parameter_of(c: Any) -> Parameter:
 
 
 def row_named(table: str, name: str) -> int:
-    """The row of a table of the core, by its name."""
+    """Entry of a table of the core, by its name."""
     return lib.zd_row_named(TABLES[table], name.encode())
 
 
@@ -241,7 +241,7 @@ def required(correction: str) -> int:
 
 
 def error_of(status: int, message: str) -> Exception:
-    """The exception that stands for a failed status, with its code."""
+    """Exception of a failed status, with its code."""
     error = ERRORS.get(status, errors.ZerodriftError)(message)
     if status in CODES:
         error.code = CODES[status]

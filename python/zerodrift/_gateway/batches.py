@@ -1,4 +1,4 @@
-"""Many runs in one call of the core: what differs between them stands in tables."""
+"""Batches: many runs in one call of the core, with tables of the data that differ between them."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def error_name(status: int) -> str:
 
 
 def tables_of_kind(kind: Kind, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, dict[int, str]]:
-    """The data of many systems of a kind, and their starts, from parameters (k, all of them); and why some have none."""
+    """Data and starts of many systems of a kind, from parameters (k, parameters), and error messages of invalid ones."""
     k, system = len(parameters), kind.c.system
     data, p0, v0 = np.empty((k, max(1, kind.c.constants))), np.full((k, system.nq), np.nan), np.full((k, system.nv), np.nan)
     reason, refused, first = ffi.new("const char **"), {}, 0
@@ -155,7 +155,7 @@ def tables_of_kind(kind: Kind, parameters: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def derive(address: int, data: np.ndarray) -> None:
-    """Calls a compiled function, which takes one row, for each row of data (k, doubles)."""
+    """Call a compiled function for each row of data (k, doubles)."""
     lib.zd_batch_derive(ffi.cast("void(*)(double *)", address), *data.shape, doubles(data, data.size, writable=True))
 
 

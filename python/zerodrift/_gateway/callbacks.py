@@ -1,4 +1,4 @@
-"""Systems and events that are written in Python: how the core calls them, and what becomes of their errors."""
+"""Callbacks: evaluation of systems and events written in Python, called by the core, with their errors stored."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Evaluator:
             self._arrays["C_H"], self._arrays["C_NH"] = self._arrays["C"][: core.mh], self._arrays["C"][core.mh :]
 
     def write(self, want: int, t: float, moved: int) -> int:
-        """The function that the core calls; the bits 1 and 2 of `moved` say that p and v differ from those of the last call."""
+        """Compute the wanted terms, called by the core; bits 1 and 2 of `moved` mark p and v as changed since the last call."""
         arrays = self._arrays
         try:
             if moved & 1:
@@ -53,7 +53,7 @@ class Evaluator:
         return DONE
 
     def refuse(self, term: int, t: float) -> int:
-        """The function that the core calls where a term, given as its bit, is not finite."""
+        """Raise an error for a non-finite term, given as its bit; called by the core."""
         name = next(name for name, (bit, *_) in TERMS.items() if bit == term)
         self.error = self._write.not_finite(name, t, self._arrays[name])
         return CALLBACK
@@ -65,7 +65,7 @@ def _read_only(memory: Any) -> np.ndarray:
 
 
 def _keep_error(kind: Any, error: BaseException, traceback: Any) -> None:
-    """Keeps what a callback raised, Ctrl-C included; it is raised again where the run was started."""
+    """Store an exception raised in a callback, Ctrl-C included; the caller of the run raises it again."""
     ffi.from_handle(traceback.tb_frame.f_locals["owner"]).error = error.with_traceback(traceback)
 
 
@@ -80,7 +80,7 @@ def zd_refuse_in_python(owner, term, t):
 
 
 class Watcher:
-    """Calls the events of one run for the core, and keeps the states at which they were found.
+    """Evaluation of the events of one run, called by the core; stores the states of their occurrences.
 
     An event is a row with `direction` and `terminal`, as the core's `zd_events` has them, and either `known`, which the core
     evaluates itself, or `value(t, p, v)`. Measures are those of the system `of`, which has the equations of `core`.
@@ -102,7 +102,7 @@ class Watcher:
 
     @property
     def error(self) -> BaseException | None:
-        """Exception that an event raised, or a measure of another system than the one that is run."""
+        """Exception raised by an event, or by a measure of another system than the one of the run."""
         return self._error or (self._of.error if self._of else None)
 
     @error.setter
@@ -114,7 +114,7 @@ class Watcher:
         return self.events[event].value(t, *self.state(p, v))
 
     def state(self, p: Any, v: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Copies of the core's p and v, as an event may keep them."""
+        """Copies of the core's p and v, which the event may store."""
         return tuple(np.array(ffi.unpack(pointer, *shape)) for pointer, shape in zip((p, v), self._shapes, strict=True))
 
     def arrays(self, event: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -164,7 +164,7 @@ class PythonCore(CoreSystem):
         self.write, self.evaluator = write, None
 
     def for_run(self) -> PythonCore:
-        """The same system with an evaluator of its own, so that runs do not share memory."""
+        """Copy of the system with an evaluator of its own, so that runs do not share memory."""
         mine = copy.copy(self)
         mine.c = ffi.new("zd_system *", self.c[0])
         mine.evaluator = Evaluator(mine)
@@ -174,5 +174,5 @@ class PythonCore(CoreSystem):
 
     @property
     def error(self) -> BaseException | None:
-        """Exception that a callable raised; None: none did."""
+        """Exception raised by a callable, or None."""
         return self.evaluator.error if self.evaluator else None

@@ -18,12 +18,12 @@ class ConstraintNames:
         self._system: Any = None
 
     def take_from(self, system: Any) -> None:
-        """Takes them from a system's `constraints`, unless another one's, which are alike, are there."""
+        """Take the names from a system's `constraints`, unless names of an equal system are set."""
         if self._system is None or self._system() is None:
             self._system = ref(system)
 
     def of(self, row: int) -> str:
-        """That of a row; nothing where that is only its number."""
+        """Name of a constraint; empty if it is only its index."""
         system = self._system and self._system()
         names: Sequence[Variable] = system.constraints if system is not None else ()
         name = names[row].name if row < len(names) else ""

@@ -1,4 +1,4 @@
-"""Events that the core evaluates itself: numbers of the motion, or compiled functions of these, that reach a value."""
+"""Events that the core evaluates without Python: a quantity of the motion, or a compiled function of several, reaches a value."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ MEASURE, NUMBER = lib.ZD_READS_MEASURE, lib.ZD_READS_NUMBER
 
 
 class Reading(NamedTuple):
-    """A number of the motion, or one that stays."""
+    """Quantity that an event reads: a number of the motion, or a constant."""
 
     what: int                   # one of the above
     index: int = 0              # of p, of v, or of a measure
@@ -35,7 +35,7 @@ class KnownEvent(NamedTuple):
 
 
 def known_table(events: Sequence[KnownEvent | None]) -> tuple[Any, Any]:
-    """The core's array of them, where what it has to ask for is None; and what has to be kept with it."""
+    """The core's array of events, with None for those that Python evaluates; and the memory to keep with it."""
     kept = [None if event is None else ffi.new("zd_argument[]", [tuple(each) for each in event.readings]) for event in events]
     rows = [{} if event is None else {
         "readings": len(event.readings), "reading": readings, "value": event.value,

@@ -1,4 +1,4 @@
-"""Measures: named functions of the motion that a system of the core brings, evaluated at saved states."""
+"""Measures: named functions of the motion that a system of the core provides, evaluated at saved states."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Measuring:
 
     @functools.cached_property
     def measures(self) -> tuple[Any, ...]:
-        """All of them by name; empty where there are none."""
+        """All measures by name; may be empty."""
         all_of = self.c.measures
         rows = [all_of.measure[i] for i in range(all_of.count)] if all_of else []
         return tuple(Named(text(row.name), text(row.unit), row.size) for row in rows)
@@ -44,7 +44,7 @@ class Measuring:
         raise NotImplementedError
 
     def initial_inputs(self) -> Any:
-        """Its inputs with their initial values."""
+        """Inputs of the system with their initial values."""
         raise NotImplementedError
 
     def measure_size(self, index: int) -> int:
@@ -52,7 +52,7 @@ class Measuring:
         return self.c.measures.measure[index].size
 
     def measure_depends(self, index: int) -> str:
-        """On what a measure depends: "positions", "velocities" or "accelerations"."""
+        """Highest derivative that a measure depends on: "positions", "velocities" or "accelerations"."""
         return DEPENDS[self.c.measures.measure[index].depends]
 
     def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
@@ -78,7 +78,7 @@ class Measuring:
         return {name: array[0] for name, array in self.measure_rates((index,), np.array([float(t)]), p, v).items()}
 
     def measure_rates(self, indices: Sequence[int], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """The same of several of them, stacked, at many states: (k, size), with Jacobians (k, size, nv)."""
+        """Values of several measures, stacked, at many states: (k, size), with rates, and Jacobians (k, size, nv)."""
         core, k, size = self.for_run(), len(t), sum(self.measure_size(index) for index in indices)
         arrays = {name: np.zeros((k, size)) for name in ("value", "rate", "bias")} | {"jacobian": np.zeros((k, size, self.nv))}
         out = ffi.new("zd_measured *", {name: doubles(array, array.size, writable=True) for name, array in arrays.items()})
@@ -138,12 +138,12 @@ class Outputs:
         return self._of.error if self._of else None
 
     def split(self, rows: np.ndarray) -> list[np.ndarray]:
-        """Each measure's own array (k, size) of the recorded rows (k, width)."""
+        """Arrays (k, size) of each measure, from the recorded samples (k, width)."""
         ends = np.cumsum(self.sizes)[:-1]
         parts = np.split(rows, ends, axis=1)
         return [np.ascontiguousarray(part) for part in parts] if rows.flags.c_contiguous else parts     # else they are in a file
 
 
 def given(array: np.ndarray | None, size: int) -> Any:
-    """A pointer to an array that may be left out."""
+    """Pointer to an optional array; NULL for None."""
     return ffi.NULL if array is None else doubles(array, size)

@@ -55,7 +55,7 @@ class OpenRun(Run):
         return lib.zd_run_step_number(self.c)
 
     def aim(self, steps: int, t: float) -> int:
-        """Set the goal: so many steps, or a time; the status."""
+        """Set the goal, a number of steps or a time; return the status."""
         return lib.zd_run_aim(self.c, steps, t)
 
     @property
@@ -71,7 +71,7 @@ class OpenRun(Run):
         return vdot, multipliers
 
     def accelerations_into(self, vdot: Any, multipliers: Any) -> None:
-        """The same, into memory of C."""
+        """Accelerations and multipliers, stored in memory of C."""
         if status := lib.zd_run_accelerations(self.c, vdot, multipliers):
             raise self.error(status)
 
@@ -86,7 +86,7 @@ class OpenRun(Run):
         return lambda: pointer[column]
 
     def forget_errors(self) -> None:
-        """Forget exceptions of the user's functions, which were raised: the run may go on."""
+        """Clear stored exceptions of user functions once they have been raised, so that the run may continue."""
         for owner in (self._core, self._watcher, self._outputs):
             for each in (owner, getattr(owner, "evaluator", None), getattr(owner, "_owner", None), getattr(owner, "_of", None)):
                 if each is not None and vars(each).get("error") is not None:
@@ -122,11 +122,11 @@ class ManyOpenRuns:
         return self._runs[i]
 
     def replace(self, i: int, run: OpenRun) -> None:
-        """Put another run in the place of one."""
+        """Replace one of the runs."""
         self._runs[i], self._pointers[i], self.status[i] = run, run.c, 0
 
     def advance(self, first: int, count: int, steps: int, t: float) -> None:
-        """Advance some of them; the interpreter is free for other threads meanwhile."""
+        """Advance some of the runs; the interpreter lock is released meanwhile."""
         lib.zd_open_runs_advance(self.c, first, count, steps, t)
 
     def read(self) -> None:

@@ -38,7 +38,7 @@ class Packing:
 
     @classmethod
     def of(cls, c: Any) -> Packing | None:
-        """That of a `zd_structure *`; None where it is NULL."""
+        """Packing of a `zd_structure *`; None if it is NULL."""
         if not c:
             return None
         coordinates, velocities = ffi.unpack(c.coordinates, c.blocks), ffi.unpack(c.velocities, c.blocks)
@@ -49,7 +49,7 @@ class Packing:
         return cls(list(zip(coordinates, velocities, mass, strict=True)), list(zip(rows, touched, strict=True)))
 
     def c(self) -> tuple[Any, Any]:
-        """A `zd_structure *`, and what has to live as long as it."""
+        """A `zd_structure *`, and the memory to keep with it."""
         first = np.cumsum([0, *(len(touched) for _, touched in self.groups)])
         arrays = {"coordinates": [b[0] for b in self.blocks], "velocities": [b[1] for b in self.blocks],
                   "mass": [b[2] for b in self.blocks], "rows": [rows for rows, _ in self.groups], "first": first.tolist(),
@@ -92,7 +92,7 @@ Places = tuple[np.ndarray, np.ndarray]      # the row and the column of each sto
 
 def _of_blocks(coordinates: np.ndarray, velocities: np.ndarray,
                mass: np.ndarray) -> tuple[Places, Places, np.ndarray, np.ndarray]:
-    """The places of A and of M, and how much each block stores of them."""
+    """Indices of stored entries of A and M, and the number stored by each block."""
     at_v, every, diagonal = _begins(velocities), np.arange(velocities.sum()), mass & DIAGONAL != 0
     block = np.repeat(np.arange(len(coordinates)), coordinates)     # of each row of A
     A = _places(at_v[block], velocities[block], every)
@@ -102,7 +102,7 @@ def _of_blocks(coordinates: np.ndarray, velocities: np.ndarray,
 
 
 def _of_groups(velocities: np.ndarray, rows: np.ndarray, touched: Sequence[Sequence[int]]) -> tuple[Places, np.ndarray]:
-    """The places of C, and how much each group stores of it."""
+    """Indices of stored entries of C, and the number stored by each group."""
     blocks = _whole(b for each in touched for b in each)
     _, columns = _places(_begins(velocities)[blocks], velocities[blocks], np.arange(velocities.sum()))
     several = _begins(_whole(len(each) for each in touched))
@@ -112,7 +112,7 @@ def _of_groups(velocities: np.ndarray, rows: np.ndarray, touched: Sequence[Seque
 
 
 def _places(first: np.ndarray, counts: np.ndarray, columns: np.ndarray) -> Places:
-    """The places of rows of which row i has entries in the columns `columns[first[i] : first[i] + counts[i]]`."""
+    """Indices of stored entries of a matrix whose row i has entries in the columns `columns[first[i] : first[i] + counts[i]]`."""
     row = np.repeat(np.arange(len(counts)), counts)
     return row, columns[first[row] + np.arange(len(row)) - _begins(counts)[row]]
 
@@ -127,7 +127,7 @@ def _whole(numbers: Iterable[int]) -> np.ndarray:
 
 
 def declare(system: Any, packing: Packing | None) -> Any:
-    """Says in a `zd_system` what its structure is; what it returns has to live as long as that."""
+    """Set the structure of a `zd_system`; the returned memory must be kept as long as it."""
     if packing is None:
         return None
     system.structure, kept = packing.c()

@@ -14,7 +14,7 @@ NAMES = ("A", "M", "d", "f", "C", "Phi_t", "xi")    # the terms that are perturb
 
 
 class PerturbedCore(CoreSystem):
-    """Another system, whose arguments t (1,), p (nq,), v (nv,) and terms are multiplied by factors, one for each entry."""
+    """System whose arguments t (1,), p (nq,), v (nv,) and terms are those of another one times a factor for each entry."""
 
     def __init__(self, inner: CoreSystem, factors: dict[str, np.ndarray],
                  series: tuple[int, np.ndarray, Any] | None = None) -> None:
@@ -31,7 +31,7 @@ class PerturbedCore(CoreSystem):
         super().__init__(ffi.new("zd_system *", lib.zd_perturbed(self._perturbation)), self._kept)
 
     def for_run(self) -> PerturbedCore:
-        """The same with the inner system for one run."""
+        """Copy with the inner system for one run."""
         return PerturbedCore(self.inner.for_run(), self.factors, self._brought)
 
     @property
@@ -44,18 +44,18 @@ class PerturbedCore(CoreSystem):
         return packing.expand(name, factors) if packing and name in packing.shapes else factors
 
     def with_series(self, address: int, parameters: np.ndarray, keep: Any) -> PerturbedCore:
-        """The same system with the series of its motion, a `zd_series` at `address`, of the parameters and all factors."""
+        """Copy with the Taylor series of its motion, a `zd_series` at `address` that reads the parameters and all factors."""
         numbers = np.concatenate([parameters, *(self._dense(name).ravel() for name in self.factors)])
         return PerturbedCore(self.inner, self.factors, (address, numbers, keep))
 
     @property
     def error(self) -> BaseException | None:
-        """Exception that a callable raised; None: none did."""
+        """Exception raised by a callable, or None."""
         return self.inner.error
 
 
 def perturbed(inner: CoreSystem, size: float, seed: int) -> PerturbedCore:
-    """A system whose arguments and terms are off by one or two times `size`, relative, each by chance up or down."""
+    """System whose arguments and terms have relative errors of one or two times `size`, of random sign."""
     chance = np.random.default_rng(seed)
 
     def draw(*shape: int) -> np.ndarray:
@@ -68,7 +68,7 @@ def perturbed(inner: CoreSystem, size: float, seed: int) -> PerturbedCore:
 
 
 def _paired(inner: CoreSystem, factors: np.ndarray) -> np.ndarray:
-    """Factors of M, those of the upper triangle for both."""
+    """Factors of M, made symmetric from the upper triangle."""
     dense = inner.packing.expand("M", factors) if inner.packing else factors
     upper = np.triu(dense)
     paired = upper + np.triu(upper, 1).T

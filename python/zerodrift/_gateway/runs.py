@@ -49,7 +49,7 @@ def takes_direct(core: CoreSystem, options: Any) -> bool:
 
 
 def disagreement(options: Any) -> str:
-    """Why formulation, integrator and corrections of these settings do not go together; empty: they do."""
+    """Reason why formulation, integrator and corrections of these settings exclude each other; empty if they do not."""
     message = ffi.new(MESSAGE)
     return text(message) if lib.zd_check_methods_agree(options, message, MESSAGE_SIZE) else ""
 
@@ -65,7 +65,7 @@ def takes_jacobian(options: Any) -> bool:
 
 
 def row_takes_series(integrator: int) -> bool:
-    """The same of a row of the table of integrators."""
+    """True if an entry of the table of integrators uses the Taylor series of a system."""
     return takes_series(settings({"integrator": integrator}))
 
 
@@ -75,7 +75,7 @@ def takes_embeddings(options: Any) -> bool:
 
 
 def direct_unit(core: CoreSystem, options: Any) -> int | None:
-    """The number of the vector unit whose direct functions a run of this system takes; None: it takes none."""
+    """Number of the vector unit whose closed-form functions a run of this system uses; None if it uses none."""
     unit = lib.zd_direct_unit(core.c, options)
     return unit if unit >= 0 else None
 
@@ -109,7 +109,7 @@ def _layout(nq: int, nv: int, mh: int, m: int, has_energy: bool, outputs: int | 
 
 
 def row_bytes(core: CoreSystem, outputs: Outputs | None = None) -> int:
-    """Bytes of a row of the record."""
+    """Bytes of a sample of the record."""
     return 8 * _layout_of(core, outputs).width
 
 
@@ -137,7 +137,7 @@ class Record:
         c.energy_skipped = c.iterations + capacity
 
     def _taken(self, capacity: int, take: Callable[..., Any], *given: Any) -> Any:
-        """Memory for so many rows."""
+        """Allocate memory for this number of samples."""
         try:
             return take(*given)
         except (MemoryError, ValueError):
@@ -149,7 +149,7 @@ class Record:
         """Do nothing, as the samples are in memory already."""
 
     def grow(self) -> None:
-        """Go on in a block as large as all before it."""
+        """Add a block as large as all blocks before it."""
         capacity = self.next_rows
         columns = self._taken(capacity, self._columns, capacity)
         c = self.c = ffi.new(RECORD, {"capacity": capacity})
@@ -164,7 +164,7 @@ class Record:
                 for name in (*shapes, *COUNTS)}
 
     def take(self) -> dict[str, np.ndarray]:
-        """The rows written so far."""
+        """Samples written so far."""
         return self._joined or self._of_first()
 
     @property
@@ -174,7 +174,7 @@ class Record:
 
     @property
     def next_rows(self) -> int:
-        """For so many more `grow` takes memory."""
+        """Number of samples for which `grow` allocates memory."""
         return self._first.capacity + sum(c.capacity for c, _ in self._further)
 
     @property
@@ -183,7 +183,7 @@ class Record:
         return {name: (self._layout.starts[name], shape) for name, shape in self._layout.shapes.items()}
 
     def pack(self) -> np.ndarray:
-        """The rows of the first block (rows, width), the counts as two integers in the last place; and empties it."""
+        """Remove and return the samples of the first block (samples, width), the counts as two integers in the last column."""
         columns = self._of_first()
         packed = np.empty((self._first.rows, self._layout.width))
         for name, (start, shape) in self.columns.items():
@@ -208,7 +208,7 @@ class Record:
                          for name, column in first.items()})
 
     def join(self) -> None:
-        """Makes one block of several, column by column, letting go of what is joined, as memory may be short."""
+        """Join the blocks column by column, releasing the joined parts, as memory may be short."""
         if not self._further:
             return
         for name, first in self._of_first().items():
@@ -248,7 +248,7 @@ class Results(NamedTuple):
 
     @property
     def sizes(self) -> np.ndarray:
-        """The sizes of the rows of Phi (mh,)."""
+        """Characteristic sizes of the position constraints (mh,)."""
         return np.ndarray(len(self.phi_sizes) // 8, float, self.phi_sizes)
 
 
@@ -291,24 +291,24 @@ class Run:
             raise error_of(status, "there is no memory for the state of a run")
 
     def save(self, fingerprint: str) -> Saved:
-        """Its state, after `begin_saving` or from a saved one."""
+        """State of the run; requires `begin_saving`, or a run created from a saved state."""
         memory = bytearray(lib.zd_state_size(self._run))
         lib.zd_state_save(self._run, fingerprint.encode(), ffi.from_buffer(memory, require_writable=True))
         return Saved(bytes(memory), fingerprint)
 
     def advance(self, record: Record | None, seconds: float) -> int:
-        """Steps for about that long; the status. The interpreter is free for other threads meanwhile."""
+        """Make steps for about `seconds`; return the status. The interpreter lock is released meanwhile."""
         return lib.zd_run_advance(self._run, ffi.NULL if record is None else record.c, seconds)
 
     def record_states(self, record: Record, columns: Mapping[str, np.ndarray]) -> None:
-        """Records rows of which "t" (k,), "p", "v", and "input" (k,) are known; the run is of no other use then."""
+        """Record samples with given "t" (k,), "p", "v" and "input" (k,); the run cannot be continued afterwards."""
         given = (doubles(columns[name], columns[name].size) for name in ("t", "p", "v", "input"))
         status = lib.zd_run_record_states(self._run, len(columns["t"]), *given, record.c)
         if status:
             raise self.error(status)
 
     def error(self, status: int) -> BaseException:
-        """The exception that stands for a failed status: what was raised in Python, or our own."""
+        """Exception of a failed status: the one raised in Python, or one of this package."""
         return self._raised or error_of(status, self.message)
 
     @property
@@ -327,12 +327,12 @@ class Run:
 
     @property
     def progress(self) -> float:
-        """The part that is done, 0 ... 1."""
+        """Completed fraction, 0 to 1."""
         return lib.zd_run_progress(self._run)
 
     @property
     def message(self) -> str:
-        """The first failure, or the input that is refused, in one sentence."""
+        """One sentence on the first failure or the refused input."""
         refused = self.inputs.refused() if self.inputs else ""
         return text(lib.zd_run_message(self._run)) or (refused and f"at t = {lib.zd_run_time(self._run):g}: {refused}")
 
@@ -352,7 +352,7 @@ class Run:
 
 
 def _columns(columns: dict[str, tuple[np.ndarray, int]]) -> tuple[dict[str, Any], int]:
-    """Pointers to columns with so many entries, and their stride; 0: contiguous. Columns of a file of rows are read in place."""
+    """Pointers to columns with `count` entries, and their stride (0: contiguous). Columns of a file are read in place."""
     strides = {array.strides[0] for array, _ in columns.values()}
     if len(strides) == 1 and not all(array.flags.c_contiguous for array, _ in columns.values()):
         return {name: strided_doubles(array, size) for name, (array, size) in columns.items()}, strides.pop() // 8
@@ -361,7 +361,7 @@ def _columns(columns: dict[str, tuple[np.ndarray, int]]) -> tuple[dict[str, Any]
 
 def states_between(core: CoreSystem, options: Any, t: np.ndarray, p: np.ndarray, v: np.ndarray, energy_input: np.ndarray | None,
                    ends_in_event: bool, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """`zd_states_between`: p (k, nq) and v (k, nv) at times (k,) between the rows t, p, v of a run."""
+    """`zd_states_between`: p (k, nq) and v (k, nv) at times (k,) between the samples t, p, v of a run."""
     core, message, rows, count = core.for_run(), ffi.new("char[]", MESSAGE_SIZE), len(t), len(times)
     columns = {"t": (t, rows), "p": (p, rows * core.nq), "v": (v, rows * core.nv)}
     if energy_input is not None:

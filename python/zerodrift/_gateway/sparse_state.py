@@ -12,7 +12,7 @@ from .systems import CoreSystem
 
 
 def nearest_velocities(core: CoreSystem, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """The velocities nearest to `v` in the mass metric that the rows allow at (t, p), whatever these positions violate."""
+    """Consistent velocities nearest to `v` in the mass metric at (t, p); the positions may violate their constraints."""
     nearest = np.array(v, dtype=float)
     project(core, _settings(t, positions=0.0), t, np.array(p, dtype=float), nearest)
     return nearest

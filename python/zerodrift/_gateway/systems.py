@@ -22,7 +22,7 @@ CANCELLED = 2.0**-40    # of the terms of a row of C: smaller entries are their 
 
 
 class Kind:
-    """A kind of system: what it needs to be made, and what its instances consist of."""
+    """A built-in kind of system: its parameters, and the functions that create and draw its instances."""
 
     def __init__(self, c: Any) -> None:
         self.c, self.card, self.constants = c, card_of(c.card), c.constants
@@ -51,7 +51,7 @@ class Kind:
         return CoreSystem(system, (constants, dimensions)), p0, v0
 
     def precise(self, numbers: np.ndarray) -> Precise | None:
-        """The functions in double-double arithmetic of these numbers (k, 2); None: there are none."""
+        """Functions in double-double arithmetic for these numbers (k, 2), or None."""
         system = self.c.system
         address = int(ffi.cast("uintptr_t", self.c.precise))
         return Precise(address, numbers, (system.nq, system.nv, system.mh, system.mn), None) if address else None
@@ -63,7 +63,7 @@ class Kind:
         return tuple(system.independent[i] for i in range(system.nv - system.mh)) if system.independent else ()
 
     def draw(self, core: CoreSystem, p: np.ndarray) -> np.ndarray | None:
-        """The drawing at p: points (n, dimension) to be joined by lines; None where there is none."""
+        """Drawing at p: points (n, dimension) to be joined by lines, or None."""
         if not self.c.points:
             return None
         points = np.empty((self.c.points, self.c.dimension))
@@ -77,7 +77,7 @@ def kinds() -> dict[str, Kind]:
 
 
 class CoreSystem(Measuring):
-    """A `zd_system` and what it refers to."""
+    """A `zd_system` and the memory it refers to."""
 
     def __init__(self, system: Any, data: Any) -> None:
         self.c, self._data = system, data
@@ -95,7 +95,7 @@ class CoreSystem(Measuring):
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
 
     def name_rows(self, system: Any) -> None:
-        """Has the core tell of rows of C by the names that they have in a system whose core this is."""
+        """Let the core's messages use the constraint names of the given system."""
         if self.row_names is None:
             names = self.__dict__.setdefault("row_names", ConstraintNames())       # one, whichever thread comes first
             self.c.name_constraint, self.c.names = lib.zd_name_row_in_python, names.handle
@@ -129,7 +129,7 @@ class CoreSystem(Measuring):
         return ffi.new("double[]", [self.c.input[i].initial for i in range(n)] + [0.0] * (n + 1)) if n else ffi.NULL
 
     def series(self, order: int, t: float, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Taylor coefficients (order + 1, ...) of p, v, and of the energy that comes in, where the system has its series."""
+        """Taylor coefficients (order + 1, ...) of p, v and the supplied energy, if the system has a series."""
         size, brought = order + 1, self.c.series
         found = np.zeros((size, self.nq)), np.zeros((size, self.nv)), np.zeros(size)
         scratch = ffi.new("double[]", max(1, size * brought.scratch))
@@ -141,7 +141,9 @@ class CoreSystem(Measuring):
         return found
 
     def jacobian(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """Derivatives of (pdot, vdot), and in one row more of the power where there is any, by (p, v), where it has them."""
+        """Jacobian of (pdot, vdot), and in an additional row of the power if there is any, with respect to (p, v), if the system
+        provides it.
+        """
         columns, brought = self.nq + self.nv, self.c.jacobian
         found = np.zeros((columns + bool(self.provides & (lib.ZD_POWER | lib.ZD_PHI_T)), columns))
         scratch = ffi.new("double[]", max(1, brought.scratch))
@@ -160,12 +162,12 @@ class CoreSystem(Measuring):
         return bool(lib.zd_formulation_suits(self.c, formulation))
 
     def stored(self, name: str) -> tuple[int, ...]:
-        """The shape of what is stored of a term."""
+        """Shape of the stored entries of a term."""
         packed = self.packing and name in PACKED
         return (self.packing.size(name),) if packed else TERMS[name].shape(self.c)
 
     def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """All terms the system has, at (t, p, v), with matrices that are dense."""
+        """All terms of the system at (t, p, v), with dense matrices."""
         largest = max(self.nq, self.nv, self.m)
         if self.packing and largest > MOST_ROWS:
             raise WrongValue(f"evaluate() makes dense matrices of up to {MOST_ROWS} rows, and here these would have {largest}: "
@@ -191,7 +193,7 @@ class CoreSystem(Measuring):
         return np.where((np.abs(C) <= CANCELLED * terms).all(axis=1, keepdims=True), 0.0, C)
 
     def follower_rows(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """The rows of A (followers, nv) of coordinates that follow others, which are not stored: column by column."""
+        """Rows of A (followers, nv) of dependent angles, which are not stored; computed column by column."""
         terms, scratch, inputs = ffi.new("zd_terms *"), ffi.new("double[]", max(1, self.c.scratch)), self.initial_inputs()
         terms.scratch, terms.inputs = scratch, inputs
         self.c.evaluate(self.c.data, lib.ZD_MOVED, t, doubles(p, self.nq), doubles(v, self.nv), terms)
@@ -202,7 +204,7 @@ class CoreSystem(Measuring):
 
     def times(self, name: str, stored: np.ndarray, x: np.ndarray, t: float, p: np.ndarray, v: np.ndarray, *,
               transposed: bool = False) -> np.ndarray:
-        """The product of a term, of which this is stored at (t, p, v), or of its transpose, and a vector."""
+        """Product of a matrix, given by its stored entries at (t, p, v), or of its transpose, and a vector."""
         if not self.packing:
             return (stored.T if transposed else stored) @ x
         if name != "A" or not self.c.followers:
@@ -213,17 +215,17 @@ class CoreSystem(Measuring):
         return np.concatenate([self.packing.times(name, stored, x), rows @ x])
 
     def evaluate_stored(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """All terms the system has, at (t, p, v), as they are stored."""
+        """All terms of the system at (t, p, v), as stored."""
         found = self._evaluated(tuple(self.layout), np.array([float(t)]), p, v)
         return {name: values.reshape(self.layout[name]) for name, values in found.items()}
 
     @functools.cached_property
     def layout(self) -> dict[str, tuple[int, ...]]:
-        """Shape of what is stored of each term that the system has."""
+        """Shapes of the stored entries of each term of the system."""
         return {name: self.stored(name) for name, term in TERMS.items() if self.provides & term.bit}
 
     def evaluate_states(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Terms of these names that the system has, at many states t (k,), p (k, nq), v (k, nv), with matrices that are dense.
+        """Terms of these names that the system has, at many states t (k,), p (k, nq), v (k, nv), with dense matrices.
 
         Rows of A for coordinates that follow others are zero.
         """
@@ -232,7 +234,7 @@ class CoreSystem(Measuring):
                 else array.reshape(k, *self.layout[name]) for name, array in arrays.items()}
 
     def _evaluated(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Stored terms of these names at all states, one behind the other."""
+        """Stored entries of these terms at all states, concatenated."""
         core, terms, k = self.for_run(), ffi.new("zd_terms *"), len(t)
         sizes = [k * math.prod(self.layout[name]) for name in names]
         memory = np.zeros(sum(sizes))
@@ -249,6 +251,6 @@ class CoreSystem(Measuring):
 
 
 def follow(core: CoreSystem, p: np.ndarray) -> None:
-    """Brings the coordinates that follow others to these, in place, with the turns that they have."""
+    """Update the dependent angles of joints from the other coordinates, in place, preserving their whole turns."""
     if core.c.followers:
         core.c.follow(core.c.data, doubles(p, core.nq, writable=True))

@@ -86,11 +86,11 @@ def _column(name: str, value: Any) -> np.ndarray:
 
 
 class NoSystem(TypeError):
-    """A function was to make a system, and made something else."""
+    """Raised if a function that must return a system returned something else."""
 
 
 def named(function: Any) -> str:
-    """A function in messages."""
+    """Name of a function for messages."""
     return getattr(function, "__qualname__", None) or _check.shown(function)
 
 
@@ -247,7 +247,7 @@ def _columns(what: str, given: Any) -> tuple[dict[str, tuple[np.ndarray, bool]],
 
 
 def _rows(what: str, given: Sequence) -> tuple[dict[str, tuple[np.ndarray, bool]], dict[str, int]]:
-    """The same for a list of dicts, one for each run."""
+    """Values by name from a list of dicts, one for each run; likewise."""
     rows = [_dict(f"{what}[{i}]", each) for i, each in enumerate(given)]
     if not rows:
         raise WrongValue(f"{what} must have at least one run")

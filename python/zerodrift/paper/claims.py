@@ -48,7 +48,7 @@ class Claim:
 
     @property
     def verdict(self) -> str:
-        """In words."""
+        """Verdict as text."""
         return "holds" if self.holds else "does not come out as stated"
 
 
@@ -141,7 +141,7 @@ def figure_7(runs: Runs) -> list[Claim]:
 
 
 def _recovery(d: Solution, error: np.ndarray) -> Claim:
-    """The motion ends near the top, where the error is small again."""
+    """Claim: the motion ends near the top, where the error is small again."""
     peaks = [largest(error[(d.t > start) & (d.t <= start + 2)]) for start in (0, 2, 4, 6)]
     return Claim(7, "(d) the error spoils and recovers in turn, and accuracy is kept", "at the end below half of its worst",
                  f"{abs(error[-1]):.1e} rad at the end; at worst {', '.join(f'{peak:.1e}' for peak in peaks)} rad in the four "
@@ -149,7 +149,7 @@ def _recovery(d: Solution, error: np.ndarray) -> Claim:
 
 
 def _delay(errors: Sequence[np.ndarray]) -> Claim:
-    """While the crank still makes the same turns."""
+    """Claim on the delay, while the crank makes the same turns as the reference."""
     behind = [float(np.mean(error[1:][np.abs(error[1:]) < 1] < 0)) for error in errors]
     return Claim(7, "the numerical motion lags behind the exact one", "always",
                  f"behind at {behind[0]:.0%} of the instants in (c), {behind[1]:.0%} in (d)", min(behind) == 1,

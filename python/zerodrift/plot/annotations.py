@@ -31,7 +31,7 @@ NAMED = {"pin": "pin", "mark": "pin", "particle": "pin", "blade": "pin", "weld":
 
 
 class Arrow(NamedTuple):
-    """A force: its name, where it acts at each moment, (k, d) in m, and what it is, (k, d) in N; d is 2 or 3."""
+    """A force: its name, its points of application (k, d) in m and its vectors (k, d) in N; d is 2 or 3."""
 
     name: str
     places: np.ndarray
@@ -39,12 +39,12 @@ class Arrow(NamedTuple):
 
 
 def halo(width: float) -> list[Any]:
-    """White around letters and lines."""
+    """Path effect: white outline around text and lines."""
     return [withStroke(linewidth=width, foreground=WHITE)]
 
 
 def hold(ax: Axes, *places: Any) -> None:
-    """Makes axes hold places (2,), without a margin; what is drawn into them later makes them larger, as it does anywhere."""
+    """Extend the limits of axes to points (2,), without a margin; later drawing may extend them further."""
     ax.margins(0)
     ax.update_datalim(places)
     ax.autoscale_view()
@@ -61,7 +61,7 @@ def draw_path(ax: Axes, places: np.ndarray, width: float, **style: Any) -> Any:
 
 
 class Names:
-    """The names of the shapes of a moment, each once, beside them; they keep their side as the mechanism moves."""
+    """Names of the shapes, each once, beside their shapes; they stay on the same side as the mechanism moves."""
 
     def __init__(self, ax: Axes, shapes: Sequence[Shape], size: float, points: float, known: Iterable[str]) -> None:
         """`points` are in a pin's radius; names that are known are written elsewhere."""

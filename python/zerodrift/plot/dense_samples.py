@@ -17,7 +17,8 @@ _found: weakref.WeakKeyDictionary[Solution, Solution] = weakref.WeakKeyDictionar
 
 
 def dense(sol: Solution) -> Solution:
-    """The same motion with at least `FEW_SAMPLES` samples, those of the solution among them; the solution itself if it has them.
+    """Solution of the same motion with at least `FEW_SAMPLES` samples, including those of the given one, which is returned if it
+    has enough.
 
     The run is repeated with the method's dense output at these times, which takes few steps where there are few samples. A
     solution by fixed steps, or whose samples are not all its steps, is returned as it is; so is one that cannot be repeated.
@@ -36,7 +37,7 @@ def _is_adaptive(sol: Solution) -> bool:
 
 
 def _repeated(sol: Solution) -> Solution:
-    """The run up to its last sample, sampled between its steps; the solution itself where that fails or is another."""
+    """Run repeated with dense output up to its last sample; the solution itself if that fails or differs."""
     parts = math.ceil(FEW_SAMPLES / (len(sol.t) - 1))
     times = np.append(np.linspace(sol.t[:-1], sol.t[1:], parts, endpoint=False, axis=1).ravel(), sol.t[-1])
     given = {name: value for name, value in sol.settings.items() if name != "save_every"}

@@ -105,7 +105,7 @@ def still_picture(system: BaseSystem, positions: Any, ax: Axes | None) -> Axes:
 
 def _drawn(system: BaseSystem, moments: list[list[Shape]] | None, points: np.ndarray | None, ax: Axes | None,
            extras: Extras = NOTHING, *, moving: bool = False) -> Axes:
-    """Axes with the first of some moments drawn in full colours and the others faintly, or with points in space (k, n, 3)."""
+    """Axes with the first position drawn in full colours and the others faintly, or with points in space (k, n, 3)."""
     if moments is None:
         return draw_in_space(drawing_axes(ax, 3), points, moving=moving)
     if _is_in_space(moments):
@@ -215,7 +215,7 @@ def animate(sol: Solution, fps: float = 25.0, ax: Axes | None = None, *, speed: 
 
 
 def _check_asked(sol: Solution | None, p: Any, **asked: Any) -> None:
-    """Check that arguments which need a solution, or a sample of it, are given with one."""
+    """Check that arguments that require a solution, or a sample of it, are not given without it."""
     wanted = [name for name, value in asked.items() if value is not None and value is not False and not _is_nothing(value)]
     for name in wanted:
         if sol is None:

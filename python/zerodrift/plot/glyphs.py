@@ -51,20 +51,20 @@ BESIDE = 2.3        # how far a spring and a damper that belong together are fro
 
 
 def link(shape: Shape, size: float) -> list[Mark]:
-    """Points (n, 2) of a body: a bar where they are in line, else a plate; wider where it has grooves, which is its number."""
+    """Body with points (n, 2): a bar if they are collinear, otherwise a plate; `number` grooves widen it."""
     outline = rounded(shape.points, (SLOTTED if shape.number else BAR) * size)
     return [area(outline, face=BODY if len(hull(shape.points)) < 3 else PLATE, edge=EDGE, width=1.2)]
 
 
 def disc(shape: Shape, size: float) -> list[Mark]:
-    """A body of which one place is known, and a direction that turns with it."""
+    """Body with one known point, and a direction fixed in the body."""
     centre, spoke = shape.points
     return [circle(centre, 4.0 * size, face=BODY, edge=EDGE),
             line([centre, centre + 4.0 * size * spoke], edge=EDGE, width=1.0)]
 
 
 def particle(shape: Shape, size: float) -> list[Mark]:
-    """A mass in a place."""
+    """Point mass."""
     return [circle(shape.points[0], 2.0 * size, face=EDGE, edge=DARK, width=0.8)]
 
 
@@ -74,7 +74,7 @@ def mark(shape: Shape, size: float) -> list[Mark]:
 
 
 def curve(shape: Shape, size: float) -> list[Mark]:
-    """A line (n, 2) that is not part of a body."""
+    """Line (n, 2) that does not belong to a body."""
     return [line(shape.points, edge=EDGE, width=1.8)]
 
 
@@ -87,7 +87,7 @@ def pin(shape: Shape, size: float) -> list[Mark]:
 
 
 def ground(shape: Shape, size: float) -> list[Mark]:
-    """A place (1, 2) of the ground about which something turns: a support on hatched ground."""
+    """Support on hatched ground at a hinge (1, 2)."""
     tip = shape.points[0]
     left, right = tip + size * np.array([[-2.5, -4.4], [2.5, -4.4]])
     wider = size * np.array([1.3, 0.0])

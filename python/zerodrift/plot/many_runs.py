@@ -1,4 +1,4 @@
-"""Pictures of ensembles: how runs spread over time, and what they come to over their parameters."""
+"""Pictures of ensembles: spread of outputs over time, and results over parameters."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def bands(ens: Ensemble, name: Any, quantiles: Sequence[float] = QUANTILES, ax: 
 
 def against(ens: Ensemble, parameter: str, of: Any = None, ax: Axes | None = None, *, at: float | None = None,
             color_by: str | None = None, **style: Any) -> Axes:
-    """Draw what each run comes to against one of its parameters; runs that failed are crosses on the lower edge.
+    """Draw a result of each run against one of its parameters; runs that failed are crosses on the lower edge.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def _output(ens: Any, name: Any) -> tuple[Any, Variable]:
 
 
 def _numbers(ens: Any, of: Any, at: float | None, style: dict[str, Any]) -> tuple[np.ndarray, str]:
-    """A number for each run, NaN where there is none, and what it is; takes the label out of the style."""
+    """Number of each run, NaN if missing, and its label, which is removed from the style."""
     _check.instance("ens", ens, Ensemble, AN_ENSEMBLE)
     label = style.pop("label", "")
     if isinstance(of, str) or hasattr(of, "name"):
@@ -209,7 +209,7 @@ def _numbers(ens: Any, of: Any, at: float | None, style: dict[str, Any]) -> tupl
 
 
 def _at(ens: Any, values: Any, at: float | None) -> np.ndarray:
-    """An output at a time that all runs have, or in the last row of each run that came to its end."""
+    """Output at a time common to all runs, or in the last sample of each completed run."""
     if at is not None:
         if ens.t is None or not (here := np.flatnonzero(np.isclose(ens.t, at, rtol=1e-9, atol=0))).size:
             raise WrongValue(f"at must be one of the times that all runs have, not {_check.number('at', at):g}")

@@ -1,4 +1,4 @@
-"""Lines and areas that glyphs consist of, as numbers: nothing here is drawn yet."""
+"""Lines and areas of which glyphs consist, as data that is drawn elsewhere."""
 
 from __future__ import annotations
 
@@ -41,17 +41,17 @@ class Mark(NamedTuple):
 
 
 def line(points: Any, **look: Any) -> Mark:
-    """Through points (n, 2)."""
+    """Line through points (n, 2)."""
     return Mark(Path(np.asarray(points, dtype=float)), **look)
 
 
 def lines(starts: np.ndarray, ends: np.ndarray, **look: Any) -> Mark:
-    """Each by itself, from starts (n, 2) to ends (n, 2)."""
+    """Separate lines from starts (n, 2) to ends (n, 2)."""
     return Mark(Path(np.hstack([starts, ends]).reshape(-1, 2), np.tile([Path.MOVETO, Path.LINETO], len(starts))), **look)
 
 
 def area(corners: Any, **look: Any) -> Mark:
-    """Within corners (n, 2)."""
+    """Area with corners (n, 2)."""
     corners = np.asarray(corners, dtype=float)
     return Mark(Path(np.concatenate([corners, corners[:1]]), _closed(len(corners))), **{"face": WHITE, **look})
 
@@ -66,7 +66,7 @@ def _closed(corners: int) -> np.ndarray:
 
 
 def between(outer: np.ndarray, inner: np.ndarray, **look: Any) -> Mark:
-    """Within one outline (n, 2), and not within another."""
+    """Area between an outer outline (n, 2) and an inner one."""
     both = [area(outer), area(inner[::-1])]
     vertices, codes = np.vstack([each.path.vertices for each in both]), np.concatenate([each.path.codes for each in both])
     return Mark(Path(vertices, codes), **look)
@@ -79,7 +79,7 @@ def arc(centre: np.ndarray, radius: float, start: float = 0.0, angle: float = 2 
 
 @functools.lru_cache(maxsize=256)       # most are all around, or half around
 def _unit_arc(start: float, angle: float, corners: int) -> np.ndarray:
-    """The same of a circle of radius one about the origin."""
+    """Points of the unit circle, likewise."""
     count = max(3, int(np.ceil(corners * abs(angle) / (2 * np.pi)))) + 1
     angles = start + np.linspace(0, angle, count)
     points = np.column_stack([np.cos(angles), np.sin(angles)])
@@ -88,12 +88,12 @@ def _unit_arc(start: float, angle: float, corners: int) -> np.ndarray:
 
 
 def circle(centre: np.ndarray, radius: float, corners: int = ROUND, **look: Any) -> Mark:
-    """About a place (2,)."""
+    """Circle about a point (2,)."""
     return area(arc(centre, radius, corners=corners)[:-1], **look)
 
 
 def rim(centre: np.ndarray, inner: float, outer: float, **look: Any) -> Mark:
-    """Between two circles about a place."""
+    """Ring between two circles about a point."""
     return between(*(arc(centre, radius, corners=SMOOTH)[:-1] for radius in (outer, inner)), **look)
 
 
@@ -103,7 +103,7 @@ def across(axis: np.ndarray) -> np.ndarray:
 
 
 def unit(vector: np.ndarray) -> np.ndarray:
-    """Its direction (2,); that of x where it has none."""
+    """Unit vector (2,) of a vector; that of x for a zero vector."""
     length = np.hypot(*vector)
     return vector / length if length > 0 else np.array([1.0, 0.0])
 

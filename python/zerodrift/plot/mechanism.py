@@ -44,7 +44,7 @@ NOTHING = Extras()
 
 
 class Picture:
-    """Shapes in axes, all to the scale that holds every one of them; `show` draws those of one moment instead of those before."""
+    """Picture of shapes in axes with limits that contain all positions; `show` draws one position instead of the last."""
 
     def __init__(self, ax: Axes, moments: Sequence[list[Shape]], extras: Extras = NOTHING) -> None:
         shown = {arrow.name for arrow in extras.arrows}
@@ -69,7 +69,7 @@ class Picture:
             draw_path(ax, path, self.line, scalex=False, scaley=False)
 
     def _scale(self, places: np.ndarray) -> tuple[float, float]:
-        """Sets the sizes of pins and lines; how large the picture is, and a point of its paper, in m."""
+        """Set the sizes of pins and lines; return the extent of the picture and the size of a typographic point, in m."""
         low, high = places.min(axis=0), places.max(axis=0)
         extent = float((high - low).max()) or 1.0
         per_point = 1.3 * float(((high - low) / np.maximum(points_of(self.ax), 1.0)).max()) or extent / 300
@@ -81,7 +81,7 @@ class Picture:
         return extent, per_point
 
     def _limit(self, places: np.ndarray, extent: float) -> None:
-        """Axes around all places, and around the marks of the first moment."""
+        """Set limits that contain all points, and the marks of the first position."""
         ends = [places, *(each.path.vertices for shape in self._moments[0] for each in GLYPHS[shape.kind].draw(shape, self.size))]
         low, high = np.min([each.min(axis=0) for each in ends], axis=0), np.max([each.max(axis=0) for each in ends], axis=0)
         middle, half = (low + high) / 2, np.maximum((high - low) / 2, NARROW / 2 * extent) + MARGIN * self.size
@@ -89,7 +89,7 @@ class Picture:
         self.ax.set_aspect("equal", adjustable="box")
 
     def faintly(self, moments: Sequence[int]) -> None:
-        """Other moments, as thin lines and for good."""
+        """Draw other positions as thin lines, permanently."""
         drawn = [(FAINT[shape.kind], _skeleton(shape)) for i in moments for shape in self._moments[i] if shape.kind in FAINT]
         if drawn:
             colours, segments = zip(*drawn, strict=True)
@@ -97,7 +97,7 @@ class Picture:
                                                   capstyle="round"), autolim=False)
 
     def show(self, moment: int) -> list[Any]:
-        """Draws one moment."""
+        """Draw one position."""
         marks: dict[str, list[Mark]] = {kind: [] for kind in self._drawn}
         for shape in self._moments[moment]:
             marks.setdefault(shape.kind, []).extend(GLYPHS[shape.kind].draw(shape, self.size))
@@ -139,7 +139,7 @@ def points_of(ax: Axes) -> np.ndarray:
 
 
 def _extent(shape: Shape) -> np.ndarray:
-    """The places that a shape takes, (n, 2)."""
+    """Points (n, 2) that a shape covers."""
     places = shape.points[:len(shape.points) - GLYPHS[shape.kind].directions]
     reach = shape.number if shape.kind in ("wheel", "gear", "ring") else 0.0
     return np.vstack([places - reach, places + reach]) if reach else places

@@ -17,7 +17,7 @@ ABOVE = 1e4         # z-order of names in space: above surfaces, which matplotli
 
 
 def keep_apart(ax: Axes, texts: Sequence[Text]) -> None:
-    """Shift texts by whole lines of the picture as it is seen; in space they keep that when the view turns."""
+    """Shift overlapping texts by whole lines of the picture as seen; in space the shift stays when the view turns."""
     placed: list[tuple[float, float, float, float]] = []
     projection = ax.get_proj() if ax.name == "3d" else None
     if projection is None:

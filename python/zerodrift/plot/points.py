@@ -1,4 +1,4 @@
-"""Systems of which only points are known, and the lines between them: in the plane as bars and pins, in space as lines."""
+"""Pictures of systems that are given by points and the lines between them: bars and pins in the plane, lines in space."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def shapes_of(drawings: np.ndarray, motion: np.ndarray) -> list[list[Shape]]:
 
 
 def _run(points: np.ndarray, rests: np.ndarray) -> list[Shape]:
-    """Points (n, 2) that are joined."""
+    """Shapes of joined points (n, 2)."""
     if len(points) > JOINTS:
         return [Shape("curve", points)]
     bars = [Shape("link", points[i:i + 2]) for i in range(len(points) - 1) if np.ptp(points[i:i + 2], axis=0).any()]
@@ -54,7 +54,7 @@ def _runs(points: np.ndarray) -> list[np.ndarray]:
 
 
 def _rest(drawings: np.ndarray) -> np.ndarray:
-    """Which points are in the same place in all drawings."""
+    """Mask of the points that are at rest in all drawings."""
     size = (np.nanmax(drawings, axis=(0, 1)) - np.nanmin(drawings, axis=(0, 1))).max()
     return np.ptp(drawings, axis=0).max(axis=1) <= RESTING * size
 
@@ -63,7 +63,7 @@ def _rest(drawings: np.ndarray) -> np.ndarray:
 
 
 def draw_in_space(ax: Axes, drawings: np.ndarray, *, moving: bool) -> Axes:
-    """The first drawing, the others faintly, and as squares what rests in all of a motion."""
+    """Draw the first position, the others faintly, and points at rest as squares."""
     for points in drawings[:0:-1]:
         ax.plot(*points.T, _line_format(points), color=COLOURS[0], alpha=0.25, linewidth=1.2, markersize=2.5)
     _line(ax, drawings[0])
@@ -73,7 +73,7 @@ def draw_in_space(ax: Axes, drawings: np.ndarray, *, moving: bool) -> Axes:
 
 
 def moved_in_space(ax: Axes, drawings: np.ndarray) -> Callable[[int], Any]:
-    """A line, and what moves it to another drawing."""
+    """Draw the mechanism as a line; return it and a function that moves it to another position."""
     line = _line(ax, drawings[0])
     low, high = np.nanmin(drawings, axis=(0, 1)), np.nanmax(drawings, axis=(0, 1))
     margin = 0.08 * (high - low).max()
@@ -89,7 +89,7 @@ def moved_in_space(ax: Axes, drawings: np.ndarray) -> Callable[[int], Any]:
 
 
 def with_equal_scales(ax: Axes) -> Axes:
-    """Equal scales; spatial axes take them from the limits of the moment, so that all must have been drawn.
+    """Set equal scales. In space they depend on the present limits, so everything must have been drawn before.
 
     A curve in a plane of two axes would have no room for the third: its ticks would stand in one place.
     """

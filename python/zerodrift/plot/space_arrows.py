@@ -15,7 +15,7 @@ from .names_apart import ABOVE
 
 
 class SpaceArrows:
-    """Arrows from where forces act, with their names, all to one scale, which a line of text says."""
+    """Forces as arrows from their points of application, with names, to a common scale given in a line of text."""
 
     def __init__(self, ax: Axes, arrows: Sequence[Arrow], extent: float, size: float, scale: float | None = None) -> None:
         """`scale` in N/m; left out: the longest arrow is a part of the picture, whose size is the extent."""
@@ -47,7 +47,7 @@ class SpaceArrows:
         return [self._drawn, *self._texts]
 
     def _lines(self, place: np.ndarray, way: np.ndarray) -> list[np.ndarray]:
-        """A shaft, and a head of four lines."""
+        """Lines of an arrow: a shaft and a head of four lines."""
         along, tip = way / np.linalg.norm(way), place + way
         side = np.cross(along, np.eye(3)[int(np.argmin(np.abs(along)))])
         side /= np.linalg.norm(side)

@@ -43,14 +43,14 @@ def _as_it_is(points: np.ndarray, size: float) -> list[np.ndarray]:
 
 
 def _bar(points: np.ndarray, size: float) -> list[np.ndarray]:
-    """A line in parts, each with a depth of its own."""
+    """Bar: a line in parts, each sorted by its own depth."""
     count = max(1, int(np.ceil(np.linalg.norm(points[1] - points[0]) / (PART * size))))
     ends = points[0] + np.linspace(0, 1, count + 1)[:, None] * (points[1] - points[0])
     return list(np.stack([ends[:-1], ends[1:]], axis=1))
 
 
 def _pin(points: np.ndarray, size: float) -> list[np.ndarray]:
-    """A short line along an axis: a place and a direction."""
+    """Pin: a short line along an axis, given by a point and a direction."""
     return [points[0] + size * np.outer((-1, 1), points[1])]
 
 
@@ -59,7 +59,7 @@ def _sleeve(points: np.ndarray, size: float) -> list[np.ndarray]:
 
 
 def _patch(points: np.ndarray, size: float) -> list[np.ndarray]:
-    """A square in a plane: a place and two directions."""
+    """Patch: a square in a plane, given by a point and two directions."""
     corners = np.array([(1, 1), (-1, 1), (-1, -1), (1, -1)]) @ points[1:]
     return [points[0] + 2 * size * corners]
 
@@ -79,7 +79,7 @@ def _shaded(colour: str, faces: Sequence[np.ndarray], light: np.ndarray = LIGHT)
 
 
 def _spring(points: np.ndarray, size: float) -> list[np.ndarray]:
-    """A coil between two ends."""
+    """Spring: a coil between two ends."""
     start, end = points
     length = np.linalg.norm(end - start) or 1.0
     along = (end - start) / length
@@ -122,7 +122,7 @@ FAINTLY = 0.36      # and how opaque they are
 
 
 class SpacePicture:
-    """Shapes in axes that show space, all to the scale that holds every one of them; `show` draws those of one moment."""
+    """Picture of shapes in 3D axes with limits that contain all positions; `show` draws one position."""
 
     def __init__(self, ax: Axes, moments: Sequence[list[Shape]], extras: Extras = NOTHING, *, upside_down: bool = False) -> None:
         """`upside_down`: z points down."""
@@ -151,14 +151,14 @@ class SpacePicture:
         self._texts = {name: ax.text(0, 0, 0, name, fontsize="small", zorder=ABOVE) for name in named if len(named) <= MOST_NAMES}
 
     def faintly(self, moments: Sequence[int]) -> None:
-        """Other moments, as thin lines and for good."""
+        """Draw other positions as thin lines, permanently."""
         lines = [shape.points for i in moments for shape in self._moments[i] if shape.kind in FAINT]
         if lines:
             ghosts = Line3DCollection(lines, colors="#7A8CA0", alpha=FAINTLY, linewidths=1.0, label="_ghosts")
             self.ax.add_collection3d(ghosts)
 
     def show(self, moment: int) -> list[Any]:
-        """Draws one moment."""
+        """Draw one position."""
         of_kind: dict[str, list[np.ndarray]] = {kind: [] for kind in self._drawn}
         for shape in self._moments[moment]:
             drawn = [shape.points] if shape.kind in DOTS else GLYPHS[shape.kind].draw(shape.points, self.size)

@@ -32,7 +32,7 @@ class Event:
     terminal : bool or int
         Whether the run ends when it has happened, once or that often.
     of : dict of str to measure, optional
-        Under which names a function is handed which measures.
+        Measures that the function receives, by argument name.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
 
 
 class _Called:
-    """A function that is handed what it names."""
+    """A function called with the arguments that it names."""
 
     def __init__(self, name: str, function: Callable[..., Any], system: BaseSystem, bound: dict[str, Any], level: float) -> None:
         from ..systems.callables import arguments  # slow to import

@@ -92,7 +92,7 @@ class Row(_gateway.Card):
     parameters : tuple of Parameter
         What may be set.
     settings : type
-        The class of its settings, to be handed to `simulate`.
+        Class of its settings, an argument of `simulate`.
     """
 
     __slots__ = ()

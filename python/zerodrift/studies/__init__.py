@@ -1,1 +1,1 @@
-"""Questions that take several runs: how wrong is one, what does accuracy cost, what survives, is a system right."""
+"""Studies that compare several runs: certified errors, time against accuracy, stability maps, tuning, and checks of systems."""

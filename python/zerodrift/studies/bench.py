@@ -27,7 +27,7 @@ OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simu
 
 
 class Setting(NamedTuple):
-    """One way to simulate: steps of a fixed size (s), or chosen with ``rtol = atol = tolerance``."""
+    """Settings of a run: methods with a fixed step in s, or with adaptive steps at ``rtol = atol = tolerance``."""
 
     formulation: str
     integrator: str
@@ -99,7 +99,7 @@ class Outcome(NamedTuple):
 
 
 class Bench:
-    """A motion, and the reference to which its runs are compared."""
+    """Bench: a motion and the reference to which its runs are compared."""
 
     def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any,
                  direct: bool | None = False) -> None:
@@ -132,7 +132,7 @@ class Bench:
             combinations = combinations[len(outcomes):]
 
     def _with_errors(self, combinations: Sequence[Setting], outcomes: Sequence[Outcome]) -> list[Row]:
-        """Rows of runs that are done, made in threads."""
+        """Entries of finished runs, whose errors are computed in threads."""
         parts, found = min(len(combinations), PARTS * processors()), {}
 
         def look(part: int, stop: _gateway.Stop | None) -> None:
@@ -142,11 +142,11 @@ class Bench:
         return [found[place % parts][place // parts] for place in range(len(combinations))]
 
     def timed_again(self, row: Row) -> Row:
-        """The same with the least of both times."""
+        """Entry with the smaller of its time and a second one."""
         return row._replace(seconds=min(row.seconds, self.run(row.setting).seconds))
 
     def _rows(self, combinations: Sequence[Setting], outcomes: Sequence[Outcome], stop: _gateway.Stop | None) -> list[Row]:
-        """Rows of runs that are done: those that reached their end are made again, to the times of the reference."""
+        """Entries of finished runs; successful runs are repeated with output at the times of the reference."""
         done = [place for place, outcome in enumerate(outcomes) if outcome.success]
         again = self._outcomes([combinations[place] for place in done], stop, t_eval=self._times)
         if len(again) < len(done) or len(outcomes) < len(combinations):
@@ -161,7 +161,7 @@ class Bench:
                    *outcome.violations)
 
     def run(self, setting: Setting, **saved: Any) -> Outcome:
-        """One, by itself."""
+        """Entry of one run."""
         with unwarned():        # errors are measured, the rest is the row's message
             return self._run(setting, **saved)
 
@@ -220,7 +220,7 @@ def _outcome(solution: Solution) -> Outcome:
 
 
 def _outcome_of(core: _gateway.CoreSystem, plan: settings.Plan, made: _gateway.BatchResults, run: int) -> Outcome:
-    """The same of a run in a batch."""
+    """Outcome of a run in a batch."""
     rows, is_done = int(made.rows[run]), bool(made.status[run] == _gateway.DONE)
     stats = dict(zip(made.statistics.dtype.names, made.statistics[run].item(), strict=True))
     measured = {name: float(values[run]) for name, values in made.measured.items()}
@@ -242,7 +242,7 @@ def _largest(values: np.ndarray | None) -> float:
 
 
 def _times(reference: Any, span: tuple[float, float]) -> np.ndarray:
-    """Rows of the reference, if it has any: between them it takes time, or knows nothing."""
+    """Sample times of the reference, if it has samples; it may be expensive or undefined between them."""
     solution = reference.solution if isinstance(reference, certified.Reference) else reference
     if not isinstance(solution, Solution):
         return np.linspace(*span, TIMES)

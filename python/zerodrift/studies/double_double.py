@@ -11,7 +11,7 @@ SPLITTER = 134217729.0
 
 
 def of(x: Any) -> np.ndarray:
-    """Doubles as such numbers."""
+    """Double-double numbers of doubles."""
     x = np.asarray(x, dtype=float)
     found = np.zeros((*x.shape, 2))
     found[..., 0] = x

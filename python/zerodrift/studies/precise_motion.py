@@ -80,7 +80,7 @@ class PreciseMotion:
         return self.functions.with_numbers(off(self.functions.numbers)), off(p), off(v)
 
     def _assembled(self, functions: Precise, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The start on the constraints; what is held there keeps its value."""
+        """Start projected onto the constraints; held coordinates and velocities are unchanged."""
         for _ in range(CORRECTIONS):
             p = self._on_positions(functions, t, p, v, self.held[0])
         for _ in range(CORRECTIONS):
@@ -88,7 +88,7 @@ class PreciseMotion:
         return p, v
 
     def projected(self, functions: Precise, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """A state that nearly satisfies the constraints, on them: (25a) and (25b)."""
+        """State projected onto the constraints, which it nearly satisfies: (25a) and (25b)."""
         if functions.mh or self.quaternions:
             p = self._on_positions(functions, t, p, v, ())
         return (p, self._on_velocities(functions, t, p, v, ())) if functions.m else (p, v)
@@ -153,7 +153,7 @@ class _Run:
         return share * h
 
     def _residual(self, series, following, h: np.ndarray) -> float:
-        """Size of h times what the rates of the series at h lack of those found there, in units of what is allowed."""
+        """Residual of the equations of motion at h, times h, relative to the tolerance."""
         order, tolerance, _ = self.settings
         k = np.arange(1, order + 1)[:, None]
         worst = 0.0
@@ -173,7 +173,7 @@ class _Run:
 
 
 def _correction(M: np.ndarray, C: np.ndarray, residual: np.ndarray, held: Sequence[int]) -> np.ndarray:
-    """Change of the velocities, shortest in the metric of M, that is taken off to make up for residuals of constraints."""
+    """Velocity correction of minimum norm in the metric of M that removes given constraint residuals."""
     free = np.setdiff1d(np.arange(len(M)), held)
     C = C[:, free]
     W = np.linalg.solve(M[np.ix_(free, free)], C.T)
@@ -185,7 +185,7 @@ def _correction(M: np.ndarray, C: np.ndarray, residual: np.ndarray, held: Sequen
 
 
 def _normalized(q: np.ndarray) -> np.ndarray:
-    """A unit quaternion (4, 2) that is nearly one."""
+    """Unit quaternion (4, 2) from one that is nearly normalized."""
     for _ in range(2):
         excess = dd.minus(dd.total(dd.times(q, q)), dd.of(1.0))[0]
         q = dd.times(q, np.broadcast_to(dd.minus(dd.of(1.0), dd.of(excess / 2)), q.shape))

@@ -36,7 +36,7 @@ MORE_ORDERS = 5
 
 
 def functions_of(system: BaseSystem, precision: str | None) -> Precise | None:
-    """Functions in double-double arithmetic; None where the system has none, or they are not to be used."""
+    """Functions in double-double arithmetic; None if the system has none or they are not wanted."""
     return None if precision == "double" else system._precise_functions(VECTOR)
 
 
@@ -46,7 +46,7 @@ def order_of(tolerance: float) -> int:
 
 
 class PreciseSearch:
-    """Runs with smaller tolerances until the error is certified, or rounding ends it."""
+    """Search with decreasing tolerances until the error is certified or rounding limits it."""
 
     def __init__(self, motion: Motion, functions: Precise, found: Reference, wanted: float | None) -> None:
         held = motion.system._held_at_start if motion.is_own_start else ([], [])
@@ -56,7 +56,7 @@ class PreciseSearch:
         self.found, self.wanted = found, wanted
 
     def certified(self) -> Reference:
-        """The reference in double-double arithmetic; the one in double precision where that is better, or contradicts it."""
+        """Reference in double-double arithmetic; the one in double precision if that is better or contradicts it."""
         best = self.found
         for tolerance in self._tolerances():
             candidate = self._of_tolerance(tolerance)
@@ -68,7 +68,9 @@ class PreciseSearch:
         return best
 
     def _tolerances(self) -> list[float]:
-        """Tolerances to try: the one that the wanted error asks for, by what the motion makes of rounding, and the finest."""
+        """Tolerances to try: the one that should reach the wanted error, from the motion's amplification of rounding, and the
+        finest.
+        """
         if self.wanted is None:
             return [FINEST]
         growth = max(1.0, self.found.differences[1].p / (EPS * self.motion.size))

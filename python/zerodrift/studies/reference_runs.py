@@ -63,7 +63,7 @@ class Rows(NamedTuple):
 
 @dataclass(frozen=True)
 class Way:
-    """Settings of a run: number of steps, formulation, integrator, and seed of its rounding (0: not perturbed)."""
+    """Settings of a run: number of steps, formulation, integrator, and seed of its perturbation by rounding (0: none)."""
 
     steps: int
     formulation: str
@@ -164,7 +164,7 @@ class Motion:
         return Rows(run.t, *(np.column_stack(columns) for columns in own))
 
     def difference(self, way: Way, motion: Solution, steps: int, run: Solution | None = None) -> Difference:
-        """Difference of a run from the motion with `steps` steps, at the samples that both have."""
+        """Difference of a run from the motion with `steps` steps, at common samples."""
         rows = math.gcd(steps, way.steps)
         run = run or self.run(way, rows)
         apart = [math.inf, math.inf]

@@ -225,7 +225,7 @@ class Search:
 
 
 class SearchBySeries(Search):
-    """The same by Taylor's method, whose steps are so few that hardly anything is rounded."""
+    """Search by Taylor's method, whose few steps accumulate little rounding error."""
 
     def __init__(self, motion: Motion, pairs: list[tuple[str, str]], wanted: float | None) -> None:
         super().__init__(motion.by_series(pairs[0][0]), pairs, wanted)

@@ -163,7 +163,7 @@ def stability_map(
 
 
 def _benches(system, span, p0, v0, values, reference) -> list[Bench]:
-    """One for each value; the same one where the system does not vary."""
+    """Benches, one for each value of the parameter; the same one if the system does not depend on it."""
     def bench(system, reference):
         reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
         return Bench(system, span, p0, v0, reference)
@@ -183,7 +183,7 @@ def _settings(name: str, options: Mapping[str, Any], steps: np.ndarray) -> tuple
 
 
 class _Cells:
-    """The lines of each way, one for each value; lines that do not depend on it are one, which is run once."""
+    """Cells of a map by method: a line of steps for each value of the parameter; lines that do not depend on it are run once."""
 
     def __init__(self, benches: list[Bench], combinations: dict[str, list[tuple[Setting, ...]]]) -> None:
         self._keys = {name: list(zip(benches, lines, strict=True)) for name, lines in combinations.items()}
@@ -193,7 +193,7 @@ class _Cells:
             bench.prepare(line[0])
 
     def measure(self, progress: Any) -> None:
-        """All lines, side by side where no Python is in the way."""
+        """Run all lines, in threads unless runs call Python functions."""
         show, close = progress_of(progress)
         try:
             side_by_side(self._measure, list(self._lines), lambda: show(len(self._rows) / len(self._lines)),
@@ -207,5 +207,5 @@ class _Cells:
             self._rows[key] = tuple(rows)
 
     def done(self) -> dict[str, tuple[tuple[Row, ...], ...]]:
-        """The rows of those ways that are done."""
+        """Entries of the methods whose lines are finished."""
         return {name: tuple(map(self._rows.get, keys)) for name, keys in self._keys.items() if self._rows.keys() >= set(keys)}

@@ -128,7 +128,7 @@ def tune(
 
 @dataclass(frozen=True)
 class _ReachError:
-    """Reach an error in the least time: the coarsest step that does so is sought."""
+    """Goal: a given error in the shortest time; searches the coarsest step that reaches the error."""
 
     error: float
     seeks_finest = False
@@ -152,13 +152,13 @@ class _ReachError:
 
 @dataclass(frozen=True)
 class _KeepBudget:
-    """Keep a time with the least error: the finest step that does so is sought."""
+    """Goal: the smallest error within a given time; searches the finest step that is fast enough."""
 
     budget: float
     seeks_finest = True
 
     def check(self, reference_error: float) -> None:
-        """Any budget makes sense."""
+        """Accept any time budget."""
 
     def met(self, row: Row, reference_error: float) -> bool:
         return row.success and row.seconds <= self.budget
@@ -184,14 +184,14 @@ def _goal(error: float | None, budget: float | None) -> _ReachError | _KeepBudge
 
 
 class _Search:
-    """All rows measured so far, and where to measure next."""
+    """Search: entries measured so far, and the choice of the next ones."""
 
     def __init__(self, goal: _ReachError | _KeepBudget, bench: Bench, sweep: WorkPrecision) -> None:
         self.goal, self.bench = goal, bench
         self.rows = {row.setting: row for row in sweep.rows}
 
     def extend(self) -> None:
-        """As long as nothing meets the goal: the next step in the direction that is more likely to."""
+        """While no entry meets the goal: next step in the direction that is more likely to meet it."""
         for _ in range(EXTENSIONS):
             if self._rows_meeting_goal():
                 return
@@ -219,7 +219,7 @@ class _Search:
         return found(self.bench, rows, rounds)
 
     def interrupted(self, interruption: KeyboardInterrupt, rounds: int) -> Interrupted:
-        """The same with all rows, not only those being measured."""
+        """Interrupted result with all entries, not only those being measured."""
         latest = getattr(interruption, "solution", None)
         self.rows |= {row.setting: row for row in latest.rows} if latest else {}
         evidence = dataclasses.replace(self.evidence(rounds), complete=False)
@@ -260,11 +260,11 @@ def _fineness(setting: Setting) -> float:
 
 
 def _scaled(setting: Setting, factor: float) -> Setting:
-    """The same method with another step or tolerance."""
+    """Setting of the same method with another step or tolerance."""
     value = factor * _fineness(setting)
     return setting._replace(tolerance=max(value, FINEST_RTOL)) if _chooses_steps(setting) else setting._replace(step=value)
 
 
 def _from_coarse_to_fine(rows: list[Row]) -> list[Row]:
-    """From the coarsest to the finest."""
+    """Entries from the coarsest to the finest setting."""
     return sorted(rows, key=lambda row: -_fineness(row.setting))

@@ -17,12 +17,12 @@ from .graph.graph import MOVING, Node
 
 
 class Definition:
-    """Expressions of a system, by what they are.
+    """Checked definition of a system: its expressions as nodes, and the values of its parameters.
 
     Attributes
     ----------
     expressions : dict
-        All that the terms follow from, and nothing else.
+        All expressions that the terms are derived from; the cache key is computed from these.
     values : dict of str to float
         The parameters.
     """
@@ -60,7 +60,7 @@ class Definition:
                 raise WrongValue(f"parameter {name} is a coordinate, a velocity or time")
 
     def named(self, given: Any) -> Any:
-        """Coordinates among what is given by their names."""
+        """Coordinates and speeds given by name, as symbols."""
         listed = _listed("quaternions", given, "coordinates")
         return [self.coordinate_names[self.coordinates.index(q)] if q in self.coordinates else q for q in listed]
 
@@ -123,7 +123,7 @@ class Definition:
     # ---- nodes ----
 
     def read(self) -> tuple[Reader, Given]:
-        """All expressions but those of the drawing, as nodes."""
+        """All expressions except those of the drawing, converted to nodes."""
         reader, e = Reader(), self.expressions
         graph, nq, nv = reader.graph, len(self.coordinates), len(self.speeds)
         self.placed = self._known(reader)
@@ -206,7 +206,7 @@ class Definition:
                 raise WrongValue(f"constraint {self.constraint_names[place // nv]!r} is not linear in the velocities")
 
     def drawing(self, reader: Reader) -> list[list[Node]]:
-        """The points, as nodes."""
+        """Points of the drawing, converted to nodes."""
         given = self.expressions["points"]
         points = [[reader.read(f"point {i}", x, self.placed) for x in point] for i, point in enumerate(given)]
         if points and (len(points[0]) not in (2, 3) or any(len(point) != len(points[0]) for point in points)):
@@ -220,7 +220,7 @@ class Definition:
 
 
 def _time() -> sympy.Symbol:
-    """That of dynamicsymbols, which who uses them has imported."""
+    """Symbol of time of `dynamicsymbols` if the caller has imported `sympy.physics`, otherwise the symbol t."""
     vector = sys.modules.get("sympy.physics.vector")
     return vector.dynamicsymbols._t if vector else sympy.Symbol("t")
 
@@ -250,7 +250,7 @@ def _named(what: str, given: Any, word: str) -> tuple[list[Any], list[str]]:
 
 
 def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]]:
-    """Values by name, and the symbols among the keys."""
+    """Parameter values by name, and the symbols that were given as keys."""
     if not isinstance(given, Mapping):
         raise WrongType(f"parameters must be a dict of symbols or names and their values, not {given!r}")
     values: dict[str, float] = {}

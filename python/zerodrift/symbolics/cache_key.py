@@ -1,4 +1,4 @@
-"""A name for a definition, under which the cache finds what was derived from it before."""
+"""Cache key of a definition: names the file that holds the terms derived from it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .compile.cache import digest_of
 
 @cache
 def _deriving_code() -> str:
-    """The fingerprint of the code that derives: SymPy's version, and the files of this package."""
+    """Fingerprint of the derivation code: SymPy's version and the files of this package."""
     files = sorted(Path(__file__).parent.rglob("*.py"))
     return digest_of(sympy.__version__, [file.read_text(encoding="utf-8") for file in files])
 

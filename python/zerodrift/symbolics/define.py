@@ -131,7 +131,7 @@ def symbolic(
 
 
 def _with_inputs(parameters: Any, inputs: Sequence[Any]) -> Any:
-    """Parameters and inputs, which are 0 where they have no value."""
+    """Values of parameters and inputs; inputs without a value are 0."""
     if not inputs or not isinstance(parameters, Mapping):
         return parameters
     known = {str(name) for name in parameters}

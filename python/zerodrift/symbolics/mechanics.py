@@ -1,4 +1,4 @@
-"""`from_mechanics`: what `sympy.physics.mechanics` has set up, before it eliminates anything."""
+"""`from_mechanics`: system from the definitions of a method of `sympy.physics.mechanics`, before its elimination."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ def _unconstrained(frame: Any, q: Any, u: Any, pdot: list[Any], bodies: Any, loa
 
 
 def _not_from_positions(holonomic: list[Any], velocity: list[Any], q: Any, u: Any, pdot: list[Any]) -> list[Any]:
-    """The velocity constraints that do not follow from the holonomic ones by differentiation, found at random states."""
+    """Nonholonomic constraints: velocity constraints that are not derivatives of the holonomic ones, found at random states."""
     if not holonomic or not velocity:
         return velocity
     by_position = sympy.Matrix(holonomic).jacobian(q) * sympy.Matrix(pdot).jacobian(u)

@@ -1,4 +1,4 @@
-"""Programs whose arguments and terms are multiplied by factors near 1: what moves when everything is off by rounding."""
+"""Programs whose arguments and terms are multiplied by factors near 1, to measure the effect of rounding."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ NUMBERS = "*(const double *const *)data"    # where the parameters and factors o
 
 
 def perturbed(program: dict[str, Any], shapes: Mapping[str, tuple[int, ...]], parameters: int) -> dict[str, Any]:
-    """The program with its factors as further parameters, one array of these shapes behind the other.
+    """Program with its factors as additional parameters, concatenated arrays of these shapes.
 
     `shapes` has "t", "p", "v", and the terms that have factors.
     """
@@ -48,7 +48,7 @@ class _Perturbed:
         return self._emit("*", self._emit("leaf", "parameter", factor), number)
 
     def entry(self, name: str, place: int, number: int) -> int:
-        """An entry of a term; zeros stay what they are known to be."""
+        """Entry of a term times its factor; structural zeros stay zero."""
         mine = self._at[number]
         if name not in self._first or (self.operations[mine][0] == "number" and self.operations[mine][1] == 0):
             return mine

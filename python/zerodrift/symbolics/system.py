@@ -1,4 +1,4 @@
-"""`SymbolicSystem`: what `zerodrift.symbolic` returns. It needs no SymPy, so that it can be sent to where there is none."""
+"""`SymbolicSystem`, the result of `zerodrift.symbolic`. It does not need SymPy, so it can be unpickled where SymPy is missing."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from .graph.smoothness import is_plain_program
 
 @dataclass(frozen=True)
 class Code:
-    """A derived system: all that is the same whatever the values of its parameters. Everything in it can be written as JSON."""
+    """Derived system, independent of the values of its parameters. All attributes can be written as JSON."""
 
     coordinates: tuple[str, ...]
     velocities: tuple[str, ...]
@@ -194,13 +194,13 @@ class SymbolicSystem(BaseSystem):
         return Bound(mine, places, [(_gateway.address_of(*each), pointer) for each in derive if each[0]], memory)
 
     def _core_in_lanes(self, vector: str, embeds: bool) -> _gateway.CoreSystem:
-        """The same with functions for several trajectories at once, too, which do not embed."""
+        """System of one run with functions for SIMD lanes as well; these do not support independent velocities."""
         core = self._direct_core(vector, embeds)
         library = None if embeds or core is self._core else self._direct.library_in_lanes(vector)
         return core if library is None else core.with_lanes(_gateway.address_of(library, DIRECT), library)
 
     def _with_direct_data(self, library: ctypes.CDLL, functions: ClosedFormFunctions) -> np.ndarray:
-        """The same with the constants of the direct functions behind them."""
+        """Data of the compiled function followed by the constants of the closed-form functions."""
         data = np.concatenate([self._data(), np.zeros(functions.constants)])
         library.zd_symbolic_direct_constants(ctypes.c_void_p(data.ctypes.data))
         return data
@@ -245,7 +245,7 @@ class SymbolicSystem(BaseSystem):
         return other
 
     def starting(self, p0: Any = None, v0: Any = None) -> SymbolicSystem:
-        """The same system with another start; what is left out stays."""
+        """Copy of the system with another start; omitted values stay unchanged."""
         other = self._copied()
         other._set_start(self.p0 if p0 is None else p0, self.v0 if v0 is None else v0)
         return other
@@ -258,13 +258,13 @@ class SymbolicSystem(BaseSystem):
                 x.flags.writeable = False
 
     def _copied(self) -> SymbolicSystem:
-        """Another object that shares everything: its library is not looked for again, as pickles have to."""
+        """Shallow copy, which shares the loaded library; a pickled copy would have to find it again."""
         other = object.__new__(type(self))
         vars(other).update(vars(self))
         return other
 
     def points(self, p: Any) -> np.ndarray | None:
-        """The drawing at p: points (n, 2) or (n, 3), joined by lines where not NaN. None: there is no drawing."""
+        """Points of the drawing at p, (n, 2) or (n, 3), joined by lines except at NaN; None without a drawing."""
         count, dimension = self._code.drawing
         if not count:
             return None
@@ -309,7 +309,7 @@ class _InPython:
 
 @cache
 def _compiled(source: str) -> Callable[..., None]:
-    """The function of a Python source that `emission` wrote."""
+    """Function compiled from the Python source that `emission` wrote."""
     names: dict[str, Any] = {"math": _Mathematics, "divide": _divide, "power": _guarded(math.pow), "missing": _missing,
                              "root": _guarded(math.sqrt)}
     exec(compile(source, "<zerodrift.symbolic>", "exec"), names)
@@ -317,7 +317,7 @@ def _compiled(source: str) -> Callable[..., None]:
 
 
 def _guarded(function: Callable[..., float]) -> Callable[..., float]:
-    """Wrap a function so that it returns NaN or an infinity, as in C, where Python raises an error."""
+    """Wrap a function so that it returns NaN or an infinity, as in C, instead of raising."""
     def guarded(*arguments: float) -> float:
         try:
             return float(function(*arguments))

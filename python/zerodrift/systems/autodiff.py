@@ -206,7 +206,7 @@ for _name, _phi in FUNCTIONS.items():
 
 
 def value(x: Any) -> Any:
-    """The number itself."""
+    """Value of a jet or number."""
     return x.value if isinstance(x, Jet) else x
 
 
@@ -231,7 +231,7 @@ def seeds(values: Any, first: Any = None, second: Any = None, gradient: Any = No
 
 
 def part(array: Any, name: str, size: int | None = None) -> np.ndarray:
-    """One part of every jet of an array: (...,), or for the gradient (..., size). Plain numbers have no derivatives."""
+    """A given part of all jets of an array, (...,), or (..., size) for gradients; zero derivatives for plain numbers."""
     array = np.asarray(array, dtype=object)
     out = np.zeros(array.shape if size is None else (*array.shape, size))
     for index in np.ndindex(array.shape):

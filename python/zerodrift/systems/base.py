@@ -23,7 +23,7 @@ FIRST_PRINTED, LAST_PRINTED = 18, 6     # of many names, parameters and rows
 
 
 class WithInputs(NamedTuple):
-    """A system some of whose numbers are inputs of a run."""
+    """System with some of its numbers as inputs of a run."""
 
     system: BaseSystem
     initial: list[float]
@@ -124,7 +124,7 @@ class BaseSystem:
         return of_core(self._core)
 
     def _sizes_in_words(self) -> str:
-        """For the repr."""
+        """Sizes as text for `repr`."""
         packing = self._core.packing
         blocks = f", {len(packing.blocks)} blocks and {len(packing.groups)} groups of constraints" if packing else ""
         return (f"{self.nq} coordinates, {self.nv} velocities, {self.mh} holonomic and {self.mn} nonholonomic "
@@ -245,7 +245,7 @@ class BaseSystem:
 
     @property
     def _measuring(self) -> _gateway.CoreSystem | None:
-        """The core's system that has the measures; None for systems read from a file as a description."""
+        """The core's system that provides the measures; None for systems restored from a description only."""
         return getattr(self, "_core", None)
 
     @functools.cached_property
@@ -370,7 +370,7 @@ class BaseSystem:
         return False
 
     def _in_other_coordinates(self) -> BaseSystem | None:
-        """The same system in other coordinates, whose solutions have all of its own by name; None where there are none."""
+        """Equivalent system in other coordinates, with this system's coordinates among its measures; None if there is none."""
         return None
 
     @property
@@ -399,7 +399,7 @@ class Makes:
 
 
 def system_of(given: Any, *state: Any) -> Any:
-    """The system that an argument means: a mechanism stands for its own, and takes no state in coordinates."""
+    """System of an argument: a system itself, or that of a mechanism, which does not accept a state in coordinates."""
     if not isinstance(given, Makes):
         return given
     if any(part is not None for part in state):
@@ -413,7 +413,7 @@ def _listed(variables: Sequence[Variable]) -> str:
 
 
 def _shortened(entries: Sequence[str]) -> list[str]:
-    """The entries if they are few; of many the first, the last, and how many are between."""
+    """Text of the entries: all if they are few, else the first, the last and the number between."""
     left_out = len(entries) - FIRST_PRINTED - LAST_PRINTED
     if left_out <= LAST_PRINTED:
         return list(entries)
@@ -432,7 +432,7 @@ def core_of(system: Any) -> _gateway.CoreSystem:
 def direct_core_of(system: Any, vector: str, options: Any) -> _gateway.CoreSystem:
     """The same with the system's direct functions for a vector unit, where it has any that serve a run with this `zd_settings`.
 
-    They are made when they are first wanted.
+    They are compiled at first use.
     """
     core = core_of(system)
     if _gateway.takes_direct(core, options):

@@ -96,7 +96,7 @@ class BuiltIn(SystemOfKind):
 
 
 def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
-    """The numbers the core is handed for a parameter."""
+    """Numbers of a parameter for the core."""
     if given is None:
         return np.array(parameter.initial or [np.nan] * parameter.size, dtype=float)
     if parameter.rule == "choice":
@@ -109,12 +109,12 @@ def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
 
 
 def _is_too_small(parameter: _gateway.Parameter, values: np.ndarray) -> np.ndarray:
-    """Which values break the parameter's rule; of one that is derived, none."""
+    """Mask of the values that violate the parameter's lower bound; derived values are not checked."""
     return {"positive": values <= 0, "not negative": values < 0}.get(parameter.rule, np.zeros(values.shape, dtype=bool))
 
 
 def _as_given(parameter: _gateway.Parameter, values: np.ndarray) -> Any:
-    """A parameter's value as a user would write it; None where it is derived."""
+    """Value of a parameter as a user would give it; None if it is derived."""
     if parameter.rule == "choice":
         return parameter.words[int(values[0])]
     if np.isnan(values).any():

@@ -224,7 +224,7 @@ _DOUBLE = np.dtype(np.float64)
 
 
 class _Function:
-    """A callable with the arguments it names, or a constant."""
+    """A callable called with the arguments that it names, or a constant."""
 
     def __init__(self, name: str, given: Any, parameters: dict[str, Any]) -> None:
         self.name = name
@@ -253,14 +253,14 @@ class _Function:
         return _check.real(f"{self.name} must return", value, f" (at t = {t:g})", objects=True)
 
     def write(self, out: np.ndarray, t: float, p: np.ndarray, v: np.ndarray) -> None:
-        """Its value, checked, into an array for the core."""
+        """Write the checked value to an array of the core."""
         value = self.value(t, p, v)
         if value.shape != out.shape:
             raise WrongValue(f"{self.name} must return shape {out.shape}, not {value.shape} (at t = {t:g})")
         out[...] = value
 
     def evaluate_jets(self, shape: tuple[int, ...], t: Any, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """Its value with derivatives, an array of objects."""
+        """Value with derivatives, an array of jets."""
         try:
             returned, where = self._call(self._function, t, p, v), f" (at t = {autodiff.value(t):g})"
         except BaseException as error:
@@ -300,14 +300,14 @@ def _signature(name: str, given: Callable[..., Any], there_is: str) -> Iterable[
 
 
 def _anywhere(nq: int, quaternions: tuple[int, ...]) -> np.ndarray:
-    """Coordinates to call with where there is no start: zero, and no rotation."""
+    """Default coordinates if there is no start: zero, with unit quaternions."""
     p = np.zeros(nq)
     p[list(quaternions)] = 1.0
     return _check.frozen(p)
 
 
 def _sizes(functions: dict[str, _Function], p: np.ndarray) -> tuple[int, int, int, int]:
-    """(nq, nv, mh, mn), from what the callables return at p."""
+    """Sizes (nq, nv, mh, mn), from the shapes that the callables return at p."""
     nq = len(p)
 
     def shape(name: str, dimensions: int) -> tuple[int, ...]:

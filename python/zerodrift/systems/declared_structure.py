@@ -1,4 +1,4 @@
-"""Systems written in Python whose structure is declared: callables return matrices, and the core gets what is stored of them."""
+"""Packed terms of Python systems with a declared structure: callables return dense matrices, the core receives stored entries."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SAID = {"A": "kinematics", "M": "mass", "C": "the constraint matrix"}
 
 
 class PackedWriter:
-    """Writes with another writer, of dense matrices, and packs these; an entry that the structure has no place for is refused."""
+    """Writer that packs the dense matrices of another writer; nonzero entries outside the structure are refused."""
 
     def __init__(self, writer: Any, packing: _gateway.Packing) -> None:
         self._writer, self._packing, self.provides = writer, packing, writer.provides

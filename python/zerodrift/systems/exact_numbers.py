@@ -1,4 +1,4 @@
-"""Numbers and starts of built-in systems as pairs of doubles: parameters as they are, all else exactly rounded."""
+"""Numbers and starts of built-in systems as pairs of doubles: parameters exact, derived numbers correctly rounded."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def _as_given(given: Given) -> Groups:
 
 
 def _bar(given: Given) -> Groups:
-    """Slender rods, m l^2 / 12, where no inertias are given."""
+    """Inertias of slender rods, m l^2 / 12, if none are given."""
     rods = [m * length**2 / 12 for m, length in zip(given["masses"], given["lengths"][1:], strict=True)]
     return [given["lengths"], given["masses"], given.get("inertias", rods), given["gravity"]]
 

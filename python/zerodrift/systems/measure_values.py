@@ -32,7 +32,7 @@ class Place(NamedTuple):
 
 
 class Watching:
-    """Reads the measures of a system, by their names, off solutions; `core` is the one that brings them, None: there is none."""
+    """Measures of a system by name, evaluated from solutions; `core` provides them, None if there are none."""
 
     def __init__(self, core: CoreSystem | None) -> None:
         self.core, self._measures = core, core.measures if core else ()
@@ -40,7 +40,7 @@ class Watching:
         self._accelerations: weakref.WeakKeyDictionary[Any, np.ndarray] = weakref.WeakKeyDictionary()
 
     def find(self, name: Any) -> Place | None:
-        """Index of a measure or of a component by its name; None: there is none of that name."""
+        """Index of a measure or of a component by its name, or None."""
         if not isinstance(name, str):
             return None
         if name in self.number:
@@ -52,7 +52,7 @@ class Watching:
         return None
 
     def unit(self, name: str) -> str | None:
-        """The unit of a measure, or of a component of one; None: there is none of that name."""
+        """Unit of a measure or of a component by its name, or None."""
         found = self.find(name)
         return None if found is None else self._measures[found.number].unit
 
@@ -76,7 +76,7 @@ class Watching:
         return values[0] if len(values) == 1 else np.concatenate(values)
 
     def _accelerate(self, core: CoreSystem, solution: Any, part: slice) -> np.ndarray:
-        """The accelerations (k, nv) at some rows, which are kept if these are all of them."""
+        """Accelerations (k, nv) at a range of samples; cached if it has all samples."""
         known = self._accelerations.get(solution)
         if known is None:
             formulation = _formulation(solution.settings["formulation"])
@@ -128,24 +128,24 @@ class Watching:
 
 
 def _formulation(given: Any) -> int:
-    """The core's number of a formulation that is given by its name or its settings."""
+    """Index in the core of a formulation given by its name or its settings."""
     name = given if isinstance(given, str) else given.card.name
     return [card.name for card in _gateway.cards("formulations")].index(name)
 
 
 def _parts(solution: Any) -> list[slice]:
-    """All rows in parts, as rows that are in a file may be more than memory takes."""
+    """Ranges of samples, as samples in a file may exceed the memory."""
     rows = max(1, PART // (solution.p.itemsize * max(1, solution.p.shape[1])))
     return [slice(first, first + rows) for first in range(0, max(1, len(solution.t)), rows)]
 
 
 def _states(solution: Any, part: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """T (k,), p (k, nq), v (k, nv) of some rows, as the core takes them."""
+    """Arrays t (k,), p (k, nq), v (k, nv) of a range of samples for the core."""
     return tuple(np.ascontiguousarray(array[part]) for array in (solution.t, solution.p, solution.v))
 
 
 def _shifts(core: CoreSystem, solution: Any) -> list[np.ndarray]:
-    """Multipliers (k, m) that act on nothing: a basis of them at each row, filled up with zeros where there are fewer."""
+    """Basis of multipliers (k, m) without effect on the motion at each sample, padded with zeros."""
     bases = []
     for t, p, v in zip(solution.t, solution.p, solution.v, strict=True):
         C = core.evaluate(float(t), np.ascontiguousarray(p), np.ascontiguousarray(v)).get("C")

@@ -1,4 +1,4 @@
-"""Systems whose equations are compiled code of one's own: in C, by numba, or from any language that calls like C."""
+"""Systems with compiled equations of the user: in C, by Numba, or in any language with C calling conventions."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def get_include() -> str:
 
 
 def numba_signature() -> Any:
-    """The signature for `numba.cfunc` of a function that `native` takes; see there."""
+    """Signature for `numba.cfunc` of a function for `zerodrift.native`."""
     return _gateway.numba_signature()
 
 
@@ -234,7 +234,7 @@ def _restored_from_library(found: Any, parameters: dict[str, Any]) -> NativeKind
 
 
 def _checked_terms(given: Any, mh: int, m: int) -> list[str]:
-    """The terms a function writes, checked against the constraints there are."""
+    """Terms that a function writes, checked against the numbers of constraints."""
     needed = ["M", *["Phi"] * (mh > 0), *["C", "xi"] * (m > 0)]
     terms = [_check.choice("terms", term, TERMS) for term in ([given] if isinstance(given, str) else given)]
     missing = [term for term in needed if term not in terms]
@@ -259,7 +259,7 @@ def _velocity_names(velocities: Any, coordinates: list[str], kinematics: bool) -
 
 
 def _check_at_start(system: BaseSystem) -> None:
-    """Refuses a function that does not write what it is said to, where there is a state to try it at."""
+    """Refuse a function that does not write its declared terms, if there is a state to test it at."""
     if system.p0 is None:
         return
     wrong = _gateway.probe(system._core, *system._state_or_start(None, None))

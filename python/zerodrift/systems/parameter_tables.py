@@ -1,4 +1,4 @@
-"""Numbers of many systems that differ in parameters only, from which the core makes their runs without Python."""
+"""Number tables of many systems that differ only in parameters; the core makes their runs without Python."""
 
 from __future__ import annotations
 

@@ -108,7 +108,7 @@ class Structure:
 
 
 def of_core(core: _gateway.CoreSystem) -> Structure | None:
-    """The structure that a system of the core has."""
+    """Structure of a system of the core."""
     packing = core.packing
     if packing is None:
         return None
@@ -117,7 +117,7 @@ def of_core(core: _gateway.CoreSystem) -> Structure | None:
 
 
 def checked(structure: Any, sizes: tuple[int, int, int, int], has_A: bool) -> _gateway.Packing | None:
-    """The gateway's object of a structure, after checks against the sizes (nq, nv, mh, mn) of a system."""
+    """Core object of a structure, checked against the sizes (nq, nv, mh, mn) of a system."""
     if structure is None:
         return None
     _check.instance("structure", structure, Structure, "a zd.Structure")

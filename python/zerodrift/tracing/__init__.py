@@ -1,1 +1,1 @@
-"""Motions without forces: positions of a mechanism along its one freedom."""
+"""Kinematic tracing: positions of a mechanism along its single degree of freedom, without forces."""

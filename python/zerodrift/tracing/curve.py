@@ -33,7 +33,7 @@ EPS = 2.0**-52
 
 
 class Knot(NamedTuple):
-    """A point of the curve: where, the unit tangent, the measure there and its slope along the arc."""
+    """A point of the curve: coordinates, unit tangent, and the measure with its slope along the arc."""
 
     x: np.ndarray
     tangent: np.ndarray
@@ -41,12 +41,12 @@ class Knot(NamedTuple):
     slope: float
 
     def reversed(self) -> Knot:
-        """The same point, gone through the other way."""
+        """The same point with the opposite direction."""
         return Knot(self.x, -self.tangent, self.value, -self.slope)
 
 
 class Segment(NamedTuple):
-    """A piece of the curve between two knots, in which the measure goes one way; `arc` is its length."""
+    """A piece of the curve between two knots on which the measure is monotonic; `arc` is its length."""
 
     first: Knot
     last: Knot
@@ -58,12 +58,12 @@ class Segment(NamedTuple):
         return float(np.sign(self.last.value - self.first.value))
 
     def reversed(self) -> Segment:
-        """The same piece, gone through the other way."""
+        """The same segment with the opposite direction."""
         return Segment(self.last.reversed(), self.first.reversed(), self.arc)
 
 
 class Curve:
-    """Points of the curve, and pieces of it one after the other.
+    """The curve: its points, and its consecutive segments.
 
     Parameters
     ----------
@@ -81,13 +81,13 @@ class Curve:
         self._geometry, self._held, self.scale, self._size = geometry, held, scale, size
 
     def evaluate(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float, np.ndarray]:
-        """Residuals and rows in units of their size; the measure and its row as they are."""
+        """Scaled residuals and gradients of the constraints; the measure and its gradient unscaled."""
         values, rows = self._geometry(x * self.scale)
         rows *= self.scale
         return (values[:-1] - self._held) / self._size[:-1], rows[:-1] / self._size[:-1, None], float(values[-1]), rows[-1]
 
     def knot(self, x: np.ndarray, along: np.ndarray) -> Knot | None:
-        """The point of the curve that Newton's method finds from x, across a direction; None where it finds none."""
+        """Point of the curve found by Newton's method from x, orthogonal to a direction; None if it does not converge."""
         border = np.zeros(x.size)
         border[-1] = 1.0
         for _ in range(ITERATIONS):
@@ -111,7 +111,7 @@ class Curve:
         return slope if abs(slope) > ZERO_SLOPE * np.linalg.norm(row) else 0.0
 
     def segments(self, knot: Knot) -> Iterator[Segment]:
-        """The curve from a knot on, in pieces in which the measure goes one way; it has no end.
+        """Segments of the curve from a knot on, on each of which the measure is monotonic, without end.
 
         Raises
         ------
@@ -134,7 +134,7 @@ class Curve:
             knot, step = found, min(LONGEST_STEP, step * min(2.0, WANTED_TURN / max(turned, 1e-9)))
 
     def _step(self, knot: Knot, step: float, bend: np.ndarray | float) -> Knot | None:
-        """The knot at about that distance along the curve; None where the step is too long to be sure of it."""
+        """Knot at about the given distance along the curve; None if the step is too long to be reliable."""
         guess = knot.x + step * knot.tangent + step**2 * bend
         found = self.knot(guess, knot.tangent)
         if (found is None or _angle(knot.tangent, found.tangent) > LARGEST_TURN
@@ -143,7 +143,7 @@ class Curve:
         return found
 
     def _pieces(self, first: Knot, last: Knot, depth: int = 0) -> Iterator[Segment]:
-        """The piece between two knots, parted where the measure turns back."""
+        """Segments between two knots, split where the measure has an extremum."""
         segment = Segment(first, last, _arc(first, last))
         if first.slope * last.slope < 0:
             dead = self._dead_point(segment)
@@ -156,7 +156,7 @@ class Curve:
             yield segment
 
     def at(self, segment: Segment, arc: float) -> Knot:
-        """The point of the curve that far into a piece."""
+        """Point of the curve at a distance into a segment."""
         return self._at(segment, arc) or self._beside(segment, arc)
 
     def _at(self, segment: Segment, arc: float) -> Knot | None:
@@ -164,7 +164,7 @@ class Curve:
         return self.knot(_between(segment, arc / segment.arc), along / np.linalg.norm(along))
 
     def _beside(self, segment: Segment, arc: float) -> Knot:
-        """At a bifurcation, where more rows depend on each other, Newton's matrix is singular: between points on both sides."""
+        """Point at a bifurcation, where Newton's matrix is singular: interpolated from points on both sides."""
         first, last = (self._at(segment, arc + aside) for aside in (-INTERPOLATION_DISTANCE, INTERPOLATION_DISTANCE))
         if first is None or last is None:
             raise CorrectionFailed(f"the positions cannot be followed beyond {segment.first.value:.10g}: the constraints do not "
@@ -216,7 +216,7 @@ class Curve:
         return best, slopes
 
     def _between_values(self, segment: Segment, value: float, aside: float) -> tuple[np.ndarray, np.ndarray]:
-        """The same where the matrix is singular, from values on both sides."""
+        """Positions and derivatives where the matrix is singular, from values on both sides."""
         if not aside:
             raise CorrectionFailed(f"no position was found at {value:.10g}: the constraints do not determine it there")
         x, slopes = self.positions([segment, segment], value + np.array([-aside, aside]), aside=0.0)
@@ -258,19 +258,19 @@ def _angle(first: np.ndarray, second: np.ndarray) -> float:
 
 
 def _arc(first: Knot, last: Knot) -> float:
-    """The length of the curve between two knots, as if it were an arc of a circle."""
+    """Length of the curve between two knots, approximated by an arc of a circle."""
     return float(np.linalg.norm(last.x - first.x)) * (1 + _angle(first.tangent, last.tangent)**2 / 24)
 
 
 def _between(segment: Segment, part: float) -> np.ndarray:
-    """The cubic through a piece's ends with their tangents, (n,), where that part of it is gone."""
+    """Cubic Hermite interpolant (n,) of a segment, at a fraction of its length."""
     first, last, h = segment.first, segment.last, segment.arc
     return (first.x * ((1 + 2 * part) * (1 - part)**2) + last.x * (part**2 * (3 - 2 * part))
             + h * part * (1 - part) * (first.tangent * (1 - part) - last.tangent * part))
 
 
 def _cubic(segment: Segment) -> np.ndarray:
-    """The polynomial of the measure over the part of a piece, highest power first."""
+    """Cubic interpolant of the measure over the fraction of a segment; coefficients, highest power first."""
     first, last, h = segment.first, segment.last, segment.arc
     apart, a, b = last.value - first.value, h * first.slope, h * last.slope
     return np.array([a + b - 2 * apart, 3 * apart - 2 * a - b, a, first.value])
@@ -287,7 +287,9 @@ def _turns_inside(segment: Segment) -> bool:
 
 
 def _guess(segments: list[Segment], values: np.ndarray) -> np.ndarray:
-    """About where the measure has given values, each in its piece, (k, n): its cubic, which goes one way, is bisected."""
+    """Initial guesses (k, n) of the points at which the measure has given values, each in its segment, by bisection of its
+    monotonic cubic.
+    """
     a, b, c, d = np.array([_cubic(segment) for segment in segments]).T
     sense = np.array([segment.sense for segment in segments])
     low, high = np.zeros(len(values)), np.ones(len(values))
@@ -299,7 +301,7 @@ def _guess(segments: list[Segment], values: np.ndarray) -> np.ndarray:
 
 
 def _solved(matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """Solutions for all right sides; of singular matrices the least ones."""
+    """Solutions for all right sides; minimum-norm ones for singular matrices."""
     try:
         return np.linalg.solve(matrix, right)
     except np.linalg.LinAlgError:

@@ -1,4 +1,4 @@
-"""A mechanism of one freedom as a curve: drives left out, what is held in their place."""
+"""Motion of a mechanism with one degree of freedom as a curve: held measures replace its drives."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MOTORS = (Motor, Actuator)
 
 
 class Motion:
-    """The curve of a mechanism's positions, and where it starts on it.
+    """Curve of a mechanism's positions, and its starting point.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class Motion:
         return next(row.unit for row in self.core.measures if self.measure in (row.name, f"{row.name}.x", f"{row.name}.y"))
 
     def turns(self) -> np.ndarray:
-        """Which coordinates are angles."""
+        """Mask of the coordinates that are angles."""
         return np.array([coordinate.kind == "angle" for coordinate in self.core.coordinates], dtype=bool)
 
     def coordinates(self, x: np.ndarray, slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -99,7 +99,7 @@ class Motion:
         return held
 
     def _poses(self, held: dict[str, float | None]) -> np.ndarray:
-        """The poses where the mechanism starts, led to what is held, drives left out."""
+        """Initial poses, moved so that held measures have their values; drives are left out."""
         _, assembly, p = self._starting.closed(0.0)
         given = {name: value for name, value in held.items() if value is not None}
         if given:
@@ -130,7 +130,7 @@ class Motion:
         return Curve(chosen, target[independent], scale, size[[*independent, -1]])
 
     def _independent(self, rows: np.ndarray, count: int, held: list[str]) -> list[int]:
-        """Rows of which all others follow; an error where they do not leave one freedom."""
+        """Indices of independent constraints; an error if these do not leave one degree of freedom."""
         basis, found = np.zeros((0, rows.shape[1])), []
         for i, row in enumerate(rows):
             left = row - basis.T @ (basis @ row)
@@ -156,7 +156,7 @@ class Motion:
                 f"hold={open_to[:more]} where they are, or {{{open_to[0]!r}: value}}")
 
     def _first_knot(self) -> Knot:
-        """The start, with a tangent along which the measure grows."""
+        """First knot: the start, with the tangent along which the measure grows."""
         x = self.start / self.curve.scale
         _, rows, _, row = self.curve.evaluate(x)
         tangent = np.linalg.svd(rows)[2][-1] if len(rows) else np.ones(1)

@@ -138,7 +138,7 @@ def _values(given: Any) -> np.ndarray:
 
 
 def _whole(motion: Motion, count: int) -> Trace:
-    """All of the branch, or one turn."""
+    """Segments of the whole branch, or of one turn."""
     pieces, turned = walk.whole(motion)
     if turned:
         values = motion.knot.value + np.linspace(0, 2 * np.pi, count)
@@ -161,7 +161,7 @@ def _whole(motion: Motion, count: int) -> Trace:
 
 
 def _dead_knots(pieces: list[Segment]) -> list[Knot]:
-    """The knots in which the measure turns back."""
+    """Knots at which the measure has an extremum."""
     return [first.last for first, second in itertools.pairwise(pieces) if first.sense != second.sense]
 
 

@@ -1,4 +1,4 @@
-"""Which pieces of the curve of positions are gone through: as far as values ask for, a whole turn, or back to the start."""
+"""Selection of segments of the curve of positions: up to given values, for a whole turn, or back to the start."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LARGEST_COUNT_TO_A_VALUE = 5_000    # pieces: no value is farther from the start
 
 
 class Met(NamedTuple):
-    """Pieces in which values were met, in their order; and dead points passed, each with the place of the next value."""
+    """Segments that contain the values, in order; and dead points passed, each with the index of the next value."""
 
     segments: list[Segment]
     dead: list[tuple[Knot, int]]
@@ -38,14 +38,14 @@ def pick(pieces: list[Segment], values: np.ndarray) -> list[Segment]:
 
 
 def check_start(motion: Motion) -> None:
-    """Refuses to begin where neither way is up."""
+    """Refuse a start at which the measure is stationary."""
     if motion.knot.slope == 0:
         raise WrongValue(f"{motion.system.name} starts in a dead point of {motion.measure!r}, at {_shown(motion.knot.value)}, or "
                          "that does not change with its positions: start aside (m.start), or trace another measure")
 
 
 def _as_far_as(motion: Motion, knot: Knot, last: float, values: np.ndarray) -> list[Segment]:
-    """The pieces from a knot to a value, at least one of them; a dead point before that is an error."""
+    """Segments from a knot to a value, at least one; a dead point before the value is an error."""
     pieces: list[Segment] = []
     for segment in itertools.islice(motion.curve.segments(knot), LARGEST_COUNT_TO_A_VALUE):
         if pieces and segment.sense != pieces[0].sense:
@@ -63,14 +63,14 @@ def _as_far_as(motion: Motion, knot: Knot, last: float, values: np.ndarray) -> l
 
 
 def _beyond(motion: Motion, dead: float, value: float, values: np.ndarray) -> ValueError:
-    """The error that says which value cannot be reached, and where the dead point is."""
+    """Error that names the value that cannot be reached and the dead point."""
     place, side = int(np.flatnonzero(values == value)[0]), "least" if value < dead else "largest"
     return WrongValue(f"values[{place}] = {_shown(value)} is out of reach: the {side} value of {motion.measure!r}, at a dead "
                       f"point, is {_shown(dead)} {motion.unit}")
 
 
 def through(motion: Motion, values: np.ndarray) -> Met:
-    """Values one after the other, never back: where they turn, the curve goes on through the next dead point."""
+    """Segments for successive values without reversing: where values turn, the curve continues through a dead point."""
     check_start(motion)
     pieces = motion.curve.segments(_first(motion, values))
     segment, found, dead = next(pieces), [], []
@@ -106,7 +106,7 @@ def _ends_at(segment: Segment, value: float) -> bool:
 
 
 def _after_dead_point(motion: Motion, segment: Segment, pieces: Iterator[Segment], place: int, values: np.ndarray) -> Segment:
-    """The first piece behind the next dead point."""
+    """First segment after the next dead point."""
     for following in itertools.islice(pieces, LARGEST_COUNT):
         if following.sense != segment.sense:
             return following
@@ -117,7 +117,7 @@ def _after_dead_point(motion: Motion, segment: Segment, pieces: Iterator[Segment
 
 
 def whole(motion: Motion) -> tuple[list[Segment], bool]:
-    """A turn of the measure, or the curve until it closes, and whether it turned."""
+    """Segments of one turn of the measure, or of the closed curve, and a flag of a full turn."""
     start, pieces = motion.knot, []
     angles = motion.turns()
     for segment in itertools.islice(motion.curve.segments(start), LARGEST_COUNT):
@@ -132,7 +132,7 @@ def whole(motion: Motion) -> tuple[list[Segment], bool]:
 
 
 def _closing(curve: Curve, segment: Segment, start: Knot, angles: np.ndarray) -> Knot | None:
-    """The start, turned on by whole turns, where a piece passes it."""
+    """Starting point plus whole turns, if a segment passes it."""
     turns = np.where(angles, 2 * np.pi * np.round((segment.last.x - start.x) / (2 * np.pi)), 0.0)
     before, behind = ((knot.x - turns - start.x) @ start.tangent for knot in (segment.first, segment.last))
     near = np.linalg.norm(segment.last.x - turns - start.x) <= 1.5 * segment.arc

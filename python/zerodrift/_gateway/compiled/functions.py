@@ -1,4 +1,4 @@
-"""Compiled functions, wherever they come from: each is checked to be a `zd_evaluate` and reduced to its address."""
+"""Compiled functions from any source, checked to be a `zd_evaluate` and reduced to their addresses."""
 
 from __future__ import annotations
 
@@ -40,20 +40,20 @@ class InLibrary(NamedTuple):
 
 
 class InModule(NamedTuple):
-    """Something compiled when its module is imported."""
+    """Origin: a function compiled when its module is imported."""
 
     module: str
     name: str
 
 
 class FromPython(NamedTuple):
-    """A function that numba compiles."""
+    """Origin: a Python function that Numba compiles."""
 
     function: Any
 
 
 def find(function: Any, symbol: str | None, version: int | None) -> Function:
-    """The compiled function that is meant, checked."""
+    """The compiled function that an argument refers to, checked."""
     if isinstance(function, str | Path):
         if version is not None:
             raise WrongType(f"version is for functions in memory: a library says its own, zd_interface_version, not {version!r}")
@@ -77,7 +77,7 @@ def find(function: Any, symbol: str | None, version: int | None) -> Function:
 
 
 def check_version(version: Any, what: str, *, required: bool = False) -> None:
-    """Refuses another version of the interface than the core's."""
+    """Refuse a library made for another version of the core's interface."""
     if version is None and required:
         raise WrongType("version is needed with an address: the ZD_INTERFACE_VERSION it was compiled with; "
                         f"this core has {VERSION}")
@@ -95,7 +95,7 @@ _loaded: dict[str, ctypes.CDLL] = {}    # by digest
 
 
 def load_library(path: str | Path) -> ctypes.CDLL:
-    """A shared library as it is on disk now; OSError where it is none.
+    """Load a shared library with its present content; OSError if it is not a library.
 
     It is loaded from a copy for two reasons. From the same path, the system's loader returns what it loaded before, even if the
     file has changed. And overwriting a file that is loaded changes the memory of this process.
@@ -132,7 +132,7 @@ def _load_copy(data: bytes, otherwise: str | Path | None) -> ctypes.CDLL:
 
 
 def _remove_old_copies(temporary: Path) -> None:
-    """Removes copies that their processes, which have ended, could not: Windows keeps what is loaded."""
+    """Remove copies left by ended processes: Windows does not let a process remove a loaded library."""
     import shutil
     import time
 
@@ -162,13 +162,13 @@ SET_SINES_OF_LARGE = "zd_set_sines_of_large"    # of libraries that were compile
 
 
 def set_sines_of_large(library: ctypes.CDLL) -> None:
-    """The core's sines of angles that are far, for a library that was compiled without: see zerodrift/sines.h."""
+    """Set the core's large-argument sines in a library that was compiled without them: see zerodrift/sines.h."""
     given = (ffi.addressof(lib, name) for name in ("zd_sines_of_large", "zd_reductions_of_large"))
     library[SET_SINES_OF_LARGE](*(ctypes.c_void_p(int(ffi.cast("intptr_t", each))) for each in given))
 
 
 def in_library(path: str | Path, symbol: Any) -> Function:
-    """A symbol of a shared library, whose version of the interface is that of the core."""
+    """Function of a shared library; its interface version must be the core's."""
     if not isinstance(symbol, str) or not symbol:
         raise WrongType(f"symbol is needed, the name of what is meant in {path}, not {symbol!r}")
     path = Path(path).resolve()
@@ -201,7 +201,7 @@ def _find_unchanged(origin: InLibrary) -> Function:
 
 
 def _check_signature(types: list[str], what: str) -> None:
-    """Refuses a function of other types: those of result and arguments."""
+    """Refuse a function with other result or argument types."""
     result, *arguments = [re.sub(r"\bconst\b|\s", "", name) for name in types]
     fits = len(arguments) == len(ARGUMENTS) and all(name in allowed for name, allowed in zip(arguments, ARGUMENTS, strict=True))
     if result != RESULT or not fits:

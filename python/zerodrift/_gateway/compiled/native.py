@@ -45,7 +45,7 @@ class NativeCore(CoreSystem):
         super().__init__(system, (memory, dimensions, set_quaternions(system, quaternions), declare(system, packing), keep))
 
     def with_data(self, data: np.ndarray) -> NativeCore:
-        """The same system, whose function receives other data."""
+        """Copy of the system whose function receives other data."""
         other = copy.copy(self)
         other.c = ffi.new("zd_system *", self.c[0])
         other.c.data = memory = doubles(data, data.size)
@@ -53,24 +53,24 @@ class NativeCore(CoreSystem):
         return other
 
     def with_copied_data(self) -> tuple[NativeCore, Any, np.ndarray]:
-        """The same system with data of its own, a pointer to it, and its memory."""
+        """Copy of the system with its own data, a pointer to the data, and their memory."""
         memory = np.array(np.frombuffer(ffi.buffer(self._data[0])))
         other = self.with_data(memory)
         return other, other._data[0], memory
 
     def with_direct(self, address: int, data: np.ndarray, keep: Any) -> NativeCore:
-        """The same system with direct functions, a `zd_closed_form` at `address`; all its functions receive `data`."""
+        """Copy of the system with closed-form functions, a `zd_closed_form` at `address`; all its functions receive `data`."""
         other = self.with_data(data)
         other.c.closed_form, other.c.closed_forms = ffi.cast("const zd_closed_form *", address), 1
         other._data = (*other._data, keep)
         return other
 
     def with_series(self, address: int, keep: Any) -> NativeCore:
-        """The same system with the Taylor series of its motion, a `zd_series` at `address`."""
+        """Copy of the system with the Taylor series of its motion, a `zd_series` at `address`."""
         return self._with_more("series", address, keep)
 
     def with_jacobian(self, address: int, keep: Any) -> NativeCore:
-        """The same system with the derivatives of its rates, a `zd_jacobian` at `address`."""
+        """Copy of the system with the Jacobian of its rates, a `zd_jacobian` at `address`."""
         return self._with_more("jacobian", address, keep)
 
     def _with_more(self, member: str, address: int, keep: Any) -> NativeCore:
@@ -81,8 +81,8 @@ class NativeCore(CoreSystem):
         return other
 
     def with_lanes(self, address: int, keep: Any) -> NativeCore:
-        """The same system with one `zd_closed_form` more, at `address`, behind the one that it has; not where that is for one
-        trajectory, too, as with compilers that have no vectors.
+        """Copy of the system with a second `zd_closed_form`, at `address`, for SIMD lanes; unchanged if that serves one
+        trajectory only, as with compilers without vectors.
         """
         more = ffi.cast("const zd_closed_form *", address)
         if more.lanes == 1:
@@ -125,7 +125,7 @@ def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
 
 
 def kind_at(address: int) -> Kind:
-    """The `zd_kind` at an address; ValueError where something in it is missing."""
+    """The `zd_kind` at an address; ValueError if a required member is missing."""
     c = ffi.cast("const zd_kind *", address)
     system = c.system
     sizes = (system.nq, system.nv, system.mh, system.mn)

@@ -27,7 +27,9 @@ class Precise:
         return Precise(address, numbers, self.sizes, self._keep[0])
 
     def series(self, order: int, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Coefficients p (order + 1, nq, 2) and v (order + 1, nv, 2) of the motion from a state; raises where there are none."""
+        """Taylor coefficients p (order + 1, nq, 2) and v (order + 1, nv, 2) of the motion from a state; raises if they do not
+        exist.
+        """
         found = np.zeros((order + 1, self.nq, 2)), np.zeros((order + 1, self.nv, 2))
         scratch = ffi.new("double[]", 2 * (order + 1) * self._c.scratch)
         to = [doubles(each, each.size, writable=True) for each in found]

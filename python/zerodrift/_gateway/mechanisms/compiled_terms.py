@@ -13,7 +13,7 @@ from .space import SpaceCore
 
 
 class WrittenTerms(NamedTuple):
-    """A function that computes terms: where it is, which they are, and how many doubles it keeps."""
+    """Compiled function of terms: its address, the terms, and the number of doubles that it stores."""
 
     address: int
     provides: list[str]
@@ -24,7 +24,7 @@ class WrittenTerms(NamedTuple):
 def with_functions(core: MechanismCore | SpaceCore, numbers: np.ndarray, keep: Any, *, terms: WrittenTerms | None = None,
                    direct: int | None = None, jacobian: int | None = None,
                    series: int | None = None) -> MechanismCore | SpaceCore:
-    """The same system, whose terms and direct functions are these, and whose measures are read as before.
+    """Copy of the system with these terms and closed-form functions; measures are evaluated as before.
 
     The `data` of the functions begins with a pointer to `numbers`; `direct` is the address of a `zd_closed_form`, `jacobian`
     that of a `zd_jacobian`, `series` that of a `zd_series`. What is None stays.

@@ -16,7 +16,7 @@ OUTPUT_KINDS = {
 
 
 class Relation(NamedTuple):
-    """A row of `zd_relation`: sum of coefficients times marker quantities - constant - slope t = 0, or by a law."""
+    """A `zd_relation`: sum of coefficients times marker quantities - constant - slope t = 0, or a user function."""
 
     quantities: Sequence[int]
     coefficients: Sequence[float] = ()      # without a law
@@ -28,7 +28,7 @@ class Relation(NamedTuple):
 
 
 class GeneralizedForce(NamedTuple):
-    """A row of `zd_generalized_force`; `kind` is a key of FORCE_KINDS."""
+    """A `zd_generalized_force`; `kind` is a key of FORCE_KINDS."""
 
     kind: str
     quantity: int
@@ -41,7 +41,7 @@ class GeneralizedForce(NamedTuple):
 
 
 class OutputSpec(NamedTuple):
-    """A row of `zd_output_spec`: a measure by its name; `kind` is a key of OUTPUT_KINDS."""
+    """A `zd_output_spec`: a measure by its name; `kind` is a key of OUTPUT_KINDS."""
 
     name: str
     unit: str

@@ -1,4 +1,4 @@
-"""Constraints and measures at many positions in turn: residuals and rows alone, into arrays that are made once."""
+"""Constraints and measures of positions, evaluated at many positions in turn into arrays that are allocated once."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Component(NamedTuple):
 
 
 class Geometry:
-    """Holonomic rows of a system and components of measures, as functions of positions at t = 0.
+    """Holonomic constraints of a system and components of measures, as functions of positions at t = 0.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class Geometry:
         self._measuring_scratch = ffi.new("double[]", max(1, scratch))
 
     def __call__(self, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Values (k,) and rows (k, n) of the constraints that count, and then of the components."""
+        """Values (k,) and gradients (k, n) of the independent constraints, followed by those of the components."""
         core, at = self._core, doubles(p, self.n)
         count = len(self._rows)
         values, rows = np.empty(count + len(self._components)), np.empty((count + len(self._components), self.n))

@@ -15,7 +15,7 @@ from .law_owner import LawOwner, compiled_table
 
 
 class WrittenInputs(NamedTuple):
-    """Numbers of generated code: which of them inputs are, and the functions that derive others from them."""
+    """Numbers of generated code: which are inputs, and the functions that compute others from them."""
 
     numbers: np.ndarray
     index: Mapping[str, int]            # of the first number of each input

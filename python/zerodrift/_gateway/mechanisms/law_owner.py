@@ -1,4 +1,4 @@
-"""Laws of mechanisms: how the core calls those written in Python, what becomes of what they raise, and those compiled."""
+"""User functions of mechanisms: calls of Python functions by the core with their errors stored, and compiled functions."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Law = Callable[[int, float, np.ndarray, np.ndarray], Any]
 
 
 class LawOwner:
-    """Calls the laws of one run, and keeps what they raise."""
+    """Evaluation of the user functions of one run; stores the exceptions that they raise."""
 
     def __init__(self, law: Law, sizes: dict[int, tuple[int, int]]) -> None:
         self.error: BaseException | None = None
         self._law, self._sizes = law, sizes
 
     def evaluate(self, law: int, t: float, x: Any, xdot: Any, out: Any) -> int:
-        """The function that the core calls: `sizes` says how many marker quantities go in and how many numbers come out."""
+        """Evaluate a user function for the core; `sizes` are the numbers of its marker quantities and results."""
         try:
             k, size = self._sizes[law]
             values = np.asarray(self._law(law, t, np.array(ffi.unpack(x, k)), np.array(ffi.unpack(xdot, k))), dtype=float)
@@ -37,7 +37,7 @@ class LawOwner:
 
 
 def compiled_table(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
-    """The core's array of the laws that are compiled, NULL where none is; and what has to live as long.
+    """The core's array of compiled user functions, NULL if there are none, and the memory to keep with it.
 
     Where `law` has a method `compiled`, this gives for each law the address of a `zd_law_function`, its numbers, and the library
     that it lives in; or None.
@@ -53,7 +53,7 @@ def compiled_table(law: Law, sizes: dict[int, tuple[int, int]]) -> Any:
 
 
 def calls_python(core: Any, sizes: dict[int, tuple[int, int]]) -> bool:
-    """True if a mechanism has laws that are not compiled, and terms that call them."""
+    """True if a mechanism has user functions that are not compiled, and terms that call them."""
     laws = core._law
     if laws is None or core._has_written_terms:
         return False

@@ -13,7 +13,7 @@ from .plane import Tables, written_tables
 
 
 class Held(NamedTuple):
-    """A component of a measure that the start holds: a row of `zd_target`."""
+    """Component of a measure that the start prescribes: a `zd_target`."""
 
     measure: int
     component: int
@@ -86,7 +86,7 @@ class Varied:
         return written
 
     def _repeated(self, array: Any, count: int, changes: list[tuple[int, str, int, Any]]) -> Any:
-        """An array of C so many times, with columns of numbers in the place of some of its fields."""
+        """C array repeated `count` times, with some of its fields replaced by columns of numbers."""
         size, kind = ffi.sizeof(array), ffi.typeof(array).item
         if not size:
             return array
@@ -107,14 +107,14 @@ def _is_column(number: Any) -> bool:
 
 
 def _single(number: Any) -> Any:
-    """The first of a column; else what it is."""
+    """First value of a column; a number is returned unchanged."""
     if isinstance(number, tuple) and not hasattr(number, "_fields"):
         return tuple(map(_single, number))
     return float(number.values[0]) if _is_column(number) else number
 
 
 def _first(tables: Tables) -> Tables:
-    """The first of them."""
+    """Tables of the first mechanism."""
     def one(row: Any) -> Any:
         return type(row)(*([_single(each) for each in field] if isinstance(field, list) else _single(field) for field in row))
     return tables._replace(gravity=_single(tuple(tables.gravity)), **{
@@ -131,7 +131,7 @@ def _fields(rows: Sequence[Any]) -> Iterator[tuple[int, str, int, Any]]:
 
 
 def _coefficients(tables: Tables) -> Iterator[tuple[int, str, int, Any]]:
-    """The same of the coefficients of relations, which are terms."""
+    """Varying coefficients of relations, likewise."""
     first = 0
     for row in tables.relations:
         for i, each in enumerate(row.coefficients or ()):

@@ -28,7 +28,7 @@ COORDINATES = {lib.ZD_COORDINATE_X: "x", lib.ZD_COORDINATE_Y: "y", lib.ZD_COORDI
 
 
 class JointRow(NamedTuple):
-    """A row of a kind of joint: a marker quantity held at zero, and the number of the joint that is its offset."""
+    """Constraint of a kind of joint: a marker quantity that must be zero, and the number of the joint that is its offset."""
 
     quantity: str
     zero: str | None
@@ -37,7 +37,7 @@ class JointRow(NamedTuple):
 
 
 class JointKind(NamedTuple):
-    """A kind of joint; see `zd_plane_joint_kind`. `carrier` None: it cannot be in the tree."""
+    """A kind of joint; see `zd_plane_joint_kind`. `carrier` is None if it cannot be a tree joint."""
 
     number: int
     card: Card
@@ -64,7 +64,7 @@ class ElementKind(NamedTuple):
 
 
 class Body(NamedTuple):
-    """A row of `zd_plane_body`; bodies have the numbers from 1 on, 0 is the ground."""
+    """A `zd_plane_body`; bodies are numbered from 1, 0 is the ground."""
 
     mass: float
     inertia: float = 0.0
@@ -88,7 +88,7 @@ class Joint(NamedTuple):
 
 
 class Quantity(NamedTuple):
-    """A row of `zd_plane_quantity`; `kind` is a key of QUANTITY_KINDS."""
+    """A `zd_plane_quantity`; `kind` is a key of QUANTITY_KINDS."""
 
     kind: str
     first: int
@@ -196,19 +196,19 @@ class MechanismCore(CoreSystem):
 
     @property
     def origin(self) -> np.ndarray:
-        """Positions (nq,) that are some, wherever they are."""
+        """Arbitrary valid positions (nq,)."""
         return np.zeros(self.nq)
 
     def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Positions (nq,) after a step (nv,)."""
+        """Positions (nq,) after a displacement (nv,)."""
         return p + step
 
     def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """The step (nv,) that leads to p from other positions."""
+        """Displacement (nv,) from other positions to p."""
         return p - other
 
     def for_run(self) -> MechanismCore:
-        """The same system; with laws, one that keeps what they raise for itself."""
+        """The system; with user functions, a copy that stores their exceptions."""
         if self._law is None:
             return self
         sizes = law_sizes(self.tables)
@@ -233,12 +233,12 @@ class MechanismCore(CoreSystem):
 
     @property
     def calls_python(self) -> bool:
-        """True if it has laws that are not compiled, and terms that call them."""
+        """True if the mechanism has user functions that are not compiled, and terms that call them."""
         return calls_python(self, law_sizes(self.tables))
 
     @property
     def error(self) -> BaseException | None:
-        """Exception that a user function raised; None: none did."""
+        """Exception raised by a user function, or None."""
         return self._owner.error if self._owner else None
 
     def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
@@ -250,7 +250,7 @@ class MechanismCore(CoreSystem):
         return poses, rates
 
     def state(self, poses: np.ndarray, rates: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """(p, v) of such poses and rates; what joints of the tree forbid is not looked at."""
+        """(p, v) from poses and rates as `poses` returns them; components that tree joints do not allow are ignored."""
         size = 3 * len(self.tables.bodies)
         p, v = np.zeros(self.nq), np.zeros(self.nv)
         lib.zd_plane_state(self._mechanism, doubles(poses, size), given(rates, size), doubles(p, p.size, writable=True),
@@ -259,7 +259,7 @@ class MechanismCore(CoreSystem):
 
 
 def _create(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[Any, Any]:
-    """The core's mechanism, and words that have to live as long."""
+    """The core's mechanism, and the texts to keep with it."""
     written, words = written_tables(tables, has_laws, laws_know_time)
     c = ffi.new("zd_plane_tables *", written)
     message = ffi.new("char[]", MESSAGE_SIZE)

@@ -68,18 +68,18 @@ def _quantity(c: Any) -> Quantity:
 
 
 def _terms(c: Any, of: Any, used: dict[int, int]) -> tuple[list[int], list[float]]:
-    """The marker quantities of a row or generalized force, and its coefficients."""
+    """Marker quantities of a constraint or generalized force, and its coefficients."""
     terms = [c.term[i] for i in range(of.first, of.first + of.terms)]
     return [used.setdefault(term.quantity, len(used)) for term in terms], [term.coefficient for term in terms]
 
 
 def rows_of_plan(c: Any, count: int, used: dict[int, int]) -> tuple[Relation, ...]:
-    """The rows of C; `used` gets the marker quantities that they have, by the core's numbers."""
+    """Constraints of the plan; their marker quantities are added to `used` under the core's numbers."""
     return tuple(_row(c, c.row[i], used) for i in range(count))
 
 
 def forces_of(c: Any, count: int, used: dict[int, int]) -> tuple[GeneralizedForce, ...]:
-    """The generalized forces, likewise."""
+    """Generalized forces of the plan; `used` likewise."""
     return tuple(_generalized_force(c, c.force[i], used) for i in range(count))
 
 

@@ -44,8 +44,8 @@ class Freedom(NamedTuple):
 
 
 class JointKind(NamedTuple):
-    """A kind of joint in space; see `zd_space_joint_kind`. Each row is a marker quantity that is held, with the
-    indices of the directions of both bodies' frames.
+    """A kind of joint in space; see `zd_space_joint_kind`. Each constraint is a marker quantity held at zero, with
+    the indices of the directions of both bodies' frames.
     """
 
     number: int
@@ -59,7 +59,7 @@ class JointKind(NamedTuple):
 
 
 class Body(NamedTuple):
-    """A row of `zd_space_body`; bodies have the numbers from 1 on, 0 is the ground."""
+    """A `zd_space_body`; bodies are numbered from 1, 0 is the ground."""
 
     mass: float
     inertia: Vector = NONE      # about its principal axes, which are those of the core
@@ -83,7 +83,7 @@ class Joint(NamedTuple):
 
 
 class Quantity(NamedTuple):
-    """A row of `zd_space_quantity`; `kind` is a key of QUANTITY_KINDS."""
+    """A `zd_space_quantity`; `kind` is a key of QUANTITY_KINDS."""
 
     kind: str
     first: int
@@ -128,7 +128,7 @@ def joint_kinds() -> dict[str, JointKind]:
 
 
 def coordinate_quantity(joint: Joint, coordinate: int, angles: int) -> Quantity:
-    """The marker quantity that reads a coordinate of a joint; the joints before it have so many angles."""
+    """Marker quantity of a coordinate of a joint; `angles` is the number of angles of the joints before it."""
     c = lib.zd_space_coordinate_quantity(ffi.new("zd_space_joint *", joint), coordinate, angles)
     vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
     return Quantity(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
@@ -184,7 +184,7 @@ class SpaceCore(CoreSystem):
                      for kind in ("x", "y", "z", *(("angle",) * 3 if turns else ()))[:6])
 
     def for_run(self) -> SpaceCore:
-        """The same system; with laws, one that keeps what they raise for itself."""
+        """The system; with user functions, a copy that stores their exceptions."""
         if self._law is None:
             return self
         sizes = law_sizes(self.tables)
@@ -209,12 +209,12 @@ class SpaceCore(CoreSystem):
 
     @property
     def calls_python(self) -> bool:
-        """True if it has laws that are not compiled, and terms that call them."""
+        """True if the mechanism has user functions that are not compiled, and terms that call them."""
         return calls_python(self, law_sizes(self.tables))
 
     @property
     def error(self) -> BaseException | None:
-        """Exception that a user function raised; None: none did."""
+        """Exception raised by a user function, or None."""
         return self._owner.error if self._owner else None
 
     # ---- between the state and bodies ----
@@ -246,7 +246,7 @@ class SpaceCore(CoreSystem):
         return self.state(np.hstack([poses[:, :3] + rates[:, :3], turned]), angles=self.angles(p))[0]
 
     def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """The step (nv,) that leads to p from other positions, by the shorter turn of each body."""
+        """Displacement (nv,) from other positions to p, by the shorter rotation of each body."""
         to, start = self.poses(p)[0], self.poses(other)[0]
         rates = np.hstack([to[:, :3] - start[:, :3], turn_between(start[:, 3:], to[:, 3:])])
         return self.state(start, rates)[1]
@@ -257,7 +257,7 @@ class SpaceCore(CoreSystem):
 
     def state(self, poses: np.ndarray, rates: np.ndarray | None = None,
               angles: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """(p, v) of such poses and rates, and with the angles of joints that are nearest to these; left out, to zero."""
+        """(p, v) from poses and rates as `poses` returns them, with the joint angles nearest to `angles` (default zero)."""
         p = np.concatenate([*(pose if turns else pose[:3] for pose, turns in zip(poses, self._turning, strict=True)),
                             np.zeros(len(self._angle_at)) if angles is None else angles])
         if len(self._angle_at):
@@ -268,7 +268,7 @@ class SpaceCore(CoreSystem):
 
 
 def _create(tables: Tables, has_laws: bool, laws_know_time: bool, made_by: Any) -> tuple[Any, Any]:
-    """The core's mechanism, and words that have to live as long."""
+    """The core's mechanism, and the texts to keep with it."""
     written, words = written_tables(tables, has_laws, laws_know_time)
     c = ffi.new("zd_space_tables *", written)
     message = ffi.new("char[]", MESSAGE_SIZE)

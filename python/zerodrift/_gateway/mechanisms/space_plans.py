@@ -57,7 +57,7 @@ class Angle(NamedTuple):
 
 
 class SpacePlan(NamedTuple):
-    """Links are by bodies, from number 1 on, and all marker quantities are used."""
+    """Plan of a mechanism in space; links are numbered as bodies, from 1, and all marker quantities are used."""
 
     links: tuple[Link, ...]
     quantities: tuple[Quantity, ...]
@@ -103,7 +103,7 @@ def _links(core: SpaceCore) -> tuple[Link, ...]:
 
 
 def _ways(joint: Joint, freedoms: list[Freedom], p: int, v: int) -> tuple[Way, ...]:
-    """The freedoms of a joint, whose coordinates are in the order of its table whichever way it is taken."""
+    """Freedoms of a joint; its coordinates have the order of its table in both directions."""
     ways = []
     for each in freedoms:
         ways.append(Way(each.kind, each.direction, 1, joint.along if each.from_along else 0.0, joint.length, p, v))

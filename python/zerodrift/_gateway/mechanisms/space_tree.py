@@ -34,8 +34,8 @@ class SpaceTreeCore(SpaceCore):
 
     def state(self, poses: np.ndarray, rates: np.ndarray | None = None,
               angles: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
-        """(p, v) of such poses and rates, and with the angles that are nearest to these, where they are given; what joints of the
-        tree forbid is not looked at.
+        """(p, v) from poses and rates as `poses` returns them, with the joint angles nearest to `angles`, if given. Components
+        that tree joints do not allow are ignored.
         """
         R, p, v = rotation_of(poses[:, 3:]), np.zeros(self.nq), np.zeros(self.nv)
         frames = np.ascontiguousarray(np.hstack([poses[:, :3], R.transpose(0, 2, 1).reshape(-1, 9)]))

@@ -105,7 +105,7 @@ class CouplingVerbs(Elements):
         value : callable, SymPy expression, or dict of measure to float
             What has to be zero; a dict is a sum of measures by their coefficients.
         of : dict of str to measure
-            Under which names a callable is handed which measures.
+            Measures that the callable receives, by argument name.
 
         Returns
         -------
@@ -200,7 +200,7 @@ class CouplingVerbs(Elements):
             What has to be zero: of t, parameters, and measures of positions. Callables are built of operators and NumPy's
             functions, and their derivatives are exact.
         of : dict of str to measure
-            Under which names a callable is handed which measures.
+            Measures that the callable receives, by argument name.
 
         Returns
         -------
@@ -225,7 +225,7 @@ class CouplingVerbs(Elements):
         value : callable or SymPy expression
             What has to be zero: of t, parameters, measures of positions, and linear in measures of velocities.
         of : dict of str to measure
-            Under which names a callable is handed which measures.
+            Measures that the callable receives, by argument name.
 
         Returns
         -------

@@ -42,7 +42,7 @@ class ForceVerbs(Elements):
             What acts on the joint's second body, its opposite on the first, in N m or N; of t, parameters and measures of
             positions and velocities.
         of : dict of str to measure
-            Under which names a callable is handed which measures.
+            Measures that the callable receives, by argument name.
 
         Returns
         -------
@@ -96,7 +96,7 @@ class ForceVerbs(Elements):
         force : float, callable or expression
             What pushes them apart, in N; of t, parameters and measures of positions and velocities.
         of : dict of str to measure
-            Under which names a callable is handed which measures.
+            Measures that the callable receives, by argument name.
 
         Returns
         -------
@@ -241,7 +241,7 @@ class ForceVerbs(Elements):
         value : float, callable, SymPy expression, or array_like (2,) or (3,)
             In N, of t, parameters and measures of positions and velocities; or a constant force as a vector in the drawing.
         of : dict of str to measure
-            Under which names a callable is handed which measures.
+            Measures that the callable receives, by argument name.
         frame : Body or name, optional
             With which the direction turns; left out: it stays.
 
@@ -306,7 +306,7 @@ class ForceVerbs(Elements):
             In N m, counter-clockwise, in space right-handed about the axis; of t, parameters and measures of positions and
             velocities.
         of : dict of str to measure
-            Under which names a callable is handed which measures.
+            Measures that the callable receives, by argument name.
         against : Body or name, optional
             On which the opposite acts; left out: the ground.
         axis : array_like (3,)

@@ -45,7 +45,7 @@ _said: set[str] = set()             # warnings, each once
 
 
 def digest_of(*parts: Any) -> str:
-    """A name for the parts, which may be whatever JSON can express."""
+    """Hash of the parts, which may be any JSON values."""
     return fingerprint(parts)[:DIGITS]
 
 
@@ -53,7 +53,7 @@ def digest_of(*parts: Any) -> str:
 
 
 def put(name: str, data: bytes) -> None:
-    """Keep a file, whole or not at all; where the folder cannot be used, as long as this process lasts."""
+    """Store a file atomically; if the folder cannot be used, store it in memory for this process."""
     try:
         with _usable(create=True) as folder:
             if folder is not None:
@@ -75,7 +75,7 @@ def get(name: str) -> bytes | None:
 
 
 def drop(name: str) -> None:
-    """Keep a file no longer."""
+    """Remove a file from the cache."""
     _memory.pop(name, None)
     with _usable() as folder:
         if folder is not None:
@@ -84,7 +84,7 @@ def drop(name: str) -> None:
 
 @contextmanager
 def place(name: str, data: bytes) -> Iterator[str | None]:
-    """A path by which the system's loader finds the file that was looked at, if it holds this; None where there is none."""
+    """Path under which the system's loader finds the verified file, if its content is `content`; otherwise None."""
     with _usable() as folder:
         where = None if folder is None else folder.seen_by_loader()
         yield f"{where}/{name}" if where is not None and folder.read(name) == data else None
@@ -94,7 +94,7 @@ def place(name: str, data: bytes) -> Iterator[str | None]:
 
 
 def write(name: str, content: Any) -> None:
-    """Keep what JSON can say."""
+    """Store an object as JSON."""
     put(f"{name}.json", json.dumps({"content": content, "digest": digest_of(name, content)}).encode())
 
 
@@ -131,7 +131,7 @@ def _own() -> Path:
 
 @contextmanager
 def _usable(*, create: bool = False) -> Iterator[Folder | None]:
-    """The folder, opened and found to be trusted; None where it is not, which is said, or not there. `create` makes it."""
+    """The opened folder if it is trusted; None if it is missing, or, with a warning, if it is not trusted. `create` makes it."""
     path = _chosen()
     if str(path).startswith("~"):
         _say(f"compiled systems are not kept: the home folder of {path} is not known. Let ZERODRIFT_CACHE name a folder")
@@ -154,7 +154,7 @@ def _usable(*, create: bool = False) -> Iterator[Folder | None]:
 
 
 def _make(path: Path) -> None:
-    """Make a folder that is not there, and those above it, for the user alone."""
+    """Create a folder and its missing parents, accessible to the user only."""
     if path.is_dir():
         return
     for folder in reversed([path, *(above for above in path.parents if not above.exists())]):
@@ -209,7 +209,7 @@ def _name(user: int) -> str:
 
 
 def _say(sentence: str, about: str = "") -> None:
-    """Warn, once in a process of the same thing."""
+    """Issue a warning, once per message and process."""
     if (about or sentence) not in _said:
         _said.add(about or sentence)
         warnings.warn(sentence, CacheWarning, stacklevel=_depth())
@@ -233,7 +233,7 @@ class Folder(NamedTuple):
         return name if self.descriptor is not None else str(self.path / name)
 
     def seen_by_loader(self) -> str | None:
-        """A path to this very folder; None where there is none."""
+        """Path that refers to this open folder; None if the platform has no such path."""
         if self.descriptor is None:
             return str(self.path)
         return f"{OPENED}/{self.descriptor}" if os.path.isdir(OPENED) else None
@@ -253,7 +253,7 @@ class Folder(NamedTuple):
         return None
 
     def write(self, name: str, data: bytes) -> None:
-        """Make a file, whole or not at all, as readable as the folder."""
+        """Write a file atomically, with the folder's permissions."""
         temporary = f".zerodrift-{secrets.token_hex(8)}.tmp"
         fresh = os.open(self._at(temporary), os.O_WRONLY | os.O_CREAT | os.O_EXCL | FILE, 0o600, dir_fd=self.descriptor)
         try:
@@ -281,6 +281,6 @@ class Folder(NamedTuple):
         return os.stat(self._at(name), dir_fd=self.descriptor, follow_symlinks=False)
 
     def remove(self, name: str) -> None:
-        """Remove a file, if it is there and may be removed."""
+        """Remove a file; a missing file or missing permission is ignored."""
         with suppress(OSError):
             os.unlink(self._at(name), dir_fd=self.descriptor)

@@ -21,7 +21,7 @@ NO_COMPILER = "there is no C compiler"      # reason why a system has no closed-
 
 
 class ClosedFormFunctions:
-    """Closed-form functions of a system and of all that differ from it only in parameters and start.
+    """Closed-form functions of a system, shared by all systems that differ only in parameters and start.
 
     They are written and compiled at first use. Orders of elimination are chosen with the values that the system was created with,
     so the source depends on these alone. The source is written before the object is pickled, as the other process may lack SymPy.
@@ -84,7 +84,7 @@ class ClosedFormFunctions:
 
     @property
     def in_words(self) -> str:
-        """Part of the `repr` of a system: the reason why it has no closed-form functions."""
+        """Reason why the system has no closed-form functions, as shown in its `repr`."""
         return f", no direct functions: {self.why_none}" if self.why_none else ""
 
     @property
@@ -95,7 +95,7 @@ class ClosedFormFunctions:
 
     @property
     def source(self) -> str:
-        """The C source; empty: there are no closed-form functions."""
+        """C source; empty if there are no closed-form functions."""
         written = self._write()
         return written[0] if written else ""
 

@@ -1,4 +1,4 @@
-"""The C compilers that people have on Linux, macOS and Windows: where they are found, and how each spells its options."""
+"""C compilers on Linux, macOS and Windows: where they are found, and how each spells its options."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ PATIENCE = 60.0         # s: time limit of queries before a compilation
 
 
 class Compiler(NamedTuple):
-    """A compiler: the words that call it, and the variables it needs, where they are not this process' own."""
+    """A compiler: its command, and the environment variables that it needs besides those of this process."""
 
     command: list[str]
     environment: dict[str, str] | None = None
@@ -57,7 +57,7 @@ class Compiler(NamedTuple):
 
 
 def exporting(source: str, symbols: Sequence[str]) -> str:
-    """A source whose library offers these symbols: of those in Windows' own format, compilers of GNU's kind alone offer all."""
+    """Source with export declarations of these symbols, which libraries for Windows need unless a GNU compiler makes them."""
     pragmas = [f'#pragma comment(linker, "/export:{name}")\n' for name in symbols]
     return source + "".join(["#ifdef _MSC_VER\n", *pragmas, "#endif\n"])
 
@@ -84,7 +84,7 @@ def said() -> str:
 
 
 def given() -> list[str]:
-    """The words of `CC`."""
+    """Command of `CC`, split into words."""
     try:
         if SYSTEM != "win32":
             return shlex.split(said())
@@ -121,7 +121,7 @@ def _on_path() -> tuple[str, ...]:
 
 
 def _candidates() -> Iterator[list[str]]:
-    """Commands, in the order in which they are tried."""
+    """Candidate commands, in the order in which they are tried."""
     for name in _on_path():
         if _can_be_called(name):
             yield [name]
@@ -132,7 +132,7 @@ def _candidates() -> Iterator[list[str]]:
 
 
 def _can_be_called(name: str) -> bool:
-    """Not what only looks like a compiler.
+    """True if a command is a working compiler.
 
     Microsoft's finds nothing without the variables of its command prompt. Apple's are there from the beginning and ask, by a
     window, for leave to install themselves.
@@ -160,7 +160,7 @@ def _variables_of(program: str) -> dict[str, str] | None:
 
 
 def _visual_studio() -> tuple[str, dict[str, str]] | None:
-    """Microsoft's compiler where its installer says that it is, and the variables of its command prompt."""
+    """Microsoft's compiler, located by its installer's tool, and the environment variables of its command prompt."""
     folder = os.environ.get("PROGRAMFILES(X86)") or os.environ.get("PROGRAMFILES", "")
     return _visual_studio_of(str(Path(folder, "Microsoft Visual Studio", "Installer", "vswhere.exe")))
 

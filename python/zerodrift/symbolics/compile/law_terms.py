@@ -34,7 +34,7 @@ class Leaves:
         return [self.graph.zero, *self._slopes(h, self.xdot), at_rest(h), self._along()(h)]
 
     def _along(self) -> Any:
-        """The derivative along the motion, while the rates stay."""
+        """Time derivative along the motion at constant rates."""
         return self.graph.derivative_along({self.t: self.graph.one, **dict(zip(self.x, self.xdot, strict=True))})
 
     def _slopes(self, node: Node, leaves: Sequence[Node]) -> list[Node]:
@@ -42,13 +42,13 @@ class Leaves:
 
 
 class _LawWriter(CWriter):
-    """C99 with measures and rates in arrays."""
+    """Writer of C99 in which measures and rates are array elements."""
 
     state = "{kind}[{index}]"
 
 
 def compiled(graph: Graph, said: Sequence[Node]) -> tuple[int, Any] | None:
-    """The address of a function that writes these, and the library that it lives in; None: there is no compiler."""
+    """Address of a compiled function that computes these terms, and its library; None without a compiler."""
     library = shared_library.library(_source(graph, said), symbols=(SYMBOL,))
     return None if library is None else (_gateway.address_of(library, SYMBOL), library)
 

@@ -1,4 +1,4 @@
-"""One expression as a compiled function of numbers: what the core evaluates without Python."""
+"""A scalar expression compiled to a C function, which the core evaluates without Python."""
 
 from __future__ import annotations
 

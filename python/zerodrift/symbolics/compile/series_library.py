@@ -15,7 +15,7 @@ UNITS = {"baseline": 0, "avx2": 1, "avx512": 2}     # as zerodrift/series.h coun
 
 
 class WrittenFunctions:
-    """A function of a system, and of those that differ from it in parameters and start alone."""
+    """C functions of a system, shared by all systems that differ only in parameters and start."""
 
     symbol: ClassVar[str]
     _write: ClassVar[Callable[..., str]]
@@ -28,7 +28,7 @@ class WrittenFunctions:
 
     @property
     def source(self) -> str:
-        """The C code; empty: there is none."""
+        """C source; empty if it could not be written."""
         if self._source is None:
             try:
                 self._source = self._write(*self._definition)
@@ -38,11 +38,11 @@ class WrittenFunctions:
 
     @property
     def why_none(self) -> str:
-        """Why there is none that could be written; empty: there is."""
+        """Reason why no source could be written; empty if there is one."""
         return self._why_none if not self.source else ""
 
     def library(self, vector: str) -> ctypes.CDLL | None:
-        """The library for a vector unit, whose bits are the same as those of any other; None: there is none."""
+        """Library for a vector unit; its results are bitwise those of any other unit. None without source or compiler."""
         if vector not in self._libraries and self.source:
             self._libraries[vector] = shared_library.library(self.source, symbols=(self.symbol,), optimized=OPTIMIZED,
                                                         defined=[f"ZD_SERIES_UNIT={UNITS[vector]}"])
@@ -65,6 +65,6 @@ class PreciseFunctions(WrittenFunctions):
 
 
 class JacobianFunctions(WrittenFunctions):
-    """The derivatives of its rates."""
+    """Jacobian of the rates with respect to the state."""
 
     symbol, _write = jacobian.JACOBIAN, staticmethod(jacobian.write)

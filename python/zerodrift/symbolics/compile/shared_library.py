@@ -68,7 +68,7 @@ def library(source: str, progress: Callable[[str], Any] = lambda what: None,
 
 
 def _note(source: str, line: list[str]) -> str:
-    """The name of what the cache says of a source: whatever the library depends on is in it."""
+    """Name of the cache entry of a source: a hash of all that its library depends on."""
     program = Path(line[0]).resolve()
     stamp = program.stat()
     headers = [path.read_text(encoding="utf-8") for path in sorted((Path(get_include()) / "zerodrift").glob("*.h"))]
@@ -77,7 +77,7 @@ def _note(source: str, line: list[str]) -> str:
 
 
 def _kept(note: str) -> ctypes.CDLL | None:
-    """The library of the cache that a note is about; None where it is not there, not what it was, or for another system."""
+    """Library that a cache entry refers to; None if it is missing, altered or made for another system."""
     digest = cache.read(note, str)
     data = None if digest is None else cache.get(f"{digest}.so")
     if data is None or _digest(data) != digest:
@@ -90,7 +90,7 @@ def _kept(note: str) -> ctypes.CDLL | None:
 
 def _made(source: str, line: list[str], environment: dict[str, str] | None, note: str, symbols: Sequence[str],
           meanwhile: Callable[[], Any]) -> ctypes.CDLL:
-    """Compile, load and keep."""
+    """Compile a library, load it and store it in the cache."""
     data = _build(source, line, environment, meanwhile)
     digest = _digest(data)
     cache.put(f"{digest}.so", data)     # first: there may be no other place to load it from
@@ -133,7 +133,7 @@ def _load(name: str, data: bytes) -> ctypes.CDLL:
 
 def _build(source: str, line: list[str], environment: dict[str, str] | None = None,
            meanwhile: Callable[[], Any] = lambda: None) -> bytes:
-    """Compile; what the library holds."""
+    """Compile a source; return the bytes of the library."""
     try:
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
             folder = Path(name)
@@ -149,7 +149,9 @@ def _build(source: str, line: list[str], environment: dict[str, str] | None = No
 
 
 def _run(line: list[str], folder: Path, environment: dict[str, str] | None, meanwhile: Callable[[], Any]) -> tuple[int, str]:
-    """The status of a command in a folder, and what it said; it reads nothing, and is ended with all it started."""
+    """Run a command in a folder without input; return its status and output. On a time-out it is ended with all its child
+    processes.
+    """
     with open(folder / "said", "w+b") as said:
         try:
             process = subprocess.Popen(line, cwd=folder, stdin=subprocess.DEVNULL, stdout=said, stderr=said, env=environment,
@@ -169,7 +171,7 @@ def _run(line: list[str], folder: Path, environment: dict[str, str] | None, mean
 
 
 def _wait(process: subprocess.Popen[bytes]) -> int | None:
-    """The status of a process at its end; None: it goes on for too long. `Popen.wait` with a limit sleeps for 50 ms at a time."""
+    """Exit status of a process; None after the time limit. `Popen.wait` with a limit sleeps for 50 ms at a time."""
     waiting = threading.Thread(target=process.wait, daemon=True)
     waiting.start()
     waiting.join(PATIENCE)
@@ -177,7 +179,7 @@ def _wait(process: subprocess.Popen[bytes]) -> int | None:
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """End a process that still runs, and those it started."""
+    """End a running process and its child processes."""
     if process.poll() is None:
         with suppress(OSError):
             if hasattr(os, "killpg"):
@@ -191,7 +193,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 def _taskkill() -> str:
-    """Windows' program that ends a process with all it started, by its path: by name alone the current folder's comes first."""
+    """Path of Windows' `taskkill`, given in full as a bare name would search the current folder first."""
     return os.path.join(os.environ.get("SYSTEMROOT", r"C:\Windows"), "System32", "taskkill.exe")
 
 

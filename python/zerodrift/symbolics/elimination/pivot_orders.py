@@ -140,7 +140,7 @@ def _open(found: dict[str, np.ndarray], mh: int, unit_v: np.ndarray) -> np.ndarr
 
 
 def _newton(found: dict[str, np.ndarray], sizes: tuple[int, int, int, int]) -> np.ndarray:
-    """The shortest dp (k, nq) with C w = Phi, dp = A w; zero where there is none."""
+    """Minimum-norm Newton corrections dp = A w (k, nq) with C w = Phi; zero for configurations without one."""
     nq, nv, mh, _ = sizes
     k = len(found["Phi"])
     C = np.nan_to_num(found["C"].reshape(k, -1, nv)[:, :mh])
@@ -149,7 +149,7 @@ def _newton(found: dict[str, np.ndarray], sizes: tuple[int, int, int, int]) -> n
 
 
 class _Search:
-    """The search for one order that serves as many configurations C (k, m, nv) as it can, the first of them before all others."""
+    """Search for one elimination order that is valid in as many configurations C (k, m, nv) as possible, the first above all."""
 
     def __init__(self, C: np.ndarray, large: dict[int, float], at_once: bool = False) -> None:
         self.large, self.at_once = large, at_once
@@ -159,7 +159,7 @@ class _Search:
         self.rows, self.columns = set(range(C.shape[1])), set(range(C.shape[2]))
 
     def run(self) -> tuple[Order, np.ndarray]:
-        """The order, and which configurations it serves."""
+        """Find the order; return it and a mask of the configurations in which it is valid."""
         order = []
         while self.rows:
             solve = self._best()
@@ -195,7 +195,7 @@ class _Search:
         return sizes[::-1] if self.at_once and len(self.rows) <= 3 and moving.all() else sizes
 
     def _candidates(self, size: int) -> Iterator[tuple[Solve, np.ndarray]]:
-        """Solves of so many rows, and the sizes of their determinants (k,)."""
+        """Candidate solves of `size` rows, and the magnitudes of their determinants (k,)."""
         if size == 3 and (len(self.rows) > TRIPLES or len(self.columns) > TRIPLES):
             return
         for rows in combinations(sorted(self.rows), size):

@@ -17,11 +17,11 @@ class ReducedMass:
     Attributes
     ----------
     shares : list of operations
-        What is left of each diagonal entry as its pivot, in parts of it.
+        Relative pivots: each pivot over its diagonal entry of S.
     """
 
     def __init__(self, do: Arithmetic, S: Matrix, inverted: Callable[[int], int]) -> None:
-        """`inverted` is called for 1 / the determinant of each block, first of the first."""
+        """Factor S; `inverted` is called for the reciprocal determinant of each block, in order."""
         self._do, self._L = do, [[do.zero] * len(S) for _ in S]
         self._blocks: list[tuple[list[int], Matrix]] = []       # rows, and 1 / B
         self.shares: Vector = []
@@ -46,7 +46,7 @@ class ReducedMass:
             self.shares.append(do.over(determinant, do.times(left[b][b], S[b + 1][b + 1])))
 
     def _eliminate(self, left: Matrix, rows: list[int], inverse: Matrix) -> None:
-        """From what is below a block."""
+        """Eliminate a block from the rows below it."""
         do = self._do
         for a in range(rows[-1] + 1, len(left)):
             here = [left[a][b] for b in rows]

@@ -23,7 +23,7 @@ from .reduced_mass import ReducedMass
 
 
 class Solve(NamedTuple):
-    """Rows of C that are solved together, and the velocities that they are solved for, as many."""
+    """Rows of C that are solved together, and the equally many velocities that they are solved for."""
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
@@ -33,7 +33,7 @@ Order = tuple[Solve, ...]
 
 
 class Unwritten(Exception):
-    """Why there is no elimination that is worth writing."""
+    """Raised, with the reason, if no elimination is worth writing."""
 
 
 class Elimination:
@@ -62,7 +62,7 @@ class Elimination:
     # ---- C ----
 
     def _factor(self) -> None:
-        """U, rows with those before them eliminated; L, by how much of each of these; and the inverse of each solve's matrix."""
+        """Factor C: U, the rows after elimination; L, the multipliers of earlier rows; and the inverse of each solve's matrix."""
         do, U = self.do, [list(row) for row in self.C]
         self.L = [[do.zero] * self.m for _ in range(self.m)]
         self.inverses: list[Matrix] = []
@@ -90,7 +90,7 @@ class Elimination:
         return [[do.times(entry, share) for entry in row] for row in entries], determinant
 
     def _backwards(self, x: Vector, right: Vector) -> Vector:
-        """X, of which the free entries are given, with U x = right."""
+        """Back substitution: x with U x = right and given free entries."""
         do = self.do
         for solve, inverse in reversed([*zip(self.order, self.inverses, strict=True)]):
             left = [do.difference(right[k], do.dot([u for j, u in enumerate(self.U[k]) if j not in solve.columns],
@@ -108,7 +108,7 @@ class Elimination:
         return [[column[i] for column in columns] for i in range(self.nv)]
 
     def particular(self, right: Vector) -> Vector:
-        """x0 with C x0 = right."""
+        """Particular solution x0 of C x0 = right."""
         do, y = self.do, list(right)
         for solve in self.order:
             for k in range(self.m):
@@ -159,7 +159,7 @@ class Elimination:
         return self._accelerations(self._with_added())
 
     def _with_added(self) -> Vector:
-        """The xi with what is added to it."""
+        """Right side xi plus the added term of a formulation."""
         added = [self.do.lowering.emit("leaf", "added", k) for k in range(self.m)]
         return [self.do.plus(*each) for each in zip(self._vector("xi", self.m), added, strict=True)]
 
@@ -183,7 +183,9 @@ class Elimination:
         return self._corrections(self._leaves("before"), self._projected) | self._accelerations(self._vector("xi", self.m))
 
     def embedding(self) -> dict[str, Vector]:
-        """The same with steps that keep what is free, with the added xi, and with D: how what is solved for follows that."""
+        """Outputs for independent velocities: corrections that leave the free velocities unchanged, accelerations with the added
+        xi, and D, the derivative of the dependent velocities with respect to the free ones.
+        """
         found = self._corrections(self._leaves("before"), self._kept) | self._accelerations(self._with_added())
         return found | {"D": [entry for solve in self.order for j in solve.columns for entry in self._share_of(j)]}
 

@@ -23,7 +23,9 @@ VERSION = ["", "const int zd_interface_version = ZD_INTERFACE_VERSION;"]
 
 
 def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any] | str:
-    """A program that can be kept; or why not: it is too large for direct functions, or has functions that are not SymPy's."""
+    """Program as JSON; or the reason why it cannot be stored: too large for closed-form functions, or functions other than
+    SymPy's.
+    """
     if len(lowering.operations) > closed_form_writer.MOST_OPERATIONS:
         return closed_form_writer.TOO_LARGE
     operations = []
@@ -39,17 +41,17 @@ def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any]
 
 
 def _projecting(of: Elimination) -> dict[str, dict[str, list[int]]]:
-    """The functions of an order for formulations in dependent velocities."""
+    """Outputs of an elimination order for formulations in dependent velocities."""
     return {"accelerate": of.accelerations()} | ({"correct": of.corrections(), "finish": of.landing()} if of.order else {})
 
 
 def _embedding(of: Elimination) -> dict[str, dict[str, list[int]]]:
-    """The same for formulations in independent velocities."""
+    """Outputs of an elimination order for formulations in independent velocities."""
     return ({"correct": of.corrections()} if of.order else {}) | {"embed": of.embedding()}
 
 
 def _function(name: str) -> Any:
-    """The function of that name: where there is one without SymPy, that."""
+    """Function of that name; one that is independent of SymPy is preferred."""
     return NAMED.get(name) or getattr(_sympy(), name)
 
 

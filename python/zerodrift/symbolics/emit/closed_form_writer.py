@@ -1,4 +1,4 @@
-"""Direct functions as C in the core's interface: for each order of elimination one of accelerations and one of corrections."""
+"""Closed-form functions as C in the core's interface: accelerations and corrections for each elimination order."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ FOR_ONE = "finish", "embed"     # of several trajectories, some may have to be i
 
 
 class Bounded(Lowering):
-    """Operations of which there are only so many."""
+    """List of operations of bounded length; raises `Unwritten` beyond."""
 
     most = 8 * MOST_OPERATIONS      # of all orders together, and of what no function needs
 
@@ -67,7 +67,7 @@ class _Program:
 
 def source(lowering: Lowering, functions: list[dict[str, dict[str, list[int]]]], eliminations: list[Elimination], *, offset: int,
            symbol: str, heading: list[str], file: str, lanes_header: str, data: str) -> tuple[str, int]:
-    """The C source, and the number of constants that it keeps behind the `offset` doubles before them.
+    """C source and the number of its constants, which are stored after the first `offset` doubles.
 
     `functions` has, for each order, the outputs of "accelerate", "correct" and "finish", or of "correct" and "embed"; `data` is C
     for the doubles of a system, `file` what the source is called, which it includes again for each vector unit, and
@@ -169,7 +169,7 @@ def _optional(program: _Program, writer: LaneWriter, done: list[int]) -> list[st
 
 
 def _finishing(program: _Program, head: list[str], offset: int, data: str) -> list[str]:
-    """Phi is looked at first; where it is small, velocities are corrected, and what follows depends on these."""
+    """Statements of `finish`: Phi first; if it is small, velocities are corrected and accelerations computed with them."""
     writer, outputs, lowering = _writer(program, offset), program.outputs, program.lowering
     done = program.needed(["Phi"])
     body = _statements(writer, done) + writer._entries("Phi", outputs["Phi"])
@@ -189,14 +189,14 @@ def _finishing(program: _Program, head: list[str], offset: int, data: str) -> li
 
 
 def _further(program: _Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
-    """Statements of what these outputs need besides what is done, which it then is, too."""
+    """Statements of the operations that these outputs need and that are not yet computed; marks them as computed."""
     more = _without(program.needed(names), done)
     done += more
     return _statements(writer, more)
 
 
 def _apart(program: _Program, writer: LaneWriter, done: list[int], names: list[str]) -> list[str]:
-    """The same in a block of its own, after which nothing of it is known."""
+    """The same statements in a C block of their own, whose values are not visible after it."""
     known, turned = dict(writer.names), dict(writer.turned)
     lines = _further(program, writer, list(done), names)
     entries = [line for name in names for line in writer._entries(name, program.outputs[name])]
@@ -238,7 +238,7 @@ def _locals(program: _Program, data: str) -> list[str]:
 
 
 def _solves(orders: list[Order]) -> list[str]:
-    """Which rows are solved for what, in each order."""
+    """C tables of the rows and velocities of each solve, for each order."""
     lines = []
     for i, order in enumerate(orders):
         columns = {"solve": [a for a, solve in enumerate(order) for _ in solve.rows],
@@ -260,7 +260,7 @@ def _table(orders: list[Order], numbers: list[int]) -> list[str]:
 
 
 def _embedding_table(orders: list[Order], numbers: list[int]) -> list[str]:
-    """The same of orders for formulations in independent velocities."""
+    """Descriptors of the orders for formulations in independent velocities."""
     lines = [f"    {_head(orders, i)}, NULL, {f'ZD_NAMED(correct_{i})' if orders[i] else 'NULL'}, NULL, ZD_NAMED(embed_{i})}},"
              for i in numbers]
     head = ["#if ZD_LANES == 1", "static const zd_elimination ZD_NAMED(embeddings)[] = {"]

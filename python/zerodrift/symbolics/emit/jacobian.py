@@ -28,7 +28,7 @@ Leaf = tuple[str, int]      # ("p", i) or ("v", j)
 
 
 class _Slopes(Writer):
-    """All derivatives of the operations behind the terms: for each of these, what it is called by the entries it depends on."""
+    """Derivatives of all operations that the terms need: for each operation, C names by the entry of the state."""
 
     def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int], terms: tuple[str, ...] = TERMS) -> None:
         super().__init__(program, sizes, terms)
@@ -53,7 +53,7 @@ class _Slopes(Writer):
         return found
 
     def _factors(self, number: int, jet: Jet) -> list[tuple[int, str]]:
-        """The operations that one is computed from, and its derivative by each."""
+        """Operands of an operation, and the partial derivative with respect to each."""
         a, *others = jet.arguments
         z = [f"z{argument}" for argument in jet.arguments]
         match jet.kind:

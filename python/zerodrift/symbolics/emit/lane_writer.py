@@ -1,4 +1,4 @@
-"""C that is written once for one trajectory and for several in the lanes of a vector unit: see csrc/include/zerodrift/lanes.h."""
+"""Writer of C source that serves one trajectory or several in SIMD lanes: see csrc/include/zerodrift/lanes.h."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class LaneWriter(CWriter):
         return [f"{CONDITION if operation.code in CONDITIONS else REAL}{name} = {unwrapped(text)};"]
 
     def _call_in_each_lane(self, operation: Operation, name: str) -> list[str]:
-        """A function of the C library, one lane after the other."""
+        """Call of a C library function in each lane in turn."""
         arguments = operation.arguments[operation.code == "call":]
         before = [f"const zd_real {name}_{i} = {self.number_everywhere(argument)};" for i, argument in enumerate(arguments)]
         values = [f"ZD_LANE({name}_{i}, lane)" for i in range(len(arguments))]
@@ -72,7 +72,7 @@ class LaneWriter(CWriter):
                 f"ZD_SINES({count}, angle{first}, sine{first}, cosine{first});"]
 
     def number_everywhere(self, number: int) -> str:
-        """A value as one of each lane, also where it is a number."""
+        """Value broadcast to all lanes if it is a scalar."""
         text = unwrapped(self.value(number))
         return f"ZD_SPLAT({text})" if self.operations[number].code == "number" else text
 
@@ -100,7 +100,7 @@ class LaneWriter(CWriter):
         return text
 
     def value(self, number: int) -> str:
-        """Conditions on parameters are kept as numbers."""
+        """Text of an operation's value; conditions on parameters are stored as numbers."""
         text = super().value(number)
         is_kept = number in self.blocks.stored and self.operations[number].code in CONDITIONS
         return f"({text} != 0)" if is_kept else text
@@ -110,5 +110,5 @@ class LaneWriter(CWriter):
 
 
 def for_each_set(lines: Callable[[int, int], list[str]]) -> list[str]:
-    """Lines for each set that is compiled, by the number of its unit and how many trajectories it takes at once."""
+    """Lines for each compiled set of functions, given its vector unit and number of lanes."""
     return [line for (unit, lanes), name in SETS.items() for line in (f"#if (ZD_SETS) & {name}", *lines(unit, lanes), "#endif")]

@@ -40,7 +40,7 @@ Row = tuple[str, int]       # of coefficients: ("jet", number), ("weighted", num
 
 
 class _Sums:
-    """Which pairs of rows are summed over, sum_(0 < j < k) x_j y_(k-j), each once."""
+    """Convolution sums sum_(0 < j < k) x_j y_(k-j) that are needed, each once."""
 
     def __init__(self) -> None:
         self.pairs: dict[tuple[Row, Row], int] = {}
@@ -53,7 +53,7 @@ class _Sums:
 
 
 class Writer:
-    """Both parts of the function: the values, and the coefficients of one order."""
+    """Writer of both parts of the function: values at the start, and coefficients of one order."""
 
     def __init__(self, program: dict[str, Any], sizes: tuple[int, int, int, int], terms: tuple[str, ...] = TERMS) -> None:
         self.nq, self.nv, mh, mn = sizes
@@ -119,7 +119,7 @@ class Writer:
     # ---- coefficients ----
 
     def coefficients(self) -> list[str]:
-        """Statements of the coefficients of one order, of all that is not fixed."""
+        """Statements of the coefficients of one order of all time-dependent operations."""
         return [f"const zd_number y{number} = {self._coefficient(number, jet)};"
                 for number, jet in enumerate(self.operations) if not jet.is_fixed]
 
@@ -198,7 +198,7 @@ class Writer:
         return None if number is None or self._is_fixed(number) else number
 
     def leading(self) -> list[str]:
-        """The matrix of (8) and the right side, at the beginning."""
+        """Statements of the matrix and right side of (8) at the start."""
         n, size, lines = self.nv, self.nv + self.m, []
         for i in range(n):
             lines += [f"L[{i * size + j}] = z{entry};" for j in range(n) if (entry := self.entry("M", i * n + j)) is not None]
@@ -325,7 +325,7 @@ def write_precise(program: dict[str, Any] | str, sizes: tuple[int, int, int, int
 
 
 def functions(program: dict[str, Any], sizes: tuple[int, int, int, int], data: str) -> list[str]:
-    """The function of the coefficients, in whatever precision its header says."""
+    """C function of the coefficients; the header that is included determines its precision."""
     writer = Writer(program, sizes)
     body = _of_one_order(writer)
     if len(body) > MOST_STATEMENTS:
@@ -355,7 +355,7 @@ def _of_beginning(writer: Writer) -> list[str]:
 
 
 def _of_one_order(writer: Writer) -> list[str]:
-    """From the coefficients of p and v of an order to those of the next."""
+    """Statements that compute the next order of the coefficients of p and v."""
     n, size = writer.nv, writer.nv + writer.m
     body = [*writer.coefficients(), *writer.right_sides(), f"ZD_SOLVE({size}, L, G, right, x);",
             *(f"V[(order + 1) * {n} + {i}] = {times('next', f'x[{i}]')};" for i in range(n)), *writer.power(False),

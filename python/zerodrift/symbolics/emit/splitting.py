@@ -1,6 +1,6 @@
 """Large programs as C in functions of bounded length.
 
-All values are in two arrays, constants behind the parameters and the rest in the scratch of an evaluation, so that a function can
+All values are in two arrays, constants after the parameters and the rest in the scratch of an evaluation, so that a function can
 end between any two statements, and nothing is on the stack. Statements that are alike are loops: see `rolling`.
 """
 
@@ -29,7 +29,7 @@ def source(blocks: Blocks, heading: list[str], parameters: int, data: str = "dat
 
 
 class LargeWriter(CWriter):
-    """C99, functions of which none is long."""
+    """Writer of C99 in functions of bounded length."""
 
     def __init__(self, blocks: Blocks) -> None:
         super().__init__(blocks)
@@ -86,7 +86,7 @@ class LargeWriter(CWriter):
         return text, self._ends["k"] - parameters, self._ends["s"]
 
     def _calls(self, statements: list[str], name: str, takes: str, given: str) -> list[str]:
-        """Calls of functions that do this."""
+        """Statements moved to functions of bounded length; returns their calls."""
         items, calls = rolled(statements, FEWEST_STATEMENTS), []
         for i in range(0, len(items), PIECE):
             function = f"{name}_{i // PIECE}"

@@ -1,4 +1,4 @@
-"""Operations whose Taylor coefficients follow one order after the other: what a program becomes for a series.
+"""Operations whose Taylor coefficients can be computed order by order, converted from a program.
 
 The coefficients of a product are sums over those of its factors, c_k = sum_j a_j b_(k-j); those of all other functions follow
 from differential equations that have only products:
@@ -39,7 +39,7 @@ class Jet(NamedTuple):
 
 
 class Jets:
-    """The operations behind some terms of a program, in order, none of them twice."""
+    """Taylor operations of some terms of a program, in order of evaluation, without duplicates."""
 
     def __init__(self, program: dict[str, Any], names: tuple[str, ...]) -> None:
         self.operations: list[Jet] = []
@@ -99,7 +99,7 @@ class Jets:
         return self._against(name, u)
 
     def _pair(self, name: str, u: int) -> tuple[int, int]:
-        """Sine and cosine, each of which the other follows."""
+        """Sine and cosine of an angle; their coefficients are computed together."""
         key = (name, u)
         if key not in self._numbers:
             first = self._numbers[key] = len(self.operations)
@@ -133,7 +133,7 @@ class Jets:
         return self._emit("against", u, slope, name=name)
 
     def _logistic(self, below: int) -> int | None:
-        """1 / (c + exp u), if that is what is divided by, with a positive number c."""
+        """Logistic operation if a divisor is c + exp u with a positive number c; otherwise None."""
         jet = self.operations[below]
         if jet.kind != "+":
             return None

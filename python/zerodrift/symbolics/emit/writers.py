@@ -22,9 +22,9 @@ TURNS = {"sin": "sine", "cos": "cosine"}    # what the core has functions of its
 
 
 class Writer:
-    """Expressions of one language for the operations of a program."""
+    """Base of writers: operations of a program as expressions of one language."""
 
-    prefix = ""                     # what a `Function` is called by is its name behind this
+    prefix = ""                     # prefix of the names of `Function` calls
     language = end = ""             # the name of its printer; the end of a statement
     state = case = ""               # patterns: of an entry of p or v, and of one of several cases
     words: dict[str, str] = {}      # what is called otherwise than in `Operation`
@@ -107,7 +107,7 @@ class Writer:
         return f"({said}{parts[0]})" if word == "not" else f"({f' {said} '.join(parts)})"
 
     def call(self, function: Any, values: list[str]) -> str:
-        """A call, by SymPy's printer; what it is handed are our own names and expressions."""
+        """Function call, printed by SymPy; its arguments are names and expressions of this writer."""
         if function.__name__ == "Pow":
             return self.named("power", *values)
         if isinstance(function, Function):
@@ -118,13 +118,13 @@ class Writer:
 
 
 def turn_of(function: Any) -> str:
-    """The core's array of a function's values, where it is a sine or a cosine, and no namesake of the user's."""
+    """The core's array of sines or cosines if the function is one of these (and not a user's function of that name)."""
     is_known = isinstance(function, Function) or function.__module__.startswith("sympy.")
     return TURNS.get(function.__name__, "") if is_known else ""
 
 
 def mathematics(operations: Iterable[Operation]) -> str:
-    """The line of C that declares what these call of the C library."""
+    """Include line of the C library functions that these operations call."""
     def is_called(operation: Operation) -> bool:
         code, (first, *_) = operation.code, operation.arguments
         return code == "power" or (code == "call" and not turn_of(first)) or (code == "number" and not math.isfinite(first))
@@ -142,7 +142,7 @@ def _printer(language: str) -> Any:
 
 
 def unwrapped(text: str) -> str:
-    """Without parentheses around all of it."""
+    """Expression without its outer parentheses."""
     if not text.startswith("("):
         return text
     depth = 0
@@ -161,7 +161,7 @@ class CWriter(Writer):
     words = {"and": "&&", "or": "||", "not": "!", "root": "sqrt", "power": "pow"}
 
     def ordered(self, numbers: list[int], lines: list[str]) -> Iterable[int]:
-        """Sines and cosines are put off until nothing else can be done without them, and are then computed side by side."""
+        """Operations of a block in order; sines and cosines are postponed until needed and then computed together."""
         while numbers:
             turns, later, waiting = [], [], set()
             for number in numbers:
@@ -214,7 +214,7 @@ class CWriter(Writer):
         return text, count, scratch + bool(blocks.kept)
 
     def text(self, heading: list[str], functions: list[str], constants: list[str], body: list[str]) -> str:
-        """The C source from what is in it."""
+        """C source assembled from its parts."""
         return "\n".join([
             "/* Written by zerodrift.symbolic.", *(f" * {comment(line)}" for line in heading), " */",
             "#include <string.h>", "#include <zerodrift/sines.h>", "#include <zerodrift/system.h>", mathematics(self.operations),

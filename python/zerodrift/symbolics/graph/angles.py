@@ -29,7 +29,7 @@ class Sum(NamedTuple):
 
 
 def sums(operations: Operations, needed: Iterable[int]) -> dict[int, Sum]:
-    """Which of the angles that needed sines and cosines have are sums of others, in an order in which they can be computed."""
+    """Angles that are sums of other angles, in an order in which their sines and cosines can be computed."""
     forms = _Forms(operations)
     waiting = sorted({operations[number][2] for number in needed if is_turn(operations[number])}, key=forms.simplicity)
     known: dict[Form, int] = {}
@@ -83,7 +83,7 @@ class _Forms:
         self._forms: dict[int, Form] = {}
 
     def simplicity(self, angle: int) -> tuple[float, int]:
-        """The smaller, the simpler; what follows from parameters alone is simplest, as its sines are constants."""
+        """Sort key of angles, simplest first; angles of parameters alone are simplest, as their sines are constants."""
         size = sum(abs(count) for _, count in self.of(angle))
         return 0 if self._is_fixed(angle) else size, angle
 

@@ -14,7 +14,7 @@ Matrix = list[Vector]
 
 
 class Arithmetic:
-    """Operations with those left out that do nothing."""
+    """Arithmetic operations with trivial ones (times 1, plus 0) left out."""
 
     def __init__(self, lowering: Lowering) -> None:
         self.lowering, self._depths = lowering, dict[int, int]()

@@ -78,7 +78,7 @@ class Blocks:
                 users[argument] |= users[number]
 
     def _join_sines(self, users: list[set[str]]) -> None:
-        """Sine and cosine of an angle go together: both are computed in one go."""
+        """Pair sine and cosine of the same angle, which are computed in one call."""
         seen: dict[int, int] = {}
         for number, operation in enumerate(self.lowering.operations):
             if operation.code == "call" and operation.arguments[0].__name__ in ("sin", "cos") and users[number]:

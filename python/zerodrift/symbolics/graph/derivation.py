@@ -108,7 +108,7 @@ class Derivation:
         return [graph.plus(q, graph.minus(slope)) for q, slope in zip(force, gradient, strict=True)]
 
     def _by_velocity(self, node: Node) -> list[Node]:
-        """Its gradient times A."""
+        """Derivatives with respect to the velocities: the gradient times A."""
         graph = self.graph
         gradient = self._listed(self.by_position(node), self.p)
         return gradient if self.given.A is None else [graph.dot(gradient, column) for column in _transposed(self.given.A)]
@@ -130,7 +130,7 @@ class Derivation:
         return {"Phi": given.holonomic, "C": _flat(C), "Phi_t": Phi_t, "xi": xi}
 
     def _listed(self, slopes: Slopes, leaves: list[Node]) -> list[Node]:
-        """A gradient with its zeros."""
+        """Gradient as a dense list."""
         return [slopes.get(leaf, self.graph.zero) for leaf in leaves]
 
     def _power(self, M: Matrix, d: Sequence[Node]) -> Node:

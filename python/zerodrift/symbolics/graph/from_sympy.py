@@ -40,7 +40,7 @@ class Reader:
         self._slopes: dict[tuple[Any, int, int], tuple[sympy.Expr, list[sympy.Dummy]]] = {}
 
     def read(self, what: str, expression: Any, known: Mapping[Any, Node]) -> Node:
-        """The node of an expression; `what` it is, for errors."""
+        """Node of an expression; `what` names it in error messages."""
         try:
             given = sympy.sympify(expression, strict=True)      # strings would be evaluated
         except sympy.SympifyError as error:
@@ -102,7 +102,7 @@ def _exact(node: Node) -> sympy.Expr:
 
 
 class _Reading:
-    """One expression, its parts read once each."""
+    """Conversion of one expression; common subexpressions are read once."""
 
     def __init__(self, reader: Reader, what: str, known: Mapping[Any, Node]) -> None:
         self._reader, self._graph, self._what, self._known = reader, reader.graph, what, dict(known)
@@ -172,7 +172,7 @@ class _Reading:
         return value
 
     def _constant(self, e: Any) -> Node:
-        """The number that an expression of numbers is; in derivatives of functions these have symbols in their places."""
+        """Value of an expression of numbers; derivatives of functions have placeholder symbols in their place."""
         if e.free_symbols:
             e = e.func(*(_exact(self(part)) for part in e.args))
         value = e.evalf(20)
@@ -191,7 +191,7 @@ class _Reading:
         return self._graph.choice((*self._without_value(read), *read), otherwise) if read else otherwise
 
     def _without_value(self, cases: list[tuple[Node, Node]]) -> list[tuple[Node, Node]]:
-        """A case for conditions on what may be no number, of which all comparisons would be false."""
+        """Additional case that is NaN if a compared quantity is NaN, as all comparisons with NaN are false."""
         operands = dict.fromkeys(operand for condition, _ in cases for operand in self._reader.compared(condition))
         wrong = [self._graph.comparison("!=", x, x) for x in operands if self._reader.partial(x)]
         if not wrong:

@@ -1,6 +1,6 @@
 """First and second derivatives of nodes with respect to many leaves at once.
 
-Only what is not zero is gone through: a sum over n bodies, each with a few coordinates, takes n steps and not n^2. The second
+Only non-zero entries are visited: a sum over n bodies with a few coordinates each takes n steps, not n^2. The second
 derivatives of a kinetic energy, a sum of squares of what is linear in the rates, are sums of products of first derivatives, so
 that no square is differentiated.
 """
@@ -54,7 +54,7 @@ class Gradient:
         return {leaf: slope for leaf, slope in slopes.items() if slope is not graph.zero}
 
     def _by_chain_rule(self, parts: dict[Node, Terms], inner: Node, factor: Number, outer: Callable[[], Node]) -> None:
-        """Add the derivatives of `inner` times that by `inner`, which is made where there are any."""
+        """Add the derivatives of `inner` times the outer derivative, which is formed only if there are any."""
         slopes = self(inner)
         by_inner = outer() if slopes else None
         for leaf, slope in slopes.items():
@@ -74,7 +74,7 @@ class Gradient:
 
 
 class Hessian:
-    """The second derivatives of a node; `self[a, b]` of two leaves is that by both."""
+    """Second derivatives of a node; `self[a, b]` is the one with respect to leaves a and b."""
 
     def __init__(self, graph: Graph, gradient: Gradient, node: Node) -> None:
         self._graph, self._gradient = graph, gradient
@@ -137,16 +137,16 @@ def _ordered(a: Node, b: Node) -> tuple[Node, Node]:
 
 
 def _scaled(node: Node) -> tuple[Node, Number]:
-    """A node without its coefficient, and that."""
+    """A node split into its base and its numeric coefficient."""
     return node.content[0] if node.kind == "sum" and len(node.content) == 1 else (node, 1)
 
 
 def _total(numbers: list[Number]) -> Number:
-    """Their sum, for which integers are added first, as that is quicker."""
+    """Sum of coefficients; integers are added first, which is faster."""
     integers = sum(number for number in numbers if type(number) is int)
     return sum((number for number in numbers if type(number) is not int), integers)
 
 
 def _plain(number: Number) -> Number:
-    """An integer as such, which is quicker to reckon with."""
+    """Coefficient as int if it is an integer, which is faster."""
     return number.numerator if isinstance(number, Fraction) and number.denominator == 1 else number

@@ -186,7 +186,7 @@ class Graph:
         return found if found.kind != "sum" or len(found.content) < len(node.content) else node
 
     def _spread(self, term: Node, kind: str) -> Node:
-        """The product with the first sum of such leaves multiplied out, and the others in what comes of that."""
+        """Product expanded over its sums of such leaves, one after the other."""
         for base, exponent in term.content if term.kind == "product" else ():
             are_leaves = base.kind == "sum" and all(each.kind == "leaf" and each.content[0] == kind for each, _ in base.content)
             if exponent == 1 and are_leaves:
@@ -204,14 +204,16 @@ def power(base: Number, exponent: Number) -> Number:
 
 
 class _NodeFunction:
-    """A function of nodes that is given for some leaves and follows for all other nodes; each value is computed once."""
+    """A function of nodes defined by its values at leaves; each value is computed once and cached."""
 
     def __init__(self, graph: Graph, leaves: Mapping[Node, Node]) -> None:
         self._graph, self._known = graph, dict(leaves)
         self._lowest = min((leaf.stage for leaf in leaves), default=MOVING + 1)
 
     def know(self, leaf: Node, value: Node) -> None:
-        """The value for one more leaf, whose stage is not below those of the others, and that nothing asked of so far has."""
+        """Set the value at one more leaf. Its stage must not be below those of the others, and no node evaluated so far may
+        depend on it.
+        """
         self._known[leaf] = value
 
     def __call__(self, node: Node) -> Node:
@@ -261,7 +263,7 @@ class Derivative(_NodeFunction):
 
 
 class Replacement(_NodeFunction):
-    """Any node with values in place of leaves."""
+    """Substitution: any node with values in place of leaves."""
 
     def _of_unaffected(self, node: Node) -> Node:
         return node

@@ -1,4 +1,4 @@
-"""From a graph to elementary operations, none of them twice.
+"""Conversion of a graph to elementary operations without duplicates.
 
 A sum is written so that the factor most terms share is taken out first (Horner's scheme), parameters included. Products and sums
 take what depends on parameters alone first, then what depends on t and p: so that the most can be computed once.
@@ -64,7 +64,7 @@ class Lowering:
 
     @staticmethod
     def operands(operation: Operation) -> tuple[int, ...]:
-        """The operations an operation needs."""
+        """Operands of an operation."""
         if operation.code in SIMPLE:
             return ()
         return operation.arguments[1:] if operation.code in ("call", "comparison", "logic") else operation.arguments
@@ -104,7 +104,7 @@ class Lowering:
     # ---- sums ----
 
     def _terms(self, node: Node) -> list[Term]:
-        """The terms of a sum; those that differ by factors of parameters only are one, with a coefficient of parameters."""
+        """Terms of a sum; terms that differ only by factors of parameters are merged, with a coefficient of parameters."""
         graph, groups = self.graph, {}
         if node.stage == FIXED:
             return [self._term(graph.number(number), term.content if term.kind == "product" else ((term, 1),))

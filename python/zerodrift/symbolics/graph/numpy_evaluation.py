@@ -1,4 +1,4 @@
-"""A program evaluated for many states at once, in NumPy: to see what it is like before it is written as anything else."""
+"""Vectorized evaluation of a program in NumPy, used to choose elimination orders before code is written."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PLAIN: dict[str, Callable[..., Any]] = {
 
 
 class Unknown(Exception):
-    """The program has a function that NumPy has not."""
+    """Raised if a program has a function that NumPy does not have."""
 
 
 def function_of(name: str) -> Callable[..., Any]:
@@ -63,7 +63,7 @@ def evaluator(lowering: Lowering, outputs: dict[str, list[int]], parameters: np.
 
 
 def _needed(lowering: Lowering, outputs: dict[str, list[int]]) -> list[int]:
-    """The operations that the outputs follow from, in order."""
+    """Operations that the outputs depend on, in order."""
     found, waiting = set(), [number for numbers in outputs.values() for number in numbers]
     while waiting:
         number = waiting.pop()

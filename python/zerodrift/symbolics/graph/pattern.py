@@ -1,4 +1,4 @@
-"""The structure of a system, from which entries of its matrices are zero.
+"""Structure of a system, found from the zero entries of its matrices.
 
 Bodies are ranges of velocities that M and A do not couple with others, and groups are rows of C that touch the same of these.
 """
@@ -17,7 +17,7 @@ PART = 3            # entries that going to one more block costs as much as
 class Pattern:
     """Blocks and groups, as `zd.Structure` has them.
 
-    `is_zero` tells of an entry whether it vanishes throughout; `terms` are flat lists of entries by name, and `sizes` are
+    `is_zero` is True for an entry that vanishes identically; `terms` are flat lists of entries by name, and `sizes` are
     (nq, nv, mh, mn).
     """
 
@@ -27,7 +27,7 @@ class Pattern:
         self._diagonal = [self._columns("M", i) in ([], [i]) for i in range(sizes[1])]
 
     def structure(self) -> dict[str, list[Any]] | None:
-        """The arguments of `zd.Structure`; None where there is none that pays."""
+        """Arguments of `zd.Structure`; None if no structure would save work."""
         _, nv, mh, mn = self._sizes
         if nv < FEWEST_VELOCITIES:
             return None
@@ -62,7 +62,9 @@ class Pattern:
         return list(pairwise(edges))
 
     def _merged(self, ends: list[tuple[int, int]]) -> list[tuple[int, int]]:
-        """Neighbours made one as long as that saves more than it stores: the velocities of a body whose M is diagonal, say."""
+        """Merge neighbouring blocks as long as that saves more than it stores, such as the velocities of a body whose M is
+        diagonal.
+        """
         touching = [{k for k, row in enumerate(self._rows) if not row.isdisjoint(range(*pair))} for pair in ends]
         while len(ends) > 1:
             cost, b = min((self._cost(ends[b], ends[b + 1], touching[b], touching[b + 1]), b) for b in range(len(ends) - 1))

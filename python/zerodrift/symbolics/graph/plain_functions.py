@@ -12,7 +12,7 @@ from .graph import Graph, Node
 
 
 class Function:
-    """A function that a node calls, under SymPy's name."""
+    """Function that a node calls; it has SymPy's name."""
 
     def __init__(self, name: str) -> None:
         self.__name__ = name

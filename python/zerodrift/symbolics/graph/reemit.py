@@ -1,4 +1,4 @@
-"""Operations of a stored program emitted again: only needed ones, with as few sines as possible."""
+"""Operations of a stored program emitted again: only the needed ones, with as few sines as possible."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def restored(lowering: Lowering, operations: angles.Operations, outputs: dict[st
 
 
 def _needed(operations: angles.Operations, outputs: list[int]) -> list[int]:
-    """The operations behind some, in order."""
+    """Operations that the given ones depend on, in order."""
     found, waiting = set(outputs), list(outputs)
     while waiting:
         more = [number for number in _operands(operations[waiting.pop()]) if number not in found]
@@ -36,7 +36,7 @@ def _operands(operation: list[Any]) -> tuple[int, ...]:
 
 
 class _Emission:
-    """Operations emitted where they are wanted, those that they need first."""
+    """Emission of operations on demand, operands first."""
 
     def __init__(self, lowering: Lowering, operations: angles.Operations, sums: dict[int, angles.Sum],
                  function_of: Callable[[str], Any]) -> None:
