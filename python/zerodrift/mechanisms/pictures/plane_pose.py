@@ -61,7 +61,7 @@ class Poses:
     """Frames of all bodies at several moments, and positions of points, each computed once for all of them."""
 
     def __init__(self, parts: Parts, poses: np.ndarray) -> None:
-        """Of mass centres at poses (moments, bodies, 3)."""
+        """Mass centres at poses (moments, bodies, 3)."""
         self.parts, count = parts, len(poses)
         self.frames = {"ground": (np.zeros((count, 2)), np.zeros(count))}       # origins (moments, 2) and angles (moments,)
         for i, body in enumerate(parts.drawing.parts()):
