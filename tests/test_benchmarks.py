@@ -17,6 +17,7 @@ PAGES = {page.stem: page.read_text(encoding="utf-8") for page in TABLES["PAGES"]
 @pytest.mark.parametrize("page", PAGES)
 def test_tables_are_those_of_the_results(page):
     assert TABLES["with_tables"](PAGES[page]) == PAGES[page]
+    assert not re.search(r"^\|", TABLES["TABLE"].sub("", PAGES[page]), re.MULTILINE)      # no table is written by hand
 
 
 @pytest.mark.parametrize("page", PAGES)
