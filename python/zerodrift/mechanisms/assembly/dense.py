@@ -15,12 +15,12 @@ import numpy as np
 from ..._gateway.mechanisms.plane import MechanismCore
 from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction, unit_of
-from .least_squares import least_along, nullspace, shortest, units
+from .least_squares import ATTEMPTS, Attempt, Damping, least_along, levenberg_marquardt, nullspace, shortest, units
 from .sparse_constraints import Target
 
 CLOSED = 1e-12          # of a constraint, relative to its size: largest residual of a closed joint
 SMALLEST = 1e-3         # of the largest constraint, and of the length: lower bound of a constraint's size
-ATTEMPTS = 200          # damped steps from a sketch, at most
+CLOSING = Damping(refused=4, accepted=5, minimum=1e-12, solved=1e-12, least_gain=1e-14, least_absolute_gain=0.0)
 NEARER = 50             # steps towards the drawing, at most
 TRACKED = 0.1           # step of a target, at most, in rad or parts of the mechanism's length
 LONGEST = 0.4           # step of any coordinate, at most, in the same units
@@ -273,27 +273,20 @@ class Assembly:
 
     def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
         """Positions and remaining residual of a Levenberg-Marquardt minimization, completed by Newton steps."""
-        residual, rows = system(p)
-        damping, size = 1e-2, float(residual @ residual)
-        for _ in range(ATTEMPTS):
-            if size < 1e-12:
-                break
-            u, s, vt = np.linalg.svd(rows, full_matrices=False)
-            while damping < 1e12:
-                step = -vt.T @ ((u.T @ residual) * s / (s**2 + damping * s.max(initial=1.0)**2))
-                step *= min(1.0, LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
-                tried = self._moved(p, step)
-                tried_residual, tried_rows = system(tried)
-                if (tried_size := float(tried_residual @ tried_residual)) < size:
-                    break
-                damping *= 4
-            else:
-                break
-            gain = size - tried_size
-            p, residual, rows, size = tried, tried_residual, tried_rows, tried_size
-            damping = max(damping / 5, 1e-12)
-            if gain < 1e-14 * size:
-                break
+        def attempt(p: np.ndarray) -> Attempt:
+            residual, rows = system(p)
+            return Attempt(p, residual, rows, float(residual @ residual))
+
+        def damped(at: Attempt) -> Callable[[float], Attempt]:
+            u, s, vt = np.linalg.svd(at.rows, full_matrices=False)
+            largest, along = s.max(initial=1.0), u.T @ at.residual
+
+            def tried(damping: float) -> Attempt:
+                step = -vt.T @ (along * s / (s**2 + damping * largest**2))
+                return attempt(self._moved(at.p, step * min(1.0, LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))))
+            return tried
+
+        p = levenberg_marquardt(attempt(p), damped, CLOSING).p
         polished = self._newton(p, system)
         p = p if polished is None else polished
         return p, system(p)[0]

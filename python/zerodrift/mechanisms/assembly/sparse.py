@@ -16,15 +16,16 @@ from ..._gateway.mechanisms.plane import MechanismCore
 from ..._gateway.sparse_state import nearest_velocities
 from ...errors import InconsistentStart
 from .contradictions import contradiction
-from .dense import ATTEMPTS, CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly
+from .dense import CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly
+from .least_squares import Attempt, Damping, levenberg_marquardt
 from .sparse_constraints import SparseRows, Target, are_met, read_targets, sparse_rows
 
 MOST_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
 HALVINGS = 6            # of a Newton step that does not reduce the residual, at most
 SMALLEST_PART = 1e-3    # of the way of drives and targets: smallest step of the continuation
 MOST_TIMES = 20.0       # factor by which a step towards the drawing is lengthened or shortened, at most
-LEAST_GAIN = 1e-6       # of the squared residuals: damped steps end below this gain
 WISHED = 1e-6           # weight of a wish relative to the norm of a step
+APPROACHING = Damping(refused=10, accepted=10, minimum=WISHED**2, solved=0.0, least_gain=1e-6, least_absolute_gain=CLOSED**2)
 
 
 def assembly_of(core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float, t: float,
@@ -151,27 +152,26 @@ class AssemblyOfMany(Assembly):
     def _nearest_to_soft(self, p: np.ndarray, system: Callable, is_soft: np.ndarray) -> np.ndarray:
         """Positions with the least squares of the soft rows' residuals that the others allow, which are met where it begins.
 
-        By Levenberg's and Marquardt's method among the steps that the others allow, each of which is led back onto them.
+        Damped steps are chosen among those that the others allow, and led back onto them.
         """
         def others(p: np.ndarray) -> tuple[np.ndarray, SparseRows]:
             residual, rows = system(p)
             return residual[~is_soft], rows[~is_soft]
 
-        (residual, rows), damping = system(p), 1e-2
-        for _ in range(ATTEMPTS):
-            size = float(residual[is_soft] @ residual[is_soft])
-            while damping < 1e12:
-                tried = self._newton(self._moved(p, _at_most(TRACKED, -rows.damped(residual, is_soft, damping))), others)
-                left = None if tried is None else system(tried)
-                if left is not None and (gain := size - float(left[0][is_soft] @ left[0][is_soft])) > 0:
-                    break
-                damping *= 10
-            else:
-                break
-            p, (residual, rows), damping = tried, left, max(damping / 10, WISHED**2)
-            if gain < LEAST_GAIN * size or gain < CLOSED**2:
-                break
-        return p
+        def attempt(p: np.ndarray | None) -> Attempt | None:
+            if p is None:
+                return None
+            residual, rows = system(p)
+            return Attempt(p, residual, rows, float(residual[is_soft] @ residual[is_soft]))
+
+        def damped(at: Attempt) -> Callable[[float], Attempt | None]:
+            def tried(damping: float) -> Attempt | None:
+                step = _at_most(TRACKED, -at.rows.damped(at.residual, is_soft, damping))
+                return attempt(self._newton(self._moved(at.p, step), others))
+            return tried
+
+        start = attempt(p)
+        return p if start is None else levenberg_marquardt(start, damped, APPROACHING).p
 
     def _least_squares(self, p: np.ndarray, system: Callable) -> tuple[np.ndarray, np.ndarray]:
         """Newton's method; on failure, damped steps that minimize the residuals of all rows."""
