@@ -10,7 +10,7 @@ If they do, the same tests run with pairs, and then all others.
 
 The script ends after COUNT mutations that are noticed, and exits with the number of those that only the products notice.
 Mutations that neither the tests of the room nor the products notice are listed, but not counted: many of them change nothing
-that can be observed, such as the order of equal candidates.
+that can be observed, such as the order of equal candidates. What an earlier run has found is not tested again.
 """
 
 import ast
@@ -18,7 +18,9 @@ import csv
 import os
 import random
 import re
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -26,7 +28,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 RESULTS = ROOT / "tests" / "bench" / "results" / "mutations.csv"
 SEED, COUNT = 2002, 20
-TIMEOUT = 900      # s: a mutation may make a loop endless, which is noticed
+CPU_TIME = 1500     # s: a mutation may make a loop endless, which is noticed
 KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", ".pytest_cache", ".hypothesis", ".venv")
 OPERATORS = {" + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ",
              " == ": " != ", " != ": " == ", " && ": " || ", " || ": " && ", " += ": " -= ", " -= ": " += ", "0.5": "0.25",
@@ -36,10 +38,10 @@ NO_CODE = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"|^[ \t]*#[^\n]*(?:\
 THINNED = re.compile(r"mark\.pairs|mark\.each_value|\bspread\(|\bdraws\(|\bfew_places\b")     # see conftest.py
 TABLES = {"system", "formulation", "integrator"}    # arguments of a test that make it one, too
 HEADER = ("place", "line", "change", "noticed with pairs by", "noticed with products by")
-# Notebooks, documentation, sources and peers are about other things; test_core.py compiles the core again.
+# About other things: notebooks, documentation, sources, peers, files and interruptions; test_core.py compiles the core again.
 LEFT_OUT = ("test_notebooks.py", "test_documentation.py", "test_vocabulary.py", "test_structure.py", "test_structure_of_core.py",
             "test_peers.py", "test_site.py", "test_core.py", "test_cache.py", "test_cache_trust.py", "test_keyboard.py",
-            "test_benchmarks.py", "test_first_minutes.py")
+            "test_benchmarks.py", "test_exceptions.py", "test_sample_file.py", "test_bench.py")
 
 
 def sites():
@@ -98,11 +100,11 @@ def first_failure(folder, files, left_out, environment):
     """The first test that fails; "" if all pass."""
     command = [sys.executable, "-m", "pytest", "-q", "-x", "-n0", "-p", "no:cacheprovider", "--no-header",
                *(f"--deselect={test}" for test in left_out), *files]
-    try:
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=TIMEOUT,
-                              env=os.environ | {"PYTHONPATH": str(folder / "python")} | environment)
-    except subprocess.TimeoutExpired:
-        return f"no end within {TIMEOUT} s"
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False,
+                          env=os.environ | {"PYTHONPATH": str(folder / "python")} | environment,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (CPU_TIME, CPU_TIME)))
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return f"no end within {CPU_TIME} s"
     if done.returncode == 0:
         return ""
     found = re.search(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.MULTILINE)
@@ -132,6 +134,14 @@ def tested(folder, file, failing):
     return "", of_products
 
 
+def earlier():
+    """Lines of the results of an earlier run."""
+    if not RESULTS.exists():
+        return []
+    with RESULTS.open(newline="", encoding="utf-8") as file:
+        return list(csv.reader(file))[1:]
+
+
 def main(folder, count):
     """Draw, test, list."""
     mutated = folder / "mutated"
@@ -141,13 +151,14 @@ def main(folder, count):
             sys.exit("the core does not compile without a mutation")
     drawn = sorted(sites())
     random.Random(SEED).shuffle(drawn)
+    known = {tuple(row[:3]): tuple(row) for row in earlier()}
     rows, failing = [], []
     for file, position, operator in drawn:
         if sum(bool(row[3] or row[4]) for row in rows) == count:
             break
-        where, line, change = mutate(mutated, file, position, operator)
-        if build(mutated):
-            rows.append((where, line, change, *tested(folder, file, failing)))
+        change = mutate(mutated, file, position, operator)
+        if change in known or build(mutated):
+            rows.append(known.get(change) or (*change, *tested(folder, file, failing)))
             print(*rows[-1], sep=" | ", flush=True)
             with RESULTS.open("w", newline="", encoding="utf-8") as out:
                 csv.writer(out).writerows([HEADER, *rows])
