@@ -24,7 +24,7 @@ import with_heyoka
 
 SPANS = {0.5: (1e-9, 1e-12), 8.0: (1e-9, 2e-11)}    # errors to which methods are compared, by the end time in s
 TOLERANCES = 10.0 ** -np.arange(8, 15, 0.5)
-LEAST = 2.3e-14     # of zerodrift's tolerances
+FINEST_TOLERANCE = 2.3e-14     # of zerodrift's tolerances
 ROUNDS = 40
 BAR = zd.systems.four_bar()
 COLUMNS = ("span", "error", "method", "tolerance", "its error", "microseconds", "of heyoka's best")
@@ -89,7 +89,7 @@ def measured(t_end):
     ref = zd.reference(BAR, t_end, chain.p0, chain.v0, error=1e-15, t_eval=chain.outputs)
     cases = []
     for (name, method), tolerance in itertools.product(methods(), TOLERANCES):
-        if tolerance < LEAST and not name.startswith("heyoka"):
+        if tolerance < FINEST_TOLERANCE and not name.startswith("heyoka"):
             continue
         p, again = method(chain, tolerance)
         cases.append((name, tolerance, np.abs(p - ref.p).max(), again))

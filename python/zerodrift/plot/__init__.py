@@ -4,10 +4,11 @@ Each function draws into `ax`, or into a new figure, and returns the axes. Nothi
 and no global setting of matplotlib is touched.
 """
 
+from .curves import energy, energy_violation, error, measures, motion, violation
 from .drawing import animate, mechanism, path
 from .linear import mode, root_locus
 from .many_runs import against, bands, heat_map
-from .plot import energy, energy_violation, error, measures, motion, stability_map, violation, work_precision
+from .studies import stability_map, work_precision
 from .style import COLOURS, panels
 from .traces import positions, trace
 

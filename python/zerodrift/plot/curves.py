@@ -1,33 +1,22 @@
-"""Curves and maps of solutions and of studies, for `zerodrift.plot`."""
+"""Curves of solutions over time, for `zerodrift.plot`."""
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm
-from matplotlib.lines import Line2D
 
 from .. import _check
 from .._gateway import Variable
 from ..errors import WrongValue
 from ..runs.columns import columns
-from ..runs.settings import Projection
 from ..runs.solution import A_SOLUTION, Solution
 from ..studies.compare import difference, signals
 from ..studies.reference import Reference
-from ..studies.stability_map import StabilityMap
-from ..studies.work_precision import Row, Setting, WorkPrecision
 from . import style as _style
 from .dense_samples import dense
-from .style import COLOURS
-
-MARKERS = "os^Dv<>pPX*"
-BEYOND = 1e30           # error: larger ones are not drawn, as no scale shows them beside the others
 
 
 def motion(sol: Solution, names: str | Sequence[str] | None = None, ax: Axes | None = None, **style: Any) -> Axes:
@@ -286,121 +275,3 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
 def _require_energy(sol: Solution) -> None:
     if _check.instance("sol", sol, Solution, A_SOLUTION).potential_energy is None:
         raise WrongValue(f"{sol.system.name} must declare a potential energy for its energy balance to be drawn")
-
-
-def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
-    """Draw error over time, on logarithmic scales: one line per method, and the Pareto front.
-
-    The colour is that of the integrator, dashed where it chooses its steps; the marker is that of the formulation and the
-    corrections. Runs that failed are not there, nor those with an error of 1e30 and more; below the dotted line, errors are
-    those of the reference.
-
-    Parameters
-    ----------
-    result : WorkPrecision
-        What `zerodrift.work_precision` measured.
-    ax : Axes, optional
-        Axes to draw into; by default those of a new figure.
-
-    Returns
-    -------
-    Axes
-
-    Examples
-    --------
-    >>> import zerodrift as zd
-    >>> ax = zd.plot.work_precision(zd.work_precision(zd.systems.pendulum(), 1.0, integrators=["rk4", "dop853"], rounds=1))
-    >>> ax.get_xlabel()
-    'time [ms]'
-    """
-    _check.instance("result", result, WorkPrecision, "what zd.work_precision returns")
-    ax = _style.axes(ax)
-    ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
-    done = [row for row in result.rows if row.success and 0 < row.error < BEYOND]
-    integrators = _assign((row.setting.integrator for row in result.rows), COLOURS)
-    variants = _assign((_variant(row.setting) for row in result.rows), MARKERS)
-    for _, rows in itertools.groupby(done, key=lambda row: row.setting.method):
-        times, errors, first, *_ = _curve(rows)
-        ax.plot(times, errors, "--" if first.tolerance else "-", color=integrators[first.integrator], linewidth=1, alpha=0.6,
-                marker=variants[_variant(first)], markersize=4)
-    times, errors, *_ = _curve(row for row in result.pareto() if row.error > 0)
-    ax.plot(times, errors, color="#F0E442", linewidth=8, zorder=0, solid_capstyle="round")
-    if result.reference_error > 0:
-        ax.axhline(result.reference_error, color="grey", linestyle=":", linewidth=1)
-    handles = [Line2D([], [], color=colour, label=name) for name, colour in integrators.items()]
-    handles += [Line2D([], [], color="grey", marker=marker, linestyle="", label=name) for name, marker in variants.items()]
-    handles += [Line2D([], [], color="#F0E442", linewidth=8, label="Pareto front"),
-                Line2D([], [], color="grey", linestyle="--", label="steps chosen by error"),
-                Line2D([], [], color="grey", linestyle=":", label="error of the reference")]
-    ax.legend(handles=handles, frameon=False, fontsize="small", loc="center left", bbox_to_anchor=(1, 0.5))
-    return ax
-
-
-def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> np.ndarray:
-    """Draw the errors of all runs over step and parameter, one panel per way to simulate.
-
-    Runs that did not reach their end are crossed out; errors beyond one are as bad as that.
-
-    Parameters
-    ----------
-    result : StabilityMap
-        What `zerodrift.stability_map` found.
-    axes : sequence of Axes, optional
-        One per way, of one figure; left out: a new figure.
-
-    Returns
-    -------
-    ndarray of Axes
-
-    Examples
-    --------
-    >>> import zerodrift as zd
-    >>> found = zd.stability_map(zd.systems.four_bar(), 1.0, steps=[0.01, 0.02], values=[1.0, 10.0, 100.0])
-    >>> [ax.get_title() for ax in zd.plot.stability_map(found)]
-    ['nothing', 'Baumgarte', 'projection', 'projection, energy']
-    """
-    _check.instance("result", result, StabilityMap, "what zd.stability_map returns")
-    if axes is None:
-        count = len(result.rows)
-        axes = plt.subplots(1, count, figsize=(2.7 * count + 1, 3.4), sharey=True, layout="constrained")[1]
-    axes = np.atleast_1d(axes)
-    if len(axes) != len(result.rows):
-        raise WrongValue(f"axes must be {len(result.rows)}, one for each way, not {len(axes)}")
-    for ax in axes:
-        _style.given_axes(ax, "each of axes")
-    scale = LogNorm(max(result.reference_error, 1e-12), 1, clip=True)
-    for ax, way in zip(axes, result.rows, strict=True):
-        drawn = _draw_cells(ax, result.steps, result.values, result.error(way), scale)
-        ax.set(title=way, xlabel="step [s]")
-    axes[0].set_ylabel(result.parameter)
-    axes[0].figure.colorbar(drawn, ax=list(axes), label="max |p - reference|")
-    return axes
-
-
-def _draw_cells(ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, scale: LogNorm) -> Any:
-    """Cells around (x, y) on logarithmic scales, crossed out where there is no value."""
-    ax.set_xscale("log")
-    ax.set_yscale("log" if (y > 0).all() else "linear")
-    ax.set_facecolor("#E8E8E8")
-    drawn = np.ma.masked_invalid(np.maximum(values, scale.vmin))
-    cells = ax.pcolormesh(_style.edges(x, log=True), _style.edges(y, log=True), drawn, norm=scale, cmap="viridis_r")
-    row, column = np.nonzero(np.isnan(values))
-    ax.plot(x[column], y[row], "x", color="#B22222", markersize=3, markeredgewidth=0.8)
-    return cells
-
-
-def _curve(rows: Iterable[Row]) -> tuple[Any, ...]:
-    """Times in ms, errors, and the settings of each row."""
-    rows = list(rows)
-    return [1e3 * row.seconds for row in rows], [row.error for row in rows], *(row.setting for row in rows)
-
-
-def _variant(setting: Setting) -> str:
-    """Formulation and corrections, in words; projection is not mentioned, as it is the default."""
-    other = setting.stabilization != Projection()
-    return setting.formulation + (f", {setting.stabilization}" if other else "") + (", energy" if setting.energy else "")
-
-
-def _assign(names: Iterable[str], to: Sequence[str]) -> dict[str, str]:
-    """Colours or markers by name, in order of appearance."""
-    return dict(zip(dict.fromkeys(names), itertools.cycle(to), strict=False))
