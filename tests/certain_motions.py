@@ -24,12 +24,13 @@ ROWS = 12       # of each motion that are compared
 
 
 class Outcome(NamedTuple):
-    """Certified and true errors of p and v, what was said, and the seconds of the reference and of the exact motion."""
+    """Certified and true errors of p and v, caveats, the seconds of the reference and of the exact motion, and the arithmetic."""
 
     certified: tuple[float, float]
     true: tuple[float, float]
     caveats: tuple[str, ...]
     seconds: tuple[float, float]
+    precision: str
 
 
 def draw(name, seed):
@@ -40,15 +41,24 @@ def draw(name, seed):
     return motion, times
 
 
-def compare(name, seed, **options):
-    """Certified and true errors of a random motion, in double precision: starts on constraints are known as doubles alone."""
+def compare(name, seed, precision="double", **options):
+    """Certified and true errors of a random motion.
+
+    Beyond double precision, what follows from the constraints at the start has been computed with 32 digits, and the exact motion
+    begins at the first sample; in double precision, at the doubles that were given.
+    """
     motion, times = draw(name, seed)
+    is_finer = precision == "double-double"
+    if is_finer and times is not None:
+        times = np.union1d([0.0], times)
     begin = perf_counter()
-    ref = zd.reference(motion.system, motion.end, t_eval=times, **({"precision": "double"} | motion.options | options))
+    ref = zd.reference(motion.system, motion.end, t_eval=times, precision=precision, **(motion.options | options))
     done = perf_counter()
     rows = np.unique(np.linspace(0, len(ref.solution.t) - 1, ROWS).round().astype(int))
-    exact = motion.exact(ref.solution.t[rows])
-    true = tuple(max(float(abs(mp.mpf(float(a)) + mp.mpf(float(low)) - b)) for row, each in zip(rows, exact, strict=True)
-                     for a, low, b in zip(high[row], lows[row], each[i], strict=True))
-                 for i, (high, lows) in enumerate(((ref.p, ref.p_low), (ref.v, ref.v_low))))
-    return Outcome((ref.error, ref.velocity_error), true, ref.caveats, (done - begin, perf_counter() - done))
+    found = [[[mp.mpf(float(a)) + mp.mpf(float(b)) for a, b in zip(high[row], low[row], strict=True)] for row in rows]
+             for high, low in ((ref.p, ref.p_low), (ref.v, ref.v_low))]
+    start = [motion.minimal(found[0][0], found[1][0])] if is_finer and motion.minimal else []
+    exact = motion.exact(ref.solution.t[rows], *start)
+    true = tuple(max(float(abs(a - b)) for row, each in zip(found[i], exact, strict=True)
+                     for a, b in zip(row, each[i], strict=True)) for i in (0, 1))
+    return Outcome((ref.error, ref.velocity_error), true, ref.caveats, (done - begin, perf_counter() - done), ref.precision)

@@ -12,18 +12,22 @@ from taylor import mp
 
 
 class Motion(NamedTuple):
-    """`exact(times)` gives (p, v) in mpf for each of the times."""
+    """`exact(times)` gives (p, v) in mpf for each of the times.
+
+    With constraints, `minimal(p, v)` gives the independent numbers of a start, and `exact(times, start)` begins there.
+    """
 
     system: object
     end: float
     exact: object
     options: dict = {}
+    minimal: object = None
 
 
 def by_series(right_side, x0, state, **options):
     """`exact` from a first-order equation, and how p and v follow from its t and x."""
-    def exact(times):
-        found = taylor.solution(right_side, x0, 0, times, **options)
+    def exact(times, start=x0):
+        found = taylor.solution(right_side, start, 0, times, **options)
         return [state(mp.mpf(float(t)), x) for t, x in zip(times, found, strict=True)]
     return exact
 

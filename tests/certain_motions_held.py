@@ -13,12 +13,20 @@ from taylor import mp
 # ---- holonomic constraints ----
 
 
+def turning(p, v, length):
+    """Angle from the vertical and its rate, of a point on a circle about the origin."""
+    (x, y), (u, v) = p, v
+    return [mp.atan2(x, -y), (x * v - y * u) / length**2]
+
+
 def pendulum(rng):
     """In Cartesian coordinates; some nearly turn over."""
     L, g, angle, rate = rng.uniform(0.5, 2), rng.uniform(5, 10), rng.uniform(-3.1, 3.1), rng.normal()
     system = zd.systems.pendulum(length=L, gravity=g, angle=angle, rate=rate)
-    (x, y), (u, v) = big(*system.p0), big(*system.v0)
     length, fall = big(L, g)
+
+    def minimal(p, v):
+        return turning(p, v, length)
 
     def right_side(t, state):
         return [state[1], taylor.sin_cos(state[0])[0] * (-fall / length)]
@@ -27,7 +35,8 @@ def pendulum(rng):
         sine, cosine = mp.sin(s[0]), mp.cos(s[0])
         return [length * sine, -length * cosine], [length * cosine * s[1], length * sine * s[1]]
 
-    return Motion(system, 10 ** rng.uniform(0, 1.5), by_series(right_side, [mp.atan2(x, -y), (x * v - y * u) / length**2], state))
+    start = minimal(big(*system.p0), big(*system.v0))
+    return Motion(system, 10 ** rng.uniform(0, 1.5), by_series(right_side, start, state), minimal=minimal)
 
 
 @cache
@@ -45,7 +54,9 @@ def moved_pendulum(rng):
     p0 = [L * np.sin(angle), -L * np.cos(angle)]
     v0 = [L * np.cos(angle) * rate + A * W, L * np.sin(angle) * rate]
     length, fall, a, w = big(L, g, A, W)
-    x, y, u, v = big(*p0, *v0)
+
+    def minimal(p, v):
+        return turning(p, [v[0] - a * w, v[1]], length)
 
     def right_side(t, s):
         sine, cosine = taylor.sin_cos(s[0])
@@ -57,8 +68,7 @@ def moved_pendulum(rng):
                 [a * w * mp.cos(w * t) + length * cosine * s[1], length * sine * s[1]])
 
     system = moved_pendulum_system().with_parameters(L=L, g=g, A=A, W=W).starting(p0, v0)
-    start = [mp.atan2(x, -y), (x * v - y * (u - a * w)) / length**2]
-    return Motion(system, rng.uniform(2, 15), by_series(right_side, start, state))
+    return Motion(system, rng.uniform(2, 15), by_series(right_side, minimal(big(*p0), big(*v0)), state), minimal=minimal)
 
 
 @cache
@@ -99,9 +109,11 @@ def double_pendulum(rng, cartesian=False):
     x1, y1, du, dv = K * np.sin(a0), -K * np.cos(a0), K * np.cos(a0) * u0, K * np.sin(a0) * u0
     p0 = [x1, y1, x1 + L * np.sin(b0), y1 - L * np.cos(b0)]
     v0 = [du, dv, du + L * np.cos(b0) * v0, dv + L * np.sin(b0) * v0]
-    X1, Y1, X2, Y2 = big(*p0)
-    U1, V1, U2, V2 = big(*v0)
-    X2, Y2, U2, V2 = X2 - X1, Y2 - Y1, U2 - U1, V2 - V1
+
+    def minimal(p, v):
+        first = turning(p[:2], v[:2], k)
+        second = turning([p[2] - p[0], p[3] - p[1]], [v[2] - v[0], v[3] - v[1]], d)
+        return [first[0], second[0], first[1], second[1]]
 
     def state(t, s):
         a, b, u, v = s
@@ -109,8 +121,8 @@ def double_pendulum(rng, cartesian=False):
         dx, dy = -y * u, x * u
         return ([x, y, x + d * mp.sin(b), y - d * mp.cos(b)], [dx, dy, dx + d * mp.cos(b) * v, dy + d * mp.sin(b) * v])
 
-    start = [mp.atan2(X1, -Y1), mp.atan2(X2, -Y2), (X1 * V1 - Y1 * U1) / k**2, (X2 * V2 - Y2 * U2) / d**2]
-    return Motion(system.starting(p0, v0), rng.uniform(1, 4), by_series(right_side, start, state))
+    return Motion(system.starting(p0, v0), rng.uniform(1, 4), by_series(right_side, minimal(big(*p0), big(*v0)), state),
+                  minimal=minimal)
 
 
 def double_pendulum_in_cartesian(rng):
@@ -129,8 +141,10 @@ def ellipse(rng):
     a, b, g, q, w = rng.uniform(0.5, 2), rng.uniform(0.5, 2), rng.uniform(1, 10), rng.uniform(-3, 3), 2 * rng.normal()
     p0, v0 = [a * np.cos(q), b * np.sin(q)], [-a * np.sin(q) * w, b * np.cos(q) * w]
     A, B, G = big(a, b, g)
-    x, y, u, v = big(*p0, *v0)
-    start = [mp.atan2(y / B, x / A), (x / A * v / B - y / B * u / A)]
+
+    def minimal(p, v):
+        (x, y), (u, v) = p, v
+        return [mp.atan2(y / B, x / A), (x / A * v / B - y / B * u / A)]
 
     def right_side(t, s):
         q, w = s
@@ -143,7 +157,7 @@ def ellipse(rng):
         return [A * cosine, B * sine], [-A * sine * s[1], B * cosine * s[1]]
 
     return Motion(ellipse_system().with_parameters(a=a, b=b, g=g).starting(p0, v0), rng.uniform(1, 15),
-                  by_series(right_side, start, state))
+                  by_series(right_side, minimal(big(*p0), big(*v0)), state), minimal=minimal)
 
 
 @cache
@@ -163,7 +177,8 @@ def wire(rng):
         return [u, -1 * (x * (u * u * (A * A) + G * A)) / (x * x * (A * A) + 1)]
 
     return Motion(wire_system().with_parameters(a=a, g=g).starting([x, a * x**2 / 2], [u, a * x * u]), rng.uniform(1, 20),
-                  by_series(right_side, big(x, u), lambda t, s: ([s[0], A * s[0]**2 / 2], [s[1], A * s[0] * s[1]])))
+                  by_series(right_side, big(x, u), lambda t, s: ([s[0], A * s[0]**2 / 2], [s[1], A * s[0] * s[1]])),
+                  minimal=lambda p, v: [p[0], v[0]])
 
 
 @cache
@@ -180,7 +195,9 @@ def hung_plate(rng):
     L, b, g, q, w = rng.uniform(0.5, 2), rng.uniform(0.3, 1), rng.uniform(5, 10), rng.uniform(-0.9, 0.9), rng.uniform(-0.5, 0.5)
     p0, v0 = [L * np.sin(q), -L * np.cos(q), 0.0], [L * np.cos(q) * w, L * np.sin(q) * w, 0.0]
     length, fall = big(L, g)
-    x, y, u, v = big(*p0[:2], *v0[:2])
+
+    def minimal(p, v):
+        return turning(p[:2], v[:2], length)
 
     def right_side(t, s):
         return [s[1], taylor.sin_cos(s[0])[0] * (-fall / length)]
@@ -190,7 +207,7 @@ def hung_plate(rng):
         return [length * sine, -length * cosine, mp.mpf(0)], [length * cosine * s[1], length * sine * s[1], mp.mpf(0)]
 
     return Motion(hung_plate_system().with_parameters(L=L, b=b, g=g).starting(p0, v0), rng.uniform(1, 10),
-                  by_series(right_side, [mp.atan2(x, -y), (x * v - y * u) / length**2], state))
+                  by_series(right_side, minimal(big(*p0), big(*v0)), state), minimal=minimal)
 
 
 @cache

@@ -1,11 +1,13 @@
-"""Certified errors of `zd.reference` against true ones, for random motions known to thirty digits.
+"""Certified errors of `zd.reference` against true ones, in both precisions, for random motions known to thirty digits.
 
-Run it with ``python tests/stress/certificates.py 3000``; it takes some ten minutes and writes ``certificates.csv`` into
-``tests/bench/results/``. It exits with the number of certificates that are too small.
+Run it with ``python tests/stress/certificates.py 1000``, motions in each precision, or with a second number, of minutes after
+which it ends; it writes ``certificates.csv`` into ``tests/bench/results/``. It exits with 1 if a certificate is too small.
 """
 
+import collections
 import csv
 import sys
+import time
 from itertools import islice
 from pathlib import Path
 
@@ -18,53 +20,69 @@ sys.path.insert(0, str(TESTS))
 
 from certain_motions import FAMILIES, compare  # noqa: E402
 
+PRECISIONS = ("double", "double-double")
+
 
 def drawn():
-    """Families in turn, each time with another seed."""
+    """Families in turn, each time with another seed, in both precisions."""
     seed = 0
     while True:
-        yield from ((name, seed) for name in FAMILIES)
+        yield from ((precision, name, seed) for name in FAMILIES for precision in PRECISIONS
+                    if (precision, name) != ("double-double", "henon_in_python"))
         seed += 1
 
 
-def row(family, outcomes, refused):
+def row(precision, family, outcomes, refused):
     """Entry of the table for one family, or for all."""
     certified, true = (np.array([getattr(each, which) for each in outcomes]).reshape(-1, 2) for which in ("certified", "true"))
     seconds = np.array([outcome.seconds for outcome in outcomes]).reshape(-1, 2).sum(axis=0)
     loose = certified / np.maximum(true, np.finfo(float).tiny)
-    return {"family": family, "motions": len(outcomes), "refused": refused, "too small": int((true > certified).sum()),
-            **{f"largest true / certified, {name}": f"{(true / certified)[:, i].max():.2g}" for i, name in enumerate("pv")},
-            **{f"median certified / true, {name}": f"{np.median(loose[:, i]):.3g}" for i, name in enumerate("pv")},
+    return {"precision": precision, "family": family, "motions": len(outcomes), "refused": refused,
+            "too small": int((true > certified).any(axis=1).sum()),
+            **{f"{which} certified / true, {name}": f"{of(loose[:, i]):.3g}" for which, of in
+               (("smallest", np.min), ("median", np.median), ("largest", np.max)) for i, name in enumerate("pv")},
             "median certified, p": f"{np.median(certified[:, 0]):.2g}", "largest certified, p": f"{certified[:, 0].max():.2g}",
             "with caveats": sum(bool(outcome.caveats) for outcome in outcomes),
             "s certified": f"{seconds[0]:.0f}", "s exact": f"{seconds[1]:.0f}"}
 
 
-def main(count):
-    """So many motions; the number of certificates that are too small."""
-    found, refused = {name: [] for name in FAMILIES}, dict.fromkeys(FAMILIES, 0)
-    for name, seed in islice(drawn(), count):
-        try:
-            outcome = compare(name, seed)
-        except zd.UnreachableTolerance as error:
-            refused[name] += 1
-            print(f"{name}, seed {seed}: {error}", flush=True)
-            continue
-        found[name].append(outcome)
-        if seed % 10 == 0:
-            print(name, seed, [f"{a / b:.2g}" for a, b in zip(outcome.true, outcome.certified, strict=True)], flush=True)
-        if any(true > certified for true, certified in zip(outcome.true, outcome.certified, strict=True)):
-            print(f"{name}, seed {seed}: certified {outcome.certified}, true {outcome.true}, {outcome.caveats}", flush=True)
-    rows = [row(name, outcomes, refused[name]) for name, outcomes in found.items() if outcomes]
-    rows.append(row("all", [outcome for outcomes in found.values() for outcome in outcomes], sum(refused.values())))
+def tried(precision, name, seed):
+    """Outcome of one motion; None if no certificate is given. It is printed in any case."""
+    try:
+        outcome = compare(name, seed, precision)
+    except zd.UnreachableTolerance as error:
+        print(f"{name}, seed {seed}, {precision}: {error}", flush=True)
+        return None
+    factors = [a / max(b, np.finfo(float).tiny) for a, b in zip(outcome.certified, outcome.true, strict=True)]
+    print(f"{name}, seed {seed}, {precision}: certified {outcome.certified[0]:.2g}, {outcome.certified[1]:.2g}, over true "
+          f"{factors[0]:.3g}, {factors[1]:.3g}, {outcome.precision}", "TOO SMALL" if min(factors) < 1 else "", flush=True)
+    return outcome
+
+
+def main(count, minutes):
+    """So many motions in each precision; the number of certificates that are too small."""
+    end = time.monotonic() + 60 * minutes
+    found, refused = {}, collections.Counter()
+    for precision, name, seed in islice(drawn(), 2 * count):
+        if time.monotonic() > end:
+            break
+        outcome = tried(precision, name, seed)
+        refused[precision, name] += outcome is None
+        if outcome is not None:
+            found.setdefault((precision, name), []).append(outcome)
+    rows = [row(*key, outcomes, refused[key]) for key, outcomes in sorted(found.items(), key=lambda each: each[0][0])]
+    for precision in PRECISIONS:
+        rows.append(row(precision, "all", [each for key, outcomes in found.items() if key[0] == precision for each in outcomes],
+                        sum(number for key, number in refused.items() if key[0] == precision)))
     for each in rows:
         print(each)
     with open(TESTS / "bench" / "results" / "certificates.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
-    return rows[-1]["too small"]
+    return sum(each["too small"] for each in rows)
 
 
 if __name__ == "__main__":
-    sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 1000) > 0)
+    given = [float(each) for each in sys.argv[1:]]
+    sys.exit(main(int(given[0]) if given else 1000, given[1] if len(given) > 1 else np.inf) > 0)

@@ -20,6 +20,14 @@ def test_no_certificate_is_too_small(name):
         assert true <= certified <= 1e4 * true
 
 
+@pytest.mark.parametrize("name", ["kepler", "hung_plate", "sleigh"])
+def test_nor_beyond_double_precision(name):
+    outcome = compare(name, 1, "double-double")
+    assert outcome.precision == "double-double"
+    for certified, true in zip(outcome.certified, outcome.true, strict=True):
+        assert true <= certified <= 1e-25
+
+
 @pytest.mark.parametrize("error", [1e-4, 1e-8])
 @pytest.mark.parametrize("name", ["linear", "kepler", "wire"])
 def test_nor_is_one_that_was_asked_for(name, error):

@@ -89,15 +89,23 @@ class PreciseMotion:
 
     def projected(self, functions: Precise, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """State projected onto the constraints, which it nearly satisfies: (25a) and (25b)."""
-        if functions.mh or self.quaternions:
-            p = self._on_positions(functions, t, p, v, ())
-        return (p, self._on_velocities(functions, t, p, v, ())) if functions.m else (p, v)
+        if not functions.mh:
+            return self._normalized(p), self._on_velocities(functions, t, p, v, ())
+        found = functions.residuals(t, p, v)
+        correction = _Correction(found["M"], found["C"][: functions.mh])
+        p = self._normalized(dd.minus(p, dd.of(found["A"] @ correction.of(found["Phi"][:, 0]))))
+        if functions.mn:
+            return p, self._on_velocities(functions, t, p, v, ())
+        return p, dd.minus(v, dd.of(correction.of(functions.residuals(t, p, v)["Psi"][:, 0])))
 
     def _on_positions(self, functions: Precise, t, p, v, held: Sequence[int]) -> np.ndarray:
         mh = functions.mh
         if mh:
             found = functions.residuals(t, p, v)
-            p = dd.minus(p, dd.of(found["A"] @ _correction(found["M"], found["C"][:mh], found["Phi"][:, 0], held)))
+            p = dd.minus(p, dd.of(found["A"] @ _Correction(found["M"], found["C"][:mh], held).of(found["Phi"][:, 0])))
+        return self._normalized(p)
+
+    def _normalized(self, p: np.ndarray) -> np.ndarray:
         for first in self.quaternions:
             p = p.copy()
             p[first : first + 4] = _normalized(p[first : first + 4])
@@ -107,7 +115,7 @@ class PreciseMotion:
         if not functions.m:
             return v
         found = functions.residuals(t, p, v)
-        return dd.minus(v, dd.of(_correction(found["M"], found["C"], found["Psi"][:, 0], held)))
+        return dd.minus(v, dd.of(_Correction(found["M"], found["C"], held).of(found["Psi"][:, 0])))
 
 
 class _Run:
@@ -172,16 +180,25 @@ class _Run:
         self.done = max(self.done, stop)
 
 
-def _correction(M: np.ndarray, C: np.ndarray, residual: np.ndarray, held: Sequence[int]) -> np.ndarray:
-    """Velocity correction of minimum norm in the metric of M that removes given constraint residuals."""
-    free = np.setdiff1d(np.arange(len(M)), held)
-    C = C[:, free]
-    W = np.linalg.solve(M[np.ix_(free, free)], C.T)
-    S = C @ W
-    scale = 1 / np.sqrt(np.where(np.diag(S) > 0, np.diag(S), 1.0))
-    found = np.zeros(len(M))
-    found[free] = W @ (scale * (np.linalg.pinv(scale[:, None] * S * scale, rcond=RANK, hermitian=True) @ (scale * residual)))
-    return found
+class _Correction:
+    """Change of the velocities, shortest in the metric of M, that is subtracted to make up for residuals of constraints."""
+
+    def __init__(self, M: np.ndarray, C: np.ndarray, held: Sequence[int] = ()) -> None:
+        self.nv, self.free = len(M), np.setdiff1d(np.arange(len(M)), held) if len(held) else slice(None)
+        M, C = M[self.free][:, self.free], C[:, self.free]
+        W = np.linalg.solve(M, C.T)
+        S = C @ W
+        size = S.diagonal()
+        scale = 1 / np.sqrt(np.where(size > 0, size, 1.0))
+        values, axes = np.linalg.eigh(scale[:, None] * S * scale)
+        axes, values = axes[:, values > RANK * values[-1]], values[values > RANK * values[-1]]
+        self.matrix = (W * scale) @ (axes / values) @ (axes.T * scale)
+
+    def of(self, residual: np.ndarray) -> np.ndarray:
+        """Change (nv,) for residuals (m,)."""
+        found = np.zeros(self.nv)
+        found[self.free] = self.matrix @ residual
+        return found
 
 
 def _normalized(q: np.ndarray) -> np.ndarray:
