@@ -10,6 +10,8 @@ import warnings
 from collections.abc import Iterable
 from pathlib import Path
 
+import site_live
+
 import zerodrift as zd
 from zerodrift import errors, gallery
 from zerodrift._gateway.base import statuses
@@ -31,7 +33,8 @@ def write(folder: Path) -> None:
              "reference": reference(), **dict(films(folder))}
     (folder / "models").mkdir(exist_ok=True)
     figures(folder)
-    for name, lines in {"front.html": front(), "cards.html": cards(), **{f"{page}.md": text for page, text in pages.items()}}.items():
+    site_live.write(folder / "extra")
+    for name, lines in {"front.html": front(), "cards.html": cards(), "boards.html": site_live.boards(), **{f"{page}.md": text for page, text in pages.items()}}.items():
         path, text = folder / name, "\n".join(lines) + "\n"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")

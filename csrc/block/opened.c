@@ -37,7 +37,9 @@ static zd_opened *allocate(const zd_block *block)
     return arena.base ? take(&arena, block) : NULL;
 }
 
-static zd_opened *open_run(zd_block *block, double t, char *message, int size)
+typedef int zd_opened_first(zd_opened *self, double t, const double *p, const double *v);
+
+static zd_opened *open_run(zd_block *block, double t, zd_opened_first *begin, char *message, int size)
 {
     const double *start = zd_block_start(block);
     zd_opened *self = start ? allocate(block) : NULL;
@@ -48,19 +50,29 @@ static zd_opened *open_run(zd_block *block, double t, char *message, int size)
     self->block = block;
     int status = zd_block_settings(block, &self->settings, self->message, MESSAGE);
     self->settings.is_open = 1;
-    if (!status) status = zd_opened_restart(self, t, start, start + zd_block_system(block)->nq);
+    if (!status) status = begin(self, t, start, start + zd_block_system(block)->nq);
     if (!status) return self;
     snprintf(message, (size_t)size, "%s", self->message);
     zd_release(self);
     return NULL;
 }
 
-zd_opened *zd_opened_create(const void *data, size_t size, double t, char *message, int message_size)
+static zd_opened *open_block(const void *data, size_t size, double t, zd_opened_first *begin, char *message, int message_size)
 {
     zd_block *block = zd_block_create(data, size, message, message_size);
-    zd_opened *self = block ? open_run(block, t, message, message_size) : NULL;
+    zd_opened *self = block ? open_run(block, t, begin, message, message_size) : NULL;
     if (block && !self) zd_block_free(block);
     return self;
+}
+
+zd_opened *zd_opened_create(const void *data, size_t size, double t, char *message, int message_size)
+{
+    return open_block(data, size, t, zd_opened_restart, message, message_size);
+}
+
+zd_opened *zd_opened_create_assembled(const void *data, size_t size, double t, char *message, int message_size)
+{
+    return open_block(data, size, t, zd_opened_assemble, message, message_size);
 }
 
 void zd_opened_free(zd_opened *self)

@@ -8,6 +8,8 @@ typedef struct zd_opened zd_opened;
 
 /* Opens a run at time t from the start of the block, which must have one. NULL on failure, with the reason in `message`. */
 zd_opened *zd_opened_create(const void *data, size_t size, double t, char *message, int message_size);
+/* The same from the start projected onto the constraints: the one of a drawing, at rest, with a motor that runs. */
+zd_opened *zd_opened_create_assembled(const void *data, size_t size, double t, char *message, int message_size);
 void zd_opened_free(zd_opened *self);
 zd_block *zd_opened_block(const zd_opened *self);
 /* Settings of a run from time t on; writes the inputs to their places. Returns ZD_DONE, or ZD_BAD_ARGUMENT with a message. */

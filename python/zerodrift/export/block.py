@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from .._gateway.mechanisms import blocks
-from .._gateway.mechanisms.element_tables import law_sizes
+from .._gateway.mechanisms.element_tables import OutputSpec, law_sizes
 from ..errors import WrongType, WrongValue
 from ..mechanisms.equations.measure_tables import read
 from ..mechanisms.equations.space_tables import tables_of
@@ -143,7 +143,7 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
     """Sections of the tables, of user functions and of inputs; numbers of entries; and names of measures."""
     quantities, observed = read(tables)
     if chosen.outputs is not None:
-        observed = [row for row in observed if row.name in chosen.outputs]
+        quantities, observed = _kept(len(tables.quantities), quantities, [row for row in observed if row.name in chosen.outputs])
     measures = [row.name for row in observed]
     if len(measures) > MOST_MEASURES:
         raise WrongValue(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, "
@@ -154,6 +154,16 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
               "terms": len(sections["terms"]) // 2, "relations": len(packed.relations), "forces": len(packed.forces),
               "measures": len(packed.measures)}
     return sections, counts, measures
+
+
+def _kept(own: int, quantities: Sequence[Any], observed: Sequence[OutputSpec]) -> tuple[list[Any], list[OutputSpec]]:
+    """These measures, and the marker quantities of the elements, which are the first `own`, and of these measures."""
+    kept, found = list(quantities[:own]), []
+    for row in observed:
+        of_quantities = row.kind in ("values", "rates", "accelerations") and row.index >= own
+        found.append(row._replace(index=len(kept)) if of_quantities else row)
+        kept += quantities[row.index:row.index + row.size] if of_quantities else []
+    return kept, found
 
 
 def _parameter_sections(chosen: Chosen, sections: Mapping[str, list[float]], texts: blocks.Texts) -> dict[str, list[float]]:

@@ -16,8 +16,9 @@ export interface State {
 
 /** Compiles the core; many mechanisms may share it. */
 export function load(bytes: BufferSource): Promise<WebAssembly.Module>;
-/** Makes a mechanism from a block of `zd.block()`, with its run at time t in s. */
-export function create(core: WebAssembly.Module, block: Uint8Array | ArrayBuffer, t?: number): Mechanism;
+/** Makes a mechanism from a block of `zd.block()`, with its run at time t in s; with `assembled`, from its start projected onto the
+ * constraints. */
+export function create(core: WebAssembly.Module, block: Uint8Array | ArrayBuffer, t?: number, assembled?: boolean): Mechanism;
 export function close(m: Mechanism): void;
 export function setInput(m: Mechanism, name: string, value: number): void;
 export function input(m: Mechanism, name: string): number;
@@ -37,8 +38,12 @@ export function unit(m: Mechanism, name: string): string;
 export function freedoms(m: Mechanism): {freedoms: number; rank: number; redundant: string[]};
 /** Largest residual of the position constraints. */
 export function violation(m: Mechanism): number;
-/** Moves a measured point nearer to a target and returns the distance that is left. */
-export function pull(m: Mechanism, name: string, target: ArrayLike<number>): number;
+/** Moves a point, a measure or a function that returns its place, nearer to a target and returns the distance that is left. */
+export function pull(m: Mechanism, point: string | (() => ArrayLike<number>), target: ArrayLike<number>): number;
+/** The whole run, from which `restoreRun` continues with the same bits. */
+export function saveRun(m: Mechanism): Uint8Array;
+/** Continues a saved run of the same build of the core and the same block; another one is refused with an Error. */
+export function restoreRun(m: Mechanism, saved: Uint8Array): void;
 export function save(m: Mechanism): State;
 /** Begins a new run at a saved state; with `assembled`, at the nearest one that satisfies the constraints. */
 export function restore(m: Mechanism, state: State, assembled?: boolean): void;

@@ -55,15 +55,17 @@ function indexOf(names, name, what) {
   return index;
 }
 
-// Makes a mechanism from a block, with its run at time t.
-export function create(core, block, t = 0) {
+// Makes a mechanism from a block, with its run at time t; with `assembled`, from its start projected onto the constraints.
+export function create(core, block, t = 0, assembled = false) {
   const instance = new WebAssembly.Instance(core, noSystem(core));
   const m = {core: instance.exports};
   m.core._initialize?.();
   const bytes = block instanceof Uint8Array ? block : new Uint8Array(block);
+  m.build = digest(new Uint8Array(m.core.memory.buffer));      // tables and texts of a core that has not run
+  m.block = digest(bytes);
   const address = m.core.page_take(bytes.length || 1);
   new Uint8Array(m.core.memory.buffer).set(bytes, address);
-  m.run = m.core.page_open(address, bytes.length, t);
+  m.run = (assembled ? m.core.page_open_assembled : m.core.page_open)(address, bytes.length, t);
   m.core.page_give(address);
   if (!m.run) throw new Error(textAt(m, m.core.page_error()));
   const {core: c, run} = m;
@@ -146,16 +148,17 @@ export function violation(m) {
   return m.core.page_violation(m.run);
 }
 
-// Moves the mechanism so that a measured point comes nearer to a target, and at rest: one step of least squares by differences along the
-// coordinates, each of which the constraints follow. Returns the distance that is left.
-export function pull(m, name, target) {
-  const state = save(m), still = state.v.map(() => 0), at = read(m, name);
+// Moves the mechanism so that a point, a measure's name or a function that returns its place, comes nearer to a target, and at rest: one
+// step of least squares by differences along the coordinates, each of which the constraints follow. Returns the distance that is left.
+export function pull(m, point, target) {
+  const here = () => (typeof point === "function" ? point() : read(m, point));
+  const state = save(m), still = state.v.map(() => 0), at = Array.from(here());
   const begin = (p) => restore(m, {...state, p, v: still}, true);
   const columns = state.p.map((x, i) => {
     const p = state.p.slice(), change = 1e-6 * Math.max(1, Math.abs(x));
     p[i] += change;
     begin(p);
-    return read(m, name).map((value, k) => (value - at[k]) / change);
+    return Array.from(here(), (value, k) => (value - at[k]) / change);
   });
   const size = at.length, A = Array.from({length: size}, (_, i) => Array.from({length: size + 1}, (_, j) =>
     j === size ? target[i] - at[i] : columns.reduce((sum, column) => sum + column[i] * column[j], 0)));
@@ -167,7 +170,46 @@ export function pull(m, name, target) {
   const change = columns.map((column) => A.reduce((sum, row, i) => sum + column[i] * row[size] / row[i], 0));
   const most = 0.3 / Math.max(0.3, ...change.map(Math.abs));
   begin(state.p.map((x, i) => x + most * change[i]));
-  return Math.hypot(...read(m, name).map((value, k) => value - target[k]));
+  return Math.hypot(...Array.from(here(), (value, k) => value - target[k]));
+}
+
+// FNV-1a over the words of whole ones of these bytes.
+function digest(bytes) {
+  let sum = 0x811c9dc5;
+  for (const word of new Uint32Array(bytes.slice(0, bytes.length & ~3).buffer)) sum = Math.imul(sum ^ word, 0x01000193) >>> 0;
+  return sum;
+}
+
+const STATE = [0x6d77647a, 1], HEADER = 28;        // "zdwm" and the version of saved runs; bytes before the memory
+const PAGE = 65536, LARGEST = 4096;                // bytes of a page of memory, and its pages
+
+// The whole run: a mechanism has the core's memory for itself, so a copy of it is the run's state, with factors, pivots and step control.
+// It goes on with the same bits in any mechanism of the same build of the core and the same block.
+export function saveRun(m) {
+  const memory = new Uint8Array(m.core.memory.buffer);
+  let end = memory.length;
+  while (end && !memory[end - 1]) end--;
+  const used = memory.slice(0, end + (-end & 3)), saved = new Uint8Array(HEADER + used.length);
+  new Uint32Array(saved.buffer, 0, HEADER / 4).set([...STATE, m.build, m.block, m.run, memory.length / PAGE, digest(used)]);
+  saved.set(used, HEADER);
+  return saved;
+}
+
+// Continues a saved run; a state that is not whole, or of another build or block, is refused, and the mechanism stays.
+export function restoreRun(m, saved) {
+  const used = saved.slice(HEADER), words = new Uint32Array(saved.length < HEADER ? 7 : saved.slice(0, HEADER).buffer);
+  const [name, version, build, block, run, pages, sum] = words;
+  if (name !== STATE[0] || version !== STATE[1]) throw new Error("a saved run must begin with zdwm and its version");
+  if (build !== m.build) throw new Error("a saved run must be of the same build of the core");
+  if (block !== m.block) throw new Error("a saved run must be of the same block");
+  if (pages > LARGEST || used.length > pages * PAGE || used.length % 4 || sum !== digest(used))
+    throw new Error("a saved run must be whole: some of its bytes are missing or changed");
+  const missing = pages - m.core.memory.buffer.byteLength / PAGE;
+  if (missing > 0) m.core.memory.grow(missing);
+  const memory = new Uint8Array(m.core.memory.buffer);
+  memory.fill(0, used.length);
+  memory.set(used);
+  m.run = run;
 }
 
 // The state: time, coordinates, velocities and inputs, as JSON can keep them.

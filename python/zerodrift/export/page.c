@@ -16,6 +16,11 @@ PAGE(void *, page_take)(size_t size) { return malloc(size); }
 PAGE(void, page_give)(void *memory) { free(memory); }
 
 PAGE(zd_opened *, page_open)(const void *data, size_t size, double t) { return zd_opened_create(data, size, t, message, MESSAGE); }
+PAGE(zd_opened *, page_open_assembled)(const void *data, size_t size, double t)
+{
+    return zd_opened_create_assembled(data, size, t, message, MESSAGE);
+}
+
 PAGE(void, page_close)(zd_opened *self) { zd_opened_free(self); }
 PAGE(const char *, page_error)(void) { return message; }
 PAGE(const char *, page_message)(const zd_opened *self) { return zd_opened_message(self); }

@@ -1,0 +1,84 @@
+"""Pages of the site that simulate: the core in WebAssembly, once for all of them, and the drawing board."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+import zerodrift as zd
+from zerodrift.errors import CompilationFailed
+from zerodrift.export import wasm
+from zerodrift.mechanisms.files.to_json import described
+
+BOARD = Path(__file__).parent / "board"
+SCRIPTS = ("model.js", "block.js", "python.js", "edit.js", "fields.js", "picture.js", "board.js")      # what a script uses stands before it
+
+
+def write(folder: Path) -> None:
+    """Write the core and the drawing board; a file that would not change is left as it is."""
+    for name, text in {"core_bytes.js": core_bytes(), "board.html": board()}.items():
+        path = folder / name
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+
+
+def core_bytes() -> str:
+    """Script with the core; without the package ziglang there is none, and the pages say so."""
+    try:
+        packed = base64.b64encode(gzip.compress(wasm.core(), 9, mtime=0)).decode("ascii")
+    except CompilationFailed:
+        packed = ""
+    return f'globalThis.zerodriftCore = "{packed}";\n'
+
+
+def board() -> str:
+    """The drawing board in one file, except for the core."""
+    text = {path.name: path.read_text(encoding="utf-8") for path in BOARD.iterdir()}
+    script = plain(wasm.text("core.js")) + "".join(plain(text[name]) for name in SCRIPTS)
+    return text["board.html"].replace("/*style*/", text["board.css"]).replace("/*script*/", script)
+
+
+def plain(script: str) -> str:
+    """A module's text as part of one script."""
+    return re.sub(r"^import .*?;\n", "", re.sub(r"^export ", "", script, flags=re.MULTILINE), flags=re.MULTILINE)
+
+
+def drawn() -> dict[str, zd.Mechanism]:
+    """Mechanisms that the page of the drawing board opens on it."""
+    crank = zd.Mechanism("crank and rocker", gravity=(0, -9.81))
+    for name, start, end in (("crank", (0, 0), (0, 0.4)), ("coupler", (0, 0.4), (1.2, 0.9)), ("rocker", (1.2, 0.9), (1, 0))):
+        crank.link(name, start, end, mass=1.0)
+    crank.revolute("A", crank.ground.point((0, 0)), "crank.start")
+    crank.revolute("B", "crank.end", "coupler.start")
+    crank.revolute("C", "coupler.end", "rocker.start")
+    crank.revolute("D", crank.ground.point((1, 0)), "rocker.end")
+    crank.motor("drive", "A", speed=3.0)
+    slider = zd.Mechanism("slider and crank", gravity=(0, -9.81))
+    slider.link("crank", (0, 0), (0.2, 0.3), mass=1.0)
+    slider.link("rod", (0.2, 0.3), (1.2, 0), mass=1.0)
+    slider.revolute("main", slider.ground.point((0, 0)), "crank.start")
+    slider.revolute("pin", "crank.end", "rod.start")
+    slider.slot("guide", "ground", "rod.end", axis=(1, 0))
+    slider.spring("spring", slider.ground.point((2, 0)), "rod.end", stiffness=40.0, length=0.8, damping=0.5)
+    pendulum = zd.Mechanism("double pendulum", gravity=(0, -9.81))
+    pendulum.link("upper", (0, 0), (0.8, 0.1), mass=1.0)
+    pendulum.link("lower", (0.8, 0.1), (1.4, 0.6), mass=1.0)
+    pendulum.revolute("top", pendulum.ground.point((0, 0)), "upper.start")
+    pendulum.revolute("elbow", "upper.end", "lower.start")
+    return {each.name: each for each in (crank, slider, pendulum)}
+
+
+def address(mechanism: zd.Mechanism) -> str:
+    """Address on which the drawing board opens a mechanism."""
+    data = json.dumps(described(mechanism._drawing()), separators=(",", ":")).encode()
+    return "board.html#m=" + base64.urlsafe_b64encode(data).decode("ascii").rstrip("=")
+
+
+def boards() -> Iterable[str]:
+    """Links to the drawing board with mechanisms on it."""
+    links = [f'<a href="{address(each)}">{name}</a>' for name, each in drawn().items()]
+    yield f"<p>To begin with: {', '.join(links)}.</p>"

@@ -1,0 +1,397 @@
+"""The drawing board of the site: its blocks are those of `zd.block`, its Python text makes its file, hands and keys draw, and
+what does not fit is refused.
+"""
+
+import base64
+import functools
+import http.server
+import importlib.util
+import json
+import shutil
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import zerodrift as zd
+from browser import Browser, needs_chromium
+from support import ROOT
+from zerodrift.mechanisms.files.to_json import described
+
+BOARD = ROOT / "notebooks" / "board"
+NODE = shutil.which("node")
+needs_node = pytest.mark.skipif(not NODE, reason="needs node")
+LARGEST = 1_000_000     # bytes of the page with the core
+SECONDS = 20            # for what takes a fraction of one on a quiet machine
+
+spec = importlib.util.spec_from_file_location("site_live", ROOT / "notebooks" / "site_live.py")
+site_live = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(site_live)
+
+
+def quick_return():
+    """A slot on a moving link, a weld, a slider, damping, a torque, a given length, and a point between the ends of a link."""
+    m = zd.Mechanism("quick return", gravity=(0.5, -9.81))
+    m.link("crank", (0, 0), (0.3, 0.4), mass=1.0)
+    m.link("arm", (0, -0.9), (0.6, 1.7), mass=2.0)
+    m.link("top", (0.6, 1.7), (0.9, 1.7), mass=1.0, length=0.3)
+    m.link("ram", (1.5, 0.5), (2.0, 0.5), mass=1.0)
+    m.revolute("A", m.ground.point((0, 0)), "crank.start", damping=0.1)
+    m.revolute("B", m.ground.point((0, -0.9)), "arm.start")
+    m.slot("groove", "arm", "crank.end", axis=(0.6, 2.6))
+    m.weld("W", "arm.end", "top.start")
+    m.prismatic("guide", m.ground.point((2.0, 0.5)), "ram.end", axis=(1, 0), damping=2.0)
+    m.spring("spring", m["arm"].point((0.5, 0)), "ram.start", stiffness=30.0, length=1.2, damping=0.5)
+    m.motor("drive", "A", torque=3.0)
+    m.motor("push", "guide", force=-1.0)
+    return m
+
+
+def portal():
+    """The same parts with links along the axes, whose angles have the same bits in every library."""
+    m = zd.Mechanism("portal", gravity=(0.5, -9.81))
+    m.link("left", (0, 0), (0, 0.7), mass=1.0)
+    m.link("beam", (0, 0.7), (1.1, 0.7), mass=2.0)
+    m.link("right", (1.1, 0.7), (1.1, 0), mass=1.0)
+    m.link("top", (1.1, 0.7), (1.1, 0.9), mass=1.0, length=0.3)
+    m.link("ram", (0.3, 0.7), (0.3, 0.2), mass=1.0)
+    m.revolute("A", m.ground.point((0, 0)), "left.start", damping=0.1)
+    m.revolute("B", "left.end", "beam.start")
+    m.revolute("C", "beam.end", "right.start")
+    m.slot("rail", "ground", "right.end", axis=(0, 1))
+    m.weld("W", "beam.end", "top.start")
+    m.slot("groove", "beam", "ram.start", axis=(1, 0))
+    m.prismatic("guide", m.ground.point((0.3, 0.2)), "ram.end", axis=(1, 0), damping=2.0)
+    m.spring("spring", m["beam"].point((0.5, 0)), "ram.end", stiffness=30.0, length=1.2, damping=0.5)
+    m.motor("drive", "A", speed=3.0)
+    m.motor("push", "guide", force=-1.0)
+    return m
+
+
+MECHANISMS = {name: functools.partial(site_live.drawn().__getitem__, name) for name in site_live.drawn()}
+MECHANISMS |= {"quick return": quick_return, "portal": portal}
+
+
+def in_node(script, folder):
+    """Objects that a script prints, with all functions of the board."""
+    for path in BOARD.glob("*.js"):
+        shutil.copy(path, folder)
+    (folder / "package.json").write_text('{"type": "module"}')
+    imports = "".join(f'import * as {name} from "./{name}.js";\n' for name in ("model", "block", "python"))
+    (folder / "main.mjs").write_text(imports + 'import {readFileSync, writeFileSync} from "node:fs";\n'
+                                     "const tell = (value) => console.log(JSON.stringify(value));\n" + script)
+    result = subprocess.run([NODE, "main.mjs"], cwd=folder, capture_output=True, text=True, check=False, timeout=60)
+    assert result.returncode == 0, result.stderr
+    return [json.loads(line) for line in result.stdout.splitlines()]
+
+
+def saved(mechanism):
+    return json.dumps(described(mechanism._drawing()))
+
+
+@needs_node
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_its_blocks_are_those_of_the_package(name, tmp_path):
+    m = MECHANISMS[name]()
+    (tmp_path / "m.json").write_text(saved(m))
+    start, = in_node("""const m = model.parsedModel(readFileSync("m.json", "utf8"));
+        writeFileSync("m.block", block.blockOf(m)); tell(block.drawnStart(m));""", tmp_path)
+    system = m.system("absolute")
+    outputs = [each for each in system._watching.number if each.endswith((".force", ".torque", ".power"))]
+    ours, found = zd.block(system, start["p"], start["v"], step=1e-3, outputs=outputs), (tmp_path / "m.block").read_bytes()
+    if name == "portal":
+        assert found == ours
+        return
+    # arc tangents of JavaScript and of C are rounded differently: angles, and coordinates that follow from them
+    words, expected = np.frombuffer(found), np.frombuffer(ours)
+    assert words.shape == expected.shape
+    differ = np.flatnonzero(words.view(np.uint64) != expected.view(np.uint64))
+    assert np.abs(words[differ] - expected[differ]).max(initial=0.0) < 1e-15
+    assert not np.any(expected[differ] == np.round(expected[differ]))
+
+
+@needs_node
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_its_python_text_makes_its_file_and_runs(name, tmp_path):
+    m = MECHANISMS[name]()
+    (tmp_path / "m.json").write_text(saved(m))
+    (text, again), = in_node("""const m = model.parsedModel(readFileSync("m.json", "utf8"));
+        tell([python.pythonOf(m, 0.01), model.modelOfAddress(model.addressOf(m))]);""", tmp_path)
+    names = {}
+    exec(compile(text, "board", "exec"), names)
+    assert names["sol"].t[-1] == pytest.approx(0.01)
+    made = described(names["m"]._drawing())
+    for ours, theirs in zip(made.pop("elements"), again["elements"], strict=True):
+        assert ours.keys() == theirs.keys()
+        for key, value in ours.items():
+            near = pytest.approx(value, abs=1e-15) if key == "axis" else value     # turned there and back
+            assert theirs[key] == near, key
+    assert made == {key: value for key, value in again.items() if key != "elements"}
+
+
+HOSTILE = {
+    "m.zerodrift = 'film'": "a mechanism must begin with",
+    "m.dimension = 3": "in the plane",
+    "m.more = 1": "must not have more",
+    "delete m.gravity": "must have gravity",
+    "m.gravity = [0, null]": "must be a number",
+    "m.gravity = [0, 1e300]": "must be a number",
+    "m.elements = Array(201).fill(m.elements[0])": "at most 200 elements",
+    "m.elements[0].kind = 'constructor'": "must be one of link",
+    "m.elements[0].kind = '__proto__'": "must be one of link",
+    "m.elements[0].name = '<img onerror=alert(1)>'": "must have a name",
+    "m.elements[0].name = 'a\\\"; import os'": "must have a name",
+    "m.elements[1].name = m.elements[0].name": "is taken",
+    "m.elements[0].name = 'ground'": "is taken",
+    "m.elements[0].mass = -1": "must be a number from 0",
+    "m.elements[0].mass = '1'": "must be a number",
+    "m.elements[0].end = m.elements[0].start": "different places",
+    "m.elements[0].length = 0": "must be positive",
+    "m.elements[0].script = ''": "must not have script",
+    "m.elements[4].first = 'nothing.end'": "a link that stands before",
+    "m.elements[4].first = 'crank.end.start'": "a link that stands before",
+    "m.elements[4].second = m.elements[4].first": "must join two bodies",
+    "m.elements[3].first.local = [0]": "two numbers",
+    "m.elements[3].cut = true": "must be false",
+    "m.elements[7].joint = 'rocker'": "must have a joint",
+    "m.elements[7].drives = 'torque.x'": "must drive speed or torque",
+    "m.elements[7].law = {}": "must be a number",
+    "m.elements.push({...m.elements[7], name: 'again'})": "the only motor",
+    "m.start = {x: 1}": "must not have x",
+    "m.elements[0] = null": "must be one of",
+}
+
+
+@needs_node
+def test_hostile_files_and_addresses_are_refused_with_a_sentence(tmp_path):
+    (tmp_path / "m.json").write_text(saved(MECHANISMS["crank and rocker"]()))
+    cases = json.dumps(list(HOSTILE))
+    told = in_node(f"""const text = readFileSync("m.json", "utf8");
+        for (const change of {cases}) {{
+          const m = JSON.parse(text);
+          new Function("m", change)(m);
+          try {{ model.checkedModel(m); tell("accepted"); }} catch (error) {{ tell(error.message); }}
+        }}
+        for (const given of ["[]", "null", "{{", "1", "x".repeat(100001), '{{"__proto__": {{}}}}'])
+          try {{ model.parsedModel(given); tell("accepted"); }} catch (error) {{ tell(error.message); }}
+        const part = model.addressOf(JSON.parse(text)).slice(0, -9);
+        for (const given of ["#m=", "#m=!!", "#m=abc", "#m=" + "A".repeat(200001), "#m=////", part])
+          try {{ model.modelOfAddress(given); tell("accepted"); }} catch (error) {{ tell(error.message); }}""", tmp_path)
+    for (change, sentence), found in zip(HOSTILE.items(), told, strict=False):
+        assert sentence in found, (change, found)
+    assert all(" must " in each for each in told), told
+
+
+# ---- in Chromium ----
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    """Address of a folder with the board, on this machine."""
+    pytest.importorskip("ziglang")
+    folder = tmp_path_factory.mktemp("board")
+    site_live.write(folder)
+    assert sum(each.stat().st_size for each in folder.iterdir()) < LARGEST
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    serving = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=str(folder)))
+    threading.Thread(target=serving.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{serving.server_address[1]}/board.html"
+    serving.shutdown()
+    serving.server_close()
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    with Browser(tmp_path_factory.mktemp("profile")) as opened:
+        yield opened
+
+
+def opened(browser, url, **look):
+    """Opens the board, and returns how long that took, in s."""
+    browser.open("about:blank")
+    begin = time.monotonic()
+    browser.open(url, **look)
+    wait_for(browser, "globalThis.zerodrift ? zerodrift.board.pictures > 0 : false")
+    return time.monotonic() - begin
+
+
+def wait_for(browser, condition):
+    end = time.monotonic() + SECONDS
+    while not browser.evaluate(condition):
+        assert time.monotonic() < end, (condition, browser.errors)
+        time.sleep(0.02)
+
+
+def told(browser):
+    return browser.evaluate("document.getElementById('told').textContent")
+
+
+def address(mechanism):
+    return site_live.address(mechanism).partition("#")[2]
+
+
+def on_screen(browser, x, y):
+    return browser.evaluate(f"""(() => {{ const box = document.getElementById("board").getBoundingClientRect(),
+        [x, y] = zerodrift.painter.toScreen([{x}, {y}]); return [x + box.left, y + box.top]; }})()""")
+
+
+def draw(browser, tool, *places):
+    browser.evaluate(f"document.querySelector('[data-tool={tool}]').click()")
+    for place in places:
+        browser.click(*on_screen(browser, *place))
+
+
+def model(browser):
+    return browser.evaluate("zerodrift.board.model")
+
+
+def count(browser):
+    return browser.evaluate("zerodrift.freedoms(zerodrift.board.mechanism)")
+
+
+@needs_chromium
+def test_a_four_bar_is_drawn_by_a_mouse_and_its_address_opens_it_in_another_browser(browser, server, tmp_path):
+    opened(browser, server, width=1280, height=800)
+    browser.evaluate("Object.assign(zerodrift.painter.view, {x: -2, y: 2.5, scale: 160})")
+    for ends in (((0, 0), (0, 0.5)), ((0, 0.5), (1.5, 1)), ((1.5, 1), (1, 0))):
+        draw(browser, "link", *ends)
+    draw(browser, "pin", (0, 0), (1, 0))
+    assert count(browser) == {"freedoms": 1, "rank": 8, "redundant": []}
+    draw(browser, "motor", (0, 0))
+    assert count(browser)["freedoms"] == 0
+    draw(browser, "spring", (2, 1), (0.75, 0.75))
+    drawn = model(browser)
+    kinds = [each["kind"] for each in drawn["elements"]]
+    assert kinds == ["link", "link", "revolute", "link", "revolute", "revolute", "revolute", "motor", "spring"]
+    assert drawn["elements"][-1]["second"] == {"body": "link2", "local": [pytest.approx(0.79, abs=0.01), 0]}
+    assert told(browser) == ""
+    url = browser.evaluate("location.href")
+    reactions = browser.evaluate("document.getElementById('reactions').textContent")
+    with Browser(tmp_path / "another profile") as another:
+        opened(another, url)
+        assert model(another) == drawn
+        assert another.errors == []
+    (tmp_path / "board.json").write_text(json.dumps(drawn))
+    m = zd.load(tmp_path / "board.json")
+    sol = zd.simulate(m, 1e-3, step=1e-3)
+    assert "pin1.force" in reactions
+    shown = browser.evaluate("[...zerodrift.read(zerodrift.board.mechanism, 'pin3.force')]")
+    assert shown == pytest.approx(sol["pin3.force"][0].tolist(), rel=1e-9, abs=1e-9)
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_it_plays_and_an_end_is_pulled(browser, server):
+    opened(browser, f"{server}#{address(MECHANISMS['double pendulum']())}")
+    browser.press("p")
+    wait_for(browser, "zerodrift.board.mechanism && zerodrift.time(zerodrift.board.mechanism) > 0.2")
+    assert browser.evaluate("zerodrift.violation(zerodrift.board.mechanism)") < 1e-10
+    browser.press("p")
+    far = "(() => { const p = zerodrift.positions(zerodrift.board.mechanism); return Math.hypot(p[3] - 0.5, p[4] + 0.5); })()"
+    at = browser.evaluate("""(() => { const p = zerodrift.positions(zerodrift.board.mechanism);
+        return [p[3] + Math.cos(p[5]) * 0.39, p[4] + Math.sin(p[5]) * 0.39]; })()""")
+    before, place = browser.evaluate(far), on_screen(browser, *at)
+    goal = on_screen(browser, 0.7, -0.8)
+
+    def mouse(kind, at, **more):
+        browser("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left", clickCount=1, **more)
+
+    mouse("mousePressed", place, buttons=1)
+    for share in (0.5, 1):
+        mouse("mouseMoved", (1 - share) * np.array(place) + share * np.array(goal), buttons=1)
+    wait_for(browser, f"Math.abs({far} - {before}) > 0.05")
+    mouse("mouseReleased", goal)
+    assert browser.evaluate("zerodrift.violation(zerodrift.board.mechanism)") < 1e-10
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_it_is_drawn_by_keys_alone(browser, server):
+    opened(browser, server)
+    browser.evaluate("document.getElementById('board').focus()")
+    browser.press("l")
+    for key in ("ArrowRight", "Enter", *["ArrowRight"] * 8, "Enter"):
+        browser.press(key)
+    browser.press("g")
+    browser.press("Enter")
+    browser.press("m")
+    browser.press("Enter")
+    assert [each["kind"] for each in model(browser)["elements"]] == ["link", "revolute", "motor"]
+    assert count(browser)["freedoms"] == 0
+    browser.press("Delete")
+    assert [each["kind"] for each in model(browser)["elements"]] == ["link", "revolute"]
+    browser.press("p")
+    wait_for(browser, "zerodrift.time(zerodrift.board.mechanism) > 0.05")
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_it_is_drawn_by_a_finger_on_a_telephone(browser, server):
+    opened(browser, server, width=400, height=800)
+    browser("Emulation.setTouchEmulationEnabled", enabled=True)
+    browser.evaluate("Object.assign(zerodrift.painter.view, {x: -0.5, y: 2, scale: 160})")
+
+    def finger(kind, *place):
+        points = [dict(zip("xy", on_screen(browser, *place), strict=True))] if place else []
+        browser("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+
+    browser.evaluate("document.querySelector('[data-tool=link]').click()")
+    for kind, *place in (("touchStart", 0, 0), ("touchMove", 0.5, 0.2), ("touchMove", 1, 0.5), ("touchEnd",)):
+        finger(kind, *place)
+    assert model(browser)["elements"][0]["end"] == pytest.approx([1, 0.5], abs=0.06)
+    browser.evaluate("document.querySelector('[data-tool=move]').click()")
+    for kind, *place in (("touchStart", 1, 0.5), ("touchMove", 1, 0.8), ("touchMove", 1, 1), ("touchEnd",)):
+        finger(kind, *place)
+    browser("Emulation.setTouchEmulationEnabled", enabled=False)
+    assert model(browser)["elements"][0]["end"] == pytest.approx([1, 1], abs=0.06)
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_a_typed_length_is_kept_and_one_that_cannot_close_is_refused(browser, server):
+    opened(browser, f"{server}#{address(MECHANISMS['crank and rocker']())}")
+
+    def type_length(value):
+        browser.evaluate(f"""(() => {{
+            const type = (field, value) => {{ field.value = value; field.dispatchEvent(new Event("change")); }};
+            type(document.getElementById("parts"), "coupler");
+            type(document.querySelectorAll("#values input")[1], "{value}"); }})()""")
+        return next(each for each in model(browser)["elements"] if each["name"] == "coupler")
+
+    coupler = type_length(1.4)
+    assert coupler["length"] == 1.4
+    assert np.hypot(*np.subtract(coupler["end"], coupler["start"])) == pytest.approx(1.4, abs=1e-12)
+    assert told(browser) == ""
+    assert browser.evaluate("zerodrift.violation(zerodrift.board.mechanism)") < 1e-12
+    assert type_length(9) == coupler
+    assert told(browser).startswith("length, m cannot be 9: ")
+    assert type_length("long") == coupler
+    assert told(browser) == "length, m cannot be long: A number is needed"
+    assert count(browser)["freedoms"] == 0
+    assert browser.errors == []
+
+
+@needs_chromium
+def test_a_hostile_address_says_so_and_nothing_else_happens(browser, server):
+    hostile = described(MECHANISMS["double pendulum"]()._drawing())
+    hostile["elements"][0]["name"] = "<img src=x onerror=alert(1)>"
+    data = base64.urlsafe_b64encode(json.dumps(hostile).encode()).decode().rstrip("=")
+    for text in (data, data[:-5], "%3Cscript%3E"):
+        opened(browser, f"{server}#m={text}")
+        assert told(browser).startswith("The address is refused: ")
+        assert model(browser)["elements"] == []
+        assert browser.errors == []
+
+
+@needs_chromium
+@pytest.mark.parametrize(("width", "dark"), [(1280, False), (400, True)])
+def test_it_can_be_read_by_everybody(browser, server, width, dark):
+    seconds = opened(browser, f"{server}#{address(MECHANISMS['slider and crank']())}", width=width, height=800, dark=dark)
+    assert seconds < SECONDS
+    assert browser.evaluate((ROOT / "tests" / "page_checks.js").read_text(encoding="utf-8")) == []
+    assert browser.errors == []
