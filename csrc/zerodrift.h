@@ -316,13 +316,29 @@ typedef struct zd_open_runs {
     zd_run *const *run;         /* (runs,) open runs of systems of one shape that do not call Python */
     int *status;                /* (runs,) of the last advance; a run that has failed (negative) is not advanced */
     double *t, *p, *v;          /* (runs,), (runs, nq), (runs, nv): present states */
+    const double *const *data;  /* (runs,) numbers of each system, for SIMD lanes; NULL: there are none */
+    int64_t doubles;            /* their count */
 } zd_open_runs;
+
+typedef struct zd_open_lanes zd_open_lanes;
 
 /* Advances the runs from `first` on, so many steps each, or to a time if that comes first; and stores their states. A run stops at a
  * terminal event. Several threads may advance different ones at the same time. */
 void zd_open_runs_advance(const zd_open_runs *self, int64_t first, int64_t count, int64_t steps, double t);
 /* Stores the states only. */
 void zd_open_runs_read(const zd_open_runs *self, int64_t first, int64_t count);
+
+/* True if SIMD lanes suit the system and the settings of a run, provided that it has closed-form functions for them. */
+int zd_lanes_serve_settings(const zd_system *system, const zd_settings *settings);
+/* SIMD lanes for the runs from `first` on, in which each run has the bits that it has alone; NULL if they do not serve these runs. */
+zd_open_lanes *zd_open_lanes_create(const zd_open_runs *runs, int64_t first, int64_t count);
+void zd_open_lanes_free(zd_open_lanes *self);
+/* zd_open_runs_advance() of these runs. A run itself may then be behind its lane. */
+void zd_open_lanes_advance(zd_open_lanes *self, int64_t steps, double t);
+/* Brings run i, which is behind its lane, to the present state; returns its status. */
+int zd_open_lanes_settle(zd_open_lanes *self, int64_t i);
+/* Run i is replaced by another one. */
+void zd_open_lanes_forget(zd_open_lanes *self, int64_t i);
 
 /* ---- saved states ---- */
 

@@ -163,6 +163,7 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
         .weight = run->safeguards.resolution.weight, .order_of_method = run->stepper.integrator->card.order,
     };
     take_states(self, arena, doubles, system->inputs);
+    self->states = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
     take_workspace(self, arena);
     self->count = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
     self->pins = pins ? zd_lane_pins_take(arena, pins, self->lanes) : NULL;

@@ -24,15 +24,20 @@ static int are_known(const zd_events *events)
     return 1;
 }
 
+int zd_lanes_serve_settings(const zd_system *system, const zd_settings *settings)
+{
+    return !system->quaternions && !settings->outputs && !settings->given_jacobian && !(settings->max_move > 0)
+        && system->mh + system->mn <= system->nv && zd_takes_direct(settings) && !zd_takes_embeddings(settings)
+        && zd_integrator_of(settings->integrator)->take == zd_runge_kutta_take;
+}
+
 int zd_lanes_serve(const zd_batch *batch)
 {
     const zd_system *system = batch->system;
     const zd_settings *settings = batch->settings;
     const zd_closed_form *direct;
-    if (!batch->lanes || batch->settings_differ || batch->family || system->quaternions || settings->outputs || !are_known(settings->events)
-        || settings->given_jacobian || settings->max_move > 0 || system->mh + system->mn > system->nv || !zd_takes_direct(settings)
-        || zd_takes_embeddings(settings)
-        || zd_integrator_of(settings->integrator)->take != zd_runge_kutta_take)
+    if (!batch->lanes || batch->settings_differ || batch->family || !are_known(settings->events)
+        || !zd_lanes_serve_settings(system, settings))
         return 0;
     if (are_of_pins(batch)) return zd_lanes_of_unit(settings->vector) > 0;
     return batch->doubles && !system->structure && zd_lane_functions_of(system, settings->vector, &direct) != NULL;
@@ -47,9 +52,7 @@ static int rest_serves(const zd_run *run)
     return !motion->is_stabilized;
 }
 
-/* True if lanes can make the corrections: none, or projection of positions and velocities in the mass metric with those that follow it;
- * with pins, in each step. */
-static int run_serves(const zd_run *run)
+int zd_lanes_serve_run(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
     const zd_constraint_target *target = &motion->target;
@@ -281,7 +284,7 @@ int zd_run_side_by_side(const zd_batch *batch, const zd_single_run *own)
     if (!run) return ZD_DONE;
     zd_pins_plan plan, *pins = are_of_pins(batch) ? &plan : NULL;
     int status = ZD_DONE;
-    if (!run_serves(run))
+    if (!zd_lanes_serve_run(run))
         for (int64_t i = first; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run_execute(batch, own, i);
     else if (!pins) status = run_in_lanes(batch, own, run, first, NULL);
     else if (zd_pins_plan_find(pins, batch->system->pinned)) {

@@ -75,6 +75,12 @@ int zd_inputs_read(zd_run *run)
     return ZD_DONE;
 }
 
+void zd_inputs_write(zd_run *run)
+{
+    write(run, 0);
+    run->held.is_new = 0;
+}
+
 int zd_inputs_begin_step(zd_run *run)
 {
     zd_held_inputs *held = &run->held;

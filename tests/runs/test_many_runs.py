@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from restored_runs import crank
+from zerodrift import _gateway
 
 
 def cart_pole(**parameters):
@@ -103,3 +105,122 @@ def test_wrong_arguments_of_many_runs_are_refused():
     many = zd.Run(cart_pole(), runs=2, step=0.01)
     with pytest.raises(KeyError, match="there are none"):
         many["drive.force"] = 1.0
+
+
+# ---- SIMD lanes ----
+
+
+class Pair:
+    """Many runs, and the same ones alone: whatever is done to both, they have the same bits."""
+
+    def __init__(self, system, count, **settings):
+        self.many = zd.Run(system, runs=count, **settings)
+        self.alone = [zd.Run(system, **settings) for _ in range(count)]
+        self.dead = set()
+
+    def set(self, name, values):
+        self.many[name] = values
+        for run, value in zip(self.alone, values, strict=True):
+            run[name] = value
+
+    def step(self, steps):
+        self.many.step(steps)
+        for i, run in enumerate(self.alone):
+            if i not in self.dead:
+                try:
+                    run.step(steps)
+                except zd.ZerodriftError:
+                    self.dead.add(i)
+        assert set(np.flatnonzero(self.many.failed).tolist()) == self.dead
+        assert np.array_equal(self.many.t, [run.t for run in self.alone])
+        assert np.array_equal(self.many.p, [run.p for run in self.alone])
+        assert np.array_equal(self.many.v, [run.v for run in self.alone])
+
+    def reset(self, where):
+        self.many.reset(where=where)
+        for i in np.flatnonzero(where).tolist():
+            self.alone[i].reset()
+            self.dead.discard(i)
+
+    def save(self):
+        return self.many.save(), [run.save() for run in self.alone]
+
+    def restore(self, states, where):
+        self.many.restore([states[0][i] for i in np.flatnonzero(where)], where=where)
+        for i in np.flatnonzero(where).tolist():
+            self.alone[i].restore(states[1][i])
+
+
+CASES = {       # system, input and its range, step; the third one leaves the closed form in one of ten steps, and may fail
+    "cart-pole": (lambda: cart_pole().system(compiled=True), "drive.force", 10.0, 0.02),
+    "crank": (lambda: crank("torque").system(compiled=True), "drive.torque", 10.0, 0.005),
+    "violent crank": (lambda: crank("torque").system(compiled=True), "drive.torque", 60.0, 0.03),
+    "built in": (zd.systems.four_bar, None, 0.0, 0.01),
+}
+
+
+@pytest.mark.parametrize("vector", ["baseline", None])
+@pytest.mark.parametrize("case", CASES)
+def test_runs_in_lanes_have_the_bits_that_they_have_alone(case, vector):
+    """Inputs jump, runs are saved, restored and reset, in any order; 18 runs fill no number of lanes."""
+    make, name, largest, step = CASES[case]
+    rng, settings = np.random.default_rng(4), {"inputs": [name]} if name else {}
+    pair = Pair(make(), 18, step=step, vector=vector, **settings)
+    unit = pair.many.settings["vector"]
+    assert all(map(bool, pair.many._core.lanes)) == _gateway.has_lanes(unit)
+    states = pair.save()
+    for action in ("step", "save", "step", "reset", "step", "restore", "step", "save", "restore", "step", "reset", "step"):
+        where = (rng.random(18) < 0.4) & [i not in pair.dead for i in range(18)]
+        if action == "save":
+            states = pair.save()
+        elif action == "restore":
+            pair.restore(states, where)
+        elif action == "reset":
+            pair.reset(where)
+        for _ in range(5 if action == "step" else 0):
+            if name and rng.random() < 0.7:
+                pair.set(name, rng.uniform(-largest, largest, 18))
+            pair.step(int(rng.integers(1, 12)))
+    for i, run in enumerate(pair.alone):
+        ours, its = pair.many._core[i].results().statistics, run._core.results().statistics
+        assert (ours.steps, ours.direct_steps) == (its.steps, its.direct_steps)
+
+
+def test_a_state_from_a_lane_continues_in_one_run():
+    system = cart_pole().system(compiled=True)
+    many = zd.Run(system, runs=16, step=0.02, inputs=["drive.force"])
+    many["drive.force"] = np.linspace(-1.0, 1.0, 16)
+    many.step(7)
+    one = zd.Run(system, step=0.02, inputs=["drive.force"])
+    one.restore(many.save()[15])
+    many.step(50)
+    one.step(50)
+    assert np.array_equal(one.p, many.p[15])
+    assert one["hinge.force"].tolist() == many["hinge.force"][15].tolist()
+
+
+def test_lanes_reach_times_between_steps_and_go_on():
+    pair = Pair(cart_pole().system(compiled=True), 16, step=0.02, inputs=["drive.force"])
+    pair.set("drive.force", np.linspace(-1.0, 1.0, 16))
+    for t in (0.1, 0.205, 0.3):
+        pair.many.advance_to(t)
+        for run in pair.alone:
+            run.advance_to(t)
+        assert pair.many.t.tolist() == [run.t for run in pair.alone]
+        pair.step(3)
+    pair.reset(np.ones(16, dtype=bool))
+    pair.step(3)
+
+
+def test_a_run_in_a_lane_with_a_refused_input_stays_and_the_others_go_on():
+    many = zd.Run(cart_pole().system(compiled=True), runs=16, step=0.01, inputs={"drive.force": (-10.0, 10.0)})
+    many.step(2)
+    many["drive.force"] = [11.0, np.nan, *[1.0] * 14]
+    many.step(5)
+    assert many.failed.tolist() == [True, True, *[False] * 14]
+    assert many.t.tolist() == pytest.approx([0.02, 0.02, *[0.07] * 14])
+    assert "between -10 and 10, not 11" in many.messages[0]
+    assert "must be finite" in many.messages[1]
+    many.reset(where=many.failed)
+    many.step(1)
+    assert many.t.tolist() == pytest.approx([0.01, 0.01, *[0.08] * 14])

@@ -40,15 +40,16 @@ typedef struct ZD_NAMED(summands) {
     zd_real factor[ZD_MOST_STAGES];
 } ZD_NAMED(summands);
 
-/* n adjacent sums, of the numbers from i on; with constant n they stay in registers. */
-ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(add)(const int n, const ZD_NAMED(summands) *of, int i, const zd_stored *from, zd_stored *to)
+/* n adjacent sums, of the numbers from i on; with constant n they stay in registers. `fused`: products are not rounded. */
+ZD_ON_UNIT ZD_SINES_INLINE void ZD_NAMED(add)(const int n, const int fused, const ZD_NAMED(summands) *of, int i, const zd_stored *from,
+                                              zd_stored *to)
 {
     zd_real sum[ZD_SUMS];
     for (int j = 0; j < n; j++) sum[j] = from ? (zd_real)from[i + j] : ZD_SPLAT(0.0);
     for (int term = 0; term < of->count; term++) {
         const zd_stored *k = of->k[term] + i;
         const zd_real factor = of->factor[term];
-        for (int j = 0; j < n; j++) sum[j] = ZD_FMA(factor, k[j], sum[j]);
+        for (int j = 0; j < n; j++) sum[j] = fused ? ZD_FMA(factor, k[j], sum[j]) : sum[j] + factor * k[j];
     }
     for (int j = 0; j < n; j++) to[i + j] = sum[j];
 }
@@ -63,8 +64,12 @@ ZD_KERNEL void ZD_NAMED(combine)(const zd_lanes *self, int begin, int count, con
         of.factor[j] = h * w->weight[j];
     }
     int i = begin;
-    for (; i + ZD_SUMS <= begin + count; i += ZD_SUMS) ZD_NAMED(add)(ZD_SUMS, &of, i, REAL(from), REAL(to));
-    for (; i < begin + count; i++) ZD_NAMED(add)(1, &of, i, REAL(from), REAL(to));
+    if (self->rounds_products) {
+        for (; i + ZD_SUMS <= begin + count; i += ZD_SUMS) ZD_NAMED(add)(ZD_SUMS, 0, &of, i, REAL(from), REAL(to));
+        for (; i < begin + count; i++) ZD_NAMED(add)(1, 0, &of, i, REAL(from), REAL(to));
+    }
+    for (; i + ZD_SUMS <= begin + count; i += ZD_SUMS) ZD_NAMED(add)(ZD_SUMS, 1, &of, i, REAL(from), REAL(to));
+    for (; i < begin + count; i++) ZD_NAMED(add)(1, 1, &of, i, REAL(from), REAL(to));
 }
 
 #include "pins.h"

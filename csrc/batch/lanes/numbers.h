@@ -35,6 +35,7 @@ typedef struct zd_lanes {
     int lanes, nq, nv, m, mh, size;     /* size: of the state y = p, v and, if required, the energy input */
     int has_A, has_input, max_iterations, corrects;
     int is_fixed;
+    int rounds_products;                /* true if sums over stages have the bits of a single run, whose products are not fused */
     double t0, end, step, steps;        /* steps: number of fixed steps */
     double rtol, atol, longest, tiny, most_steps, save_every, decay;
     double every;                       /* number of steps between projections; the last step is projected, too */
@@ -49,7 +50,7 @@ typedef struct zd_lanes {
     const zd_watched *watched;          /* (events,) if events are of entries of y */
     /* Per lane: the lanes of each number are adjacent. A condition is 1 if it holds, else 0. */
     double *first;          /* first number of all */
-    int64_t count;          /* total number per lane */
+    int64_t count, states;  /* total number per lane; number of those that are kept from one advance to the next, which come first */
     double *data;           /* (doubles,): data of the systems */
     double *inputs;         /* (2 inputs + 1,): inputs of the systems; NULL without inputs */
     double *from_zero;      /* contiguous numbers that are 0 at the start of a run */
@@ -104,6 +105,8 @@ typedef struct zd_lane_functions {
     int lanes;
     /* Chooses the order of elimination of lanes in which it is NAN, and evaluates the accelerations there. */
     void (*choose)(zd_lanes *self);
+    /* Evaluates the accelerations anew, after a change of data, with the orders of elimination of the lanes. */
+    void (*renew)(zd_lanes *self);
     /* Makes steps until a lane requires attention. */
     void (*advance)(zd_lanes *self);
     /* y_sample <- state at t_sample in lanes with is_wanted, on the constraints; with `multipliers`, lambda_sample, too. */

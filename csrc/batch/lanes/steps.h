@@ -203,6 +203,12 @@ ZD_KERNEL void ZD_NAMED(choose)(zd_lanes *self)
     *REAL(self->speed) = speed;
 }
 
+ZD_KERNEL void ZD_NAMED(renew)(zd_lanes *self)
+{
+    const ZD_NAMED(rates) to = {self->pdot, self->vdot, NULL, self->has_input ? self->power : NULL, self->pivots};
+    ZD_NAMED(accelerate)(self, self->t, self->y, self->y + self->nq * ZD_LANES, &to);
+}
+
 /* ---- step-size control ---- */
 
 /* 1 / x^(1 / k) for x between 2^-40 and 2^40: Halley's iteration from a guess by the bits of x, which are nearly its logarithm */

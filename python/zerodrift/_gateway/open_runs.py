@@ -54,6 +54,11 @@ class OpenRun(Run):
         """Number of steps made."""
         return lib.zd_run_step_number(self.c)
 
+    @property
+    def lane_numbers(self) -> Any:
+        """Numbers of the system, as SIMD lanes read them; None: it has no closed-form functions."""
+        return self._core.lane_numbers
+
     def aim(self, steps: int, t: float) -> int:
         """Set the goal, a number of steps or a time; return the status."""
         return lib.zd_run_aim(self.c, steps, t)
@@ -98,15 +103,23 @@ class OpenRun(Run):
 class ManyOpenRuns:
     """Open runs of systems of one shape, which do not call Python.
 
+    Parameters
+    ----------
+    runs : sequence of OpenRun
+    parts : sequence of (int, int)
+        Runs that one thread advances: the first one, and their number.
+
     Attributes
     ----------
     status : ndarray (runs,) of int
         Of the last advance; a run that has failed, with a negative one, is not advanced.
     t, p, v : ndarray (runs,), (runs, nq), (runs, nv)
         Present states.
+    lanes : list
+        SIMD lanes of each part; NULL: its runs are made one by one.
     """
 
-    def __init__(self, runs: Sequence[OpenRun]) -> None:
+    def __init__(self, runs: Sequence[OpenRun], parts: Sequence[tuple[int, int]]) -> None:
         self._runs, (nq, nv, _) = list(runs), runs[0].sizes
         count = len(runs)
         self.status, self.t = np.zeros(count, dtype=np.intc), np.empty(count)
@@ -116,18 +129,39 @@ class ManyOpenRuns:
             "runs": count, "run": self._pointers, "status": ffi.from_buffer("int[]", self.status, require_writable=True),
             "t": doubles(self.t, count, writable=True), "p": doubles(self.p, self.p.size, writable=True),
             "v": doubles(self.v, self.v.size, writable=True)})
+        self._numbers = ffi.new("double *[]", count)
+        numbers = [run.lane_numbers for run in runs]
+        if all(each is not None and len(each) == len(numbers[0]) for each in numbers):
+            self._numbers[0:count] = numbers
+            self.c.data, self.c.doubles = ffi.cast("const double *const *", self._numbers), len(numbers[0])
+        self._parts, self._ends = list(parts), np.cumsum([k for _, k in parts])
+        self.lanes = [ffi.gc(lanes, lib.zd_open_lanes_free) if lanes else lanes
+                      for lanes in (lib.zd_open_lanes_create(self.c, *part) for part in parts)]
         self.read()
 
+    def _lanes_of(self, i: int) -> Any:
+        return self.lanes[np.searchsorted(self._ends, i, side="right")]
+
     def __getitem__(self, i: int) -> OpenRun:
-        return self._runs[i]
+        """A run, brought to its present state."""
+        run, lanes = self._runs[i], self._lanes_of(i)
+        if lanes and (status := lib.zd_open_lanes_settle(lanes, i)):
+            raise run.error(status)
+        return run
 
     def replace(self, i: int, run: OpenRun) -> None:
         """Replace one of the runs."""
         self._runs[i], self._pointers[i], self.status[i] = run, run.c, 0
+        if lanes := self._lanes_of(i):
+            self._numbers[i] = run.lane_numbers
+            lib.zd_open_lanes_forget(lanes, i)
 
-    def advance(self, first: int, count: int, steps: int, t: float) -> None:
-        """Advance some of the runs; the interpreter lock is released meanwhile."""
-        lib.zd_open_runs_advance(self.c, first, count, steps, t)
+    def advance(self, part: int, steps: int, t: float) -> None:
+        """Advance the runs of one part; the interpreter lock is released meanwhile."""
+        if lanes := self.lanes[part]:
+            lib.zd_open_lanes_advance(lanes, steps, t)
+        else:
+            lib.zd_open_runs_advance(self.c, *self._parts[part], steps, t)
 
     def read(self) -> None:
         """Store the present states."""

@@ -74,6 +74,11 @@ def takes_embeddings(options: Any) -> bool:
     return bool(lib.zd_takes_embeddings(options))
 
 
+def lanes_serve(core: CoreSystem, options: Any) -> bool:
+    """True if SIMD lanes can make runs of this system with these settings, if it has closed-form functions for them."""
+    return options.steps == lib.ZD_FIXED_STEPS and bool(lib.zd_lanes_serve_settings(core.c, options))
+
+
 def direct_unit(core: CoreSystem, options: Any) -> int | None:
     """Number of the vector unit whose closed-form functions a run of this system uses; None if it uses none."""
     unit = lib.zd_direct_unit(core.c, options)

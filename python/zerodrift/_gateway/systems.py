@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import math
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -118,6 +119,29 @@ class CoreSystem(Measuring):
     def has_direct(self) -> bool:
         """True if the system has closed-form functions."""
         return self.c.closed_forms > 0
+
+    @property
+    def has_lanes(self) -> bool:
+        """True if it has closed-form functions for SIMD lanes."""
+        return any(self.c.closed_form[i].lanes > 1 for i in range(self.c.closed_forms))
+
+    @property
+    def lane_numbers(self) -> Any:
+        """Numbers that closed-form functions read, an array of C; None: there are no such functions."""
+        return self._data[0] if self.has_direct and self._data[0] else None
+
+    def with_lanes(self, address: int, keep: Any) -> Self:
+        """Copy of the system with a second `zd_closed_form`, at `address`, for SIMD lanes; unchanged if that serves one
+        trajectory only, as with compilers without vectors.
+        """
+        more = ffi.cast("const zd_closed_form *", address)
+        if more.lanes == 1:
+            return self
+        other, both = copy.copy(self), ffi.new("zd_closed_form[]", [self.c.closed_form[0], more[0]])
+        other.c = ffi.new("zd_system *", self.c[0])
+        other.c.closed_form, other.c.closed_forms = both, 2
+        other._data = (*self._data, both, keep)
+        return other
 
     def for_run(self) -> CoreSystem:
         """The system for one run; one written in Python needs memory of its own for each."""

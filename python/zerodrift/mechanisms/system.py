@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .. import _check, _gateway
 from .._gateway import Variable
 from .._gateway import is_length as is_length_of
 from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.plane import MechanismCore
 from ..errors import ZerodriftError, sentence
-from ..symbolics.compile.closed_form_library import NO_COMPILER, ClosedFormFunctions
+from ..symbolics.compile.closed_form_library import DIRECT, NO_COMPILER, ClosedFormFunctions
 from ..systems.base import BaseSystem, WithInputs
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
@@ -172,6 +172,11 @@ class MechanismSystem(BaseSystem):
             functions = self._direct[1]
             cores[vector, embeds] = self._written.with_direct(functions.embedding if embeds else functions, vector)
         return cores[vector, embeds]
+
+    def _core_in_lanes(self, vector: str, embeds: bool = False) -> MechanismCore:
+        core = self._direct_core(vector, embeds)
+        library = None if embeds or not core.has_direct else self._direct[1].library_in_lanes(vector)
+        return core if library is None else core.with_lanes(_gateway.address_of(library, DIRECT), library)
 
     def _with_jacobian(self, core: MechanismCore, vector: str = "baseline") -> MechanismCore:
         return self._written.with_jacobian(vector) if self.compiled and core is self._core else core

@@ -19,12 +19,17 @@ from .run_state import restored, saved, unpacked
 from .threads import processors
 
 SMALLEST_PART = 64      # minimum number of runs in a thread
+FEWEST_IN_LANES = 16    # minimum number of runs for which functions in SIMD lanes are compiled
+MOST_LANES = 8          # of a vector unit: parts begin at multiples
 
 
 class ManyRuns:
     """Many open runs of one system, advanced together; ``Run(system, runs=...)`` makes them.
 
-    Each has the bits that it has alone. They execute in one thread per available processor if the system does not call Python.
+    Each has the bits that it has alone. They execute in one thread per available processor if the system does not call Python;
+    and in SIMD lanes, as many at once as a vector of the processor has numbers, with fixed steps of a Runge-Kutta method if the
+    system has closed-form functions: those of `zd.systems`, symbolic ones, and ``mechanism.system(compiled=True)``. Steps that
+    lanes cannot make, those near a singularity or so long that constraints reverse, are made individually.
 
     Parameters
     ----------
@@ -82,12 +87,14 @@ class ManyRuns:
         first = [_first(name, each, count) for name, each in (("p0", p0), ("v0", v0))]
         ready = prepared(system, nominal_span(t0, step), *first, None, None, None, {"step": step, **known_settings(settings)},
                          inputs=inputs, is_open=True)
+        if count >= FEWEST_IN_LANES:
+            ready = _in_lanes(ready)
         self.system, self.settings = ready.system, ready.chosen
         self.inputs = np.zeros((count, len(ready.declared.names) if ready.declared else 0))
         self._places = {name: i for i, name in enumerate(ready.declared.names)} if ready.declared else {}
         self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), inputs, self.inputs)
-        self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready])
         self._parts, self._pool = _parts(count, 1 if ready.core.calls_python else processors()), None
+        self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready], self._parts)
         self._readings: dict[int, Reading] = {}
 
     def __len__(self) -> int:
@@ -113,14 +120,14 @@ class ManyRuns:
         self._advance(_gateway.MOST_STEPS, _check.number("t", t))
 
     def _advance(self, steps: int, t: float) -> None:
-        core, (first, *others) = self._core, self._parts
+        core, others = self._core, range(1, len(self._parts))
         if not others:
-            core.advance(*first, steps, t)
+            core.advance(0, steps, t)
             return
         if self._pool is None:
             self._pool = ThreadPoolExecutor(len(others))
-        waiting = [self._pool.submit(core.advance, *part, steps, t) for part in others]
-        core.advance(*first, steps, t)
+        waiting = [self._pool.submit(core.advance, part, steps, t) for part in others]
+        core.advance(0, steps, t)
         for each in waiting:
             each.result()
 
@@ -252,7 +259,7 @@ class ManyRuns:
 def _parts(count: int, threads: int) -> list[tuple[int, int]]:
     """Runs of each thread: the first one, and their number."""
     parts = max(1, min(threads, count // SMALLEST_PART))
-    ends = [count * i // parts for i in range(parts + 1)]
+    ends = [*(count * i // parts // MOST_LANES * MOST_LANES for i in range(parts)), count]
     return [(begin, end - begin) for begin, end in itertools.pairwise(ends)]
 
 
@@ -311,11 +318,22 @@ def _of_each(ready: Prepared, count: int, tables: list[dict[str, Any]], states: 
     return found
 
 
+def _in_lanes(ready: Prepared) -> Prepared:
+    """The same with functions for SIMD lanes, where the system has them and the settings admit lanes."""
+    of: BaseSystem = ready.declared.of.system if ready.declared else ready.system
+    vector = ready.chosen["vector"]
+    if vector is None or not ready.source.has_direct or not _gateway.lanes_serve(ready.source, ready.options):
+        return ready
+    return ready._replace(source=of._core_in_lanes(vector))
+
+
 def _with_parameters(ready: Prepared, parameters: dict[str, Any], inputs: Any) -> Prepared:
     system = ready.system.with_parameters(parameters)
     declared = declared_inputs(inputs, system)
     of = declared.of.system if declared else system
     core = direct_core_of(of, ready.chosen["vector"] or "baseline", ready.options)
+    if ready.source.has_lanes:
+        core = of._core_in_lanes(ready.chosen["vector"])
     p0, v0 = of._state_or_start(None, None, t=ready.span[0]) if system.p0 is not None else (ready.p0, ready.v0)
     return ready._replace(system=system, core=core, measured=of._watching.core, source=core, source_measured=of._watching.core,
                           declared=declared, p0=p0, v0=v0)

@@ -193,7 +193,7 @@ class SymbolicSystem(BaseSystem):
         places = [Place(name, False, pointer + self._code.parameters.index(name)) for name in names]
         return Bound(mine, places, [(_gateway.address_of(*each), pointer) for each in derive if each[0]], memory)
 
-    def _core_in_lanes(self, vector: str, embeds: bool) -> _gateway.CoreSystem:
+    def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
         """System of one run with functions for SIMD lanes as well; these do not support independent velocities."""
         core = self._direct_core(vector, embeds)
         library = None if embeds or core is self._core else self._direct.library_in_lanes(vector)

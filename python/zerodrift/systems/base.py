@@ -334,6 +334,10 @@ class BaseSystem:
             raise WrongName(f"measures need a mechanism, and {self.name} is not one")
         return self._watching.unique(getattr(name, "name", name), solution)
 
+    def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
+        """The core's system with its closed-form functions, for SIMD lanes, too, where it has them."""
+        return self._direct_core(vector, embeds)
+
     def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
         """The core's system with the Taylor series of its motion, if there is one."""
         return core

@@ -80,19 +80,6 @@ class NativeCore(CoreSystem):
         other._data = (*self._data, keep)
         return other
 
-    def with_lanes(self, address: int, keep: Any) -> NativeCore:
-        """Copy of the system with a second `zd_closed_form`, at `address`, for SIMD lanes; unchanged if that serves one
-        trajectory only, as with compilers without vectors.
-        """
-        more = ffi.cast("const zd_closed_form *", address)
-        if more.lanes == 1:
-            return self
-        other, both = copy.copy(self), ffi.new("zd_closed_form[]", [self.c.closed_form[0], more[0]])
-        other.c = ffi.new("zd_system *", self.c[0])
-        other.c.closed_form, other.c.closed_forms = both, 2
-        other._data = (*self._data, both, keep)
-        return other
-
 
 def probe(core: CoreSystem, p: np.ndarray, v: np.ndarray) -> str:
     """Error message for a compiled evaluation at (0, p, v); empty if it is correct.

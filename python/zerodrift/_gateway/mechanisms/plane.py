@@ -232,6 +232,11 @@ class MechanismCore(CoreSystem):
         return mine
 
     @property
+    def lane_numbers(self) -> Any:
+        """Numbers that generated closed-form functions read, an array of C; None: there are no such functions."""
+        return self._numbers if self.has_direct and self._numbers else None
+
+    @property
     def calls_python(self) -> bool:
         """True if the mechanism has user functions that are not compiled, and terms that call them."""
         return calls_python(self, law_sizes(self.tables))
