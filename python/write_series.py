@@ -3,6 +3,7 @@ arithmetic, from their derivations in tests/symbolic_counterparts.py:
 ``python python/write_series.py``, after which the core has to be built again.
 """
 
+import re
 import sys
 from pathlib import Path
 
@@ -17,6 +18,8 @@ from zerodrift.symbolics.emit import series  # noqa: E402
 SYSTEMS = ROOT / "csrc" / "systems"
 # Offset of the numbers of the series in the doubles of a system.
 BEGINS = {"four_bar": 14, "driven_four_bar": 18}
+COEFFICIENTS = re.compile(r"enum \{ ROWS.*?\n}\n", re.DOTALL)       # the text of them, which both precisions have in common
+NUMBERS = re.compile(r"(const k = )([^;]*);")
 HEADING = f"/* Written by python/write_series.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
 
 
@@ -26,11 +29,26 @@ def sources():
     for name in names:
         code = (WITH_SERIES_ALONE["series"].get(name) or OF_PARAMETERS[name])()._code
         begins = BEGINS.get(name)
-        texts[f"series/{name}.c"] = relative(name, "series", series.write(
+        plain = relative(name, "series", series.write(
             code.program, code.sizes, f"(const double *)data + {begins}" if begins else "data"))
         code = (WITH_SERIES_ALONE["precise"].get(name) or WITH_SERIES_ALONE["series"].get(name) or OF_PARAMETERS[name])()._code
-        texts[f"precise/{name}.c"] = relative(name, "precise", series.write_precise(code.program, code.sizes))
+        precise = relative(name, "precise", series.write_precise(code.program, code.sizes))
+        texts |= shared(name, plain, precise)
     return texts | {f"{kind}/{kind}.h": header(kind, names) for kind in ("series", "precise")}
+
+
+def shared(name, plain, precise):
+    """Texts of both files, and of a third with the coefficients where these are the same."""
+    own = [COEFFICIENTS.search(text)[0] for text in (plain, precise)]
+    common = {NUMBERS.sub(r"\1ZD_SERIES_NUMBERS;", text) for text in own}
+    texts = {f"series/{name}.c": plain, f"precise/{name}.c": precise}
+    if len(common) > 1:
+        return texts
+    for (path, text), coefficients, place in zip(list(texts.items()), own, ("", "../series/"), strict=True):
+        numbers = NUMBERS.search(coefficients)[2]
+        texts[path] = text.replace(coefficients, f'#define ZD_SERIES_NUMBERS {numbers}\n#include "{place}{name}_series.h"\n')
+    what = f"/* Taylor coefficients of zd_{name}, in the precision of the numbers that the including file has chosen. */"
+    return texts | {f"series/{name}_series.h": f"{HEADING}\n{what}\n{common.pop()}"}
 
 
 def relative(name, kind, text):
