@@ -297,6 +297,8 @@ int64_t zd_run_step_number(const zd_run *run);              /* steps made */
 int zd_run_ended_by(const zd_run *run);                     /* index of the terminal event at which it is; -1: none */
 /* Accelerations (nv,) and multipliers (m,) at the present state, which are those of the next step's start. */
 int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers);
+/* J: Psi_E (28) at the present state; ZD_NOT_FINITE where the system has no potential. */
+int zd_run_energy_violation(zd_run *run, double *violation);
 double zd_run_progress(const zd_run *run);                  /* 0 ... 1 */
 const char *zd_run_message(const zd_run *run);              /* the first failure, one sentence */
 const zd_statistics *zd_run_statistics(const zd_run *run);

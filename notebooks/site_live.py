@@ -10,9 +10,11 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import zerodrift as zd
+from zerodrift import gallery
 from zerodrift.errors import CompilationFailed
 from zerodrift.export import wasm
 from zerodrift.mechanisms.files.to_json import described
+from zerodrift.player.live import live_view
 
 BOARD = Path(__file__).parent / "board"
 SCRIPTS = ("model.js", "block.js", "python.js", "edit.js", "fields.js", "picture.js", "board.js")      # what a script uses stands before it
@@ -40,6 +42,21 @@ def board() -> str:
     text = {path.name: path.read_text(encoding="utf-8") for path in BOARD.iterdir()}
     script = plain(wasm.text("core.js")) + "".join(plain(text[name]) for name in SCRIPTS)
     return text["board.html"].replace("/*style*/", text["board.css"]).replace("/*script*/", script)
+
+
+def lives(folder: Path) -> set[str]:
+    """Write the pages that simulate the models of the plane, each once for a version of the package; names of these models."""
+    folder.mkdir(exist_ok=True)
+    made = {}
+    for each in gallery.exhibits():
+        path = folder / f"{each.name}.html"
+        if getattr(each.made(), "dimension", 0) != 2:
+            continue
+        made[each.name] = path
+        if not path.exists():
+            view = live_view(each.made(), step=min(each.step, 0.01), speed=each.speed, **dict(each.options))
+            path.write_text(view.linked("../core_bytes.js"), encoding="utf-8")
+    return set(made)
 
 
 def plain(script: str) -> str:

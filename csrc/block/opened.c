@@ -206,6 +206,12 @@ double zd_opened_violation(zd_opened *self)
     return largest;
 }
 
+double zd_opened_energy_violation(zd_opened *self)
+{
+    double violation;
+    return zd_run_energy_violation(self->run, &violation) ? NAN : violation;
+}
+
 int zd_opened_width(const zd_opened *self)
 {
     const zd_measures *measures = zd_block_system(self->block)->measures;

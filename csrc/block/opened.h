@@ -30,6 +30,8 @@ const char *zd_opened_message(const zd_opened *self);      /* the last failure i
 int zd_opened_measure(zd_opened *self, int measure, double *value);
 /* Largest residual of the position constraints at the present state. */
 double zd_opened_violation(zd_opened *self);
+/* J: error of the energy (28) at the present state; NaN where it is not defined. */
+double zd_opened_energy_violation(zd_opened *self);
 /* Number of components of all outputs, and their values in order. */
 int zd_opened_width(const zd_opened *self);
 int zd_opened_outputs(zd_opened *self, double *value);

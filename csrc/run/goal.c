@@ -97,3 +97,12 @@ int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers)
     for (int k = 0; k < zd_constraints(motion->point->system); k++) multipliers[k] = motion->point->lambda[k];
     return ZD_DONE;
 }
+
+int zd_run_energy_violation(zd_run *run, double *violation)
+{
+    zd_motion *motion = &run->motion;
+    double kinetic;
+    if (!zd_has_energy(&motion->system)) return ZD_NOT_FINITE;
+    const int status = zd_motion_accelerate(motion);
+    return status ? status : zd_motion_energy_violation(motion, violation, &kinetic);
+}

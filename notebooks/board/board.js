@@ -419,7 +419,8 @@ async function unpacked(text) {
 
 readTones(canvas);
 listen();
-board.core = await load(await unpacked(globalThis.zerodriftCore));
+if (globalThis.zerodriftCore) board.core = await load(await unpacked(globalThis.zerodriftCore));
+else tell("The core is missing: the site must be built with the package ziglang");
 if (location.hash.startsWith("#m=")) open(() => modelOfAddress(location.hash), "The address");
 else fitView(canvas, painter, board.model);
 show();

@@ -38,6 +38,8 @@ export function unit(m: Mechanism, name: string): string;
 export function freedoms(m: Mechanism): {freedoms: number; rank: number; redundant: string[]};
 /** Largest residual of the position constraints. */
 export function violation(m: Mechanism): number;
+/** Error of the energy in J since the run began: it begins anew after a parameter has changed or a point was pulled. */
+export function energyViolation(m: Mechanism): number;
 /** Moves a point, a measure or a function that returns its place, nearer to a target and returns the distance that is left. */
 export function pull(m: Mechanism, point: string | (() => ArrayLike<number>), target: ArrayLike<number>): number;
 /** The whole run, from which `restoreRun` continues with the same bits. */

@@ -148,6 +148,11 @@ export function violation(m) {
   return m.core.page_violation(m.run);
 }
 
+// Error of the energy in J since the run began, or NaN for a mechanism without potential energy.
+export function energyViolation(m) {
+  return m.core.page_energy_violation(m.run);
+}
+
 // Moves the mechanism so that a point, a measure's name or a function that returns its place, comes nearer to a target, and at rest: one
 // step of least squares by differences along the coordinates, each of which the constraints follow. Returns the distance that is left.
 export function pull(m, point, target) {

@@ -39,6 +39,7 @@ PAGE(int, page_m)(const zd_opened *self) { return system_of(self)->mh + system_o
 PAGE(int, page_rank)(const zd_opened *self) { return (int)zd_run_statistics(zd_opened_run(self))->rank; }
 
 PAGE(double, page_violation)(zd_opened *self) { return zd_opened_violation(self); }
+PAGE(double, page_energy_violation)(zd_opened *self) { return zd_opened_energy_violation(self); }
 
 /* Redundant constraints: rows (m,), increasing; returns their number. */
 PAGE(int, page_redundant)(const zd_opened *self, int *rows) { return zd_run_redundant(zd_opened_run(self), rows); }

@@ -2,12 +2,12 @@
 // Stands behind core.js, whose functions it uses, in one module.
 
 const scene = JSON.parse(document.getElementById("live").textContent);
-const canvas = document.querySelector("canvas"), pen = canvas.getContext("2d");
+const canvas = document.getElementById("picture"), pen = canvas.getContext("2d");
 const words = {play: document.getElementById("play"), state: document.getElementById("state"), told: document.getElementById("told")};
 const BUDGET = 8;           // ms of computation in a picture
-const live = {mechanism: null, playing: true, dragged: null, cost: 0, pictures: 0};
+const live = {mechanism: null, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches, dragged: null, cost: 0, pictures: 0, trust: [], chosen: null};
 live.place = (point) => { const box = canvas.getBoundingClientRect(), [x, y] = onScreen(point); return [x + box.left, y + box.top]; };
-globalThis.zerodrift = {live, read, time, setParameter, setInput, save, violation, freedoms};
+globalThis.zerodrift = {live, read, time, setParameter, setInput, save, violation, energyViolation, freedoms};
 
 const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
@@ -69,6 +69,13 @@ function draw() {
     pen.fillStyle = colour;
     for (const [x, y] of points) pen.fillRect(x - 16, y - 10, 32, 20);
   });
+  if (live.chosen) {
+    const [x, y] = onScreen(placeOf(live.chosen));
+    pen.beginPath();
+    pen.arc(x, y, 13, 0, 7);
+    Object.assign(pen, {strokeStyle: ink, lineWidth: 2});
+    pen.stroke();
+  }
   for (const [a, b] of scene.springs) spring(onScreen(placeOf(a)), onScreen(placeOf(b)), ink);
   for (const pin of scene.pins) {
     const [x, y] = onScreen(placeOf(pin.at));
@@ -85,7 +92,39 @@ function draw() {
 
 function tell() {
   const m = live.mechanism, {freedoms: count, redundant} = freedoms(m), extra = redundant.length ? ` · redundant: ${redundant.join(", ")}` : "";
-  words.state.textContent = `t = ${time(m).toFixed(2)} s · degrees of freedom ${count} · position violation ${violation(m).toExponential(1)}${extra}`;
+  words.state.textContent = `t = ${time(m).toFixed(2)} s · degrees of freedom ${count}${extra}`;
+}
+
+// ---- trust: position violation and energy error of the last seconds, on logarithmic scales as in a film ----
+
+const TRUST = [["position violation", "m", violation, "#0072b2", "#56b4e9"], ["energy error", "J", (m) => Math.abs(energyViolation(m)), "#b34a00", "#ffb57d"]];
+const LONGEST = 600, LEAST = 1e-18;        // pictures that the lines reach back, and the smallest number that they show
+
+function keepTrust() {
+  TRUST.forEach(([, , measured], i) => {
+    const values = (live.trust[i] ??= []);
+    values.push(measured(live.mechanism));
+    if (values.length > LONGEST) values.shift();
+  });
+}
+
+function drawTrust() {
+  const strip = document.getElementById("trust"), brush = strip.getContext("2d"), ratio = devicePixelRatio || 1, {width, height} = strip.getBoundingClientRect();
+  const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+  if (strip.width !== Math.round(width * ratio)) [strip.width, strip.height] = [Math.round(width * ratio), Math.round(height * ratio)];
+  brush.setTransform(ratio, 0, 0, ratio, 0, 0);
+  brush.clearRect(0, 0, width, height);
+  brush.font = "11px system-ui, sans-serif";
+  TRUST.forEach(([name, unit, , light, dark], i) => {
+    const values = live.trust[i] ?? [], known = values.filter(Number.isFinite);
+    if (!known.length) return;
+    const heights = values.map((x) => Math.log10(Math.max(x, LEAST))), low = Math.min(...heights.filter(Number.isFinite)), high = Math.max(...heights.filter(Number.isFinite), low + 1);
+    brush.beginPath();
+    heights.forEach((x, k) => brush[k ? "lineTo" : "moveTo"](8 + (width - 16) * k / (LONGEST - 1), height - 4 - (height - 20) * (x - low) / (high - low)));
+    Object.assign(brush, {strokeStyle: isDark ? dark : light, fillStyle: isDark ? dark : light, lineWidth: 1.5});
+    brush.stroke();
+    brush.fillText(`${name} \u2264 ${Math.max(...known).toExponential(1)} ${unit}`, 8 + i * Math.max(190, width / 2), 11);
+  });
 }
 
 // ---- time ----
@@ -103,7 +142,9 @@ function next(now) {
       const goal = time(live.mechanism) + elapsed;
       while (time(live.mechanism) < goal - scene.step / 2 && performance.now() - begin < BUDGET) step(live.mechanism, 1);
     }
+    keepTrust();
     draw();
+    drawTrust();
     tell();
   } catch (error) {
     live.playing = false;
@@ -123,12 +164,25 @@ function toggle() {
   words.told.textContent = "";
 }
 
+const pointNames = () => [...new Set(scene.bodies.flatMap((body) => body.points).filter((point) => typeof point === "string"))];
+
 function nearest(event) {
-  const [x, y] = inDrawing(event), reach = 25 / frame.scale;
-  const names = [...new Set(scene.bodies.flatMap((body) => body.points).filter((point) => typeof point === "string"))];
+  const [x, y] = inDrawing(event), reach = 25 / frame.scale, names = pointNames();
   const far = (name) => { const [a, b] = placeOf(name); return Math.hypot(a - x, b - y); };
   const name = names.sort((a, b) => far(a) - far(b))[0];
   return name && far(name) < reach ? name : null;
+}
+
+const PULL = 40;        // points of the screen that an arrow key pulls
+
+function onKey(event) {
+  const names = pointNames(), way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+  if (event.key === " " && [document.body, canvas].includes(event.target)) toggle();
+  else if (event.target !== canvas) return;
+  else if (event.key === "n") live.chosen = names[(names.indexOf(live.chosen) + 1) % names.length];
+  else if (way && live.chosen) live.dragged = {name: live.chosen, target: placeOf(live.chosen).map((x, k) => x + way[k] * PULL / frame.scale)};
+  else return;
+  event.preventDefault();
 }
 
 function listen() {
@@ -141,7 +195,8 @@ function listen() {
   canvas.addEventListener("pointermove", (event) => { if (live.dragged) live.dragged.target = inDrawing(event); });
   for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, () => { live.dragged = null; });
   words.play.addEventListener("click", toggle);
-  addEventListener("keydown", (event) => { if (event.key === " " && event.target === document.body) { toggle(); event.preventDefault(); } });
+  addEventListener("keydown", onKey);
+  addEventListener("keyup", (event) => { if (event.key.startsWith("Arrow")) live.dragged = null; });
   addEventListener("resize", fit);
 }
 
@@ -165,9 +220,12 @@ function addSlider({name, kind, least, most, value}) {
   document.getElementById("sliders").append(label);
 }
 
-const compiled = await load(await unpacked(bytesOf(scene.core)));
-live.mechanism = create(compiled, bytesOf(scene.block), scene.t);
-scene.sliders.forEach(addSlider);
-listen();
-fit();
-requestAnimationFrame(next);
+const packed = scene.core ?? globalThis.zerodriftCore;
+words.play.textContent = live.playing ? "Pause" : "Play";
+if (packed) {
+  live.mechanism = create(await load(await unpacked(bytesOf(packed))), bytesOf(scene.block), scene.t);
+  scene.sliders.forEach(addSlider);
+  listen();
+  fit();
+  requestAnimationFrame(next);
+} else fail(new Error("the core is missing: the site must be built with the package ziglang"));

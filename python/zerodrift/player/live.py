@@ -33,8 +33,10 @@ MARGIN = 0.35           # around the drawing, part of its size
 AUTOMATIC = 4           # sliders for lengths, where none are named
 AROUND = 0.25           # part of a value, to both sides
 STEP = 1e-3             # s
-BODY = """<canvas role="img" aria-label="{name}, simulated"></canvas><div id="bar"><button id="play">Pause</button>
-<span id="state" role="status"></span></div><div id="told" role="alert"></div><div id="sliders"></div>"""
+BODY = """<canvas id="picture" role="img" tabindex="0"
+aria-label="{name}, simulated; n chooses a point, arrow keys pull it"></canvas><div id="bar"><button id="play">Pause</button>
+<span id="state"></span></div><canvas id="trust" role="img" aria-label="Position violation and energy error over time"></canvas>
+<div id="told" role="alert"></div><div id="sliders"></div>"""
 
 
 class LiveView:
@@ -51,12 +53,19 @@ class LiveView:
 
     @functools.cached_property
     def page(self) -> str:
+        return self._page({"core": _encoded(gzip.compress(wasm.core(), 9))})
+
+    def linked(self, core: str) -> str:
+        """The page without the core, which it takes from a script of this address: ``globalThis.zerodriftCore``, in base 64."""
+        return self._page({}, f'<script src="{html.escape(core, quote=True)}"></script>')
+
+    def _page(self, more: Mapping[str, Any], before: str = "") -> str:
         name = html.escape(self._scene["name"], quote=True)
-        data = json.dumps(self._scene, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+        data = json.dumps({**self._scene, **more}, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
         script = re.sub(r"^export ", "", wasm.text("core.js"), flags=re.MULTILINE) + _text("live.js")
         return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
                 f'<meta name="viewport" content="width=device-width"><style>{_text("live.css")}</style></head>'
-                f'<body>{BODY.format(name=name)}'
+                f'<body>{BODY.format(name=name)}{before}'
                 f'<script type="application/json" id="live">{data}</script><script type="module">{script}</script></body></html>')
 
     def save(self, path: str | Path) -> Path:
@@ -82,8 +91,10 @@ class LiveView:
 
 
 def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None = None, *, step: float = STEP,
-              speed: float | None = None) -> LiveView:
-    """Page of a mechanism, with sliders of these parameters and inputs, by name with smallest and largest value."""
+              speed: float | None = None, **options: Any) -> LiveView:
+    """Page of a mechanism, with sliders of these parameters and inputs, by name with smallest and largest value, and the methods
+    that `zerodrift.block` takes.
+    """
     system, *_ = start_of(mechanism, None, None, 0.0)
     if getattr(getattr(system, "_drawing", None), "dimension", 0) != 2:
         raise WrongValue("a live view must be of a mechanism in the plane")
@@ -95,13 +106,13 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     names = sorted({point for body in bodies for point in body["points"] if isinstance(point, str)} |
                    {point for ends in springs for point in ends if isinstance(point, str)} |
                    {pin["at"] for pin in points.pins if isinstance(pin["at"], str)})
-    data = block(system, step=step, outputs=names, inputs=list(inputs), parameters=limits)
+    data = block(system, step=step, outputs=names, inputs=list(inputs), parameters=limits, **options)
     values = {**system.parameters, **BlockCore(data).inputs}
     shown = [{"name": name, "kind": kind, "least": least, "most": most, "value": values[name]}
              for kind, those in (("parameter", limits), ("input", inputs)) for name, (least, most) in those.items()]
     ends = [*springs, *([pin["at"]] for pin in points.pins)]
     return LiveView({
-        "name": system.name, "core": _encoded(gzip.compress(wasm.core(), 9)), "block": _encoded(data), "t": 0.0, "step": step,
+        "name": system.name, "block": _encoded(data), "t": 0.0, "step": step,
         "speed": 1.0 if speed is None else _check.number("speed", speed, above=0), "bodies": bodies, "springs": springs,
         "pins": points.pins, "sliders": shown, "extent": _extent(system, names, ends)})
 
