@@ -72,7 +72,7 @@ void zd_lane_enter(zd_open_lanes *self, int lane, int64_t i)
     lanes->unresolved[lane] = (double)statistics->unresolved;
     lanes->unresolved_time[lane] = statistics->unresolved_time;
     lanes->part_error[lane] = statistics->part_error;
-    lanes->part[lane] = statistics->part;
+    lanes->part[lane] = (double)statistics->part;
     self->runs->status[i] = ZD_DONE;
     self->place[i - self->first] = (zd_lane_place){.is_in = 1};
 }

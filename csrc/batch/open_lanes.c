@@ -172,7 +172,7 @@ static void begin(zd_open_lanes *self, int64_t group, int64_t steps, double t)
         if (!is_in_lane(self, i)) continue;
         self->goal[lane] = goal_of(lanes, lane, steps, t);
         lanes->leaves[lane] = lanes->is_long[lane] = 0;
-        lanes->is_active[lane] = self->goal[lane] > lanes->number[lane];
+        lanes->is_active[lane] = (double)self->goal[lane] > lanes->number[lane];
         lanes->next_number[lane] = (double)self->goal[lane];
         if (self->goal[lane] >= 0) continue;
         lanes->leaves[lane] = 1;
@@ -200,7 +200,7 @@ static int count_active(zd_open_lanes *self, int64_t group)
     for (int lane = 0; lane < lanes->lanes; lane++) {
         if (lanes->is_active[lane] == 0) continue;
         if (lanes->leaves[lane] != 0 || lanes->is_long[lane] != 0) leave(self, lane, run_of(self, group, lane));
-        else if (lanes->number[lane] >= self->goal[lane]) lanes->is_active[lane] = 0;
+        else if (lanes->number[lane] >= (double)self->goal[lane]) lanes->is_active[lane] = 0;
         active += lanes->is_active[lane] != 0;
     }
     return active;

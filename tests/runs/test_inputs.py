@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from native_systems import PENDULUM, compile_library, needs_compiler, pendulum
 
 
 def four_bar(**drives):
@@ -152,6 +153,23 @@ def test_numbers_among_the_parameters_of_a_system_are_inputs():
     assert not other.p.any()
     with pytest.raises(ValueError, match=r"must name numbers among the parameters of system, not 'w'"):
         zd.Run(system, step=0.01, inputs=["w"])
+
+
+@needs_compiler
+def test_parameters_of_a_native_system_are_inputs(tmp_path):
+    library = compile_library(PENDULUM, tmp_path / "pendulum.so")
+    system = pendulum(library)
+    run, same = (zd.Run(system, step=0.01, inputs=["gravity", "mass"]) for _ in range(2))
+    run["gravity"] = 1.62
+    on_the_moon = zd.Run(pendulum(library, parameters=system.parameters | {"gravity": 1.62}), step=0.01)
+    on_earth = zd.Run(system, step=0.01)
+    for each in (run, same, on_the_moon, on_earth):
+        each.step(50)
+    assert np.array_equal(run.p, on_the_moon.p)
+    assert np.array_equal(same.p, on_earth.p)
+    assert system.parameters["gravity"] == 9.81
+    with pytest.raises(ValueError, match="must be parameters of native system, not 'wind'; there are mass, gravity, length"):
+        zd.Run(system, step=0.01, inputs=["wind"])
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 5.5, -2.5])

@@ -41,9 +41,9 @@ class Run:
     inputs : sequence of str or measures, or dict, optional
         Numbers that are set between steps, by ``run[name] = value`` or ``run.inputs[:] = values``: torques, forces and speeds of
         motors, actuators and loads of a mechanism, such as "drive.torque"; declared symbols of `symbolic`; numbers among the
-        parameters of a `System`, and entries of vectors, as "u[0]". A dict has limits (lower, upper) of each, or None. They begin
-        with the number that the system has. Forces are constant within a step, and their work is part of the energy balance. A
-        speed is followed linearly over one fixed step.
+        parameters of a `System`, and entries of vectors, as "u[0]"; parameters of a `native` system. A dict has
+        limits (lower, upper) of each, or None. They begin with the number that the system has. Forces are constant within a step,
+        and their work is part of the energy balance. A speed is followed linearly over one fixed step.
     control : Every, or list of these, optional
         Controllers, see `every`: each is called before the step that begins at one of its instants.
     record : bool

@@ -318,8 +318,8 @@ class BaseSystem:
 
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         """The system whose numbers of these names are inputs."""
-        raise WrongValue(f"inputs are forces and speeds of a mechanism, or declared by zd.symbolic(inputs=) or "
-                         f"zd.System(inputs=), and {self.name} has none")
+        raise WrongValue("inputs must be forces and speeds of a mechanism, symbols declared by zd.symbolic(inputs=), or "
+                         f"parameters of a zd.System or zd.native system, and {self.name} has none")
 
     def _names_of_inputs(self) -> list[str]:
         """Names of numbers that may be inputs."""

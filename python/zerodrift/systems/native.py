@@ -11,8 +11,9 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
+from .._gateway.inputs import Bound, Place
 from ..errors import WrongType, WrongValue, ZerodriftError
-from .base import BaseSystem
+from .base import BaseSystem, WithInputs
 from .builtin import SystemOfKind
 from .structure import Structure, checked
 from .variables import quaternion_places, with_units
@@ -173,6 +174,22 @@ class Native(BaseSystem):
 
     def _with(self, changed: dict[str, Any]) -> Native:
         return Native(self._found, **self._given, parameters=self.parameters | changed)
+
+    def _with_inputs(self, names: Sequence[str]) -> WithInputs:
+        for name in names:
+            if name not in self.parameters:
+                known = _check.closest(name, self.parameters) if self.parameters else "it has none"
+                raise WrongValue(f"inputs must be parameters of {self.name}, not {name!r}; {known}")
+        return WithInputs(self, [self.parameters[name] for name in names], [""] * len(names), self._bound)
+
+    def _bound(self, core: _gateway.NativeCore, names: Sequence[str]) -> Bound:
+        """System of one run, with data of its own."""
+        mine, pointer, memory = core.with_copied_data()
+        order = list(self.parameters)
+        return Bound(mine, [Place(name, False, pointer + order.index(name)) for name in names], (), memory)
+
+    def _names_of_inputs(self) -> list[str]:
+        return list(self.parameters)
 
     def __repr__(self) -> str:
         return f"<zd.native {self.name}: {self._sizes_in_words()}>"
