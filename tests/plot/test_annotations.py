@@ -74,6 +74,15 @@ def test_a_scale_can_be_given_and_is_said_by_a_round_number(loaded):
         assert value[0] in "125"
 
 
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_forces_of_zero_have_no_scale(dimension):
+    m = zd.Mechanism("bar", dimension=dimension)
+    m.revolute("pin", m.ground, m.link("bar", (0, 0, 0)[:dimension], (1, 0, 0)[:dimension], mass=1.0).start,
+               **({} if dimension == 2 else {"axis": (0, 0, 1)}))
+    ax = zd.plot.mechanism(zd.simulate(m, 0.1, step=0.05), forces=["pin"])
+    assert [each for each in [*ax.texts, *ax.collections] if each.get_label() == "_scale"] == []
+
+
 def test_a_load_that_is_to_scale_is_no_symbol_any_more(loaded):
     assert len(outlines(zd.plot.mechanism(loaded, t=0.0), "load")) == 1
     assert not [each for each in zd.plot.mechanism(loaded, t=0.0, forces="wind").collections if each.get_label() == "_load"]

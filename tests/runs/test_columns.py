@@ -60,6 +60,12 @@ def test_measures_are_listed(sol):
     assert zd.simulate(zd.systems.pendulum(), 0.1, step=0.1).measures == ()
 
 
+def test_twelve_lines_differ_in_colour_or_dashes():
+    m = zd.models.jansen()
+    ax = zd.plot.measures(zd.simulate(m, 0.1, step=0.05), [name for name in m.measures if name.endswith(".force")][:6])
+    assert len({(line.get_color(), line.get_linestyle()) for line in ax.get_lines()}) == len(ax.get_lines()) == 12
+
+
 def test_lines_of_measures(sol):
     ax = zd.plot.measures(sol, ["slide.force", "crank.angle"])
     drawn = [line.get_ydata() for line in ax.get_lines()]

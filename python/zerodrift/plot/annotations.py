@@ -182,7 +182,9 @@ class Arrows:
         return [self._drawn, *self._texts]
 
     def say_scale(self, ax: Axes) -> None:
-        """Draw the scale in the lower left corner: an arrow for a round number of newtons."""
+        """Draw the scale in the lower left corner, an arrow for a round number of newtons, unless all forces are zero."""
+        if not self.largest:
+            return
         low, bottom = ax.get_xlim()[0], ax.get_ylim()[0]
         hold(ax, (low, bottom - 5 * self.size))
         tail = np.array([low + 2.5 * self.size, bottom - 2 * self.size])

@@ -26,8 +26,9 @@ class SpaceArrows:
         self._texts = [ax.text(0, 0, 0, each.name, fontsize="small", color=LOAD, zorder=ABOVE,
                                label="_force") for each in arrows]
         said = round_number(self.scale * KEY * extent)
-        ax.text2D(0.02, 0.95, f"{with_prefix(said)} is {said / self.scale:.3g} m long", transform=ax.transAxes, fontsize="small",
-                  color=LOAD, label="_scale")
+        if self.largest:
+            ax.text2D(0.02, 0.95, f"{with_prefix(said)} is {said / self.scale:.3g} m long", transform=ax.transAxes, fontsize="small",
+                      color=LOAD, label="_scale")
 
     def ends(self) -> np.ndarray:
         """Ends of all arrows at all times, (n, 3) in m."""

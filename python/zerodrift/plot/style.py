@@ -7,6 +7,7 @@ from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -46,7 +47,7 @@ def given_axes(ax: Any, name: str = "ax") -> Axes:
 
 
 def styled(ax: Axes) -> Axes:
-    ax.set_prop_cycle(color=COLOURS)
+    ax.set_prop_cycle(cycler(linestyle=["-", "--", ":"]) * cycler(color=COLOURS))     # the twelfth line is dashed
     ax.spines[["top", "right"]].set_visible(False)
     ax.grid(True, alpha=0.3, linewidth=0.6)
     return ax
