@@ -27,8 +27,8 @@ class SpaceArrows:
                                label="_force") for each in arrows]
         said = round_number(self.scale * KEY * extent)
         if self.largest:
-            ax.text2D(0.02, 0.95, f"{with_prefix(said)} is {said / self.scale:.3g} m long", transform=ax.transAxes, fontsize="small",
-                      color=LOAD, label="_scale")
+            ax.text2D(0.02, 0.95, f"{with_prefix(said)} is {said / self.scale:.3g} m long", transform=ax.transAxes,
+                      fontsize="small", color=LOAD, label="_scale")
 
     def ends(self) -> np.ndarray:
         """Ends of all arrows at all times, (n, 3) in m."""
