@@ -94,10 +94,11 @@ static int find_series(taylor *self, const zd_rate *rate, double t, const double
 {
     const zd_system *system = rate->system;
     const size_t bytes = (size_t)rate->size * sizeof *y;
-    if (self->is_known && t == self->t0 && !memcmp(y, self->y0, bytes)) return ZD_DONE;
+    const int converts = rate->expand != NULL;      /* a state repeated on another evaluation path may be another set of variables */
+    if (self->is_known && t == self->t0 && converts == self->converts && !memcmp(y, self->y0, bytes)) return ZD_DONE;
     self->is_known = 0;
     self->system = system;
-    self->converts = rate->expand != NULL;
+    self->converts = converts;
     self->size = system->nq + system->nv + zd_has_input(system);
     int status = self->converts ? rate->expand(rate->context, t, y, self->start) : ZD_DONE;
     if (status) return status;
