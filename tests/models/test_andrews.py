@@ -82,3 +82,10 @@ def test_parameters_of_andrews():
     assert zd.models.symbolic.andrews(mom=0.05).parameters["mom"] == 0.05
     with pytest.raises(ValueError, match=r"parameter must be one of 'm1', .*, not 'moment'"):
         zd.models.symbolic.andrews(moment=1.0)
+
+
+def test_samples_within_steps_that_are_far_too_long():
+    """Where variables change within a step, its samples need a series of their own: that of the variables before ended the process."""
+    with pytest.raises(zd.CorrectionFailed):
+        zd.simulate(zd.models.symbolic.andrews(), 0.03, step=0.03 / 16, t_eval=np.linspace(0, 0.03, 400), integrator="taylor",
+                    formulation="independent")
