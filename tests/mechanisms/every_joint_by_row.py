@@ -3,8 +3,8 @@
 import numpy as np
 
 import zerodrift as zd
-from zerodrift.mechanisms.building.table_force_verbs import force_verb, taken
-from zerodrift.mechanisms.building.table_joint_verbs import verb
+from zerodrift.mechanisms.building.table_force_verbs import force_verb, sides, words
+from zerodrift.mechanisms.building.table_joint_verbs import plane_words, verb
 from zerodrift.mechanisms.elements.joints import JOINTS, made
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS, made_force
 
@@ -23,9 +23,9 @@ def two_bodies(kind, m=None, at=(0.3, 0.2)):
 
 def added(m, first, second, joint, name="J", damping=0.0):
     """A joint of a class that is made from a row."""
-    given = {"axis": AXIS, "length": LENGTH, "damping": damping}
-    sides = (second,) if joint.is_of_one_body else (first, second)
-    return verb(joint)(m, name, *sides, **{word: given[word] for word in joint.takes if word in given})
+    given = {"axis": AXIS, "along": AXIS, "length": LENGTH, "damping": damping}
+    points = (second,) if joint.is_of_one_body else (first, second)
+    return verb(joint)(m, name, *points, **{word: given[word] for word in plane_words(joint) if word in given})
 
 
 def by_row():
@@ -37,6 +37,7 @@ def by_row():
     for i, kind in enumerate(ELEMENTS):
         _, first, second = two_bodies("rod", m, at=(3.0 * i, 5.0))
         force = made_force(kind)
-        given = {"axis": AXIS, "stiffness": 20.0 + i, "damping": 0.3, "value": 1.7}
-        force_verb(force)(m, f"F {kind}", first, second, **{word: given[word] for word in taken(force) if word in given})
+        given = {**({"axis": AXIS} if force.entries[2].axes else {}), "stiffness": 20.0 + i, "damping": 0.3, "value": 1.7}
+        on = ("J revolute",) if sides(force) == ("joint",) else (first, second)
+        force_verb(force)(m, f"F {kind}", *on, **{word: given[word] for word in words(force.entries[2]) if word in given})
     return m

@@ -1,4 +1,4 @@
-"""Verbs made from rows of the core's table of elements: they do to bodies what the verbs written by hand do."""
+"""Methods made from the core's tables of force elements: arguments, effects, files, pictures, documentation."""
 
 import doctest
 import inspect
@@ -9,18 +9,29 @@ import sympy as sp
 
 import tolerances as tol
 import zerodrift as zd
-from zerodrift.mechanisms.building.table_force_verbs import force_verb, taken
+from zerodrift.mechanisms.building.table_force_verbs import force_verb, sides, words
+from zerodrift.mechanisms.building.table_verbs import FORCES
 from zerodrift.mechanisms.elements.frames import about
-from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_BY_ROW, WRITTEN, made_force
+from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_BY_ROW, SPACE_ELEMENTS, WRITTEN, made_force
+from zerodrift.mechanisms.elements.table_forces import parameters as parameters_of
+from zerodrift.mechanisms.elements.table_forces import paths as paths_of
 from zerodrift.mechanisms.files import from_json, to_json
 
 OF = {"w": "B1.angular_velocity", "x": "B0.position.x"}
-LAW = sp.Symbol("w") * 2 - sp.Symbol("x")
+LAW = sp.Symbol("w") * 2 - sp.Symbol("x") + 3
 SPACE_LAW = 3 * sp.cos(5 * sp.Symbol("t")) + sp.Symbol("B0.position.x")
+EACH = [(kind, dimension) for dimension, table in ((2, ELEMENTS), (3, SPACE_ELEMENTS)) for kind in table]
 
 
-def two_bodies():
-    """A mechanism, and points of two free bodies, turned, that lie apart."""
+def two_bodies(dimension=2):
+    """A mechanism, and points of two bodies, turned, that lie apart; they hang on a hinge and are joined by a hinge."""
+    if dimension == 3:
+        m = zd.Mechanism("two bodies", dimension=3, gravity=(0.1, 0.2, -9.81))
+        bodies = [m.body(f"B{i}", 1.0 + i, (0.1, 0.2, 0.15), at=(i, 0.3, 0.1), rotation=about((1, 2, 3), 0.4 + i),
+                         com=(0.05, 0.02, 0.1)) for i in range(2)]
+        m.revolute("pin", m.ground, bodies[0], at=(0.1, 0.1, 0), axis=(0, 1, 0.2))
+        m.revolute("elbow", *bodies, at=(0.6, 0.5, 0), axis=(0.3, 1, 0.2))
+        return m, bodies[0].point((0.2, 0.1, 0.1)), bodies[1].point((-0.1, 0.3, 0.2))
     m = zd.Mechanism("two bodies")
     bodies = [m.body(f"B{i}", 1.0 + i, 0.1, at=(i, 0.3), angle=0.3 + i, com=(0.05, 0.02 * i)) for i in range(2)]
     m.revolute("pin", m.ground, bodies[0], at=(0.1, 0.1))
@@ -28,57 +39,83 @@ def two_bodies():
     return m, bodies[0].point((0.2, 0.1)), bodies[1].point((-0.1, 0.3))
 
 
-BY_HAND = {     # on the points P and Q, and by the row's own verb
-    "spring": (lambda m, P, Q: m.spring("F", P, Q, stiffness=3.0, damping=0.2, length=0.4),
-               {"stiffness": 3.0, "damping": 0.2, "length": 0.4}),
-    "torsion_spring": (lambda m, P, Q: m.torsion_spring("F", "elbow", stiffness=3.0, damping=0.2),
-                       {"stiffness": 3.0, "damping": 0.2}),
-    "bushing": (lambda m, P, Q: m.bushing("F", P, Q, stiffness=(1, 2), damping=(3, 4), torsion=5, torsion_damping=6),
-                {"stiffness": (1, 2, 5), "damping": (3, 4, 6)}),
-    "force": (lambda m, P, Q: m.force("F", Q, along=(0.6, 0.8), value=LAW, of=OF, frame="B0"), {"value": LAW, "of": OF}),
-    "torque": (lambda m, P, Q: m.torque("F", "B1", against="B0", value=1.7), {"value": 1.7})}
+def force_of(kind):
+    """Class of a kind whose method is made from its entries; of others one that is made for this."""
+    return FORCES.get(kind) or made_force(kind)
 
 
 def added(m, P, Q, kind):
-    """An element by the verb from its row; a bushing's axis is the first body's x axis, as by the verb by hand."""
-    force = made_force(kind)
-    axis = P.body.pose.direction(np.array([1.0, 0.0])) if kind == "bushing" else (0.6, 0.8)
-    given = BY_HAND[kind][1] if kind in BY_HAND else {"stiffness": 2.0} if force.row.is_spring else {"value": LAW, "of": OF}
-    return force_verb(force)(m, "F", P, Q, **({"axis": axis} if "axis" in taken(force) else {}), **given)
+    """An element by the method from its entries, on two points or the joint of their bodies; each number is another."""
+    force = force_of(kind)
+    entry, number = force.entries[m.dimension], iter(range(20, 40))
+    given = {word: [float(next(number)) for _ in each] if len(each) > 1 else 0.4 if word == "length" else float(next(number))
+             for word, each in parameters_of(entry).items()}
+    given = given or ({"value": LAW, "of": OF} if m.dimension == 2 else {"value": SPACE_LAW})
+    axis = {"axis": (0.6, 0.8) if m.dimension == 2 else (0.6, 0.0, 0.8)} if entry.axes == 1 else {}
+    return force_verb(force)(m, "F", *(("elbow",) if sides(force) == ("joint",) else (P, Q)), **axis, **given)
 
 
-def test_every_kind_has_a_verb():
-    assert {*ELEMENTS} == {*WRITTEN} | {*FORCES_BY_ROW} == {*BY_HAND} | {*FORCES_BY_ROW}
-    assert all(callable(getattr(zd.Mechanism, kind)) for kind in ELEMENTS)
+def by_their_entries(monkeypatch, kind, dimension):
+    """Has a kind's method, and its form in files, made from its entries, where they are handwritten."""
+    if kind not in FORCES:
+        force = made_force(kind)
+        monkeypatch.setattr(zd.Mechanism, kind, force_verb(force))
+        monkeypatch.setitem(to_json.WRITTEN, kind, to_json._table_force)
+        monkeypatch.delitem(to_json.IN_SPACE, kind, raising=False)
+        for table, of in ((from_json.MADE, 2), (from_json.MADE_IN_SPACE, 3)):
+            monkeypatch.setitem(table, kind, from_json._table_force(force, of))
+
+
+def test_every_kind_has_a_method_and_a_class():
+    kinds = {*ELEMENTS, *SPACE_ELEMENTS}
+    assert kinds == {*WRITTEN} | {*FORCES_BY_ROW} == {*FORCES, "force", "torque"}
+    assert all(callable(getattr(zd.Mechanism, kind)) for kind in kinds)
+
+
+BY_HAND = {     # on the points P and Q
+    ("force", 2): lambda m, P, Q: m.force("F", Q, along=(0.6, 0.8), value=LAW, of=OF, frame="B0"),
+    ("torque", 2): lambda m, P, Q: m.torque("F", "B1", against="B0", value=LAW, of=OF),
+    ("force", 3): lambda m, P, Q: m.force("F", Q, along=(0.6, 0.0, 0.8), value=SPACE_LAW, frame="B0"),
+    ("torque", 3): lambda m, P, Q: m.torque("F", "B1", against="B0", axis=(0.6, 0.0, 0.8), value=SPACE_LAW)}
 
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
-@pytest.mark.parametrize("kind", BY_HAND)
-def test_a_verb_from_the_row_makes_what_the_verb_by_hand_makes(kind, layout):
-    hand, row = two_bodies(), two_bodies()
-    BY_HAND[kind][0](*hand)
+@pytest.mark.parametrize(("kind", "dimension"), BY_HAND)
+def test_a_method_from_the_table_makes_what_the_handwritten_one_makes(kind, dimension, layout):
+    hand, row = two_bodies(dimension), two_bodies(dimension)
+    BY_HAND[kind, dimension](*hand)
     element = added(*row, kind)
     one, other = (each[0].system(layout) for each in (hand, row))
     assert {name for name in other.measures if name.startswith("F.")} <= {*one.measures}
     assert repr(element) == f"<{kind} F: B0 - B1>"
-    rng = np.random.default_rng(3)
-    for _ in range(3):
-        p, v = rng.normal(size=one.nq), rng.normal(size=one.nv)
-        mine, its = (system.evaluate(p, v, 0.3) for system in (one, other))
-        np.testing.assert_allclose(its.f, mine.f, rtol=0, atol=tol.SAME * max(1, np.abs(mine.f).max()))
     sols = [zd.simulate(system, 0.2, step=0.01) for system in (one, other)]
-    for name in [name for name in other.measures if name.startswith("F.")]:
+    for name in (f"F.{kind}", "B0.position", "B1.position", "elbow.force"):
         np.testing.assert_allclose(sols[1][name], sols[0][name], atol=1e-10)    # rounding, grown by the motion
+    assert np.abs(sols[0][f"F.{kind}"]).max() > 0.1
 
 
-@pytest.mark.parametrize("kind", ELEMENTS)
-def test_it_is_saved_and_read_again(kind, monkeypatch, tmp_path):
-    """To the last bit, its numbers with their paths."""
-    force = made_force(kind)
-    monkeypatch.setattr(zd.Mechanism, kind, force_verb(force))
-    monkeypatch.setitem(to_json.WRITTEN, kind, to_json._made_force)
-    monkeypatch.setitem(from_json.MADE, kind, from_json._force_by_row(force))
-    m, P, Q = two_bodies()
+@pytest.mark.parametrize(("kind", "dimension"), [
+    (kind, dimension) for kind, dimension in EACH if (ELEMENTS, SPACE_ELEMENTS)[dimension - 2][kind].is_spring])
+def test_the_force_of_a_spring_is_the_slope_of_its_energy(kind, dimension):
+    """Without damping, by differences of V along each velocity."""
+    m, P, Q = two_bodies(dimension)
+    element = added(m, P, Q, kind)
+    system = m.system("absolute").with_parameters({f"F.{pair[1]}": 0.0 for pair in paths_of(element.row)})
+    weightless = system.with_parameters({f"gravity.{axis}": 0.0 for axis in "xyz"[:dimension]})
+    rng, core, h = np.random.default_rng(3), weightless._core, 1e-6
+    p = core.moved(weightless.p0, 0.2 * rng.normal(size=weightless.nv))
+    f = weightless.evaluate(p, np.zeros(weightless.nv)).f
+    V = [[weightless.evaluate(core.moved(p, sign * h * unit)).V for sign in (1, -1)] for unit in np.eye(weightless.nv)]
+    slopes = np.array([(above - below) / (2 * h) for above, below in V])
+    np.testing.assert_allclose(f, -slopes, rtol=0, atol=1e-7 * np.abs(f).max() + tol.SAME)      # differences of h = 1e-6
+    assert np.abs(f).max() > 0.1
+
+
+@pytest.mark.parametrize(("kind", "dimension"), EACH)
+def test_it_is_saved_and_read_again(kind, dimension, monkeypatch, tmp_path):
+    """To the last bit, its numbers with their paths; and drawn."""
+    by_their_entries(monkeypatch, kind, dimension)
+    m, P, Q = two_bodies(dimension)
     added(m, P, Q, kind)
     one, other = (each.system("absolute") for each in (m, zd.load(m.save(tmp_path / "m"))))
     for name in one._measuring.tables._fields:
@@ -86,80 +123,61 @@ def test_it_is_saved_and_read_again(kind, monkeypatch, tmp_path):
     assert one.parameters == other.parameters
 
 
-@pytest.mark.parametrize("kind", ELEMENTS)
+@pytest.mark.parametrize("kind", [*dict.fromkeys(kind for kind, _ in EACH)])
 def test_its_documentation_says_what_it_takes_and_its_example_runs(kind, monkeypatch):
-    monkeypatch.setattr(zd.Mechanism, kind, force_verb(made_force(kind)))
+    monkeypatch.setattr(zd.Mechanism, kind, force_verb(force_of(kind)))
     verb = getattr(zd.Mechanism, kind)
     doc = inspect.getdoc(verb)
-    assert doc.startswith(ELEMENTS[kind].card.summary)
-    assert all(word in doc for word in inspect.signature(verb).parameters if word != "self")
+    assert doc.startswith((ELEMENTS | SPACE_ELEMENTS)[kind].card.summary)
+    assert max(map(len, doc.splitlines())) <= 120
+    assert all(f"{word} : " in doc or f", {word} : " in doc or f"{word}, " in doc
+               for word in inspect.signature(verb).parameters if word != "self")
     examples = doctest.DocTestParser().get_doctest(doc, {}, kind, None, 0)
     assert len(examples.examples) == 4
     assert doctest.DocTestRunner().run(examples).failed == 0
 
 
+def test_a_planar_one_that_space_has_is_lifted():
+    """A spring and a torsion spring: the same motion in space."""
+    m, P, Q = two_bodies()
+    m.spring("S", P, Q, stiffness=30.0, damping=0.2, length=0.4)
+    added(m, P, Q, "torsion_spring")
+    plane, space = (zd.simulate(each, 0.2, step=0.01) for each in (m, m.lifted()))
+    np.testing.assert_allclose(space["S.force"], plane["S.force"], atol=1e-8)       # other coordinates: errors of the steps
+    np.testing.assert_allclose(space["F.torque"], plane["F.torque"], atol=1e-8)
+
+
 def test_its_numbers_can_be_changed():
     m, P, Q = two_bodies()
-    added(m, P, Q, "bushing")
+    m.bushing("F", P, Q, stiffness=(1, 2), damping=(3, 4), torsion=5, torsion_damping=6)
     system = m.system("absolute")
-    assert system.parameters["F.stiffness.across"] == 2
-    stiffer = system.with_parameters({"F.stiffness.across": 20.0})
-    assert [force.stiffness for force in stiffer._tables.forces] == [1, 20, 5]
+    assert system.parameters["F.stiffness.y"] == 2
+    stiffer = system.with_parameters({"F.stiffness.y": 20.0})
+    assert [(force.stiffness, force.damping) for force in stiffer._tables.forces] == [(1, 3), (20, 4), (5, 6)]
 
 
-IN_SPACE = {        # on the points P and Q, by hand and by the entry's own method
-    "spring": (lambda m, P, Q: m.spring("F", P, Q, stiffness=30.0, damping=0.2, length=0.4),
-               {"stiffness": 30.0, "damping": 0.2, "length": 0.4}),
-    "force": (lambda m, P, Q: m.force("F", Q, along=(0.6, 0.0, 0.8), value=SPACE_LAW, frame="B0"),
-              {"axis": (0.6, 0.0, 0.8), "value": SPACE_LAW})}
-
-
-def two_bodies_in_space():
-    m = zd.Mechanism("two bodies", dimension=3, gravity=(0.1, 0.2, -9.81))
-    bodies = [m.body(f"B{i}", 1.0 + i, (0.1, 0.2, 0.15), at=(i, 0.3, 0.1), rotation=about((1, 2, 3), 0.4 + i),
-                     com=(0.05, 0.02, 0.1))
-              for i in range(2)]
-    m.revolute("pin", m.ground, bodies[0], at=(0.1, 0.1, 0), axis=(0, 1, 0.2))
-    m.spherical("elbow", *bodies, at=(0.6, 0.5, 0))
-    return m, bodies[0].point((0.2, 0.1, 0.1)), bodies[1].point((-0.1, 0.3, 0.2))
-
-
-@pytest.mark.parametrize("layout", ["joint", "absolute"])
-@pytest.mark.parametrize("kind", IN_SPACE)
-def test_in_space_it_does_what_the_method_by_hand_does(kind, layout, monkeypatch, tmp_path):
-    """And is drawn, saved and read again."""
-    force = made_force(kind)
-    by_hand, given = IN_SPACE[kind]
-    hand, row = two_bodies_in_space(), two_bodies_in_space()
-    by_hand(*hand)
-    force_verb(force)(row[0], "F", *row[1:], **given)
-    one, other = (zd.simulate(each[0].system(layout), 0.3, step=0.01) for each in (hand, row))
-    assert np.abs(one["F.force"]).max() > 1
-    for name in ("F.force", "B0.position", "B1.position", "B1.rotation", "elbow.force"):
-        np.testing.assert_allclose(other[name], one[name], atol=1e-10)      # rounding, grown by the motion
-    assert [shape.name for shape in other.system._shapes(other.p[0])].count("F") == 1
-    monkeypatch.setattr(zd.Mechanism, kind, force_verb(force))
-    monkeypatch.setitem(to_json.WRITTEN, kind, to_json._made_force)
-    monkeypatch.setitem(from_json.MADE, kind, from_json._force_by_row(force))
-    again = zd.simulate(zd.load(row[0].save(tmp_path / "m")).system(layout), 0.3, step=0.01)
-    np.testing.assert_array_equal(again.p, other.p)
-
-
-def test_in_space_there_are_those_that_need_one_axis_at_most():
-    m, P, Q = two_bodies_in_space()
-    assert {kind for kind in ELEMENTS if made_force(kind).is_in_space()} >= {"spring", "force"}
-    with pytest.raises(ValueError, match="bushing is there for mechanisms in the plane"):
-        force_verb(made_force("bushing"))(m, "F", P, Q, axis=(1, 0, 0), stiffness=1.0)
+def test_its_arguments_are_those_that_scripts_rely_on():
+    """Keyword arguments with their defaults; those of force and torque are handwritten."""
+    expected = {"spring": {"stiffness": ..., "damping": 0.0, "length": None},
+                "torsion_spring": {"stiffness": ..., "angle": 0.0, "damping": 0.0},
+                "bushing": {"at": None, "stiffness": 0.0, "damping": 0.0, "torsion": 0.0, "torsion_damping": 0.0, "axis": None,
+                            "normal": None}}
+    for kind, given in expected.items():
+        known = inspect.signature(getattr(zd.Mechanism, kind)).parameters.values()
+        assert {each.name: ... if each.default is each.empty else each.default for each in known
+                if each.kind is each.KEYWORD_ONLY} == given
+    assert {word for word in words(SPACE_ELEMENTS["force"])} == {"at", "axis", "value", "of"}
 
 
 def test_what_is_drawn():
     """A spring between its points with a damper beside it, and of others where they are."""
-    for kind, drawn in (("spring", ["spring", "damper"]), ("bushing", ["bushing"]), ("force", ["load"]), ("torque", ["moment"])):
+    for kind, drawn in (("spring", ["spring", "damper"]), ("bushing", ["bushing"]), ("force", ["load"]), ("torque", ["moment"]),
+                        ("torsion_spring", ["spiral"])):
         m, P, Q = two_bodies()
         added(m, P, Q, kind)
         system = m.system()
         assert [shape.kind for shape in system._shapes(system.p0) if shape.name == "F"] == drawn
-        assert "1 other force" in repr(m)
+        assert f"1 {kind.replace('_', ' ')}" in repr(m)
 
 
 def test_each_refusal_names_what_is_wrong():
@@ -172,11 +190,15 @@ def test_each_refusal_names_what_is_wrong():
             (lambda: spring(m, "F", P, Q, stiffness=-1), ValueError, "stiffness of 'F' must be at least 0"),
             (lambda: spring(m, "F", P, Q, stiffness=(1, 2)), ValueError, "stiffness of 'F'"),
             (lambda: spring(m, "F", P, Q, stiffness=1, length=-1), ValueError, "length of 'F' must be at least 0"),
-            (lambda: bushing(m, "F", P, Q, axis=(1, 0), stiffness=(1, -2, 3)), ValueError, "stiffness.across of 'F'"),
-            (lambda: bushing(m, "F", P, Q, axis=(0, 0), stiffness=1), ValueError, "axis of 'F' must be a direction"),
+            (lambda: bushing(m, "F", P, Q, stiffness=(1, -2)), ValueError, "stiffness.y of 'F'"),
+            (lambda: bushing(m, "F", P, Q, axis=(1, 0), normal=(0, 1)), ValueError, "axis and normal of 'F' are for mechanisms"),
+            (lambda: force(m, "F", P, Q, axis=(0, 0), value=1), ValueError, "axis of 'F' must be a direction"),
             (lambda: force(m, "F", bob, Q, axis=(1, 0), value=1), ValueError, "axis of 'F' needs an orientation, and 'bob'"),
             (lambda: force(m, "F", P, Q, axis=(1, 0), value="much"), TypeError, "value of force 'F'"),
             (lambda: torque(m, "F", bob, Q, value=1), ValueError, "torque 'F' needs an orientation, and 'bob'")):
         with pytest.raises(error, match=text):
             call()
+    m, P, Q = two_bodies(3)
+    with pytest.raises(TypeError, match="'F' needs axis=, its direction in the drawing"):
+        torque(m, "F", P, Q, value=1)
     assert "F" not in m._elements

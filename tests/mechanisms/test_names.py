@@ -75,4 +75,4 @@ def test_a_name_of_something_else_is_refused(machine):
     with pytest.raises(TypeError, match="first must be a point, and 'base' is a whole body"):
         machine.rod("rod", "base", "bob")
     with pytest.raises(TypeError, match=r"first must be a body of 'machine', not <point arm.end of arm>"):
-        machine.slot("slot", "arm.end", "bob", axis=(1, 0))
+        machine.rolling("wheel", "arm.end", "bob", radius=1)

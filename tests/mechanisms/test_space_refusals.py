@@ -50,7 +50,7 @@ def drawing():
     (lambda m, *_: m.rolling("A", m.ground, "bead", radius=1.0, at=(0, 0, -1)), ValueError, "'bead' is a particle"),
     (lambda m, *_: m.knife_edge("A", "wheel", along=(0, 0, 1)), ValueError, "along of 'A' must not be parallel to the normal"),
     (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), stiffness=(1, 2)), ValueError, "stiffness of 'A'"),
-    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), torsion=(1, -2, 0)), ValueError, "torsion of 'A'"),
+    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), torsion=(1, -2, 0)), ValueError, "torsion.y of 'A'"),
     (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), axis=(0, 0, 0)), ValueError, "axis of 'A' must be"),
     (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), normal=(0, 0, 1)), TypeError, "normal of 'A' goes with axis="),
     (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), axis=(0, 0, 1), normal=(0, 0, 2)), ValueError,
@@ -80,7 +80,7 @@ def test_what_there_is_not(add, error, message):
     (lambda m, link: m.link("l", (0, 0), (1, 0), thickness=0.1), "thickness and normal of 'l' are for mechanisms in space"),
     (lambda m, link: m.rolling("r", m.ground, link, radius=1, axle=(1, 0)), "axle and semiaxes of 'r' are for mechanisms"),
     (lambda m, link: m.knife_edge("k", link, along=(1, 0), normal=(0, 1)), "normal of 'k' is for mechanisms in space"),
-    (lambda m, link: m.bushing("b", m.ground, link, at=(0, 0), axis=(1, 0)), "axis and normal of 'b' are for mechanisms"),
+    (lambda m, link: m.bushing("b", m.ground, link, at=(0, 0), axis=(1, 0)), "axis of 'b' is for mechanisms"),
     (lambda m, link: m.torque("t", link, value=1.0, axis=(1, 0)), "axis and frame of 't' are for mechanisms in space"),
 ])
 def test_what_there_is_in_space_alone(add, message):

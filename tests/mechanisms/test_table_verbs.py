@@ -21,13 +21,14 @@ SIGNATURES = {      # those that scripts rely on: keyword arguments, with their 
     "cylindrical": {"axis": ..., "at": None, "cut": False},
     "screw": {"axis": ..., "pitch": ..., "at": None, "cut": False},
     "planar": {"normal": ..., "at": None, "cut": False},
-    "spring": {"stiffness": ..., "damping": 0.0, "length": None}}
+    "slot": {"axis": ..., "at": None, "cut": False},
+    "knife_edge": {"along": ..., "normal": None}}
 
 
 def test_every_kind_of_both_tables_has_a_method():
     kinds = {*joints.JOINTS, *space_joints.JOINTS}
     assert len(kinds) > 10
-    assert {*SIGNATURES} - {"spring"} <= {*JOINTS}
+    assert {*SIGNATURES} <= {*JOINTS}
     assert kinds == {*JOINTS} | {*BY_HAND}
     assert all(callable(getattr(zd.Mechanism, kind)) for kind in kinds)
 
@@ -35,12 +36,12 @@ def test_every_kind_of_both_tables_has_a_method():
 @pytest.mark.parametrize("kind", SIGNATURES)
 def test_its_arguments_are_those_that_scripts_rely_on(kind):
     parameters = inspect.signature(getattr(zd.Mechanism, kind)).parameters
-    assert [*parameters][:4] == ["self", "name", "first", "second"]
+    assert [*parameters][:4] == ["self", "name", *(["point", "along"] if kind == "knife_edge" else ["first", "second"])]
     given = {name: each.default for name, each in parameters.items() if each.kind is each.KEYWORD_ONLY}
     assert {name: ... if value is inspect.Parameter.empty else value for name, value in given.items()} == SIGNATURES[kind]
 
 
-@pytest.mark.parametrize("kind", [*JOINTS, "spring"])
+@pytest.mark.parametrize("kind", JOINTS)
 def test_its_documentation_names_its_arguments_and_its_example_runs(kind):
     method = getattr(zd.Mechanism, kind)
     doc = inspect.getdoc(method)

@@ -4,8 +4,9 @@
 const zd_plane_element_kind zd_plane_bushing = {
     .card = {
         .name = "bushing",
-        .summary = "Springs with dampers along, across and about an axis of the first body.",
+        .summary = "Joins two bodies softly, by springs and dampers along and about the axes of the first.",
         .equations = "(2), (28)",
+        .description = "It is slack as drawn.",
     },
     .quantities = 3,
     .quantity = {ZD_PLANE_ALONG, ZD_PLANE_ACROSS, ZD_PLANE_ANGLE},

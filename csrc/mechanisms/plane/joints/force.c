@@ -10,5 +10,6 @@ const zd_plane_element_kind zd_plane_force = {
     },
     .quantities = 1,
     .quantity = {ZD_PLANE_GLIDE}, .zero = {ZD_ZERO_NONE},
+    .axes = 1,
     .measure = "force", .sign = 1,
 };

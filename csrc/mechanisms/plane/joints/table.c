@@ -5,7 +5,7 @@
 
 #define JOINTS(X) \
     X(zd_plane_revolute) X(zd_plane_prismatic) X(zd_plane_weld) X(zd_plane_rod) X(zd_plane_slot) X(zd_plane_rolling) X(zd_plane_knife_edge)
-#define ELEMENTS(X) X(zd_plane_spring) X(zd_plane_torsion_spring) X(zd_plane_bushing) X(zd_plane_force) X(zd_plane_torque)
+#define ELEMENTS(X) X(zd_plane_spring) X(zd_plane_bushing) X(zd_plane_torsion_spring) X(zd_plane_force) X(zd_plane_torque)
 
 #define DECLARE_JOINT(name) extern const zd_plane_joint_kind name;
 #define DECLARE_ELEMENT(name) extern const zd_plane_element_kind name;

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from ..._core import ffi, lib
+from ..base import Card, card_of, text
 
 FORCE_KINDS = {"spring": lib.ZD_FORCE_SPRING, "constant": lib.ZD_FORCE_CONSTANT, "law": lib.ZD_FORCE_LAW}
 OUTPUT_KINDS = {
@@ -13,6 +14,28 @@ OUTPUT_KINDS = {
     "joint torque": lib.ZD_JOINT_TORQUE, "joint tension": lib.ZD_JOINT_TENSION, "force value": lib.ZD_FORCE_VALUE,
     "force power": lib.ZD_FORCE_POWER, "drive": lib.ZD_DRIVE_VALUE, "drive power": lib.ZD_DRIVE_POWER,
     "force sum": lib.ZD_FORCE_SUM, "torque sum": lib.ZD_TORQUE_SUM}
+
+
+class ElementQuantity(NamedTuple):
+    """A marker quantity of a kind of force element; in space with the indices of the directions of both bodies' frames."""
+
+    kind: str
+    zero: str | None            # "along", "across", "angle", "length": the value as drawn is subtracted; None: nothing is
+    of_first: int = 0
+    of_second: int = 0
+
+
+class ElementKind(NamedTuple):
+    """A kind of force element; see `zd_plane_element_kind` and `zd_space_element_kind`."""
+
+    number: int
+    card: Card
+    quantities: tuple[ElementQuantity, ...]
+    is_spring: bool
+    axes: int                   # 0; 1: the user gives an axis; 3: an axis and a normal are optional
+    at_joint: bool
+    measure: str | None
+    sign: int
 
 
 class Relation(NamedTuple):
@@ -93,3 +116,10 @@ def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple
         "force": ffi.new("zd_generalized_force[]", forces), "measure": ffi.new("zd_output_spec[]", measures),
         "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time}
     return elements, (names, units)
+
+
+def element_kinds(count: int, kind_of: Any, quantities: Any) -> dict[str, ElementKind]:
+    """A table of force elements by name; `quantities` reads those of an entry."""
+    return {kind.card.name: kind for kind in (
+        ElementKind(number, card_of(c.card), quantities(c), bool(c.is_spring), c.axes, bool(c.at_joint),
+                    text(c.measure) if c.measure else None, c.sign) for number in range(count) for c in [kind_of(number)])}

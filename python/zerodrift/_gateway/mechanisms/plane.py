@@ -14,6 +14,7 @@ from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
 from ..measures import Components, components, given
 from ..systems import CoreSystem
+from . import element_tables
 from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, calls_python, compiled_table
 
@@ -50,17 +51,6 @@ class JointKind(NamedTuple):
     takes_length: bool
     at_contact: bool
     tension: str | None
-
-
-class ElementKind(NamedTuple):
-    """A kind of force element: its marker quantities with their zeros, and its scalar measure."""
-
-    number: int
-    card: Card
-    quantities: tuple[tuple[str, str | None], ...]
-    is_spring: bool
-    measure: str | None
-    sign: int
 
 
 class Body(NamedTuple):
@@ -129,11 +119,9 @@ def _joint_kind(number: int) -> JointKind:
                      bool(c.takes_axis), bool(c.takes_length), bool(c.at_contact), text(c.tension) if c.tension else None)
 
 
-def _element_kind(number: int) -> ElementKind:
-    c = lib.zd_plane_element_kind_of(number)
+def _element_quantities(c: Any) -> tuple[element_tables.ElementQuantity, ...]:
     names = {value: name for name, value in QUANTITY_KINDS.items()}
-    quantities = tuple((names[c.quantity[i]], ZEROS[c.zero[i]]) for i in range(c.quantities))
-    return ElementKind(number, card_of(c.card), quantities, bool(c.is_spring), text(c.measure) if c.measure else None, c.sign)
+    return tuple(element_tables.ElementQuantity(names[c.quantity[i]], ZEROS[c.zero[i]]) for i in range(c.quantities))
 
 
 def joint_kinds() -> dict[str, JointKind]:
@@ -141,9 +129,9 @@ def joint_kinds() -> dict[str, JointKind]:
     return {kind.card.name: kind for kind in map(_joint_kind, range(lib.zd_plane_joint_kinds()))}
 
 
-def element_kinds() -> dict[str, ElementKind]:
+def element_kinds() -> dict[str, element_tables.ElementKind]:
     """The core's table of force elements by name."""
-    return {kind.card.name: kind for kind in map(_element_kind, range(lib.zd_plane_element_kinds()))}
+    return element_tables.element_kinds(lib.zd_plane_element_kinds(), lib.zd_plane_element_kind_of, _element_quantities)
 
 
 class MechanismCore(CoreSystem):

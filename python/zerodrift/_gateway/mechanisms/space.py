@@ -15,6 +15,7 @@ from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
 from ..measures import Components, components
 from ..systems import CoreSystem
+from . import element_tables
 from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, calls_python, compiled_table
 from .plane import Coordinate
@@ -24,6 +25,7 @@ QUANTITY_KINDS = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z,
                   "clearance": lib.ZD_SPACE_CLEARANCE, "slip": lib.ZD_SPACE_SLIP,
                   "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN}
 NAMES = {value: name for name, value in QUANTITY_KINDS.items()}
+ZEROS = {lib.ZD_SPACE_ZERO_NONE: None, lib.ZD_SPACE_ZERO_ALONG: "along", lib.ZD_SPACE_ZERO_LENGTH: "length"}
 FREEDOMS = {lib.ZD_SPACE_SLIDES: "slides", lib.ZD_SPACE_TURNS: "turns", lib.ZD_SPACE_ADVANCES: "advances",
             lib.ZD_SPACE_SWINGS: "swings"}
 BODY, PARTICLE = (7, 6), (3, 3)     # coordinates and velocities
@@ -125,6 +127,16 @@ def _joint_kind(number: int) -> JointKind:
 def joint_kinds() -> dict[str, JointKind]:
     """The core's table of joints in space by name."""
     return {kind.card.name: kind for kind in map(_joint_kind, range(lib.zd_space_joint_kinds()))}
+
+
+def _element_quantities(c: Any) -> tuple[element_tables.ElementQuantity, ...]:
+    return tuple(element_tables.ElementQuantity(NAMES[pick.quantity], ZEROS[pick.zero], pick.of_first, pick.of_second)
+                 for pick in (c.pick[i] for i in range(c.quantities)))
+
+
+def element_kinds() -> dict[str, element_tables.ElementKind]:
+    """The core's table of force elements in space by name."""
+    return element_tables.element_kinds(lib.zd_space_element_kinds(), lib.zd_space_element_kind_of, _element_quantities)
 
 
 def coordinate_quantity(joint: Joint, coordinate: int, angles: int) -> Quantity:

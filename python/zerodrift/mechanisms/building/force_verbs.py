@@ -8,15 +8,12 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ..._rotations import AXES
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Particle, Point
-from ..elements.forces import Actuator, Bushing, Force, Motor, SpaceBushing, Torque, TorsionSpring
-from ..elements.frames import perpendicular
+from ..elements.forces import Actuator, Force, Motor, Torque
 from ..elements.joints import Joint
 from .registry import Elements
 
-FLAT = 1e-6             # sine of the angle below which directions are parallel
 VECTORS = {2: "(0.0, -10.0)", 3: "(0.0, 0.0, -10.0)"}      # examples in messages
 DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("angle", "displacement"), "torque": ("angle",),
           "force": ("displacement",)}
@@ -128,104 +125,6 @@ class ForceVerbs(Elements):
         if drives == "length" and law.constant is not None:
             _check.number(law.what, law.constant, above=0)
         return self._add(Actuator(name, first, second, drives, law))
-
-    def torsion_spring(self, name: str, joint: Joint | str, *, stiffness: float, angle: float = 0.0,
-                       damping: float = 0.0) -> TorsionSpring:
-        """Put a spring with a damper about a hinge.
-
-        Parameters
-        ----------
-        name : str
-        joint : Joint or name
-            A revolute; in space any joint with one angle, too, such as a cylindrical one. Angles count turns.
-        stiffness : float
-            In N m/rad, at least 0.
-        angle : float
-            Of the joint, at which it is slack, in rad.
-        damping : float
-            In N m s/rad, at least 0.
-
-        Returns
-        -------
-        TorsionSpring
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("door")
-        >>> door = m.link("door", (0, 0), (1, 0), mass=1.0)
-        >>> hinge = m.revolute("hinge", m.ground, door.start)
-        >>> m.torsion_spring("closer", hinge, stiffness=3.0, damping=1.0).torque
-        Measure('closer.torque')
-        """
-        name = self._new_name(name, "torsion spring")
-        joint = self._joint(f"joint of {name!r}", joint, ("angle",))
-        stiffness, damping = _least("stiffness", name, stiffness), _least("damping", name, damping)
-        return self._add(TorsionSpring(name, joint, stiffness, _check.number(f"angle of {name!r}", angle), damping))
-
-    def bushing(self, name: str, first: Body | Point | str, second: Body | Point | str, *, at: Any = None,
-                stiffness: Any = 0.0, damping: Any = 0.0, torsion: Any = 0.0, torsion_damping: Any = 0.0, axis: Any = None,
-                normal: Any = None) -> Bushing:
-        """Join two bodies softly, by springs and dampers along and about the axes of the first.
-
-        Parameters
-        ----------
-        name : str
-        first, second : Body, Point or name
-            As of `revolute`. It is slack as drawn.
-        at : array_like (2,) or (3,)
-            Where it is in the drawing, in m.
-        stiffness, damping : array_like (2,) or (3,), or float
-            Along its directions, in N/m and N s/m, at least 0: in the plane the first body's x and y axis.
-        torsion, torsion_damping : float, in space or array_like (3,)
-            About them, in N m/rad and N m s/rad, at least 0.
-        axis, normal : array_like (3,), optional
-            In space its first direction in the drawing, and the second one, which is made perpendicular; the third follows. They
-            turn with the first body. Left out: that body's own axes.
-
-        Returns
-        -------
-        Bushing
-
-        Notes
-        -----
-        In space the angle about a direction is that by which the next one has turned, as seen along it. So a turn about one
-        direction is that angle, and small ones about several are those of a linear model; none may come near half a turn.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("mount")
-        >>> engine = m.body("engine", 50.0, 2.0)
-        >>> m.bushing("mount", m.ground, engine, at=(0, 0), stiffness=(1e5, 2e5), torsion=1e3)
-        <bushing mount: ground - engine>
-        """
-        name = self._new_name(name, "bushing")
-        first, second = self._sides(name, first, second, at)
-        self._turning(name, "bushing", first.body, second.body)
-        given = {"stiffness": stiffness, "damping": damping}
-        turning = {"torsion": torsion, "torsion_damping": torsion_damping}
-        values = _of_axes(name, given | turning if self.dimension == 3 else given, self.dimension)
-        if self.dimension == 3:
-            return self._add(SpaceBushing(name, first, second, values, self._space_frames(name, first, second, axis, normal)))
-        if axis is not None or normal is not None:
-            raise WrongValue(f"axis and normal of {name!r} are for mechanisms in space")
-        values |= {word: _least(word, name, value) for word, value in turning.items()}
-        return self._add(Bushing(name, first, second, values))
-
-    def _space_frames(self, name: str, first: Point, second: Point, axis: Any, normal: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Three directions in the frames of both bodies; by default the axes of the first body."""
-        if axis is None and normal is not None:
-            raise WrongType(f"normal of {name!r} goes with axis=, to which it is made perpendicular")
-        frame = first.body.pose.rotation.T
-        if axis is not None:
-            axis = self._direction(f"axis of {name!r}", axis)
-            normal = None if normal is None else self._direction(f"normal of {name!r}", normal)
-            if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:
-                raise WrongValue(f"normal of {name!r} must not be parallel to its axis")
-            normal = perpendicular(axis, normal)
-            frame = np.stack([axis, normal, np.cross(axis, normal)])
-        return tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
 
     def force(self, name: str, point: Point | Body | str, along: Any = None, *, value: Any = None,
               of: Mapping[str, Any] | None = None, frame: Body | str | None = None) -> Force:
@@ -349,17 +248,3 @@ class ForceVerbs(Elements):
         turns_with = frame if against is self.ground else against
         axis = turns_with.pose.local_direction(self._direction(f"axis of {name!r}", axis))
         return self._add(Torque(name, body, against, law, axis=axis, frame=frame))
-
-
-def _least(quantity: str, name: str, value: Any) -> float:
-    return _check.number(f"{quantity} of {name!r}", value, least=0)
-
-
-def _of_axes(name: str, given: dict[str, Any], dimension: int) -> dict[str, float]:
-    """Parameters of each axis, translational or rotational, by their paths."""
-    found = {}
-    for quantity, value in given.items():
-        each = np.broadcast_to(value, dimension) if np.ndim(value) == 0 else value
-        for axis, number in zip(AXES, _check.vector(f"{quantity} of {name!r}", each, dimension), strict=False):
-            found[f"{quantity}.{axis}"] = _least(quantity, name, float(number))
-    return found

@@ -6,9 +6,9 @@ from typing import Any
 
 from ... import _check
 from ...errors import WrongValue
-from ..elements.bodies import Body, Particle, Point
-from ..elements.joints import KnifeEdge, Rolling, Slot
-from .space_joint_verbs import SpaceJointVerbs, checked_cut
+from ..elements.bodies import Body, Point
+from ..elements.joints import Rolling
+from .space_joint_verbs import SpaceJointVerbs
 from .table_verbs import TableVerbs
 
 Side = Body | Point | str
@@ -23,48 +23,6 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
     """
 
     gravity: Any
-
-    def slot(self, name: str, first: Body | str, second: Point | Particle | str, *, axis: Any, cut: bool = False) -> Any:
-        """Keep a point on a line of a body.
-
-        Parameters
-        ----------
-        name : str
-        first : Body or name
-            What the line belongs to; it goes, as drawn, through the point.
-        second : Point, Particle or name
-            What slides.
-        axis : array_like (2,) or (3,)
-            The line's direction in the drawing.
-        cut : bool
-            True if this joint must close a loop; left out, that joint is chosen. In the plane a slot always closes one.
-
-        Returns
-        -------
-        Slot, in space SpaceJoint
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `revolute`; and for an axis of length zero, or if the line would belong to a particle.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("bead")
-        >>> bead = m.particle("bead", 0.1, at=(0, 0))
-        >>> m.slot("wire", m.ground, bead, axis=(1, -1)).displacement
-        Measure('wire.displacement')
-        """
-        name = self._new_name(name, "joint")
-        axis = self._direction(f"axis of {name!r}", axis)
-        first, second = self._body("first", first), self._point("second", second)
-        self._turning(name, "the line of", first)
-        first, second = self._different(name, first.point(at=second.drawn), second)
-        if self.dimension == 3:
-            return self._fasten("slot", name, first, second, axis, cut=cut)
-        checked_cut(name, cut)
-        return self._add(Slot(name, first, second, axis=first.body.pose.local_direction(axis)))
 
     def rolling(self, name: str, first: Body | str, second: Side, *, radius: float | None = None, at: Any = None,
                 normal: Any = None, axle: Any = None, semiaxes: Any = None) -> Any:
@@ -123,47 +81,3 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
         first, second = self._different(name, first.point(at=at), self._point("second", second))
         self._turning(name, "rolling", first.body, second.body)
         return self._add(Rolling(name, first, second, radius, first.body.pose.local_direction(normal)))
-
-    def knife_edge(self, name: str, point: Side, *, along: Any, normal: Any = None) -> Any:
-        """Let a point of a body move along one direction of the body only, as a skate does on ice.
-
-        Parameters
-        ----------
-        name : str
-        point : Point, Body or name
-            Of a body without a point, its centre of mass.
-        along : array_like (2,) or (3,)
-            The direction in the drawing in which it glides; it turns with the body.
-        normal : array_like (3,), optional
-            In space: a direction in the drawing, made perpendicular to `along`; left out: against gravity, and where there is no
-            gravity, z. The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a
-            body that leans takes it along. The joint does not keep the point on a plane.
-
-        Returns
-        -------
-        KnifeEdge, in space SpaceJoint
-            Its first body is the ground.
-
-        Raises
-        ------
-        ValueError, TypeError
-            As `revolute`; and for a direction of length zero, or a particle.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> m = zd.Mechanism("sleigh")
-        >>> sleigh = m.body("sleigh", 1.0, 0.1)
-        >>> m.knife_edge("blade", sleigh.point((-0.5, 0)), along=(1, 0))
-        <knife_edge blade: ground - sleigh>
-        """
-        if self.dimension == 3:
-            return self._space_knife_edge(name, point, along, normal)
-        if normal is not None:
-            raise WrongValue(f"normal of {name!r} is for mechanisms in space")
-        name = self._new_name(name, "joint")
-        along = self._direction(f"along of {name!r}", along)
-        point = self._point("point", point, center=True)
-        self._turning(name, "knife edge", point.body)
-        first, point = self._different(name, self.ground.point(at=point.drawn), point)
-        return self._add(KnifeEdge(name, first, point, axis=point.body.pose.local_direction(along)))

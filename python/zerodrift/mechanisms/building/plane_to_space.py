@@ -12,9 +12,11 @@ from ..elements.bodies import Body, Link, Particle, Point, _Center
 from ..elements.drawing import Drawing
 from ..elements.frames import about
 from ..elements.joints import Joint
+from ..elements.table_forces import TableForce, parameters
 from ..elements.user_functions import Law
 from .coupling_verbs import _Expression, _Follows, _Sum
 from .periodic_spline import PeriodicSpline
+from .table_verbs import FORCES
 
 NORMAL = (0.0, 0.0, 1.0)
 HINGED = ("revolute", "prismatic", "weld")      # kinds of joints that keep two bodies in one plane
@@ -224,12 +226,13 @@ def _actuator(m: Any, actuator: Any) -> None:
     m.actuator(actuator.name, *_sides(m, actuator), of=law["of"], **{actuator.drives: law["value"]})
 
 
-def _spring(m: Any, spring: Any) -> None:
-    m.spring(spring.name, *_sides(m, spring), stiffness=spring.stiffness, length=spring.free_length, damping=spring.damping)
-
-
-def _torsion_spring(m: Any, spring: Any) -> None:
-    m.torsion_spring(spring.name, spring.joint.name, stiffness=spring.stiffness, angle=spring.angle, damping=spring.damping)
+def _table_force(m: Any, force: TableForce) -> None:
+    ends = _sides(m, force) if force.joint is None else (force.joint.name,)
+    axis = {} if force.axis is None else {"axis": _raised(force.first.body.pose.direction(force.axis))}
+    given = {word: tuple(force.values[path] for path in paths) for word, paths in parameters(force.row).items()
+             if word != "length" or word in force.values}
+    given = {word: values if len(values) > 1 else values[0] for word, values in given.items()}
+    getattr(m, force.kind)(force.name, *ends, **axis, **(given if force.law is None else _law(m, force.law)))
 
 
 def _bushing(m: Any, bushing: Any) -> None:
@@ -254,5 +257,5 @@ LIFTED: dict[str, Callable[[Any, Any], None]] = {
     "body": _body, "link": _link, "particle": _particle, "point": _named_point, "revolute": _revolute, "prismatic": _prismatic,
     "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
-    "force": _force, "torque": _torque}
+    "motor": _motor, "actuator": _actuator, **{kind: _table_force for kind, force in FORCES.items() if 3 in force.entries},
+    "bushing": _bushing, "force": _force, "torque": _torque}

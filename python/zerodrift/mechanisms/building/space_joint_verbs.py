@@ -11,7 +11,7 @@ from ...errors import WrongType, WrongValue
 from ..elements.bodies import Body, Point
 from ..elements.frames import perpendicular
 from ..elements.joints import draws_length
-from ..elements.space_joints import BY_KIND, SpaceJoint, has_torque
+from ..elements.space_joints import BY_KIND, SpaceJoint, has_torque, is_blade
 from .registry import Elements
 
 Side = Body | Point | str
@@ -22,7 +22,7 @@ TOUCHING = 0.01         # of the height of the centre: gap of a rough drawing th
 class SpaceJointVerbs(Elements):
     """Joints in space, whose axes are directions in the drawing."""
 
-    # ---- rolling and gliding ----
+    # ---- rolling ----
 
     gravity: np.ndarray
 
@@ -71,20 +71,6 @@ class SpaceJointVerbs(Elements):
                              "not roll")
         return np.stack([body.pose.local_direction(row) for row in _frame(axle, None)]), (0.0, radius, radius)
 
-    def _space_knife_edge(self, name: str, point: Any, along: Any, normal: Any) -> SpaceJoint:
-        """Blade: the axis of its frame points along it, the normal of the frame across."""
-        name = self._new_name(name, "joint")
-        along = self._direction(f"along of {name!r}", along)
-        up = self._direction(f"normal of {name!r}", self._upwards() if normal is None else normal)
-        if np.linalg.norm(np.cross(up, along)) < FLAT:
-            raise WrongValue(f"along of {name!r} must not be parallel to the normal of the ice")
-        point = self._point("point", point, center=True)
-        self._turning(name, "knife edge", point.body)
-        first, point = self._different(name, self.ground.point(at=point.drawn), point)
-        frame = _frame(along, np.cross(perpendicular(along, up), along))
-        frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, point))
-        return self._add(BY_KIND["knife_edge"](name, first, point, frames=frames))
-
     # ---- shared ----
 
     def _at_origin(self, name: str, at: Any, first: Any, second: Any) -> Any:
@@ -109,6 +95,8 @@ class SpaceJointVerbs(Elements):
             self._turning(name, kind, first.body, second.body)
         elif joint.row.axes:
             self._turning(name, "the axis of", first.body)
+        elif is_blade(joint.row):
+            self._turning(name, "knife edge", second.body)
         frame = np.eye(3) if axis is None else _frame(axis, normal)
         frames = tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
         damping = _check.number(f"damping of {name!r}", damping, least=0)

@@ -1,4 +1,4 @@
-"""Methods of `Mechanism` for force elements, made from entries of the core's table: arguments, checks and documentation."""
+"""Methods of `Mechanism` for force elements, made from entries of the core's tables: arguments, checks and documentation."""
 
 from __future__ import annotations
 
@@ -9,108 +9,214 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ...errors import WrongType
-from ..elements.table_forces import MadeForce
+from ..._gateway.mechanisms.element_tables import ElementKind
+from ...errors import WrongType, WrongValue
+from ..elements.bodies import Point
+from ..elements.frames import perpendicular
+from ..elements.table_forces import TableForce, has, is_between_points, lengths, parameters
 from .registry import Elements
 from .table_joint_documentation import POINTS, SIDES, wrapped
 
-TAKEN = {
-    "axis": ("array_like {vector}", "Its direction in the drawing; it turns with the first body."),
-    "stiffness": ("float{size}", "In N/m{rotary_stiffness}, at least 0{each}.{unstressed}"),
-    "damping": ("float{size}", "In N s/m{rotary_damping}, at least 0{each}."),
+WORDS = {
+    "joint": ("Joint or name", "With one angle, which counts turns."),
+    "at": ("array_like {vector}", "Position of the element in the drawing, in m."),
+    "axis": ("array_like {axis_size}", "{axis}direction in the drawing; it turns with the first body.{own_axes}"),
+    "normal": ("array_like (3,), optional", "In space its second direction, which is made perpendicular; the third follows."),
     "length": ("float, optional", "Unstressed length in m, at least 0; left out: as drawn."),
+    "angle": ("float", "Of the joint, at which it is slack, in rad."),
     "value": ("float, callable or SymPy expression",
-              "In N{rotary_value}; of t, parameters and measures of positions and velocities."),
+              "In {unit}; of t, parameters and measures of positions and velocities."),
     "of": ("dict of str to measure", "Measures by the names of the callable's arguments.")}
-AT = "array_like {vector}", "Position of the element in the drawing, in m."
-ROTARY = {"stiffness": "N m/rad", "damping": "N m s/rad", "value": "N m"}
+UNITS = {"stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad"), "torsion": ("", "N m/rad"),
+         "torsion_damping": ("", "N m s/rad"), "value": ("N", "N m")}      # along marker quantities in m and in rad
 KINDS = {"name": "str", "first": "Side", "second": "Side"}
 NEEDED = inspect.Parameter.empty
+FLAT = 1e-6             # sine of the angle below which directions are parallel
 
 
-def force_verb(force: type[MadeForce], build: Callable[..., Any] | None = None) -> Callable[..., Any]:
-    """Method of `Mechanism` for one kind of force element; `build` makes it, by default the class `force`."""
-    at = {} if force.is_between_points() else {"at": None}
+def force_verb(force: type[TableForce]) -> Callable[..., Any]:
+    """Method of `Mechanism` for one kind of force element."""
+    given = {name: NEEDED for name in sides(force)}
     signature = inspect.Signature(
         [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation=KINDS.get(name, NEEDED))
-         for name in ("self", "name", "first", "second")]
+         for name in ("self", "name", *given)]
         + [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=initial, annotation="Any")
-           for name, initial in {**at, **taken(force)}.items()], return_annotation="Any")
+           for name, initial in _words_of_all(force).items()], return_annotation="Any")
 
-    def make(m: Elements, *given: Any, **named: Any) -> MadeForce:
+    def make(m: Elements, *given: Any, **named: Any) -> TableForce:
         try:
             bound = signature.bind(m, *given, **named)
         except TypeError as error:
             raise WrongType(f"{force.kind}(): {error}") from None
         bound.apply_defaults()
         values = dict(bound.arguments)
-        return _add(values.pop("self"), force, build or force, values.pop("name"), **values)
+        return _add(values.pop("self"), force, values.pop("name"), values)
 
     make.__name__, make.__qualname__ = force.kind, f"Mechanism.{force.kind}"
     make.__doc__, make.__signature__ = _documentation(force), signature      # type: ignore[attr-defined]
     return make
 
 
-def taken(force: type[MadeForce]) -> dict[str, Any]:
-    """Arguments of the method besides the two sides, with their defaults."""
-    axis = {"axis": NEEDED} if force.has("along", "across", "glide", "skid") else {}
-    if not force.row.is_spring:
-        return {**axis, "value": NEEDED, "of": None}
-    length = {"length": None} if any(zero == "length" for _, zero in force.row.quantities) else {}
-    return {**axis, "stiffness": NEEDED, "damping": 0.0, **length}
+def sides(force: type[TableForce]) -> tuple[str, ...]:
+    """Arguments of what the element acts on: a joint, or two sides."""
+    return ("joint",) if _either(force).at_joint else ("first", "second")
 
 
-def _add(m: Elements, force: type[MadeForce], build: Callable[..., Any], name: Any, *, first: Any, second: Any, at: Any = None,
-         axis: Any = None, stiffness: Any = None, damping: Any = 0.0, length: Any = None, value: Any = None,
-         of: Any = None) -> Any:
-    if not force.is_in_space():
-        m._in_the_plane(force.kind)
-    name = m._new_name(name, force.kind)
-    if force.is_between_points():
-        first, second = m._different(name, m._point("first", first), m._point("second", second))
-    else:
-        first, second = m._sides(name, first, second, at)
-    if force.has("angle"):
-        m._turning(name, force.kind, first.body, second.body)
+def words(entry: ElementKind) -> dict[str, Any]:
+    """Keyword arguments of the method in the plane or in space, with their defaults."""
+    axes = {"axis": NEEDED} if entry.axes == 1 else {"axis": None, "normal": None} if entry.axes else {}
+    at = {} if entry.at_joint or is_between_points(entry) else {"at": None}
+    if not entry.is_spring:
+        return {**at, **axes, "value": NEEDED, "of": None}
+    several = len(entry.quantities) > 1
+    return {**at, **{word: None if word == "length" else NEEDED if word == "stiffness" and not several else 0.0
+                     for word in parameters(entry)}, **axes}
+
+
+def _either(force: type[TableForce]) -> ElementKind:
+    """Entry of the plane, if there is one, otherwise of space."""
+    return next(iter(force.entries.values()))
+
+
+def _words_of_all(force: type[TableForce]) -> dict[str, Any]:
+    """Keyword arguments in the plane and in space; those of one of them alone are optional."""
+    each = [words(entry) for entry in force.entries.values()]
+    return {word: initial if all(word in others for others in each) else None
+            for known in each for word, initial in known.items()}
+
+
+# ---- adding ----
+
+
+def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any]) -> TableForce:
+    entry, what = _entry(m, force, name, given), force.kind.replace("_", " ")
+    name = m._new_name(name, what)
+    ends = _ends(m, entry, name, given)
+    if has(entry, "angle", "turn", "spin") and not entry.at_joint:
+        m._turning(name, what, *(end.body for end in ends))
+    place = _directions(m, entry, name, given, ends)
+    if entry.is_spring:
+        values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given[word]).items()}
+        return m._add(force(name, *ends, values=values, **place))
+    return m._add(force(name, *ends, values={}, law=m._law(f"value of {what} {name!r}", given["value"], given["of"]), **place))
+
+
+def _entry(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any]) -> ElementKind:
+    """Entry for the plane or for space; arguments of the other must be left out."""
+    here, other = ("in the plane", "in space") if m.dimension == 2 else ("in space", "in the plane")
+    if m.dimension not in force.entries:
+        raise WrongValue(f"{force.kind} is there for mechanisms {other}, not {here}")
+    entry = force.entries[m.dimension]
+    foreign = [word for word, value in given.items() if word not in (*sides(force), *words(entry)) and value is not None]
+    if foreign:
+        raise WrongValue(f"{' and '.join(foreign)} of {name!r} {'are' if len(foreign) > 1 else 'is'} for mechanisms {other}")
+    return entry
+
+
+def _ends(m: Elements, entry: ElementKind, name: str, given: dict[str, Any]) -> tuple[Any, ...]:
+    """The joint, or the points of both bodies."""
+    if entry.at_joint:
+        return (m._joint(f"joint of {name!r}", given["joint"], ("angle",)),)
+    first, second = given["first"], given["second"]
+    if is_between_points(entry):
+        return m._different(name, m._point("first", first), m._point("second", second))
+    return m._sides(name, first, second, given["at"])
+
+
+def _directions(m: Elements, entry: ElementKind, name: str, given: dict[str, Any], ends: tuple[Any, ...]) -> dict[str, Any]:
+    """In the plane the axis in the first body's frame; in space the frame of an axis and a normal in those of both bodies."""
+    axis, normal = given.get("axis"), given.get("normal")
+    if not entry.axes:
+        return {}
+    if axis is None and entry.axes == 1:
+        raise WrongType(f"{name!r} needs axis=, its direction in the drawing")
+    first, second = ends
+    m._turning(name, "axis of", first.body)
+    axis = None if axis is None else m._direction(f"axis of {name!r}", axis)
+    if m.dimension == 2:
+        return {"axis": first.body.pose.local_direction(axis)}
+    return {"frames": _frames(name, first, second, axis, None if normal is None else m._direction(f"normal of {name!r}", normal))}
+
+
+def _frames(name: str, first: Point, second: Point, axis: Any, normal: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Three directions in the frames of both bodies; by default the axes of the first body."""
+    if axis is None and normal is not None:
+        raise WrongType(f"normal of {name!r} goes with axis=, to which it is made perpendicular")
+    frame = first.body.pose.rotation.T
     if axis is not None:
-        m._turning(name, "axis of", first.body)
-        axis = first.body.pose.local_direction(m._direction(f"axis of {name!r}", axis))
-    values, law = {}, None
-    if force.row.is_spring:
-        values = _each("stiffness", name, force, stiffness) | _each("damping", name, force, damping)
-    else:
-        law = m._law(f"value of {force.kind} {name!r}", value, of)
-    if length is not None:
-        values["length"] = _check.number(f"length of {name!r}", length, least=0)
-    return m._add(build(name, first, second, axis, values, law))
+        if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:
+            raise WrongValue(f"normal of {name!r} must not be parallel to its axis")
+        normal = perpendicular(axis, normal)
+        frame = np.stack([axis, normal, np.cross(axis, normal)])
+    return tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))
 
 
-def _each(quantity: str, name: str, force: type[MadeForce], given: Any) -> dict[str, float]:
-    """Values of a quantity for all marker quantities, by path, from one number for all of them or one for each."""
-    paths = force.paths(quantity)
-    given = np.broadcast_to(given, len(paths)) if np.ndim(given) == 0 else given
-    each = zip(paths, _check.vector(f"{quantity} of {name!r}", given, len(paths)), strict=True)
-    return {path: _check.number(f"{path} of {name!r}", float(number), least=0) for path, number in each}
+def _values(word: str, name: str, entry: ElementKind, given: Any) -> dict[str, float]:
+    """Values of a parameter by path, from one number for all of its marker quantities or one for each."""
+    if word == "length" and given is None:
+        return {}
+    paths = parameters(entry)[word]
+    each = np.broadcast_to(given, len(paths)) if np.ndim(given) == 0 and len(paths) > 1 else given
+    numbers = [each] if np.ndim(each) == 0 else _check.vector(f"{word} of {name!r}", each, len(paths)).tolist()
+    return {path: _check.number(f"{path} of {name!r}", number, least=None if word == "angle" else 0)
+            for path, number in zip(paths, numbers, strict=True)}
 
 
-def _documentation(force: type[MadeForce]) -> str:
+# ---- documentation ----
+
+
+def _documentation(force: type[TableForce]) -> str:
     """Docstring in the style of the handwritten ones."""
-    card, several = force.row.card, len(force.row.quantities) > 1
-    words = {"vector": "(2,) or (3,)" if force.is_in_space() else "(2,)",
-             "unstressed": "" if "length" in taken(force) else " It is unstressed as drawn.",
-             **{f"rotary_{name}": f", along angles in {unit}" * force.has("angle") for name, unit in ROTARY.items()},
-             "size": f" or array_like ({len(force.row.quantities)},)" if several else "",
-             "each": f"; for each of {', '.join(quantity for quantity, _ in force.row.quantities)}" if several else ""}
-    lines = [card.summary, "", *wrapped(card.description), "Parameters", "----------"]
-    sides = POINTS if force.is_between_points() else {**SIDES, "at": AT}
-    for name, (kind, text) in {"name": ("str", ""), **sides, **{word: TAKEN[word] for word in taken(force)}}.items():
-        lines += [f"{name} : {kind.format(**words)}", *wrapped(text.format(**words), "    ")[:-1]]
-    lines += ["", "Returns", "-------", force.__name__, "", "Notes", "-----", *wrapped(f"Source: {card.equations}.")]
-    axis = ", axis=(1, 0)" if "axis" in taken(force) else ""
-    given = "m.ground.point((0, 0)), body.center" if force.is_between_points() else "m.ground, body, at=(1, 0)"
-    value = "stiffness=2.0" if force.row.is_spring else "value=2.0"
-    lines += ["Examples", "--------", ">>> import zerodrift as zd", '>>> m = zd.Mechanism("example")',
-              '>>> body = m.body("body", 1.0, 0.1, at=(1, 0))',
-              f'>>> m.{force.kind}("element", {given}{axis}, {value})',
-              f"<{force.kind} element: ground - body>"]
-    return "\n".join(lines)
+    cards, known = [entry.card for entry in force.entries.values()], _words_of_all(force)
+    texts = {"name": ("str", ""), **({} if "joint" in sides(force) else SIDES if "at" in known else POINTS)}
+    texts |= {word: WORDS.get(word, ("", "")) for word in (*sides(force), *known) if word not in ("first", "second")}
+    values = _placeholders(force)
+    lines = [cards[0].summary, "", *wrapped(" ".join(dict.fromkeys(card.description for card in cards if card.description))),
+             "Parameters", "----------"]
+    for word, (kind, text) in texts.items():
+        if not kind:
+            kind, text = _parameter(force, word)
+        lines += [f"{word} : {kind.format(**values)}", *wrapped(text.format(**values), "    ")[:-1]]
+    lines += ["", "Returns", "-------", force.__name__, "", "Notes", "-----", *wrapped(f"Source: {cards[0].equations}.")]
+    return "\n".join([*lines, "Examples", "--------", *_example(force)])
+
+
+def _placeholders(force: type[TableForce]) -> dict[str, str]:
+    """Values of the placeholders of the texts."""
+    in_space = {dimension: entry.axes for dimension, entry in force.entries.items()}
+    sizes = {2: "(2,)", 3: "(3,)"}
+    return {"vector": " or ".join(sizes[dimension] for dimension in force.entries),
+            "axis_size": " or ".join(sizes[dimension] for dimension, axes in in_space.items() if axes)
+                         + ", optional" * (in_space.get(3) == 3),
+            "axis": "In space its first " if in_space.get(3) == 3 else "Its ",
+            "own_axes": " Left out: that body's own axes." if in_space.get(3) == 3 else "",
+            "unit": _unit("value", _either(force))}
+
+
+def _unit(word: str, entry: ElementKind) -> str:
+    return UNITS[word][word.startswith("torsion") or not lengths(entry)]
+
+
+def _parameter(force: type[TableForce], word: str) -> tuple[str, str]:
+    """Kind and text of a stiffness or a damping."""
+    sizes = {len(parameters(entry)[word]) for entry in force.entries.values()}
+    vectors = " or ".join(f"({size},)" for size in sorted(sizes - {1}))
+    kind = f"float{', in space' * (1 in sizes)} or array_like {vectors}" if vectors else "float"
+    where = " about its directions" if word.startswith("torsion") else " along its directions" if vectors else ""
+    is_slack = word == "stiffness" and not {"length", "angle"} & {*parameters(_either(force))}
+    return kind, f"In {_unit(word, _either(force))}{where}, at least 0.{' It is unstressed as drawn.' * is_slack}"
+
+
+def _example(force: type[TableForce]) -> list[str]:
+    entry, in_plane = _either(force), 2 in force.entries
+    (x, y), dimension, inertia = (("(1, 0)", "(0, 0)"), "", "0.1") if in_plane else (
+        ("(1, 0, 0)", "(0, 0, 0)"), ", dimension=3", "(0.1, 0.1, 0.1)")
+    hinge = ", axis=(0, 0, 1)" * (not in_plane)
+    given = (f'm.revolute("hinge", m.ground, body, at={y}{hinge})' if entry.at_joint else
+             f"m.ground.point({y}), body.center" if is_between_points(entry) else f"m.ground, body, at={x}")
+    axis = f", axis={x}" * (entry.axes == 1)
+    where = " at hinge" if entry.at_joint else ": ground - body"
+    return [">>> import zerodrift as zd", f'>>> m = zd.Mechanism("example"{dimension})',
+            f'>>> body = m.body("body", 1.0, {inertia}, at={x})',
+            f'>>> m.{force.kind}("element", {given}{axis}, {"stiffness" if entry.is_spring else "value"}=2.0)',
+            f"<{force.kind.replace('_', ' ')} element{where}>"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import textwrap
 from typing import Any
 
-from ..elements.joints import Joint, draws_length, is_slider
-from ..elements.space_joints import SpaceJoint, is_at_point, speeds
+from ..elements.joints import Joint, draws_length
+from ..elements.space_joints import SpaceJoint, is_at_point, is_blade, speeds
 
 WIDTH = 120     # columns of a docstring
 SIDES = {
@@ -15,6 +15,11 @@ POINTS = {"first, second": ("Point, Particle or name", "")}
 POINT = {"point": ("Point, Body or name", "Of a body without a point, its centre of mass.")}
 WORDS = {
     "axis": ("array_like {axis_size}", "{only}direction in the drawing; it turns with the {carrier}."),
+    "along": ("array_like {axis_size}", "Its direction in the drawing, in which the point glides; it turns with the body."),
+    "up": ("array_like (3,), optional",
+           "In space a direction in the drawing, made perpendicular to `along`; left out: against gravity, or z without gravity. "
+           "The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a body that "
+           "leans takes it along. The joint does not keep the point on a plane."),
     "axes": ("tuple of array_like (3,)", "Axis of the first body and axis of the second, perpendicular, in the drawing."),
     "normal": ("array_like (3,)", "Normal of the plane of the first body, in the drawing."),
     "at": ("array_like {size}", "Position of the joint in the drawing, in m.{origin}"),
@@ -22,8 +27,8 @@ WORDS = {
     "length": ("float", "In m, above 0{left_out}."),
     "damping": ("float", "Of its {coordinate}, in {unit}, at least 0."),
     "cut": ("bool", "True if this joint must close a loop; left out, the joint that closes a loop is chosen.")}
-EXAMPLES = {"axis": ("(1, 0)", "(1, 0, 0)"), "axes": ("", "((1, 0, 0), (0, 1, 0))"), "normal": ("", "(0, 0, 1)"),
-            "pitch": ("", "0.002"), "length": ("0.5", "0.5")}       # in the plane, in space
+EXAMPLES = {"axis": ("(1, 0)", "(1, 0, 0)"), "along": ("(1, 0)", "(1, 0, 0)"), "axes": ("", "((1, 0, 0), (0, 1, 0))"),
+            "normal": ("", "(0, 0, 1)"), "pitch": ("", "0.002"), "length": ("0.5", "0.5")}       # in the plane, in space
 
 
 def documentation(plane: type[Joint] | None, space: type[SpaceJoint] | None, words: list[str]) -> str:
@@ -32,7 +37,7 @@ def documentation(plane: type[Joint] | None, space: type[SpaceJoint] | None, wor
     card = joint.row.card
     lines = [card.summary, "", *wrapped(card.description), "Parameters", "----------"]
     texts = {"name": ("str", ""), **(POINT if "point" in words else SIDES if "at" in words else POINTS)}
-    texts |= {word: WORDS[word] for word in words if word in WORDS}
+    texts |= {word: WORDS["up" if word == "normal" and "along" in words else word] for word in words if word in WORDS}
     values = _values(plane, space)
     for name, (kind, text) in texts.items():
         lines += [f"{name} : {kind.format(**values)}", *wrapped(text.format(**values), "    ")[:-1]]
@@ -49,8 +54,8 @@ def documentation(plane: type[Joint] | None, space: type[SpaceJoint] | None, wor
 def _values(plane: type[Joint] | None, space: type[SpaceJoint] | None) -> dict[str, str]:
     """Values of the placeholders of the texts."""
     joint: Any = plane or space
-    in_plane, in_space = bool(plane and plane.row.takes_axis), bool(space and space.row.axes == 1)
-    to_origin = not is_at_point(space.row) if space else is_slider(joint.row)
+    in_plane, in_space = bool(plane and plane.row.takes_axis), bool(space and (space.row.axes == 1 or is_blade(space.row)))
+    to_origin = not is_at_point(space.row) if space else joint.row.takes_axis
     return {"carrier": "body" if joint.is_of_one_body else "first body", "coordinate": joint.coordinate or "",
             "unit": "N m s" if joint.coordinate == "angle" else "N s/m",
             "left_out": "; left out: as drawn" if draws_length(joint.row) else "",
@@ -82,7 +87,7 @@ def _example(joint: type[Joint], in_plane: bool, words: list[str]) -> list[str]:
     at = "(1, 0)" if in_plane else "(1, 0, 0)"
     required = [word for word in words if word in EXAMPLES and EXAMPLES[word][not in_plane]]
     if in_plane:
-        required = [word for word in required if word in joint.takes]
+        required = [word for word in required if word in (*joint.takes, "along")]
     sides = "body" if "point" in words else f"m.ground, body, at={at}" if "at" in words else (
         f"m.ground.point({at[:-2]}1)), body.center")
     arguments = ", ".join([sides, *(f"{word}={EXAMPLES[word][not in_plane]}" for word in required)])

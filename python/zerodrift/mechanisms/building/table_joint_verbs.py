@@ -10,13 +10,14 @@ import numpy as np
 
 from ... import _check
 from ...errors import WrongType, WrongValue
-from ..elements.joints import Joint, draws_length, holds_angle, holds_distance, is_slider
-from ..elements.space_joints import SpaceJoint, advances, is_at_point, is_on_plane
+from ..elements.frames import perpendicular
+from ..elements.joints import Joint, draws_length, holds_angle, holds_distance
+from ..elements.space_joints import SpaceJoint, advances, is_at_point, is_blade, is_on_plane
 from .registry import Elements
-from .space_joint_verbs import checked_cut
+from .space_joint_verbs import FLAT, checked_cut
 from .table_joint_documentation import documentation
 
-ORDER = ("axis", "axes", "normal", "pitch", "at", "length", "damping", "cut")
+ORDER = ("axis", "along", "axes", "normal", "pitch", "at", "length", "damping", "cut")
 KINDS = {"name": "str", "first": "Side", "second": "Side", "point": "Side", "axes": "tuple[Any, Any]", "pitch": "float",
          "damping": "float", "cut": "bool"}
 INITIAL = {"at": None, "damping": 0.0, "cut": False}
@@ -53,12 +54,16 @@ def verb(plane: type[Joint] | None, space: type[SpaceJoint] | None = None) -> Ca
 
 def plane_words(joint: type[Joint]) -> list[str]:
     """Keyword arguments in the plane."""
-    return [*([] if joint.is_of_one_body or holds_distance(joint.row) else ["at"]), *joint.takes]
+    if joint.is_of_one_body:
+        return ["along" if word == "axis" else word for word in joint.takes]
+    return [*([] if holds_distance(joint.row) else ["at"]), *joint.takes]
 
 
 def space_words(joint: type[SpaceJoint]) -> list[str]:
     """Keyword arguments in space."""
     row = joint.row
+    if is_blade(row):
+        return ["along", "normal"]
     words = [axis_word(joint)] if row.axes else []
     words += [] if holds_distance(joint.row) else ["at"]
     words += [length_word(joint)] if row.takes_length else []
@@ -67,9 +72,11 @@ def space_words(joint: type[SpaceJoint]) -> list[str]:
 
 
 def axis_word(joint: type[SpaceJoint]) -> str:
-    """Name of the argument for directions: two axes, the normal of a plane that holds the second point, or an axis."""
+    """Name of the argument for directions: two axes, the normal of a plane that holds the second point, along, or an axis."""
     if joint.row.axes == 2:
         return "axes"
+    if is_blade(joint.row):
+        return "along"
     return "normal" if is_on_plane(joint.row) else "axis"
 
 
@@ -83,7 +90,8 @@ def _signature(plane: type[Joint] | None, space: type[SpaceJoint] | None) -> ins
     in_each += [space_words(space)] if space else []
     initial = {**INITIAL, **({"length": None} if any(draws_length(each.row) for each in (plane, space) if each) else {})}
     initial |= {word: None for word in ORDER if word not in initial and not all(word in each for each in in_each)}
-    sides = ["point"] if plane and plane.is_of_one_body else ["first", "second"]
+    is_of_one_body = plane.is_of_one_body if plane else space is not None and is_blade(space.row)
+    sides = ["point"] if is_of_one_body else ["first", "second"]
     given = [inspect.Parameter(name, inspect.Parameter.POSITIONAL_OR_KEYWORD, annotation=KINDS.get(name, inspect.Parameter.empty))
              for name in ("self", "name", *sides)]
     words = [word for word in ORDER if any(word in each for each in in_each)]
@@ -108,10 +116,10 @@ def _check_dimension(m: Elements, plane: type[Joint] | None, space: type[SpaceJo
 
 
 def _taken(m: Elements, name: Any, values: dict[str, Any], words: list[str]) -> dict[str, Any]:
-    """Arguments without those of the other dimension, which must be left out."""
-    other, taken = "in space" if m.dimension == 2 else "in the plane", {"first", "second", "point", *words}
+    """Arguments without those of the other dimension, which must be left out; a joint that always closes a loop may be cut."""
+    other, taken = "in space" if m.dimension == 2 else "in the plane", {"first", "second", "point", "cut", *words}
     for word in values.keys() - taken:
-        if values[word] is not None and not (word in ("damping", "cut") and values[word] == INITIAL[word]):
+        if values[word] is not None and not (word == "damping" and values[word] == INITIAL[word]):
             reason = ": in the plane bodies turn about its normal" if (word, m.dimension) == ("axis", 2) else ""
             raise WrongValue(f"{word} of {name!r} is for mechanisms {other}{reason}")
     return {word: value for word, value in values.items() if word in taken}
@@ -121,10 +129,11 @@ def _taken(m: Elements, name: Any, values: dict[str, Any], words: list[str]) -> 
 
 
 def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, second: Any = None, point: Any = None, at: Any = None,
-         axis: Any = None, length: Any = None, damping: Any = 0.0, cut: Any = False) -> Joint:
+         axis: Any = None, along: Any = None, length: Any = None, damping: Any = 0.0, cut: Any = False) -> Joint:
     name = m._new_name(name, "joint")
+    word, axis = ("axis", axis) if along is None else ("along", along)
     if axis is not None:
-        axis = m._direction(f"axis of {name!r}", axis)
+        axis = m._direction(f"{word} of {name!r}", axis)
     first, second = _sides(m, joint, name, first, second, point, at)
     if length is not None:
         length = _check.number(f"length of {name!r}", length, above=0)
@@ -135,7 +144,7 @@ def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, secon
         m._turning(name, "damping of", first.body, second.body)
     if axis is not None:
         carrier = second.body if joint.is_of_one_body else first.body
-        m._turning(name, "axis of", carrier)
+        m._turning(name, f"{word} of", carrier)
         axis = carrier.pose.local_direction(axis)
     made = joint(name, first, second, axis=axis, length=length, damping=damping, cut=checked_cut(name, cut))
     if joint.row.takes_length:
@@ -150,7 +159,7 @@ def _sides(m: Elements, joint: type[Joint], name: str, first: Any, second: Any, 
         return m._different(name, m.ground.point(at=point.drawn), point)
     if holds_distance(joint.row):
         return m._different(name, m._point("first", first), m._point("second", second))
-    if is_slider(joint.row):
+    if joint.row.takes_axis:
         at = m._at_origin(name, at, first, second)
     return m._sides(name, first, second, at)
 
@@ -160,9 +169,11 @@ def needs_angles(joint: type[Joint]) -> bool:
     return holds_angle(joint.row) or any(row.rolls for row in joint.row.rows)
 
 
-def _add_in_space(m: Any, joint: type[SpaceJoint], name: Any, *, first: Any, second: Any, at: Any = None, axis: Any = None,
-                  normal: Any = None, axes: Any = None, pitch: Any = None, length: Any = None, damping: Any = 0.0,
-                  cut: Any = False) -> SpaceJoint:
+def _add_in_space(m: Any, joint: type[SpaceJoint], name: Any, *, first: Any = None, second: Any = None, point: Any = None,
+                  at: Any = None, axis: Any = None, along: Any = None, normal: Any = None, axes: Any = None, pitch: Any = None,
+                  length: Any = None, damping: Any = 0.0, cut: Any = False) -> SpaceJoint:
+    if is_blade(joint.row):
+        return _add_blade(m, joint, name, point, along, normal)
     given = {"axis": axis, "normal": normal, "axes": axes}
     directions = _directions(m, joint, name, given[axis_word(joint)]) if joint.row.axes else ()
     if length_word(joint) == "pitch":
@@ -176,6 +187,18 @@ def _add_in_space(m: Any, joint: type[SpaceJoint], name: Any, *, first: Any, sec
         return m._fasten(joint.kind, name, *sides, length=length)
     at = at if is_at_point(joint.row) else m._at_origin(name, at, first, second)
     return m._join(joint.kind, name, first, second, at, *directions, length=length, damping=damping, cut=cut)
+
+
+def _add_blade(m: Any, joint: type[SpaceJoint], name: Any, point: Any, along: Any, normal: Any) -> SpaceJoint:
+    """Blade in space: the axis of its frame points along it, the normal of the frame across."""
+    name = m._new_name(name, "joint")
+    along = m._direction(f"along of {name!r}", along)
+    up = m._direction(f"normal of {name!r}", m._upwards() if normal is None else normal)
+    if np.linalg.norm(np.cross(up, along)) < FLAT:
+        raise WrongValue(f"along of {name!r} must not be parallel to the normal of the ice")
+    point = m._point("point", point, center=True)
+    sides = m._different(name, m.ground.point(at=point.drawn), point)
+    return m._fasten(joint.kind, name, *sides, along, np.cross(perpendicular(along, up), along))
 
 
 def _directions(m: Elements, joint: type[SpaceJoint], name: Any, given: Any) -> tuple[Any, ...]:

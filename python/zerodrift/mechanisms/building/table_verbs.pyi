@@ -162,6 +162,83 @@ class TableVerbs(Elements):
         VectorMeasure('joint.force')
         """
 
+    def slot(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, cut: bool = False) -> Any:
+        """Guides a point along a line that turns with the first body.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            Two points; a body and a point; or two bodies, and `at`.
+        axis : array_like (2,) or (3,)
+            Its direction in the drawing; it turns with the first body.
+        at : array_like (2,) or (3,)
+            Position of the joint in the drawing, in m. Left out for two bodies, it is the second's origin.
+        cut : bool
+            True if this joint must close a loop; left out, the joint that closes a loop is chosen.
+
+        Returns
+        -------
+        Slot, in space SpaceJoint
+            With ``displacement``, ``speed`` and accelerations.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
+            be, or a particle would need an orientation.
+
+        Notes
+        -----
+        Source: (3), (5).
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("example")
+        >>> body = m.body("body", 1.0, 0.1, at=(1, 0))
+        >>> m.slot("joint", m.ground, body, at=(1, 0), axis=(1, 0)).force
+        VectorMeasure('joint.force')
+        """
+
+    def knife_edge(self, name: str, point: Side, *, along: Any, normal: Any = None) -> Any:
+        """Lets a point of a body glide along a direction that turns with the body, and not across.
+
+        Parameters
+        ----------
+        name : str
+        point : Point, Body or name
+            Of a body without a point, its centre of mass.
+        along : array_like (2,) or (3,)
+            Its direction in the drawing, in which the point glides; it turns with the body.
+        normal : array_like (3,), optional
+            In space a direction in the drawing, made perpendicular to `along`; left out: against gravity, or z without gravity.
+            The velocity of the point along ``cross(normal, along)`` is zero. This direction turns with the body: a body that
+            leans takes it along. The joint does not keep the point on a plane.
+
+        Returns
+        -------
+        KnifeEdge, in space SpaceJoint
+
+        Raises
+        ------
+        ValueError, TypeError
+            If the name is taken, a point belongs to no body of this mechanism, both sides to one, a number is not what it may
+            be, or a particle would need an orientation.
+
+        Notes
+        -----
+        Source: (5).
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("example")
+        >>> body = m.body("body", 1.0, 0.1, at=(1, 0))
+        >>> m.knife_edge("joint", body, along=(1, 0)).force
+        VectorMeasure('joint.force')
+        """
+
     def cylindrical(self, name: str, first: Side, second: Side, *, axis: Any, at: Any = None, cut: bool = False) -> SpaceJoint:
         """Turns one body about an axis of the other, and slides it along.
 
@@ -358,7 +435,7 @@ class TableVerbs(Elements):
         VectorMeasure3('joint.force')
         """
 
-    def spring(self, name: str, first: Side, second: Side, *, stiffness: Any, damping: Any = 0.0, length: Any = None) -> Any:
+    def spring(self, name: str, first: Side, second: Side, *, stiffness: Any, length: Any = None, damping: Any = 0.0) -> Any:
         """Spring with a damper between two points.
 
         Parameters
@@ -367,10 +444,10 @@ class TableVerbs(Elements):
         first, second : Point, Particle or name
         stiffness : float
             In N/m, at least 0.
-        damping : float
-            In N s/m, at least 0.
         length : float, optional
             Unstressed length in m, at least 0; left out: as drawn.
+        damping : float
+            In N s/m, at least 0.
 
         Returns
         -------
@@ -387,4 +464,81 @@ class TableVerbs(Elements):
         >>> body = m.body("body", 1.0, 0.1, at=(1, 0))
         >>> m.spring("element", m.ground.point((0, 0)), body.center, stiffness=2.0)
         <spring element: ground - body>
+        """
+
+    def torsion_spring(self, name: str, joint: Any, *, stiffness: Any, angle: Any = 0.0, damping: Any = 0.0) -> Any:
+        """Spring with a damper about the axis of a joint.
+
+        Parameters
+        ----------
+        name : str
+        joint : Joint or name
+            With one angle, which counts turns.
+        stiffness : float
+            In N m/rad, at least 0.
+        angle : float
+            Of the joint, at which it is slack, in rad.
+        damping : float
+            In N m s/rad, at least 0.
+
+        Returns
+        -------
+        TorsionSpring
+
+        Notes
+        -----
+        Source: (2), (28).
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("example")
+        >>> body = m.body("body", 1.0, 0.1, at=(1, 0))
+        >>> m.torsion_spring("element", m.revolute("hinge", m.ground, body, at=(0, 0)), stiffness=2.0)
+        <torsion spring element at hinge>
+        """
+
+    def bushing(self, name: str, first: Side, second: Side, *, at: Any = None, stiffness: Any = 0.0, damping: Any = 0.0,
+                torsion: Any = 0.0, torsion_damping: Any = 0.0, axis: Any = None, normal: Any = None) -> Any:
+        """Joins two bodies softly, by springs and dampers along and about the axes of the first.
+
+        It is slack as drawn. In space the angle about a direction is that by which the next one has turned, as seen along it.
+        So a turn about one direction is that angle, and small ones about several are those of a linear model; none may come
+        near half a turn.
+
+        Parameters
+        ----------
+        name : str
+        first, second : Body, Point or name
+            Two points; a body and a point; or two bodies, and `at`.
+        at : array_like (2,) or (3,)
+            Position of the element in the drawing, in m.
+        stiffness : float or array_like (2,) or (3,)
+            In N/m along its directions, at least 0. It is unstressed as drawn.
+        damping : float or array_like (2,) or (3,)
+            In N s/m along its directions, at least 0.
+        torsion : float, in space or array_like (3,)
+            In N m/rad about its directions, at least 0.
+        torsion_damping : float, in space or array_like (3,)
+            In N m s/rad about its directions, at least 0.
+        axis : array_like (3,), optional
+            In space its first direction in the drawing; it turns with the first body. Left out: that body's own axes.
+        normal : array_like (3,), optional
+            In space its second direction, which is made perpendicular; the third follows.
+
+        Returns
+        -------
+        Bushing
+
+        Notes
+        -----
+        Source: (2), (28).
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("example")
+        >>> body = m.body("body", 1.0, 0.1, at=(1, 0))
+        >>> m.bushing("element", m.ground, body, at=(1, 0), stiffness=2.0)
+        <bushing element: ground - body>
         """

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from ... import _check
+from ..._gateway.mechanisms.element_tables import ElementQuantity
 from ...errors import WrongValue
-from . import columns
 from .bodies import Body, Point
 from .immutable import Fixed, amend
 from .joints import Joint
-from .measures import scalar, vector
+from .measures import scalar
 from .numbers import AS_GIVEN, Numbers
+from .table_forces import UNITS, TableForce
 from .user_functions import InputLaw, Law
 
 
@@ -106,111 +107,44 @@ class Actuator(Fixed):
         return f"<actuator {self.name}: {self.drives} between {self.first.body.name} and {self.second.body.name}>"
 
 
-class Spring(Fixed):
+class StoredSpring(TableForce):
+    """Spring whose parameters are attributes; `stored` has their names by path."""
+
+    stored: ClassVar[dict[str, str]] = {}
+
+    def _keep(self, values: dict[str, float]) -> None:
+        for path, name in self.stored.items():
+            setattr(self, name, values.get(path))
+
+    @property
+    def values(self) -> dict[str, float]:       # type: ignore[override]
+        """Parameters by path; ``length`` only if it is given."""
+        given = {path: getattr(self, name) for path, name in self.stored.items()}
+        return {path: value for path, value in given.items() if value is not None}
+
+
+class Spring(StoredSpring):
     """A spring with a damper between two points, `Mechanism.spring`."""
 
-    kind = "spring"
-    force = scalar("force", "Its tension, the damper's included, positive where it pulls, in N.")
-    length = scalar("length", "The distance of its ends, in m.")
-
-    def __init__(self, name: str, first: Point, second: Point, stiffness: float, free_length: float | None,
-                 damping: float) -> None:
-        self.name, self.first, self.second = name, first, second
-        self.stiffness, self.free_length, self.damping = stiffness, free_length, damping
-
-    @classmethod
-    def from_values(cls, name: str, first: Point, second: Point, axis: None, values: dict[str, float], law: None) -> Spring:
-        """A spring from the arguments of elements that the core's table describes."""
-        return cls(name, first, second, values["stiffness"], values.get("length"), values["damping"])
-
-    @property
-    def dimension(self) -> int:
-        """2 in the plane, 3 in space."""
-        return self.first.dimension
-
-    @property
-    def measured_name(self) -> str:
-        """First part of the names of its measures."""
-        return self.name
-
-    def free_length_with(self, numbers: Numbers) -> float:
-        """Unstressed length; if not given, the distance in the drawing."""
-        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
-        drawn = columns.hypot(*apart) if len(apart) == 2 else float(np.linalg.norm(apart))
-        return numbers(self, "length", drawn if self.free_length is None else self.free_length)
-
-    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
-        return {"stiffness": self.stiffness, "length": self.free_length_with(now), "damping": self.damping}
-
-    def __repr__(self) -> str:
-        return f"<spring {self.name}: {self.first.body.name} - {self.second.body.name}>"
+    kind, stored = "spring", {"stiffness": "stiffness", "length": "free_length", "damping": "damping"}
 
 
-class TorsionSpring(Fixed):
+class TorsionSpring(StoredSpring):
     """A spring with a damper about a joint, `Mechanism.torsion_spring`."""
 
-    kind = "torsion_spring"
-    torque = scalar("torque", "What acts on the joint's second body, in N m.")
-
-    def __init__(self, name: str, joint: Joint, stiffness: float, angle: float, damping: float) -> None:
-        self.name, self.joint, self.stiffness, self.angle, self.damping = name, joint, stiffness, angle, damping
-
-    @property
-    def measured_name(self) -> str:
-        """First part of the names of its measures."""
-        return self.name
-
-    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
-        return {"stiffness": self.stiffness, "angle": self.angle, "damping": self.damping}
-
-    def __repr__(self) -> str:
-        return f"<torsion spring {self.name} at {self.joint.name}>"
+    kind, stored = "torsion_spring", {"stiffness": "stiffness", "angle": "angle", "damping": "damping"}
 
 
-class Bushing(Fixed):
-    """A soft joint: springs and dampers along and about a frame of the first body, `Mechanism.bushing`."""
+class Bushing(TableForce):
+    """A soft joint: springs and dampers along and about directions of the first body, `Mechanism.bushing`."""
 
     kind = "bushing"
-    force = vector("force", "What the first body does to the second, at the second's point, in the drawing's axes, in N.")
-    torque = scalar("torque", "The moment that the first body exerts on the second, about the second's point, in N m.")
-
-    def __init__(self, name: str, first: Point, second: Point, values: dict[str, float]) -> None:
-        self.name, self.first, self.second, self.values = name, first, second, values
-
-    @property
-    def measured_name(self) -> str:
-        """First part of the names of its measures."""
-        return self.name
-
-    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
-        return dict(self.values)
-
-    def __repr__(self) -> str:
-        return f"<bushing {self.name}: {self.first.body.name} - {self.second.body.name}>"
 
 
-class SpaceBushing(Bushing):
-    """A soft joint in space: springs and dampers along and about three directions of the first body, `Mechanism.bushing`.
-
-    Attributes
-    ----------
-    frames : tuple of ndarray (3, 3)
-        The rows are these directions, in the frame of the first body and of the second.
-    """
-
-    torque = vector("torque", "The moment that the first body exerts on the second, about the second's point, in the drawing's "
-                    "axes, in N m.")
-
-    def __init__(self, name: str, first: Point, second: Point, values: dict[str, float],
-                 frames: tuple[np.ndarray, np.ndarray]) -> None:
-        super().__init__(name, first, second, values)
-        self.frames = frames
+SpaceBushing = Bushing      # in pickles of earlier versions
 
 
-class Force(Fixed):
+class Force(TableForce):
     """A force at a point along a direction, `Mechanism.force`."""
 
     kind = "force"
@@ -218,15 +152,16 @@ class Force(Fixed):
     def __init__(self, name: str, point: Point, along: np.ndarray, frame: Body, law: Law) -> None:
         self.name, self.point, self.along, self.frame, self.law = name, point, along, frame, law
 
-    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
-        return {} if self.law.constant is None else {"value": self.law.constant}
+    axis = property(lambda self: self.along, doc="Its direction in the axes of `frame`.")
+    frames = property(lambda self: (self.along[None], None), doc="The same as a row.")
+    ends = property(lambda self: (self.frame, self.point), doc="The body of the direction, and the point.")
+    dimension = property(lambda self: self.point.dimension, doc="2 in the plane, 3 in space.")
 
     def __repr__(self) -> str:
         return f"<force {self.name} at {self.point.body.name}>"
 
 
-class Torque(Fixed):
+class Torque(TableForce):
     """A moment on a body, `Mechanism.torque`; in space about an axis (3,) of `frame`, or of `against` where that is a body."""
 
     kind = "torque"
@@ -235,18 +170,27 @@ class Torque(Fixed):
                  frame: Body | None = None) -> None:
         self.name, self.body, self.against, self.law, self.axis, self.frame = name, body, against, law, axis, frame
 
-    def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
-        return {} if self.law.constant is None else {"value": self.law.constant}
+    frames = property(lambda self: (self.axis[None], None), doc="Its axis as a row.")
+    dimension = property(lambda self: self.body.dimension, doc="2 in the plane, 3 in space.")
+
+    @property
+    def ends(self) -> tuple[Body, Body]:
+        """The body of the axis, which gets the opposite moment unless it is `frame`, and the body that the moment acts on."""
+        return self.frame if self._is_alone() else self.against, self.body
+
+    @property
+    def quantities(self) -> tuple[ElementQuantity, ...]:
+        """Marker quantities it acts along: without a reaction that is the rotation of its body alone."""
+        return tuple(each._replace(kind="spin") for each in self.row.quantities) if self._is_alone() else self.row.quantities
+
+    def _is_alone(self) -> bool:
+        return self.frame is not None and self.against.name == "ground"
 
     def __repr__(self) -> str:
         return f"<torque {self.name} on {self.body.name}>"
 
 
 # ---- inputs ----
-
-UNITS = {"torque": "N m", "force": "N"}
-
 
 class Driven(NamedTuple):
     """A drawing with inputs, their initial values and their units."""
@@ -284,9 +228,9 @@ def inputs_of(drawing: Any) -> dict[str, tuple[Any, str, str]]:
         if element.drives in ("torque", "force", "speed"):
             path = f"{element.name}.{element.drives}"
             found[path] = element, element.drives, path
-    for kind, quantity in ((Force, "force"), (Torque, "torque")):
-        for element in drawing.of(kind):
-            found[f"{element.name}.{quantity}"] = element, quantity, f"{element.name}.value"
+    for element in drawing.of(TableForce):
+        if element.law is not None:
+            found[f"{element.name}.{element.row.measure}"] = element, element.row.measure, f"{element.name}.value"
     return found
 
 

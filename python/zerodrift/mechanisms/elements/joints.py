@@ -157,11 +157,6 @@ def holds_angle(row: JointKind) -> bool:
     return any(each.quantity == "angle" for each in row.rows)
 
 
-def is_slider(row: JointKind) -> bool:
-    """True if the joint keeps the relative angle and leaves the points of both bodies free along an axis."""
-    return holds_angle(row) and row.takes_axis
-
-
 def holds_distance(row: Any) -> bool:
     """True if the joint, in the plane or in space, constrains the distance of two points and nothing else."""
     return all(quantity == "distance" for quantity, *_ in row.rows)

@@ -1,52 +1,136 @@
-"""Force elements without a class of their own: the entry of their kind in the core's table defines them."""
+"""Force elements: the entry of a kind in the core's tables, of the plane and of space, defines its parameters and measures."""
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from ..._gateway.mechanisms.plane import ElementKind, element_kinds
+from ..._gateway.mechanisms import plane, space
+from ..._gateway.mechanisms.element_tables import ElementKind, ElementQuantity
+from ..._rotations import AXES
 from . import columns
-from .bodies import Point
+from .bodies import Body, Point
 from .immutable import Fixed
-from .measures import scalar
+from .joints import Joint
+from .measures import Measure, VectorMeasure3, scalar, vector
 from .numbers import AS_GIVEN, Numbers
 from .user_functions import Law
 
-ELEMENTS = element_kinds()
+ELEMENTS, SPACE_ELEMENTS = plane.element_kinds(), space.element_kinds()
 WRITTEN = "spring", "torsion_spring", "bushing", "force", "torque"      # kinds with a class in `forces.py`
-IN_BOTH = {"distance", "along", "glide"}       # marker quantities that the plane and space have, with one axis
-EFFORTS = {"force": "The force along its marker quantity, in N", "torque": "The moment along its marker quantity, in N m"}
+ROTATIONS = {"angle", "spin", "turn"}       # marker quantities in rad or rad/s
+UNITS = {"force": "N", "torque": "N m"}
+
+# ---- what an entry defines ----
 
 
-class MadeForce(Fixed):
-    """A force element between two points; verbs of `Mechanism` make it.
+def has(entry: ElementKind, *kinds: str) -> bool:
+    """True if the element acts along a marker quantity of one of these kinds."""
+    return any(quantity.kind in kinds for quantity in entry.quantities)
+
+
+def lengths(entry: ElementKind) -> int:
+    """Number of marker quantities in m, which stand before those in rad."""
+    return sum(quantity.kind not in ROTATIONS for quantity in entry.quantities)
+
+
+def is_between_points(entry: ElementKind) -> bool:
+    """True if the element acts along the distance of two points, so that its sides are points."""
+    return {quantity.kind for quantity in entry.quantities} == {"distance"}
+
+
+def paths(entry: ElementKind) -> tuple[tuple[str, str], ...]:
+    """Paths of stiffness and damping for each marker quantity; those of angles beside lengths are torsion and torsion_damping."""
+    along = ("stiffness", "damping")
+    about = ("torsion", "torsion_damping") if lengths(entry) else along
+    groups = (along, lengths(entry)), (about, len(entry.quantities) - lengths(entry))
+    return tuple(tuple(f"{word}.{axis}" if size > 1 else word for word in words)
+                 for words, size in groups for axis in AXES[:size])
+
+
+def parameters(entry: ElementKind) -> dict[str, tuple[str, ...]]:
+    """Parameters of a spring, each with its paths: one for each marker quantity that it belongs to."""
+    found: dict[str, tuple[str, ...]] = {}
+    if not entry.is_spring:
+        return found
+    for each in paths(entry):
+        for path in each:
+            word = path.partition(".")[0]
+            found[word] = (*found.get(word, ()), path)
+    slack = "angle" if entry.at_joint else "length" if any(each.zero == "length" for each in entry.quantities) else None
+    return {"stiffness": found.pop("stiffness"), **({slack: (slack,)} if slack else {}), **found}
+
+
+def _measures(entry: ElementKind) -> dict[str, property]:
+    """Measures of an element."""
+    if entry.measure is None:
+        found = {"force": vector("force", "What the first body does to the second, at the second's point, in the drawing's axes, "
+                                 "in N."), "torque": MOMENT}
+    else:
+        where = ("what acts on the joint's second body" if entry.at_joint else "positive where it pulls, its damping included"
+                 if entry.sign < 0 else "positive where it drives the marker quantity up")
+        found = {entry.measure: scalar(entry.measure, f"Its {entry.measure} in {UNITS[entry.measure]}, {where}.")}
+    return {**found, "length": scalar("length", "The distance of its ends, in m.")} if has(entry, "distance") else found
+
+
+MOMENT = property(lambda self: (VectorMeasure3 if self.dimension == 3 else Measure)(f"{self.measured_name}.torque"),
+                  doc="The moment that the first body exerts on the second, about the second's point, in N m; in space a vector "
+                  "in the drawing's axes.")
+
+
+# ---- elements ----
+
+
+class TableForce(Fixed):
+    """A force element; methods of `Mechanism` make it.
 
     Attributes
     ----------
     name : str
-    first, second : Point
+    first, second : Point or None
+        The points it acts between; None of those on a joint, and of forces and torques on one body.
+    joint : Joint or None
+        The joint it acts on.
     values : dict of str to float
-        Of springs: stiffness and damping of each marker quantity; ``length``, where it is given.
+        Parameters of a spring by path; ``length`` only if it is given.
     law : Law or None
-        The value of others.
+        The force or torque of an element that is not a spring.
+    axis : ndarray (2,) or None
+        In the plane, in the first body's frame.
+    frames : tuple of ndarray (3, 3), or None
+        In space: its directions as rows, in the frame of the first body and of the second.
     """
 
-    kind = ""                           # name in the core's table
-    row: ClassVar[ElementKind]          # entry in the core's table
+    kind = ""                                       # name in the core's tables
+    entries: ClassVar[dict[int, ElementKind]]       # entries of the tables by dimension
+    first: Any = None
+    second: Any = None
+    joint: Joint | None = None
+    law: Law | None = None
+    axis: np.ndarray | None = None
+    frames: Any = None
 
     def __init_subclass__(cls) -> None:
-        cls.row = ELEMENTS[cls.kind]
-        if cls.row.measure:
-            sign = "positive where it pulls" if cls.row.sign < 0 else "positive where it drives the marker quantity up"
-            setattr(cls, cls.row.measure, scalar(cls.row.measure, f"{EFFORTS[cls.row.measure]}, {sign}."))
+        """Sets measures that the class does not define, from the entries of the core's tables."""
+        tables = {2: ELEMENTS, 3: SPACE_ELEMENTS}
+        cls.entries = {dimension: table[cls.kind] for dimension, table in tables.items() if cls.kind in table}
+        for entry in cls.entries.values():
+            for name, measure in _measures(entry).items():
+                setattr(cls, name, measure)
 
-    def __init__(self, name: str, first: Point, second: Point, axis: np.ndarray | None, values: dict[str, float],
-                 law: Law | None) -> None:
-        self.name, self.first, self.second = name, first, second
-        self.axis = axis        # (2,) or (3,), in the first body's frame
-        self.values, self.law = values, law
+    def __init__(self, name: str, *sides: Any, values: dict[str, float], law: Law | None = None, axis: np.ndarray | None = None,
+                 frames: Any = None) -> None:
+        self.name = name
+        if len(sides) == 1:
+            self.joint, = sides
+        else:
+            self.first, self.second = sides
+        self._keep(values)
+        self.law, self.axis, self.frames = law, axis, frames
+
+    def _keep(self, values: dict[str, float]) -> None:
+        self.values = values
 
     @property
     def measured_name(self) -> str:
@@ -56,64 +140,65 @@ class MadeForce(Fixed):
     @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
-        return self.first.dimension
+        return (self.first if self.joint is None else self.joint).dimension
 
-    @classmethod
-    def is_in_space(cls) -> bool:
-        """True if the element exists in space, too: its marker quantities need no second direction."""
-        return {quantity for quantity, _ in cls.row.quantities} <= IN_BOTH
+    @property
+    def row(self) -> ElementKind:
+        """Entry in the core's table."""
+        return self.entries[self.dimension]
 
-    @classmethod
-    def is_between_points(cls) -> bool:
-        """True if the element acts along the distance of two points, so that its sides are points."""
-        return {quantity for quantity, _ in cls.row.quantities} == {"distance"}
+    @property
+    def ends(self) -> tuple[Body | Point, Body | Point]:
+        """Points or bodies that its marker quantities belong to."""
+        return (self.first, self.second) if self.joint is None else self.joint.bodies
 
-    @classmethod
-    def has(cls, *quantities: str) -> bool:
-        """True if the element has a marker quantity of one of these kinds."""
-        return any(quantity in quantities for quantity, _ in cls.row.quantities)
+    @property
+    def quantities(self) -> tuple[ElementQuantity, ...]:
+        """Marker quantities it acts along."""
+        return self.row.quantities
 
-    @classmethod
-    def paths(cls, parameter: str) -> tuple[str, ...]:
-        """Path of a parameter for each marker quantity, with its name if there are several."""
-        several = len(cls.row.quantities) > 1
-        return tuple(f"{parameter}.{quantity}" if several else parameter for quantity, _ in cls.row.quantities)
+    def length_with(self, numbers: Numbers) -> float:
+        """Unstressed length; if not given, the distance in the drawing."""
+        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
+        drawn = columns.hypot(*apart) if len(apart) == 2 else float(np.linalg.norm(apart))
+        return numbers(self, "length", self.values.get("length", drawn))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters, by the quantity in their paths ``name.quantity``."""
-        if self.law is None:
-            return dict(self.values)
-        return {} if self.law.constant is None else {"value": self.law.constant}
+        if self.law is not None:
+            return {} if self.law.constant is None else {"value": self.law.constant}
+        return {path: self.length_with(now) if path == "length" else self.values[path]
+                for each in parameters(self.row).values() for path in each}
 
-    def zero(self, which: str | None, numbers: Numbers) -> float:
-        """Offset of a marker quantity: its value as drawn, or the given length."""
-        apart = self.second.drawn_with(numbers) - self.first.drawn_with(numbers)
-        if which == "along" and self.dimension == 3:
-            return float(self.first.body.pose.local_direction(apart) @ self.axis)
-        if which in ("along", "across"):
-            (x, y), axis = self.first.body.pose.local_direction(apart), self.axis if which == "along" else _turned(self.axis)
-            return columns.plain(x * axis[0] + y * axis[1])
-        if which == "length":
-            drawn = columns.hypot(*apart) if len(apart) == 2 else float(np.linalg.norm(apart))
-            return numbers(self, "length", self.values.get("length", drawn))
-        return self.second.body.pose.angle - self.first.body.pose.angle if which == "angle" else 0.0
+    def zero(self, quantity: ElementQuantity, numbers: Numbers) -> float:
+        """Offset of a marker quantity: its value as drawn, or the length or angle at which the element is slack."""
+        if self.joint is not None:
+            drawn = self.joint.angle_as_drawn() if quantity.zero == "angle" else 0.0
+            return drawn + numbers(self, "angle", self.values["angle"])
+        if quantity.zero == "length":
+            return self.length_with(numbers)
+        if quantity.zero == "angle":
+            return self.second.body.pose.angle - self.first.body.pose.angle
+        if quantity.zero is None:
+            return 0.0
+        apart = self.first.body.pose.local_direction(self.second.drawn_with(numbers) - self.first.drawn_with(numbers))
+        if self.frames is not None:
+            return float((self.frames[0] @ apart)[quantity.of_first])
+        x, y = (1.0, 0.0) if self.axis is None else self.axis
+        return columns.plain(apart[0] * x + apart[1] * y if quantity.zero == "along" else apart[1] * x - apart[0] * y)
 
     def __repr__(self) -> str:
-        return f"<{self.kind} {self.name}: {self.first.body.name} - {self.second.body.name}>"
+        where = f": {self.first.body.name} - {self.second.body.name}" if self.joint is None else f" at {self.joint.name}"
+        return f"<{self.kind.replace('_', ' ')} {self.name}{where}>"
 
 
-def _turned(axis: np.ndarray) -> np.ndarray:
-    """Vector, rotated counter-clockwise by a right angle."""
-    return np.array([-axis[1], axis[0]])
-
-
-def made_force(kind: str) -> type[MadeForce]:
-    """Class of a kind of force element, from its entry in the core's table."""
+def made_force(kind: str) -> type[TableForce]:
+    """Class of a kind of force element, from its entries in the core's tables."""
     name = "".join(word.capitalize() for word in kind.split("_"))
-    doc = f"{ELEMENTS[kind].card.summary} `Mechanism.{kind}`."
-    return type(name, (MadeForce,), {"kind": kind, "__doc__": doc, "__module__": __name__})
+    doc = f"{(ELEMENTS | SPACE_ELEMENTS)[kind].card.summary} `Mechanism.{kind}`."
+    return type(name, (TableForce,), {"kind": kind, "__doc__": doc, "__module__": __name__})
 
 
 # Kinds without a class in `forces.py`, by name. They are attributes of this module for pickle and copy.
-FORCES_BY_ROW = {kind: made_force(kind) for kind in ELEMENTS if kind not in WRITTEN}
+FORCES_BY_ROW = {kind: made_force(kind) for kind in ELEMENTS | SPACE_ELEMENTS if kind not in WRITTEN}
 globals().update({force.__name__: force for force in FORCES_BY_ROW.values()})

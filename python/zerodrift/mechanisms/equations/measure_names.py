@@ -10,9 +10,10 @@ import numpy as np
 
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Point
-from ..elements.forces import Actuator, Spring
+from ..elements.forces import Actuator
 from ..elements.joints import Joint, is_hinge
 from ..elements.space_joints import SpaceJoint, is_at_point, speeds
+from ..elements.table_forces import TableForce, has
 from . import transmission
 
 RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed" of a joint's coordinate
@@ -133,7 +134,8 @@ def quantities(element: Any) -> tuple[str, ...]:
     if isinstance(element, Joint):
         place = ("position",) if is_hinge(element.row) else ()
         return (element.coordinate, *place) if has_coordinate(element) else place
-    return ("length",) if isinstance(element, Spring | Actuator) else ()
+    is_length = isinstance(element, Actuator) or (isinstance(element, TableForce) and has(element.row, "distance"))
+    return ("length",) if is_length else ()
 
 
 def has_coordinate(joint: Joint) -> bool:

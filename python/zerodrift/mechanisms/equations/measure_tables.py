@@ -16,9 +16,10 @@ from ..._gateway.mechanisms.plane import MechanismCore, Quantity
 from ..._rotations import angles_of, quaternions_of
 from ...systems.measure_values import Watching
 from ..elements.bodies import Body, Link, Point
-from ..elements.forces import Actuator, Spring
+from ..elements.forces import Actuator
 from ..elements.joints import holds_angle, is_hinge
 from ..elements.space_joints import SpaceJoint, acceleration_of, has_torque, is_at_point, speeds
+from ..elements.table_forces import TableForce, has
 from . import transmission
 from .measure_names import has_coordinate
 from .space_tables import SpaceTables
@@ -123,7 +124,7 @@ def _lengths(tables: Tables) -> Iterator[Position]:
     for actuator in tables.drawing.of(Actuator):
         yield Position(f"{actuator.name}.length", "m", f"{actuator.name}.speed", None,
                        lambda actuator=actuator: (tables.length_quantity(actuator),))
-    for spring in tables.drawing.of(Spring):
+    for spring in (each for each in tables.drawing.of(TableForce) if has(each.row, "distance")):
         yield Position(f"{spring.name}.length", "m", None, None, lambda spring=spring: (tables.length_quantity(spring),))
 
 

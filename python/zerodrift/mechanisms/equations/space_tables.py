@@ -10,17 +10,18 @@ import numpy as np
 from ..._gateway import Variable
 from ..._gateway.mechanisms import plane as entries
 from ..._gateway.mechanisms import space
+from ..._gateway.mechanisms.element_tables import ElementQuantity
 from ..._gateway.mechanisms.space import AS_DRAWN, Quantity, SpaceCore
 from ..._gateway.mechanisms.space_tree import SpaceTreeCore
 from ..._rotations import AXES, quaternion_of
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing
-from ..elements.forces import Actuator, Force, SpaceBushing, Spring, Torque, TorsionSpring
+from ..elements.forces import Actuator
 from ..elements.frames import triple
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..elements.space_joints import SpaceJoint
-from ..elements.table_forces import MadeForce
+from ..elements.table_forces import ROTATIONS, TableForce
 from . import space_tree
 from .tables import Tables
 from .tree import inboard_joints
@@ -140,57 +141,29 @@ class SpaceTables(Tables):
         angles = sum(len(before.angles) for before in self.joints[:number])
         return space.coordinate_quantity(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
 
-    def length_quantity(self, spring: Spring | Actuator) -> Quantity:     # type: ignore[override]
+    def length_quantity(self, spring: TableForce | Actuator) -> Quantity:     # type: ignore[override]
         """Marker quantity of the length of a spring or an actuator."""
         (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
         return Quantity("distance", first, second, point1, point2)
 
-    # ---- drives and couplings ----
-
     # ---- forces ----
 
-    def _torsion_spring(self, spring: TorsionSpring) -> None:
-        quantity = self.coordinate_quantity_of(spring.joint, "angle")
-        self._elastic(spring, self._quantity(spring.name, quantity._replace(zero=self.numbers(spring, "angle", spring.angle))))
+    def _element_quantities(self, element: TableForce) -> list[Quantity]:     # type: ignore[override]
+        if element.joint is not None:
+            known = self.coordinate_quantity_of(element.joint, "angle")
+            return [known._replace(zero=element.zero(each, self.numbers)) for each in element.quantities]
+        ends, bodies = list(map(self._end, element.ends)), [getattr(end, "body", end) for end in element.ends]
+        near, far = ([self._direction(body, row) for row in (() if frame is None else frame)]
+                     for body, frame in zip(bodies, element.frames or ((), ()), strict=True))
+        return [self._along(each, ends, near, far)._replace(zero=element.zero(each, self.numbers)) for each in element.quantities]
 
-    def _bushing(self, bushing: SpaceBushing) -> None:     # type: ignore[override]
-        """Force along each direction by the displacement, and moment about it by the rotation of the next direction."""
-        (first, point1), (second, point2) = self._place(bushing.first), self._place(bushing.second)
-        near, far = ([self._direction(side.body, row) for row in frame]
-                     for side, frame in zip((bushing.first, bushing.second), bushing.frames, strict=True))
-        self.observed.append(entries.OutputSpec(f"{bushing.name}.force", "N", "force sum", len(self.forces), 3))
-        self.observed.append(entries.OutputSpec(f"{bushing.name}.torque", "N m", "torque sum", len(self.forces) + 3, 3))
-        apart = bushing.frames[0] @ bushing.first.body.pose.local_direction(
-            bushing.second.drawn_with(self.numbers) - bushing.first.drawn_with(self.numbers))
-        quantities = [Quantity("along", first, second, point1, point2, a=near[i], zero=float(apart[i])) for i in range(3)]
-        quantities += [Quantity("angle", first, second, a=near[i - 2], o=near[i - 1], b=far[i - 2]) for i in range(3)]
-        parameters = [("stiffness", "damping")] * 3 + [("torsion", "torsion_damping")] * 3
-        for (stiffness, damping), quantity, axis in zip(parameters, quantities, (*AXES, *AXES), strict=True):
-            number = self._quantity(f"{bushing.name} {stiffness} {axis}", quantity)
-            values = (self.numbers(bushing, path, bushing.values[path]) for path in (f"{stiffness}.{axis}", f"{damping}.{axis}"))
-            self.forces.append(entries.GeneralizedForce("spring", number, *values))
-
-    def _made_quantity(self, made: MadeForce, kind: str, zero: str | None) -> Quantity:     # type: ignore[override]
-        (first, point1), (second, point2) = self._place(made.first), self._place(made.second)
-        axis = AS_DRAWN[0] if made.axis is None else self._direction(made.first.body, made.axis)
-        return Quantity(kind, first, second, point1, point2, a=axis, zero=made.zero(zero, self.numbers))
-
-    def _force(self, force: Force) -> None:
-        body, local = self._place(force.point)
-        along = self._direction(force.frame, force.along)
-        quantity = self._quantity(force.name, Quantity("glide", self.number[force.frame.name], body, point2=local, a=along))
-        self._generalized_force(force.name, "value", quantity, force)
-        self._observe_force(force)
-
-    def _torque(self, torque: Torque) -> None:
-        """Moment about an axis that turns with a frame without reaction, or with the body that gets the opposite moment."""
-        turns_with = torque.frame if torque.against is self.drawing.ground else torque.against
-        kind = "spin" if torque.against is self.drawing.ground else "turn"
-        axis = self._direction(turns_with, torque.axis)
-        first, second = self.number[turns_with.name], self.number[torque.body.name]
-        quantity = self._quantity(torque.name, Quantity(kind, first, second, a=axis))
-        self._generalized_force(torque.name, "value", quantity, torque)
-        self._observe_force(torque)
+    def _along(self, quantity: ElementQuantity, ends: list[Any], near: list[Any], far: list[Any]) -> Quantity:
+        """Marker quantity of two ends, along directions of the first body, rows of `near`, and of the second."""
+        (first, point1), (second, point2), a = *ends, quantity.of_first
+        if quantity.kind == "angle":
+            return Quantity("angle", first, second, a=near[a], o=near[a - 2], b=far[quantity.of_second])
+        places = {} if quantity.kind in ROTATIONS else {"point1": point1, "point2": point2}
+        return Quantity(quantity.kind, first, second, **places, **({"a": near[a]} if near else {}))
 
 
 def tables_of(drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> Tables:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -16,12 +16,12 @@ from ..._gateway.mechanisms.plane import MechanismCore, Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing, Inertias
-from ..elements.forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from ..elements.forces import Actuator, Motor
 from ..elements.frames import turned
 from ..elements.joints import Coupling, Joint
 from ..elements.numbers import Numbers
 from ..elements.space_joints import SpaceJoint
-from ..elements.table_forces import ELEMENTS, MadeForce
+from ..elements.table_forces import UNITS, TableForce, lengths, paths
 from . import function_calls, transmission
 from .measure_names import has_coordinate, reading
 from .tree import Edge, inboard_joints
@@ -53,17 +53,16 @@ class Tables:
         self.relations: list[entries.Relation] = []
         self.relation_names: list[str] = []
         self.forces: list[entries.GeneralizedForce] = []
-        self.force_of: dict[str, int] = {}
         self.observed: list[OutputSpec] = []
         self.laws = function_calls.Laws()
         self.inboard = self.tree() if in_tree else [-1] * len(self.parts)
         self.joint_rows = [self._joint(joint) for joint in self.joints]
         self._damp()
-        for kind, add in ((Motor, self._motor), (Actuator, self._actuator), (Coupling, self._coupling),
-                          (Spring, self._spring), (Bushing, self._bushing), (TorsionSpring, self._torsion_spring),
-                          (Force, self._force), (Torque, self._torque), (MadeForce, self._made_force)):
+        for kind, add in ((Motor, self._motor), (Actuator, self._actuator), (Coupling, self._coupling)):
             for element in drawing.of(kind):
                 add(element)
+        for element in sorted(drawing.of(TableForce), key=lambda element: element.row.number):
+            self._table_force(element)
 
     def _masses(self) -> Any:
         return Inertias(self.drawing, self.numbers)
@@ -149,7 +148,7 @@ class Tables:
             if quantity == "transmission_angle":
                 return self.transmission_quantity(of)
             return self.coordinate_quantity(self.joint_number[owner])
-        return self.length_quantity(of) if isinstance(of, Spring | Actuator) else self.angle_quantity(of)
+        return self.length_quantity(of) if isinstance(of, TableForce | Actuator) else self.angle_quantity(of)
 
     def place_quantities(self, of: Body | Point) -> tuple[Quantity, Quantity]:
         """Marker quantities x and y of a point, or of the origin of a body's frame."""
@@ -177,7 +176,7 @@ class Tables:
         """Joints of each body, by its name."""
         return transmission.joints_by_body(self.drawing.elements)
 
-    def length_quantity(self, spring: Spring | Actuator) -> Quantity:
+    def length_quantity(self, spring: TableForce | Actuator) -> Quantity:
         """Marker quantity of the length of a spring or an actuator."""
         (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
         return Quantity("distance", first, second, point1, point2)
@@ -210,14 +209,13 @@ class Tables:
     def _motor(self, motor: Motor) -> None:
         joint, coordinate = self.joint_number[motor.joint.name], f"{motor.joint.name}.{motor.coordinate}"
         quantity, measured = self._quantity_of(coordinate), "torque" if motor.coordinate == "angle" else "force"
-        unit = {"torque": "N m", "force": "N"}[measured]
         if motor.prescribes:
             index, words = len(self.relations), ("drive", "drive power")
             self._relation(motor.name, self._drive(motor, coordinate, quantity, joint))
         else:
             index, words = len(self.forces), ("force value", "force power")
-            self._generalized_force(motor.name, motor.drives, quantity, motor, joint)
-        self.observed.append(OutputSpec(f"{motor.name}.{measured}", unit, words[0], index))
+            self._generalized_force(motor.drives, quantity, motor, joint)
+        self.observed.append(OutputSpec(f"{motor.name}.{measured}", UNITS[measured], words[0], index))
         self.observed.append(OutputSpec(f"{motor.name}.power", "W", words[1], index))
 
     def _drive(self, motor: Motor, coordinate: str, quantity: int, joint: int) -> entries.Relation:
@@ -237,7 +235,7 @@ class Tables:
         quantity, law = self._quantity_of(f"{actuator.name}.length"), actuator.law
         index = len(self.relations) if actuator.prescribes else len(self.forces)
         if not actuator.prescribes:
-            self._generalized_force(actuator.name, "force", quantity, actuator)
+            self._generalized_force("force", quantity, actuator)
         elif law.constant is not None:
             self._relation(actuator.name, entries.Relation([quantity], [1.0], self.numbers(actuator, "length", law.constant)))
         else:
@@ -270,9 +268,8 @@ class Tables:
 
     # ---- forces ----
 
-    def _generalized_force(self, name: str, parameter: str, quantity: int, element: Any, joint: int = -1) -> None:
+    def _generalized_force(self, parameter: str, quantity: int, element: Any, joint: int = -1) -> None:
         """Add a generalized force by a number or a user function."""
-        self.force_of[name] = len(self.forces)
         if element.law.constant is not None:
             value = self.numbers(element, parameter, element.law.constant)
             self.forces.append(entries.GeneralizedForce("constant", quantity, value=value, joint=joint))
@@ -281,75 +278,38 @@ class Tables:
         row = self.laws.add(function_calls.ForceLaw(element.law, picks, self.parameters))
         self.forces.append(entries.GeneralizedForce("law", quantity, law=row, inputs=quantities, joint=joint))
 
-    def _observe_force(self, element: Any) -> None:
-        """Add the scalar measure that the core's table defines for an element."""
-        kind = ELEMENTS[element.kind]
-        if kind.measure:
-            unit = "N m" if kind.measure == "torque" else "N"
-            self.observed.append(OutputSpec(f"{element.name}.{kind.measure}", unit, "force value", self.force_of[element.name],
-                                          scale=float(kind.sign)))
-
-    def _spring(self, spring: Spring) -> None:
-        quantity = self.length_quantity(spring)._replace(zero=spring.free_length_with(self.numbers))
-        self._elastic(spring, self._quantity(spring.name, quantity))
-
-    def _torsion_spring(self, spring: TorsionSpring) -> None:
-        first, second = (self.number[body.name] for body in spring.joint.bodies)
-        zero = spring.joint.angle_as_drawn() + self.numbers(spring, "angle", spring.angle)
-        self._elastic(spring, self._quantity(spring.name, Quantity("angle", first, second, zero=zero)))
-
-    def _elastic(self, spring: Spring | TorsionSpring, quantity: int) -> None:
-        self.force_of[spring.name] = len(self.forces)
-        self.forces.append(entries.GeneralizedForce("spring", quantity, self.numbers(spring, "stiffness", spring.stiffness),
-                                            self.numbers(spring, "damping", spring.damping)))
-        self._observe_force(spring)
-
-    def _bushing(self, bushing: Bushing) -> None:
-        (first, point1), (second, point2) = self._place(bushing.first), self._place(bushing.second)
-        frame = bushing.first.body.pose
-        apart = frame.local_direction(bushing.second.drawn_with(self.numbers) - bushing.first.drawn_with(self.numbers))
-        zero = {"along": columns.plain(apart[0]), "across": columns.plain(apart[1]),
-                "angle": bushing.second.body.pose.angle - frame.angle}
-        paths = {"along": ("stiffness.x", "damping.x"), "across": ("stiffness.y", "damping.y"),
-                 "angle": ("torsion", "torsion_damping")}
-        self.observed.append(OutputSpec(f"{bushing.name}.force", "N", "force sum", len(self.forces), 2))
-        self.observed.append(OutputSpec(f"{bushing.name}.torque", "N m", "force value", len(self.forces) + 2))
-        for word, (stiffness, damping) in paths.items():
-            quantity = self._quantity(f"{bushing.name} {word}", Quantity(word, first, second, point1, point2, zero=zero[word]))
-            values = (self.numbers(bushing, path, bushing.values[path]) for path in (stiffness, damping))
-            self.forces.append(entries.GeneralizedForce("spring", quantity, *values))
-
-    def _force(self, force: Force) -> None:
-        body, local = self._place(force.point)
-        frame = self.number[force.frame.name]
-        quantity = self._quantity(force.name, Quantity("glide", frame, body, (0.0, 0.0), local, _pair(force.along)))
-        self._generalized_force(force.name, "value", quantity, force)
-        self._observe_force(force)
-
-    def _torque(self, torque: Torque) -> None:
-        quantity = self._quantity(torque.name, Quantity("angle", self.number[torque.against.name], self.number[torque.body.name]))
-        self._generalized_force(torque.name, "value", quantity, torque)
-        self._observe_force(torque)
-
-
-    def _made_quantity(self, made: MadeForce, kind: str, zero: str | None) -> Quantity:
-        (first, point1), (second, point2) = self._place(made.first), self._place(made.second)
-        axis = (1.0, 0.0) if made.axis is None else _pair(made.axis)
-        return Quantity(kind, first, second, point1, point2, axis, made.zero(zero, self.numbers))
-
-    def _made_force(self, made: MadeForce) -> None:
-        """Add the force along each marker quantity; the measure is that of the first."""
+    def _table_force(self, element: TableForce) -> None:
+        """Add the generalized force along each marker quantity of an element, and its measures."""
         index = len(self.forces)
-        for i, (kind, zero) in enumerate(made.row.quantities):
-            number = self._quantity(f"{made.name} {i}", self._made_quantity(made, kind, zero))
-            if made.law is not None:
-                self._generalized_force(made.name, "value", number, made)
+        for i, quantity in enumerate(self._element_quantities(element)):
+            number = self._quantity(f"{element.name} {i}", quantity)
+            if element.law is not None:
+                self._generalized_force("value", number, element)
                 continue
-            stiffness, damping = (made.paths(name)[i] for name in ("stiffness", "damping"))
-            self.forces.append(entries.GeneralizedForce("spring", number, self.numbers(made, stiffness, made.values[stiffness]),
-                                            self.numbers(made, damping, made.values[damping])))
-        self.force_of[made.name] = index
-        self._observe_force(made)
+            values = (self.numbers(element, path, element.values[path]) for path in paths(element.row)[i])
+            self.forces.append(entries.GeneralizedForce("spring", number, *values))
+        self.observed += self._efforts(element, index)
+
+    def _element_quantities(self, element: TableForce) -> list[Quantity]:
+        (first, point1), (second, point2) = map(self._end, element.ends)
+        axis = (1.0, 0.0) if element.axis is None else _pair(element.axis)
+        return [Quantity(each.kind, first, second, point1, point2, axis, element.zero(each, self.numbers))
+                for each in element.quantities]
+
+    def _end(self, end: Body | Point) -> tuple[int, tuple[float, ...]]:
+        """Number of a body, and the point of it that a marker quantity belongs to."""
+        return (self.number[end.name], (0.0,) * self.drawing.dimension) if isinstance(end, Body) else self._place(end)
+
+    def _efforts(self, element: TableForce, index: int) -> Iterator[OutputSpec]:
+        """Measures of the generalized forces of an element, of which the first has this index."""
+        entry, size = element.row, lengths(element.row)
+        if entry.measure:
+            sign = float(entry.sign)
+            yield OutputSpec(f"{element.name}.{entry.measure}", UNITS[entry.measure], "force value", index, scale=sign)
+            return
+        yield OutputSpec(f"{element.name}.force", "N", "force sum", index, size)
+        turning = ("torque sum", index + size, len(entry.quantities) - size)
+        yield OutputSpec(f"{element.name}.torque", "N m", *(turning if element.dimension == 3 else ("force value", index + size)))
 
 
 def _freedoms(joint: Joint) -> tuple[int, int]:

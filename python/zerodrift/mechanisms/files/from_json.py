@@ -11,14 +11,14 @@ import numpy as np
 
 from ... import _check
 from ...errors import WrongValue
-from ..building.table_force_verbs import NEEDED, taken
+from ..building.table_force_verbs import NEEDED, sides
 from ..building.table_joint_verbs import verb
-from ..building.table_verbs import PLANE
+from ..building.table_verbs import FORCES, PLANE
 from ..elements.immutable import amend
 from ..elements.joints import Joint
-from ..elements.table_forces import FORCES_BY_ROW, MadeForce
+from ..elements.table_forces import TableForce, parameters
 from .expressions_json import from_json
-from .space_from_json import IN_SPACE, keep_rotations
+from .space_from_json import IN_SPACE, frames_from_json, keep_rotations
 from .to_json import VERSION, WHAT
 from .values_from_json import direction_from_json, law_and_of, place_from_json, point_of_body
 
@@ -79,7 +79,7 @@ def _parts(make: Callable[..., Any], where: str, *, zerodrift: str = WHAT, versi
 def _element(m: Any, description: Any, where: str) -> None:
     _at(where, _check.instance, "an element", description, dict, "a dict with kind and name")
     kind, name = description.get("kind"), description.get("name")
-    made = MADE | IN_SPACE if m.dimension == 3 else MADE
+    made = MADE_IN_SPACE if m.dimension == 3 else MADE
     if not isinstance(kind, str) or kind not in made:
         raise WrongValue(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(made)}")
     where = f"{where} ({kind} {name!r})"
@@ -129,12 +129,6 @@ def _point(m: Any, name: str, *, body: Any, local: Any) -> None:
     m.point(name, body, local)
 
 
-def _slot(m: Any, name: str, *, first: Any, second: Any, axis: Any) -> None:
-    axis, line = direction_from_json("axis", axis), point_of_body(m, first)
-    joint = m.slot(name, line.body, place_from_json(m, second), axis=line.body.pose.direction(axis))
-    amend(joint, first=line, axis=axis)
-
-
 def _rolling(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal: Any) -> None:
     normal, line = direction_from_json("normal", normal), point_of_body(m, first)
     joint = m.rolling(name, line.body, place_from_json(m, second), radius=radius, at=line.drawn,
@@ -142,28 +136,23 @@ def _rolling(m: Any, name: str, *, first: Any, second: Any, radius: Any, normal:
     amend(joint, first=line, axis=np.array([normal[1], -normal[0]]))
 
 
-def _knife_edge(m: Any, name: str, *, first: Any, second: Any, axis: Any) -> None:
-    axis, point = direction_from_json("axis", axis), point_of_body(m, second)
-    joint = m.knife_edge(name, point, along=point.body.pose.direction(axis))
-    amend(joint, first=point_of_body(m, first), axis=axis)
-
-
 def _by_row(joint: type[Joint]) -> Callable[..., None]:
     """Reader of a kind of joint whose method is made from the core's table."""
-    sides = ("second",) if joint.is_of_one_body else ("first", "second")
+    ends = ("second",) if joint.is_of_one_body else ("first", "second")
 
     def make(m: Any, name: str, **given: Any) -> None:
         places = {side: given.pop(side) for side in ("first", "second")}
-        if axis := given.get("axis"):
-            axis = direction_from_json("axis", axis)
-            given["axis"] = point_of_body(m, places[sides[0]]).body.pose.direction(axis)
-        made = getattr(m, joint.kind)(name, *(place_from_json(m, places[side]) for side in sides), **given)
+        if axis := given.pop("axis", None):
+            axis, word = direction_from_json("axis", axis), "along" if joint.is_of_one_body else "axis"
+            given[word] = point_of_body(m, places[ends[0]]).body.pose.direction(axis)
+        made = getattr(m, joint.kind)(name, *(place_from_json(m, places[end]) for end in ends), **given)
         amend(made, axis=axis)
         if joint.is_of_one_body:
             amend(made, first=point_of_body(m, places["first"]))
 
     words, needed = inspect.signature(verb(joint)).parameters, inspect.Parameter.empty
-    optional = {word: words[word].default for word in joint.takes if words[word].default is None or word == "cut"}
+    optional = {word: words[word].default for word in joint.takes
+                if word in words and (words[word].default is None or word == "cut")}
     make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
         inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=optional.get(word, needed))
         for word in ("first", "second", *joint.takes)])
@@ -213,20 +202,6 @@ def _actuator(m: Any, name: str, *, first: Any, second: Any, drives: Any, law: A
     m.actuator(name, place_from_json(m, first), place_from_json(m, second), of=of, **{drives: value})
 
 
-def _spring(m: Any, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, length: Any = None) -> None:
-    m.spring(name, place_from_json(m, first), place_from_json(m, second), stiffness=stiffness, length=length, damping=damping)
-
-
-def _torsion_spring(m: Any, name: str, *, joint: Any, stiffness: Any, angle: Any, damping: Any) -> None:
-    m.torsion_spring(name, joint, stiffness=stiffness, angle=angle, damping=damping)
-
-
-def _bushing(m: Any, name: str, *, first: Any, second: Any, stiffness: Any, damping: Any, torsion: Any,
-             torsion_damping: Any) -> None:
-    m.bushing(name, place_from_json(m, first), place_from_json(m, second), stiffness=stiffness, damping=damping, torsion=torsion,
-              torsion_damping=torsion_damping)
-
-
 def _force(m: Any, name: str, *, point: Any, along: Any, frame: Any, value: Any) -> None:
     along, frame = direction_from_json("along", along, m.dimension), m._body("frame", frame)
     value, of = law_and_of(value, "value")
@@ -239,27 +214,40 @@ def _torque(m: Any, name: str, *, body: Any, against: Any, value: Any) -> None:
     m.torque(name, body, value=value, of=of, against=against)
 
 
-def _force_by_row(force: type[MadeForce]) -> Callable[..., None]:
-    """Reader of a kind of force element whose method is made from the core's table."""
+def _table_force(force: type[TableForce], dimension: int) -> Callable[..., None]:
+    """Reader of a kind of force element whose method is made from the core's tables."""
+    entry = force.entries[dimension]
+
     def make(m: Any, name: str, **given: Any) -> None:
-        sides = given.pop("first"), given.pop("second")
-        if axis := given.get("axis"):
-            axis = direction_from_json("axis", axis, m.dimension)
-            given["axis"] = point_of_body(m, sides[0]).body.pose.direction(axis)
+        ends = [given.pop(side) for side in sides(force)]
+        places = ends if entry.at_joint else [place_from_json(m, end) for end in ends]
+        stored: dict[str, Any] = {}
+        if "axis" in given:
+            stored["axis"] = direction_from_json("axis", given["axis"])
+            given["axis"] = point_of_body(m, ends[0]).body.pose.direction(stored["axis"])
+        if "frames" in given:
+            first, second = (m._point("a side", place) for place in places)
+            stored["frames"] = frames_from_json(first, second, given.pop("frames"))
+            given["axis"] = first.body.pose.direction(stored["frames"][0][0])
         if "value" in given:
             given["value"], given["of"] = law_and_of(given["value"], "value")
-        amend(getattr(m, force.kind)(name, *(place_from_json(m, side) for side in sides), **given), axis=axis)
+        amend(getattr(m, force.kind)(name, *places, **given), **stored)
 
-    initial = {"first": NEEDED, "second": NEEDED, **{word: value for word, value in taken(force).items() if word != "of"}}
+    place = ("frames" if dimension == 3 else "axis",) if entry.axes else ()
+    wanted = (*sides(force), *place, *(parameters(entry) or ("value",)))
     make.__signature__ = inspect.Signature([        # type: ignore[attr-defined]
-        inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=value) for word, value in initial.items()])
+        inspect.Parameter(word, inspect.Parameter.KEYWORD_ONLY, default=None if word == "length" else NEEDED) for word in wanted])
     return make
 
 
+def _table_forces(dimension: int) -> dict[str, Callable[..., None]]:
+    return {kind: _table_force(force, dimension) for kind, force in FORCES.items() if dimension in force.entries}
+
+
 MADE: dict[str, Callable[..., None]] = {
-    "body": _body, "link": _link, "particle": _particle, "point": _point, "slot": _slot, "rolling": _rolling,
-    "knife_edge": _knife_edge, "gear": _gear, "rack_pinion": _rack_pinion, "coupler": _coupler,
+    "body": _body, "link": _link, "particle": _particle, "point": _point, "rolling": _rolling,
+    "gear": _gear, "rack_pinion": _rack_pinion, "coupler": _coupler,
     "constraint": _constraint, "nonholonomic": _nonholonomic, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
-    "force": _force, "torque": _torque, **{kind: _by_row(joint) for kind, joint in PLANE.items()},
-    **{kind: _force_by_row(force) for kind, force in FORCES_BY_ROW.items()}}
+    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque, **_table_forces(2),
+    **{kind: _by_row(joint) for kind, joint in PLANE.items()}}
+MADE_IN_SPACE = MADE | IN_SPACE | _table_forces(3)

@@ -49,7 +49,7 @@ def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, 
     amend(link, pose=Pose3(link.pose.origin, R))
 
 
-def _frames(m: Any, first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
+def frames_from_json(first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
     """Frames (3, 3) of a joint in both bodies, checked to be equal in the drawing."""
     if not isinstance(given, list) or len(given) != 2:
         raise WrongValue(f"frames must be two matrices, not {_check.shown(given)}")
@@ -64,7 +64,7 @@ def _joint(kind: str) -> Callable[..., None]:
     def make(m: Any, name: str, *, first: Any, second: Any, frames: Any, length: Any = None, damping: Any = 0.0,
              cut: Any = False) -> None:
         sides = m._different(name, *(m._point("a side", place_from_json(m, side)) for side in (first, second)))
-        both = _frames(m, *sides, frames)
+        both = frames_from_json(*sides, frames)
         if advances(BY_KIND[kind].row) and not _check.number("length", length):
             raise WrongValue("length must not be 0: it is the pitch")
         made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), *sides, *(both[0][:2] @ sides[0].body.pose.rotation.T),
@@ -83,22 +83,6 @@ def _rolling(m: Any, name: str, *, first: Any, second: Any, frames: Any, semiaxe
     amend(joint, first=plane, frames=given)
 
 
-def _knife_edge(m: Any, name: str, *, first: Any, second: Any, frames: Any, damping: Any = 0.0, length: Any = None,
-                cut: Any = False) -> None:
-    point = point_of_body(m, second)
-    frames = _frames(m, point_of_body(m, first), point, frames)
-    along, normal = (point.body.pose.direction(frames[1][i]) for i in (0, 2))
-    joint = m.knife_edge(name, point, along=along, normal=normal)
-    amend(joint, first=point_of_body(m, first), frames=frames)
-
-
-def _bushing(m: Any, name: str, *, first: Any, second: Any, frames: Any, stiffness: Any, damping: Any, torsion: Any,
-             torsion_damping: Any) -> None:
-    sides = (place_from_json(m, side) for side in (first, second))
-    bushing = m.bushing(name, *sides, stiffness=stiffness, damping=damping, torsion=torsion, torsion_damping=torsion_damping)
-    amend(bushing, frames=_frames(m, bushing.first, bushing.second, frames))
-
-
 def _torque(m: Any, name: str, *, body: Any, against: Any, axis: Any, frame: Any, value: Any) -> None:
     value, of = law_and_of(value, "value")
     axis, against, frame = direction_from_json("axis", axis, 3), m._body("against", against), m._body("frame", frame)
@@ -109,5 +93,5 @@ def _torque(m: Any, name: str, *, body: Any, against: Any, axis: Any, frame: Any
 
 
 IN_SPACE: Mapping[str, Callable[..., None]] = {
-    **{kind: _joint(kind) for kind in BY_KIND}, "rolling": _rolling, "knife_edge": _knife_edge, "body": _body, "link": _link,
-    "bushing": _bushing, "torque": _torque}
+    **{kind: _joint(kind) for kind in BY_KIND}, "rolling": _rolling, "body": _body, "link": _link,
+    "torque": _torque}

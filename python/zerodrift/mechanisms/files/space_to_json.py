@@ -32,17 +32,10 @@ def _rolling(joint: Any, drawing: Drawing) -> dict[str, Any]:
     return {**sides(joint, drawing), "frames": [numbers(frame) for frame in joint.frames], "semiaxes": numbers(joint.semiaxes)}
 
 
-def _bushing(bushing: Any, drawing: Drawing) -> dict[str, Any]:
-    given = {quantity: [bushing.values[f"{quantity}.{axis}"] for axis in "xyz"]
-             for quantity in ("stiffness", "damping", "torsion", "torsion_damping")}
-    return {**sides(bushing, drawing), "frames": [numbers(frame) for frame in bushing.frames], **given}
-
-
 def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
     return {"body": torque.body.name, "against": torque.against.name, "axis": numbers(torque.axis), "frame": torque.frame.name,
             "value": law_to_json(torque.law)}
 
 
 IN_SPACE: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
-    **dict.fromkeys(BY_KIND, _joint), "rolling": _rolling, "body": _body, "link": _link, "bushing": _bushing,
-    "torque": _torque}
+    **dict.fromkeys(BY_KIND, _joint), "rolling": _rolling, "body": _body, "link": _link, "torque": _torque}

@@ -10,10 +10,11 @@ import numpy as np
 
 from ..building.coupling_verbs import _Expression, _Follows, _Sum
 from ..building.periodic_spline import PeriodicSpline
+from ..building.table_verbs import FORCES
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.joints import JOINTS, Coupling
-from ..elements.table_forces import FORCES_BY_ROW, MadeForce
+from ..elements.table_forces import TableForce, parameters
 from .expressions_json import to_json
 from .space_to_json import IN_SPACE
 from .values_to_json import law_to_json, not_saved, numbers, place, sides
@@ -123,22 +124,6 @@ def _actuator(actuator: Any, drawing: Drawing) -> dict[str, Any]:
     return {**sides(actuator, drawing), "drives": actuator.drives, "law": law_to_json(actuator.law)}
 
 
-def _spring(spring: Any, drawing: Drawing) -> dict[str, Any]:
-    length = {} if spring.free_length is None else {"length": spring.free_length}
-    return {**sides(spring, drawing), "stiffness": spring.stiffness, **length, "damping": spring.damping}
-
-
-def _torsion_spring(spring: Any, drawing: Drawing) -> dict[str, Any]:
-    return {"joint": spring.joint.name, "stiffness": spring.stiffness, "angle": spring.angle, "damping": spring.damping}
-
-
-def _bushing(bushing: Any, drawing: Drawing) -> dict[str, Any]:
-    values = bushing.values
-    return {**sides(bushing, drawing), "stiffness": [values["stiffness.x"], values["stiffness.y"]],
-            "damping": [values["damping.x"], values["damping.y"]], "torsion": values["torsion"],
-            "torsion_damping": values["torsion_damping"]}
-
-
 def _force(force: Any, drawing: Drawing) -> dict[str, Any]:
     return {"point": place(force.point, drawing), "along": numbers(force.along), "frame": force.frame.name,
             "value": law_to_json(force.law)}
@@ -148,18 +133,21 @@ def _torque(torque: Any, drawing: Drawing) -> dict[str, Any]:
     return {"body": torque.body.name, "against": torque.against.name, "value": law_to_json(torque.law)}
 
 
-def _made_force(made: MadeForce, drawing: Drawing) -> dict[str, Any]:
-    axis = {} if made.axis is None else {"axis": numbers(made.axis)}
-    if made.law is not None:
-        return {**sides(made, drawing), **axis, "value": law_to_json(made.law)}
-    each = {quantity: [made.values[path] for path in made.paths(quantity)] for quantity in ("stiffness", "damping")}
-    length = {"length": made.values["length"]} if "length" in made.values else {}
-    return {**sides(made, drawing), **axis, **each, **length}
+def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
+    place: dict[str, Any] = sides(force, drawing) if force.joint is None else {"joint": force.joint.name}
+    if force.axis is not None:
+        place["axis"] = numbers(force.axis)
+    if force.frames is not None:
+        place["frames"] = [numbers(frame) for frame in force.frames]
+    if force.law is not None:
+        return {**place, "value": law_to_json(force.law)}
+    given = {word: [force.values[path] for path in paths] for word, paths in parameters(force.row).items()
+             if word != "length" or word in force.values}
+    return {**place, **{word: values if len(values) > 1 else values[0] for word, values in given.items()}}
 
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
-    **dict.fromkeys(JOINTS, _joint), **dict.fromkeys(FORCES_BY_ROW, _made_force),
+    **dict.fromkeys(JOINTS, _joint), **dict.fromkeys(FORCES, _table_force),
     "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
-    "motor": _motor, "actuator": _actuator, "spring": _spring, "torsion_spring": _torsion_spring, "bushing": _bushing,
-    "force": _force, "torque": _torque}
+    "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque}

@@ -9,14 +9,14 @@ import numpy as np
 
 from ... import _check
 from ..elements.drawing import Drawing
-from ..elements.forces import Actuator, Bushing, Force, Spring
+from ..elements.forces import Actuator, Bushing, Force
 from ..elements.joints import Joint
-from ..elements.table_forces import MadeForce
+from ..elements.table_forces import TableForce, has
 from .plane_pose import Posed
 from .space_pose import SpacePosed
 
 SHOWN = Joint, Bushing, Force       # shown by default
-HAVE_FORCES = (*SHOWN, Spring, Actuator, MadeForce)
+HAVE_FORCES = (*SHOWN, Actuator, TableForce)
 
 
 def chosen(drawing: Drawing, names: Any) -> list[Any]:
@@ -25,7 +25,7 @@ def chosen(drawing: Drawing, names: Any) -> list[Any]:
         return drawing.of(SHOWN)
     names = [names] if isinstance(names, str) or not isinstance(names, Iterable) else list(names)
     known = {element.name: element for element in drawing.of(HAVE_FORCES)
-             if not isinstance(element, MadeForce) or element.row.measure == "force"}
+             if not isinstance(element, TableForce) or element.row.measure != "torque"}
     return [known[_check.choice("each of forces", getattr(name, "name", name), list(known))] for name in names]
 
 
@@ -41,11 +41,10 @@ def acting(element: Any, moments: Sequence[Posed] | Sequence[SpacePosed], values
 
 def _direction(element: Any, posed: Posed | SpacePosed) -> np.ndarray:
     """Unit vector (2,) or (3,) of a force on its second point whose measure is positive."""
-    if isinstance(element, Force):
-        return posed.direction(element.frame, element.along)
-    if isinstance(element, MadeForce) and element.axis is not None:
-        along = posed.direction(element.first.body, element.axis)
-        return along if element.row.quantities[0][0] != "across" else np.array([-along[1], along[0]])
+    if isinstance(element, TableForce) and not has(element.row, "distance"):
+        first = getattr(element.ends[0], "body", element.ends[0])
+        along = posed.direction(first, element.axis if element.frames is None else element.frames[0][0])
+        return along if not has(element.row, "across", "skid") else np.array([-along[1], along[0]])
     apart = posed.at(element.second) - posed.at(element.first)
-    pulls = isinstance(element, Spring) or (isinstance(element, MadeForce) and element.row.sign < 0)
+    pulls = isinstance(element, TableForce) and element.row.sign < 0
     return (-apart if pulls else apart) / max(float(np.linalg.norm(apart)), 1e-300)

@@ -9,9 +9,9 @@ import numpy as np
 
 from ...systems.shapes import Shape
 from ..elements.bodies import Point
-from ..elements.forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from ..elements.forces import Actuator, Force, Motor, Torque
 from ..elements.joints import Joint, holds_angle, is_hinge
-from ..elements.table_forces import MadeForce
+from ..elements.table_forces import TableForce, has, paths
 from ..elements.user_functions import Law
 from .plane_outline import APART
 from .plane_pose import Parts, Posed
@@ -20,9 +20,10 @@ from .plane_pose import Parts, Posed
 def forces(posed: Posed) -> Iterator[Shape]:
     """All shapes of forces of a mechanism."""
     drawing = posed.parts.drawing
-    for element in drawing.of((Spring, MadeForce, Actuator, Bushing)):
-        yield from _between(element, posed)
-    for spring in drawing.of(TorsionSpring):
+    for element in drawing.of((TableForce, Actuator)):
+        if element.first:
+            yield from _between(element, posed)
+    for spring in (each for each in drawing.of(TableForce) if each.joint):
         angle = posed.pose(spring.joint.bodies[1].name).angle - posed.pose(spring.joint.bodies[0].name).angle
         yield Shape("spiral", posed.at(spring.joint.second)[None], spring.name, angle)
     for motor in drawing.of(Motor):
@@ -54,15 +55,12 @@ def _between(element: Any, posed: Posed) -> Iterator[Shape]:
     ends = np.array([first, second])
     if isinstance(element, Actuator):
         yield Shape("cylinder", ends, element.name)
-    elif isinstance(element, Spring):
-        yield from _spring(ends, element.name, *(posed.parts.numbers(element, each, getattr(element, each))
-                                                 for each in ("stiffness", "damping")))
-    elif isinstance(element, MadeForce) and element.row.is_spring and element.has("distance"):
+    elif element.row.is_spring and has(element.row, "distance"):
         yield from _spring(ends, element.name, *(posed.parts.numbers(element, each, element.values[each])
-                                                 for each in (element.paths(each)[0] for each in ("stiffness", "damping"))))
-    elif isinstance(element, Bushing) or element.row.is_spring:
+                                                 for each in paths(element.row)[0]))
+    elif element.row.is_spring:
         yield Shape("bushing", second[None], element.name)
-    elif element.axis is None and element.has("angle"):
+    elif element.axis is None and has(element.row, "angle"):
         yield Shape("moment", second[None], element.name, _sign(element.law))
     else:
         along = ends[1] - ends[0] if element.axis is None else posed.direction(element.first.body, element.axis)
@@ -96,7 +94,7 @@ def _sign(law: Law) -> float:
 def walls(posed: Posed, held: list[Point]) -> Iterator[Shape]:
     """Marks on the ground where springs, dampers, cylinders and welded bodies are fixed."""
     parts = posed.parts
-    for element in parts.drawing.of((Spring, MadeForce, Actuator, Bushing, Joint)):
+    for element in (each for each in parts.drawing.of((TableForce, Actuator, Joint)) if each.first):
         if isinstance(element, Joint) and (not holds_angle(element.row) or is_hinge(element.row) or element.axis is not None):
             continue
         for side, other in ((element.first, element.second), (element.second, element.first)):

@@ -16,12 +16,12 @@ from ..._rotations import rotation_of
 from ...systems.shapes import Shape
 from ..elements.bodies import Body, Link, Particle, Point
 from ..elements.drawing import Drawing
-from ..elements.forces import Actuator, Bushing, Spring
+from ..elements.forces import Actuator
 from ..elements.joints import holds_distance
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..elements.space_joints import SpaceJoint, SpaceRolling, has_torque, is_at_point, is_blade, is_on_plane
-from ..elements.table_forces import MadeForce
+from ..elements.table_forces import TableForce, has
 
 APART = 1e-9        # m: smaller distances count as zero
 FLAT = 1e-6         # of the extent of points: deviation from a plane, at most
@@ -142,18 +142,17 @@ class SpaceSketch:
                 yield Shape("rod", _moved(np.concatenate([ORIGIN, rim[:1]]), at), joint.bodies[1].name)
 
     def _forces(self, at: dict[str, Placed]) -> Iterator[Shape]:
-        for spring in self.drawing.of((Spring, Actuator)):
-            ends = _together(self._placed(spring.first, at), self._placed(spring.second, at))
-            yield Shape("spring" if isinstance(spring, Spring) else "rod", ends, spring.name)
-        for made in self.drawing.of(MadeForce):
-            ends = _together(self._placed(made.first, at), self._placed(made.second, at))
-            is_spring = made.row.is_spring and made.has("distance")
-            yield Shape("spring", ends, made.name) if is_spring else Shape("bushing", ends[:, 1:], made.name)
-        for bushing in self.drawing.of(Bushing):
-            yield Shape("bushing", _together(self._placed(bushing.second, at)), bushing.name)
-            for side in (bushing.first, bushing.second):
+        for element in self.drawing.of((TableForce, Actuator)):
+            if not element.first:
+                continue
+            first, second = self._placed(element.first, at), self._placed(element.second, at)
+            if isinstance(element, Actuator) or has(element.row, "distance"):
+                yield Shape("rod" if isinstance(element, Actuator) else "spring", _together(first, second), element.name)
+                continue
+            yield Shape("bushing", _together(second), element.name)
+            for side, place in ((element.first, first), (element.second, second)):
                 if side.body is self.drawing.ground:
-                    yield Shape("ground", _together(self._placed(side, at)), bushing.name)
+                    yield Shape("ground", _together(place), element.name)
 
     def _placed(self, point: Point, at: dict[str, Placed]) -> np.ndarray:
         """Positions (moments, 3) of a point."""

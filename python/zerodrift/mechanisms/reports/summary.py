@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 from ...errors import ZerodriftError
 from ..elements.drawing import Drawing
-from ..elements.forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
+from ..elements.forces import Actuator, Motor
 from ..elements.joints import Joint
 from ..elements.numbers import AS_GIVEN
-from ..elements.table_forces import MadeForce
+from ..elements.table_forces import TableForce
 from ..equations.space_tables import tables_of
 from . import cost
 from .counting import Count, count
@@ -20,9 +21,8 @@ MOST_NAMED = 40         # constraints or loops in a list, at most
 def headline(drawing: Drawing) -> str:
     """First line: the number of elements of each kind."""
     bodies, joints = len(drawing.parts()), len(drawing.of(Joint))
-    forces = [_several(len(drawing.of(kind)), word) for kind, word in (
-        (Spring, "spring"), (TorsionSpring, "torsion spring"), (Bushing, "bushing"), (Force, "force"), (Torque, "torque"),
-        (MadeForce, "other force"), (Motor, "motor"), (Actuator, "actuator")) if drawing.of(kind)]
+    known = [*sorted(drawing.of(TableForce), key=lambda force: force.row.number), *drawing.of(Motor), *drawing.of(Actuator)]
+    forces = [_several(count, kind.replace("_", " ")) for kind, count in Counter(each.kind for each in known).items()]
     gravity = f"gravity ({', '.join(f'{each:g}' for each in drawing.gravity)})" if drawing.gravity.any() else "no gravity"
     said = f"{', '.join(forces)}, {gravity}" if forces else f"no forces but {gravity}" if drawing.gravity.any() else "no forces"
     where = "space" if drawing.dimension == 3 else "plane"
