@@ -60,10 +60,9 @@ def by_their_entries(monkeypatch, kind, dimension):
     if kind not in FORCES:
         force = made_force(kind)
         monkeypatch.setattr(zd.Mechanism, kind, force_verb(force))
-        monkeypatch.setitem(to_json.WRITTEN, kind, to_json._table_force)
-        monkeypatch.delitem(to_json.IN_SPACE, kind, raising=False)
-        for table, of in ((from_json.MADE, 2), (from_json.MADE_IN_SPACE, 3)):
-            monkeypatch.setitem(table, kind, from_json._table_force(force, of))
+        for written, made in ((to_json.WRITTEN, from_json.MADE), (to_json.WRITTEN_IN_SPACE, from_json.MADE_IN_SPACE)):
+            monkeypatch.setitem(written, kind, to_json._table_force)
+            monkeypatch.setitem(made, kind, from_json._table_force(force, dimension))
 
 
 def test_every_kind_has_a_method_and_a_class():

@@ -4,9 +4,9 @@
 
 A new entry is a new file and one word in `methods.h`, a new kind of joint a file and one word in `joints/table.c`, and a new
 term one line in `system.h`. The tests that run were not written for them: they are parametrized over the core's tables, and
-selected by the new names. The entries are small, but each one that can have parameters has one. The joints, in the plane and in
-space, are then used from Python, and compared with the same mechanism made of existing joints and constraints. The declarations
-of methods for editors, a generated file, are written anew.
+selected by the new names. The entries are small, but each one that can have parameters has one. The joints and force elements,
+of the plane and of space, are then used from Python, and compared with closed forms of simple motions and with the same mechanism
+made of existing joints and constraints. The declarations of methods for editors, a generated file, are written anew.
 """
 
 import difflib
@@ -323,7 +323,7 @@ const zd_plane_element_kind zd_soft_guide = {
     .card = {"soft_guide", "Spring with a damper across a line of the first body.", "(2), (28)", 0, 0, 0},
     .quantities = 1,
     .quantity = {ZD_PLANE_ACROSS}, .zero = {ZD_ZERO_ACROSS},
-    .is_spring = 1,
+    .is_spring = 1, .axes = 1,
     .measure = "force", .sign = 1,
 };
 """
@@ -336,8 +336,34 @@ const zd_plane_element_kind zd_soft_plane = {
     .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
     .quantities = 1,
     .quantity = {ZD_PLANE_ALONG}, .zero = {ZD_ZERO_ALONG},
-    .is_spring = 1,
+    .is_spring = 1, .axes = 1,
     .measure = "force", .sign = 1,
+};
+"""
+
+SPACE_SOFT_PLANE = r"""
+/* A point is pulled back along an axis of the first body, and moves across it freely. */
+#include "primitives.h"
+
+const zd_space_element_kind zd_space_soft_plane = {
+    .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
+    .quantities = 1,
+    .pick = {{.quantity = ZD_SPACE_ALONG, .of_first = A, .zero = ZD_SPACE_ZERO_ALONG}},
+    .is_spring = 1, .axes = 1,
+    .measure = "force", .sign = 1,
+};
+"""
+
+SWIVEL = r"""
+/* A body is turned back about an axis of the first body. */
+#include "primitives.h"
+
+const zd_space_element_kind zd_swivel = {
+    .card = {"swivel", "Spring with a damper about an axis of the first body.", "(2), (28)", 0, 0, 0},
+    .quantities = 1,
+    .pick = {{.quantity = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}},
+    .is_spring = 1, .axes = 1,
+    .measure = "torque", .sign = 1,
 };
 """
 
@@ -490,6 +516,85 @@ for layout in ("joint", "absolute"):
     assert error < 1e-8 and across < 1e-12      # steps; rounding
 """
 
+# Motions with closed forms: a damped oscillator, a slider, a point on a slope, two wheels that turn alike.
+CLOSED_FORMS = r"""
+import numpy as np
+import zerodrift as zd
+
+K, C, MASS, INERTIA, V0 = 30.0, 0.8, 1.3, 0.2, 0.7
+
+
+def oscillation(t, inertia):
+    w, decay = np.sqrt(K / inertia - (C / (2 * inertia))**2), C / (2 * inertia)
+    return V0 / w * np.exp(-decay * t) * np.sin(w * t)
+
+
+def drawn(dimension, gravity=None):
+    m = zd.Mechanism("box", dimension=dimension, gravity=gravity or (0.0,) * dimension)
+    axis = np.array([0.6, 0.8] if dimension == 2 else [0.6, 0.0, 0.8])
+    return m, m.body("box", MASS, INERTIA if dimension == 2 else (INERTIA,) * 3, at=(0.3,) * dimension), axis
+
+
+def compared(what, m, expected, name):
+    for layout in ("joint", "absolute"):
+        sol = zd.simulate(m.system(layout), 1.0, step=0.002)
+        error = np.max(np.abs(sol[name] - expected(sol)))
+        print(f"{what:24}{layout:10}{error:9.1e} of a closed form")
+        assert error < 1e-9         # of the steps
+
+
+def elastic(kind, dimension):
+    m, box, axis = drawn(dimension)
+    getattr(m, kind)("K", m.ground, box.center, axis=axis, stiffness=K, damping=C)
+    along = axis if kind == "soft_plane" else np.array([-axis[1], axis[0]])
+    across = np.array([-along[1], along[0]]) if dimension == 2 else np.array([0.0, 1.0, 0.0])
+    m.start({"box.velocity": V0 * along + across})
+    compared(f"{kind} {dimension}", m, lambda sol: box.pose.origin + np.outer(oscillation(sol.t, MASS), along)
+             + np.outer(sol.t, across), "box.position")
+
+
+def swivel():
+    m, box, axis = drawn(3)
+    m.swivel("K", m.ground, box.center, axis=axis, stiffness=K, damping=C)
+    m.start({"box.angular_velocity": V0 * axis})
+    for layout in ("joint", "absolute"):
+        sol = zd.simulate(m.system(layout), 1.0, step=0.002)
+        angle = oscillation(sol.t, INERTIA)
+        error = np.max(np.abs((np.trace(sol["box.rotation"], axis1=1, axis2=2) - 1) / 2 - np.cos(angle)))
+        print(f"{'swivel 3':24}{layout:10}{error:9.1e} of a closed form")
+        assert error < 1e-9 and np.abs(sol["K.torque"]).max() > 1
+
+
+def alike():
+    m, box, _ = drawn(2)
+    other = m.body("other", 1.0, 0.4, at=(1.0, 0.2))
+    m.revolute("pin", m.ground, box.center)
+    m.parallel("J", box, other.center)
+    m.motor("push", "pin", torque=0.5)
+    compared("parallel 2", m, lambda sol: 0.5 * sol.t**2 / 2 / (INERTIA + 0.4), "box.angle")
+
+
+def sliding():
+    m, box, axis = drawn(2, gravity=(0.0, -9.81))
+    at = box.pose.origin - 0.2 * np.array([-axis[1], axis[0]])
+    m.offset_slider("J", m.ground.point(at), box.center, axis=axis, length=0.2, damping=C)
+    end = -9.81 * axis[1] * MASS / C
+    compared("offset_slider 2", m, lambda sol: end * (sol.t - MASS / C * (1 - np.exp(-C * sol.t / MASS))), "J.displacement")
+
+
+def slope():
+    m, box, normal = drawn(3, gravity=(0.0, 0.0, -9.81))
+    m.point_on_plane("J", m.ground.point(box.pose.origin), box.center, normal=normal)
+    down = np.array([0.0, 0.0, -9.81]) + 9.81 * normal[2] * normal
+    compared("point_on_plane 3", m, lambda sol: box.pose.origin + np.outer(sol.t**2 / 2, down), "box.position")
+
+
+for kind, dimension in (("soft_guide", 2), ("soft_plane", 2), ("soft_plane", 3)):
+    elastic(kind, dimension)
+for make in (swivel, alike, sliding, slope):
+    make()
+"""
+
 LINE_OF_TERM = '    TERM(ZD_HEAT, 0x1000, heat, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "what friction turns into heat, in W") \\\n'
 
 # What is added: the file that it is in, its text, the file that is changed, where, and by what.
@@ -500,18 +605,22 @@ ADDED = {
                                     r"\1 X(zd_relaxation)"),
     "a system": ("csrc/systems/spherical_pendulum.c", SYSTEM, REGISTRY, r"(X\(zd_driven_four_bar\))",
                  r"\1 X(zd_spherical_pendulum)"),
-    "a joint": (f"{PLANE}/parallel.c", PARALLEL, JOINTS, r"(X\(zd_plane_knife_edge\))", r"\1 X(zd_parallel)"),
+    "a joint of the plane": (f"{PLANE}/parallel.c", PARALLEL, JOINTS, r"(X\(zd_plane_knife_edge\))", r"\1 X(zd_parallel)"),
     "a joint that takes something": (f"{PLANE}/offset_slider.c", OFFSET_SLIDER, JOINTS, r"(X\(zd_parallel\))",
                                      r"\1 X(zd_offset_slider)"),
-    "a joint in space": (f"{SPACE}/point_on_plane.c", POINT_ON_PLANE, f"{SPACE}/table.c", r"(X\(zd_space_knife_edge\))",
+    "a joint of space": (f"{SPACE}/point_on_plane.c", POINT_ON_PLANE, f"{SPACE}/table.c", r"(X\(zd_space_knife_edge\))",
                          r"\1 X(zd_point_on_plane)"),
-    "an element": (f"{PLANE}/soft_guide.c", SOFT_GUIDE, JOINTS, r"(X\(zd_plane_torque\))", r"\1 X(zd_soft_guide)"),
-    "an element of plane and space": (f"{PLANE}/soft_plane.c", SOFT_PLANE, JOINTS, r"(X\(zd_soft_guide\))",
-                                      r"\1 X(zd_soft_plane)"),
+    "a force element of the plane": (f"{PLANE}/soft_guide.c", SOFT_GUIDE, JOINTS, r"(X\(zd_plane_torque\))",
+                                     r"\1 X(zd_soft_guide)"),
+    "another force element": (f"{PLANE}/soft_plane.c", SOFT_PLANE, JOINTS, r"(X\(zd_soft_guide\))", r"\1 X(zd_soft_plane)"),
+    "the same in space": (f"{SPACE}/soft_plane.c", SPACE_SOFT_PLANE, f"{SPACE}/table.c", r"(X\(zd_space_torque\))",
+                          r"\1 X(zd_space_soft_plane)"),
+    "a force element of space": (f"{SPACE}/swivel.c", SWIVEL, f"{SPACE}/table.c", r"(X\(zd_space_soft_plane\))",
+                                 r"\1 X(zd_swivel)"),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }
 NAMES = ("ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide "
-         "or point_on_plane or soft_plane")
+         "or point_on_plane or soft_plane or swivel")
 WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_methods.py", "tests/point/test_terms.py",
          "tests/test_structure_of_core.py", "tests/mechanisms/plane/joints", "tests/mechanisms/test_joint_verbs.py",
          "tests/mechanisms/test_force_verbs.py", "tests/mechanisms/test_table_verbs.py", "tests/mechanisms/test_files.py",
@@ -553,8 +662,8 @@ def main(folder):
         new, changed, count, lines = add(folder, *how)
         print(f"{what:30}{new:12}{changed:16}{count:8}{lines:8}")
     run(folder, sys.executable, "setup.py", "-q", "build_ext", "--inplace")
-    print(run(folder, sys.executable, "-c", JOINTS_USED))
-    print(run(folder, sys.executable, "-c", SPACE_USED))
+    for script in (CLOSED_FORMS, JOINTS_USED, SPACE_USED):
+        print(run(folder, sys.executable, "-c", script))
     run(folder, sys.executable, "tests/mechanisms/stub_of_verbs.py")        # the generated declarations for editors
     for picked in ([*WHOLE], ["tests", "-k", NAMES]):
         print(run(folder, sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *picked).splitlines()[-1])

@@ -14,7 +14,7 @@ from ..building.table_verbs import FORCES
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.joints import JOINTS, Coupling
-from ..elements.table_forces import TableForce, parameters
+from ..elements.table_forces import ELEMENTS, TableForce, parameters
 from .expressions_json import to_json
 from .space_to_json import IN_SPACE
 from .values_to_json import law_to_json, not_saved, numbers, place, sides
@@ -25,7 +25,7 @@ VERSION = 1             # version of the format
 
 def described(drawing: Drawing) -> dict[str, Any]:
     """Description of a mechanism as dicts and lists; ValueError names a callable, which cannot be saved."""
-    written = WRITTEN | IN_SPACE if drawing.dimension == 3 else WRITTEN
+    written = WRITTEN_IN_SPACE if drawing.dimension == 3 else WRITTEN
     elements = [{"kind": _kind(element), "name": element.name, **written[_kind(element)](element, drawing)}
                 for element in drawing.elements.values() if element is not drawing.ground]
     return {"zerodrift": WHAT, "version": VERSION, "name": drawing.name, "dimension": drawing.dimension,
@@ -147,7 +147,8 @@ def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
 
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
-    **dict.fromkeys(JOINTS, _joint), **dict.fromkeys(FORCES, _table_force),
+    **dict.fromkeys(JOINTS, _joint), **dict.fromkeys((kind for kind in FORCES if kind in ELEMENTS), _table_force),
     "body": _body, "link": _link, "particle": _particle, "point": _point, "gear": _linear,
     "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, "force": _force, "torque": _torque}
+WRITTEN_IN_SPACE = WRITTEN | dict.fromkeys(FORCES, _table_force) | IN_SPACE
