@@ -18,7 +18,7 @@ from zerodrift._gateway.base import statuses
 from zerodrift.explanations import codes, explanations
 from zerodrift.mechanisms.elements.joints import JOINTS
 from zerodrift.mechanisms.elements.space_joints import JOINTS as SPACE_JOINTS
-from zerodrift.mechanisms.elements.table_forces import ELEMENTS
+from zerodrift.mechanisms.elements.table_forces import ELEMENTS, SPACE_ELEMENTS
 from zerodrift.paper import geometry
 
 WARNINGS = tuple(each for each in vars(errors).values() if inspect.isclass(each) and issubclass(each, Warning))
@@ -95,7 +95,8 @@ COUPLINGS = ("motor", "actuator", "gear", "rack_pinion", "coupler", "cam", "cons
 def elements() -> Iterable[str]:
     """Joints, force elements and couplings, with the verbs that make them."""
     yield from ("# Joints and forces", "", "Verbs of {py:class}`zerodrift.Mechanism`; `help(m.revolute)` has their arguments.", "")
-    for title, table in (("Joints in the plane", JOINTS), ("Joints in space", SPACE_JOINTS), ("Force elements", ELEMENTS)):
+    for title, table in (("Joints in the plane", JOINTS), ("Joints in space", SPACE_JOINTS), ("Force elements in the plane", ELEMENTS),
+                         ("Force elements in space", SPACE_ELEMENTS)):
         yield from (f"## {title}", "", "| verb | effect |", "|---|---|")
         yield from (f"| `{name}` | {(row.row if hasattr(row, 'row') else row).card.summary} |" for name, row in table.items())
         yield ""
