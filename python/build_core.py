@@ -35,8 +35,9 @@ def fingerprint() -> str:
 
 def declarations() -> str:
     """The headers as the compiler's preprocessor leaves them; functions written in Python are marked as CFFI wants it."""
-    of_mechanisms = ("common/elements.h", "plane/joints/joint.h", "plane/link.h", "plane/tables.h", "plane/assembly/varied.h",
-                     "space/joints/joint.h", "space/tables.h", "space_tree/tree.h")
+    of_mechanisms = ("common/elements.h", "plane/joints/joint.h", "plane/forces/element.h", "plane/link.h", "plane/tables.h",
+                     "plane/assembly/varied.h", "space/joints/joint.h", "space/forces/element.h", "space/tables.h",
+                     "space_tree/tree.h")
     names = ("include/zerodrift/system.h", *(f"mechanisms/{name}" for name in of_mechanisms), "zerodrift.h", "block/block.h",
              "python/interface.h")
     headers = "".join((ROOT / "csrc" / name).read_text(encoding="utf-8") for name in names)

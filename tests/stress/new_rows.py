@@ -2,11 +2,12 @@
 
     python tests/stress/new_rows.py [FOLDER]        prints a table; some minutes
 
-A new entry is a new file and one word in `methods.h`, a new kind of joint a file and one word in `joints/table.c`, and a new
-term one line in `system.h`. The tests that run were not written for them: they are parametrized over the core's tables, and
-selected by the new names. The entries are small, but each one that can have parameters has one. The joints and force elements,
-of the plane and of space, are then used from Python, and compared with closed forms of simple motions and with the same mechanism
-made of existing joints and constraints. The declarations of methods for editors, a generated file, are written anew.
+A new entry is a new file and one word in `methods.h`, a new kind of joint or force element a file and one word in the
+`table.c` of its room, and a new term one line in `system.h`. The tests that run were not written for them: they are
+parametrized over the core's tables, and selected by the new names. The entries are small, but each one that can have
+parameters has one. The joints and force elements, of the plane and of space, are then used from Python, and compared with
+closed forms of simple motions and with the same mechanism made of existing joints and constraints. The declarations of
+methods for editors, a generated file, are written anew.
 """
 
 import difflib
@@ -22,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[2]
 KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", "*.so", ".pytest_cache", ".hypothesis", ".venv")
 PLANE = "csrc/mechanisms/plane/joints"
 SPACE = "csrc/mechanisms/space/joints"
+FORCES, SPACE_FORCES = "csrc/mechanisms/plane/forces", "csrc/mechanisms/space/forces"
 REGISTRY, INTERFACE, JOINTS = "csrc/methods.h", "csrc/include/zerodrift/system.h", f"{PLANE}/table.c"
 
 INTEGRATOR = r"""
@@ -317,7 +319,7 @@ const zd_plane_joint_kind zd_offset_slider = {
 
 SOFT_GUIDE = r"""
 /* A point is pulled back to a line of the first body, and moves along it freely. */
-#include "joint.h"
+#include "element.h"
 
 const zd_plane_element_kind zd_soft_guide = {
     .card = {"soft_guide", "Spring with a damper across a line of the first body.", "(2), (28)", 0, 0, 0},
@@ -330,7 +332,7 @@ const zd_plane_element_kind zd_soft_guide = {
 
 SOFT_PLANE = r"""
 /* A point is pulled back along an axis of the first body, and moves across it freely. */
-#include "joint.h"
+#include "element.h"
 
 const zd_plane_element_kind zd_soft_plane = {
     .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
@@ -356,7 +358,8 @@ const zd_space_element_kind zd_space_soft_plane = {
 
 SWIVEL = r"""
 /* A body is turned back about an axis of the first body. */
-#include "primitives.h"
+#include "../joints/primitives.h"
+#include "element.h"
 
 const zd_space_element_kind zd_swivel = {
     .card = {"swivel", "Spring with a damper about an axis of the first body.", "(2), (28)", 0, 0, 0},
@@ -610,12 +613,13 @@ ADDED = {
                                      r"\1 X(zd_offset_slider)"),
     "a joint of space": (f"{SPACE}/point_on_plane.c", POINT_ON_PLANE, f"{SPACE}/table.c", r"(X\(zd_space_knife_edge\))",
                          r"\1 X(zd_point_on_plane)"),
-    "a force element of the plane": (f"{PLANE}/soft_guide.c", SOFT_GUIDE, JOINTS, r"(X\(zd_plane_torque\))",
+    "a force element of the plane": (f"{FORCES}/soft_guide.c", SOFT_GUIDE, f"{FORCES}/table.c", r"(X\(zd_plane_torque\))",
                                      r"\1 X(zd_soft_guide)"),
-    "another force element": (f"{PLANE}/soft_plane.c", SOFT_PLANE, JOINTS, r"(X\(zd_soft_guide\))", r"\1 X(zd_soft_plane)"),
-    "the same in space": (f"{SPACE}/soft_plane.c", SPACE_SOFT_PLANE, f"{SPACE}/table.c", r"(X\(zd_space_torque\))",
+    "another force element": (f"{FORCES}/soft_plane.c", SOFT_PLANE, f"{FORCES}/table.c",
+                              r"(X\(zd_soft_guide\))", r"\1 X(zd_soft_plane)"),
+    "the same in space": (f"{SPACE_FORCES}/soft_plane.c", SPACE_SOFT_PLANE, f"{SPACE_FORCES}/table.c", r"(X\(zd_space_torque\))",
                           r"\1 X(zd_space_soft_plane)"),
-    "a force element of space": (f"{SPACE}/swivel.c", SWIVEL, f"{SPACE}/table.c", r"(X\(zd_space_soft_plane\))",
+    "a force element of space": (f"{SPACE_FORCES}/swivel.c", SWIVEL, f"{SPACE_FORCES}/table.c", r"(X\(zd_space_soft_plane\))",
                                  r"\1 X(zd_swivel)"),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }

@@ -11,6 +11,7 @@
 #define ZD_PLANE_TABLES_H
 
 #include "../common/elements.h"
+#include "forces/element.h"
 #include "joints/joint.h"
 #include "link.h"
 

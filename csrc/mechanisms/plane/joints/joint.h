@@ -1,4 +1,4 @@
-/* Kinds of joints and force elements of planar mechanisms.
+/* Kinds of joints of planar mechanisms, and the marker quantities in which joints and force elements are stated.
  *
  * A marker quantity belongs to one or two bodies, such as a distance or an angle. Joints, drives and forces are stated in marker quantities:
  * a constraint sets a combination of marker quantities to zero, a force acts along a marker quantity. The rate of a marker quantity is linear
@@ -63,23 +63,5 @@ typedef struct zd_plane_joint_kind {
 
 int zd_plane_joint_kinds(void);
 const zd_plane_joint_kind *zd_plane_joint_kind_of(int row);     /* NULL: out of range */
-
-/* A kind of force element: an entry of the table of elements. It is one generalized force along each of its marker quantities. */
-enum { ZD_ELEMENT_QUANTITIES = 3 };
-
-typedef struct zd_plane_element_kind {
-    zd_card card;
-    int quantities;                     /* their number; lengths stand before angles */
-    enum zd_plane_quantity_kind quantity[ZD_ELEMENT_QUANTITIES];
-    enum zd_zero zero[ZD_ELEMENT_QUANTITIES];
-    int is_spring;                      /* 1: -stiffness value - damping rate; 0: a given force */
-    int axes;                           /* 1 if the user gives an axis; 0: the x axis of the first body is taken */
-    int at_joint;                       /* 1 if it acts along the angle of a joint that the user gives, from an angle where it is slack */
-    const char *measure;                /* name of its scalar measure, "force" or "torque"; NULL: it has both as vectors */
-    int sign;                           /* sign of that measure: -1 if it is positive in tension, otherwise 1 */
-} zd_plane_element_kind;
-
-int zd_plane_element_kinds(void);
-const zd_plane_element_kind *zd_plane_element_kind_of(int row);
 
 #endif

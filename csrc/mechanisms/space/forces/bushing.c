@@ -1,6 +1,7 @@
 /* Bushing: an elastic joint, with a stiffness and a damping along and about each of three directions of the first body. The angle about a
  * direction is that by which the next one has turned. */
-#include "primitives.h"
+#include "../joints/primitives.h"
+#include "element.h"
 
 #define ALONG(first) {.quantity = ZD_SPACE_ALONG, .of_first = (first), .zero = ZD_SPACE_ZERO_ALONG}
 #define TURN_OF(direction) {.quantity = ZD_SPACE_ANGLE, .of_first = (direction), .of_second = (direction)}

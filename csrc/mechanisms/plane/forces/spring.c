@@ -1,10 +1,10 @@
 /* Spring and damper along the line between two points: slack at its free length. Its force is positive where it pulls. */
-#include "primitives.h"
+#include "element.h"
 
-const zd_space_element_kind zd_space_spring = {
+const zd_plane_element_kind zd_plane_spring = {
     .card = {.name = "spring", .summary = "Spring with a damper between two points.", .equations = "(2), (28)"},
     .quantities = 1,
-    .pick = {{.quantity = ZD_SPACE_DISTANCE, .zero = ZD_SPACE_ZERO_LENGTH}},
+    .quantity = {ZD_PLANE_DISTANCE}, .zero = {ZD_ZERO_LENGTH},
     .is_spring = 1,
     .measure = "force", .sign = -1,
 };

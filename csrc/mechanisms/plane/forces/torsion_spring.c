@@ -1,5 +1,5 @@
 /* Torsion spring and damper about a joint. Its torque is that on the second body. */
-#include "joint.h"
+#include "element.h"
 
 const zd_plane_element_kind zd_plane_torsion_spring = {
     .card = {.name = "torsion_spring", .summary = "Spring with a damper about the axis of a joint.", .equations = "(2), (28)"},

@@ -1,6 +1,7 @@
 /* Force at a point of the second body along an axis of the first, on which nothing acts: the ground, or the body whose frame it turns
  * with. */
-#include "primitives.h"
+#include "../joints/primitives.h"
+#include "element.h"
 
 const zd_space_element_kind zd_space_force = {
     .card = {

@@ -1,6 +1,6 @@
 /* Force at a point of the second body along an axis of the first, on which nothing acts: the ground,
  * or the body whose frame it turns with. */
-#include "joint.h"
+#include "element.h"
 
 const zd_plane_element_kind zd_plane_force = {
     .card = {

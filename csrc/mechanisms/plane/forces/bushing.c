@@ -1,5 +1,5 @@
 /* Bushing: an elastic joint, with a stiffness and a damping for each of its three motions. */
-#include "joint.h"
+#include "element.h"
 
 const zd_plane_element_kind zd_plane_bushing = {
     .card = {

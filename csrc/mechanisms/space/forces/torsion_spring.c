@@ -1,5 +1,6 @@
 /* Torsion spring and damper about the axis of a joint. Its torque is that on the second body. */
-#include "primitives.h"
+#include "../joints/primitives.h"
+#include "element.h"
 
 const zd_space_element_kind zd_space_torsion_spring = {
     .card = {.name = "torsion_spring", .summary = "Spring with a damper about the axis of a joint.", .equations = "(2), (28)"},

@@ -1,5 +1,5 @@
 /* Torque on the second body, with its opposite on the first. */
-#include "joint.h"
+#include "element.h"
 
 const zd_plane_element_kind zd_plane_torque = {
     .card = {.name = "torque", .summary = "Torque on a body, and against another.", .equations = "(2), (28)"},
