@@ -26,7 +26,7 @@ ON_MOVING_BODIES = {"slot": {"groove", "block"}, "prismatic": {"guide", "slider"
 LOOKS = {"revolute": {"pin"}, "weld": {"weld"}, "rod": {"rod"}, "rolling": {"road", "wheel"}, "knife_edge": {"blade"},
          **{kind: looks | {"pin"} if kind == "slot" else looks for kind, looks in ON_MOVING_BODIES.items()},
          "spring": {"spring", "damper"}, "bushing": {"bushing"}, "force": {"load"}, "torque": {"moment"},
-         "torsion_spring": {"bushing"}}     # that of a row is between two points, and of no joint
+         "torsion_spring": {"spiral"}}
 
 
 def planetary():

@@ -152,7 +152,7 @@ class AssemblyOfMany(Assembly):
     def _nearest_to_soft(self, p: np.ndarray, system: Callable, is_soft: np.ndarray) -> np.ndarray:
         """Positions with the least squares of the soft rows' residuals that the others allow, which are met where it begins.
 
-        Damped steps are chosen among those that the others allow, and led back onto them.
+        Damped steps are taken among those that the others allow, and led back onto them.
         """
         def others(p: np.ndarray) -> tuple[np.ndarray, SparseRows]:
             residual, rows = system(p)
