@@ -204,7 +204,7 @@ Sliders change lengths and motors, and a point that is dragged takes the mechani
 with which it cannot close is refused. Below it are the position violation and the energy error of the run; the core simulates in the browser.
 
 ```{{raw}} html
-<iframe src="../../live/{name}.html" title="{title}, simulated" loading="lazy" sandbox="allow-scripts"
+<iframe src="../../live/{name}.html" title="{title}, simulated" loading="lazy"
 style="width:100%;height:560px;border:0"></iframe>
 ```
 """

@@ -1,7 +1,9 @@
 """The core in WebAssembly: its numbers in node are the native core's, to the bit."""
 
+import base64
 import gzip
 import json
+import re
 import shutil
 import subprocess
 
@@ -9,11 +11,13 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from browser import Browser, needs_chromium
 from zerodrift.export import wasm
 
 NODE = shutil.which("node")
 pytestmark = pytest.mark.skipif(not NODE, reason="needs node")
 STEPS, LARGEST = 100_000, 250_000       # bytes, packed
+FEW = 5_000        # steps in Chromium
 SCRIPT = """
 import {readFileSync} from "node:fs";
 import * as zd from "./core.mjs";
@@ -62,6 +66,62 @@ def test_runs_have_the_bits_of_the_native_core(web, name):
     run = zd.Run(model, step=step, direct=False, vector="baseline")
     run.step(STEPS)
     assert found == [bits(run.p), bits(run.v)]
+
+
+@needs_chromium
+def test_runs_have_the_bits_of_the_native_core_in_chromium(web, tmp_path):
+    blocks = {name: base64.b64encode(zd.block(getattr(zd.models, name)(), step=step, outputs=[])).decode()
+              for name, step in MODELS.items()}
+    names = ", ".join(re.findall(r"^export (?:async )?function (\w+)", wasm.text("core.js"), re.MULTILINE))
+    script = re.sub(r"^export ", "", wasm.text("core.js"), flags=re.MULTILINE)
+    core = base64.b64encode(wasm.core()).decode()
+    (tmp_path / "core.html").write_text(f"""<link rel="icon" href="data:,"><script type="module">{script}
+        const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+        globalThis.core = load(bytes("{core}"));
+        globalThis.zd = {{{names}, bytes, bits: (array) => Array.from(new BigUint64Array(array.buffer), String)}};</script>""")
+    with Browser(tmp_path / "profile") as browser:
+        browser.open((tmp_path / "core.html").as_uri())
+        for name, step in MODELS.items():
+            found = browser.evaluate(f"""(async () => {{
+                const m = zd.create(await core, zd.bytes("{blocks[name]}"));
+                zd.step(m, {FEW});
+                return [zd.bits(zd.positions(m)), zd.bits(zd.velocities(m))]; }})()""")
+            run = zd.Run(getattr(zd.models, name)(), step=step, direct=False, vector="baseline")
+            run.step(FEW)
+            assert found == [bits(run.p), bits(run.v)], name
+        assert browser.errors == []
+
+
+def test_a_saved_run_goes_on_with_the_same_bits(web):
+    data = zd.block(zd.models.four_bar(), step=1e-3, parameters={"coupler.length": (0.8, 1.3)})
+    other = zd.block(zd.models.jansen(), step=1e-3, outputs=[])
+    same, *told = web("""
+        const m = zd.create(core, block("bar"));
+        zd.setParameter(m, "coupler.length", 1.05);
+        zd.step(m, 137);
+        const saved = zd.saveRun(m);
+        zd.step(m, 211);
+        const end = [bits(zd.positions(m)), bits(zd.velocities(m))].join();
+        const another = zd.create(core, block("bar"));
+        zd.step(another, 5);
+        for (const each of [m, another]) zd.restoreRun(each, saved);
+        const found = [m, another].map((each) => {
+          zd.energyViolation(each);
+          zd.step(each, 211);
+          return [bits(zd.positions(each)), bits(zd.velocities(each))].join() === end;
+        });
+        tell([...found, zd.parameter(another, "coupler.length"), zd.time(another)]);
+        const changed = saved.slice();
+        changed[5000] ^= 1;
+        const leg = zd.create(core, block("other"));
+        const wrong = [[m, saved.slice(0, 20)], [m, saved.slice(0, -4)], [m, changed], [leg, saved]];
+        for (const [mechanism, state] of wrong)
+          try { zd.restoreRun(mechanism, state); tell(""); } catch (error) { tell(error.message); }
+    """, bar=data, other=other)
+    assert same == [True, True, 1.05, pytest.approx(0.348)]
+    not_whole = "a saved run must be whole: some of its bytes are missing or changed"
+    assert told == ["a saved run must begin with zdwm and its version", not_whole, not_whole,
+                    "a saved run must be of the same block"]
 
 
 def test_inputs_measures_parameters_and_states(web):

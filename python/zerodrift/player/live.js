@@ -60,7 +60,19 @@ function spring(a, b, colour) {
   pen.stroke();
 }
 
+// The view grows with the motion; a mechanism that nothing joins to the ground is followed.
+function look() {
+  const places = pointNames().map(placeOf), [left, low, right, high] = scene.extent, isFree = !scene.pins.some((pin) => pin.ground);
+  const [a, b] = [0, 1].map((k) => Math.min(...places.map((at) => at[k]))), [c, d] = [0, 1].map((k) => Math.max(...places.map((at) => at[k])));
+  if (!places.length || (a >= left && b >= low && c <= right && d <= high)) return;
+  const x = (a + c - left - right) / 2, y = (b + d - low - high) / 2, room = 0.1 * (right - left);
+  scene.extent = isFree ? [left + x, low + y, right + x, high + y]
+    : [a < left ? a - room : left, b < low ? b - room : low, c > right ? c + room : right, d > high ? d + room : high];
+  fit();
+}
+
 function draw() {
+  look();
   const ink = getComputedStyle(document.body).color, box = canvas.getBoundingClientRect();
   pen.clearRect(0, 0, box.width, box.height);
   scene.bodies.forEach((body, i) => {
