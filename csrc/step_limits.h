@@ -46,6 +46,7 @@ enum {
     ZD_CHECK_STIFFNESS_EVERY = 32,  /* steps, where a check takes an evaluation */
     ZD_STIFF_AFTER = 10,            /* steps at the stability limit after which the problem counts as stiff */
     ZD_NOT_STIFF_AFTER = 3,         /* consecutive shorter steps after which it no longer does */
+    ZD_COLLAPSES = 50,              /* steps at one place that get nowhere, after which the run fails: collapse.c */
 };
 #define ZD_STABILITY_LIMIT 0.95     /* ratio of |lambda h| to the largest stable value */
 #define ZD_STATE_ROUNDING 0x1p-42   /* relative difference of states that errors of accelerations near a bifurcation cause */

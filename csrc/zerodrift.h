@@ -221,7 +221,8 @@ typedef struct zd_statistics {
     int64_t unresolved;            /* checked fixed steps that do not resolve the motion of some coordinate */
     double unresolved_time;        /* s: end of the first of them */
     double part_error;             /* largest estimated error of one coordinate over recent steps, in its characteristic scale */
-    int64_t part;                  /* index of that coordinate, of a velocity if there is a kinematic matrix, or nv + index of a quaternion */
+    int64_t part;                  /* index of that coordinate, of a velocity if there is a kinematic matrix, or nv + index of a quaternion;
+                                    * after ZD_COLLAPSED, of the velocity whose rate jumps */
     double smallest_pivot;         /* smallest relative pivot of C M^-1 C^T, for structures with many constraints; 0: not monitored */
     double smallest_pivot_time;    /* s: time of that pivot */
     int64_t smallest_pivot_row;    /* constraint of that pivot */

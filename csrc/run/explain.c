@@ -103,6 +103,17 @@ static void describe_steps(const zd_run *run, char *to, size_t size)
                                                : "or the problem is stiff and needs an implicit method, such as 'radau'");
 }
 
+static void describe_collapse(const zd_run *run, char *to, size_t size)
+{
+    const zd_collapse *collapse = &run->loop.control.collapse;
+    const double t = run->motion.point->t;
+    const int digits = digits_of(collapse->t, t);
+    snprintf(to, size, "the step size has collapsed %d times between t = %.*g and %.*g, now to %.3g s: the rate of velocity %d jumps "
+             "back and forth there, as by a force that jumps where its speed changes its sign; a smooth force, or friction that "
+             "sticks, takes fewer steps; max_steps=None goes on", ZD_COLLAPSES, digits, collapse->t, digits, t, collapse->h,
+             (int)run->motion.statistics.part);
+}
+
 static void describe_surplus(const zd_system *system, const char *formulation, char *to, size_t size)
 {
     char quaternions[96] = "";
@@ -134,6 +145,7 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
                  run->settings.rtol, run->settings.atol);
         break;
     case ZD_TOO_MANY_STEPS: describe_steps(run, to, size); break;
+    case ZD_COLLAPSED: describe_collapse(run, to, size); break;
     default: return 0;
     }
     return 1;

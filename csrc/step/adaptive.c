@@ -22,6 +22,7 @@ zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t
     return (zd_control){
         .histogram = zd_step_histogram_take(arena, t0),
         .scale = zd_take_doubles(arena, (size_t)stepper->capacity),
+        .collapse = zd_collapse_take(arena, stepper->motion->system.nv),
     };
 }
 
@@ -47,6 +48,7 @@ int zd_adaptive_start(zd_step_loop *loop, double *work)
     zd_control *control = &loop->control;
     const zd_rate *rate = &loop->motion->rate;
     double *f0 = work, *f1 = f0 + n, *y1 = f1 + n, *y = stepper->y, t = stepper->t;
+    zd_collapse_begin(&control->collapse, settings->max_steps);
     control->h = settings->first_step;
     if (!(control->h > 0) && stepper->integrator->foresee) control->h = INFINITY;
     if (control->h > 0) return ZD_DONE;
@@ -166,15 +168,32 @@ static int next(zd_step_loop *loop, zd_attempt *attempt)
     return attempt->t1 > t ? ZD_DONE : ZD_TINY_STEP;
 }
 
-static void accept(zd_step_loop *loop)
+/* ZD_COLLAPSED if the run has made so many steps at one place that get nowhere. */
+static int watch_collapse(zd_step_loop *loop)
+{
+    zd_control *control = &loop->control;
+    const zd_settings *settings = loop->settings;
+    const double h = control->bounded, span = (settings->is_open ? loop->stepper->t : settings->t1) - settings->t0;
+    if (!(h < control->collapse.share * span) || control->stiffness.at_limit) {
+        control->collapse.count = 0;
+        return ZD_DONE;
+    }
+    if (h != control->h || !zd_collapse_count(&control->collapse, loop->stepper, h, control->scale)) return ZD_DONE;
+    loop->motion->statistics.part = zd_collapse_velocity(&control->collapse, loop->motion->system.nv);
+    return ZD_COLLAPSED;
+}
+
+static int accept(zd_step_loop *loop)
 {
     const zd_integrator *integrator = loop->stepper->integrator;
     zd_control *control = &loop->control;
     const double h = control->bounded, intended = control->h;
+    const int status = watch_collapse(loop);
     control->h = by_move(loop, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
     if (loop->stepper->t == loop->end) control->h = fmax(control->h, intended);     /* an open run goes on as if it had not been cut */
     if (integrator->fit) control->h = integrator->fit(loop->stepper->memory, control->h);
     zd_step_histogram_step(&control->histogram, loop->stepper->t);
+    return status;
 }
 
 static int repeats(zd_step_loop *loop, int *status)
@@ -182,7 +201,7 @@ static int repeats(zd_step_loop *loop, int *status)
     zd_control *control = &loop->control;
     const double h = control->bounded;
     if (!*status && zd_control_accepts(control)) {
-        accept(loop);
+        *status = accept(loop);
         return 0;
     }
     if (is_final(*status)) return 0;

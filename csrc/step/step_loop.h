@@ -3,6 +3,7 @@
 #define ZD_STEP_LOOP_H
 
 #include "../paths/path.h"
+#include "collapse.h"
 #include "step_histogram.h"
 
 /* Attempts at a step. */
@@ -34,6 +35,7 @@ typedef struct zd_control { /* control of adaptive steps */
     zd_step_histogram histogram;    /* distribution of the steps in time */
     double *scale;          /* (size,): error scale, atol + rtol |y| */
     zd_stiffness stiffness;
+    zd_collapse collapse;
 } zd_control;
 
 /* True if the error estimate and the change of coordinates in the last attempt are small enough. */

@@ -49,8 +49,8 @@ def with_sliding_friction():
 @pytest.mark.parametrize("method", ["radau", "dop853"])
 def test_an_implicit_method_is_not_advised_to_itself(method):
     block = with_sliding_friction()
-    sol = zd.simulate(block, 2.0, rtol=1e-6, atol=1e-9, integrator=method, max_steps=300, on_failure="return")
-    assert not sol.success
+    sol = zd.simulate(block, 2.0, rtol=1e-6, atol=1e-9, integrator=method, max_steps=70, on_failure="return")
+    assert "max_steps = 70" in sol.message      # before the fiftieth that gets nowhere
     assert ("'radau'" in sol.message) == (method != "radau")
     place = [float(each) for each in re.search(r"between t = (\S+) and ([\d.]+)", sol.message).groups()]
     assert np.allclose(place, 2 / 2.943, atol=1e-4)     # where the block comes to rest

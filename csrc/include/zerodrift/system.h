@@ -64,7 +64,8 @@ enum { ZD_INTERFACE_VERSION = 4 };
     STATUS(ZD_TOO_MANY_STEPS, -22, "StepFailed", "settings->max_steps were taken") \
     STATUS(ZD_NOT_JACOBIAN, -23, "InconsistentSystem", "C or Phi_t are not the derivatives of Phi") \
     STATUS(ZD_NOT_KEPT, -24, "InconsistentSystem", "A v changes the length of a unit quaternion") \
-    STATUS(ZD_BAD_INPUT, -25, "InputRefused", "an input is not finite, or beyond its limits")
+    STATUS(ZD_BAD_INPUT, -25, "InputRefused", "an input is not finite, or beyond its limits") \
+    STATUS(ZD_COLLAPSED, -26, "StepFailed", "the step size has collapsed at one place")
 
 #define ZD_STATUS_NUMBER(name, number, error, sentence) name = number,
 enum zd_status { ZD_STATUS_LIST(ZD_STATUS_NUMBER) };

@@ -348,6 +348,13 @@ class Run:
         rows = ffi.new("int[]", self._core.m)
         return list(rows[0:lib.zd_run_redundant(self._run, rows)])
 
+    def place(self) -> tuple[float, np.ndarray, np.ndarray]:
+        """Time in s, p (nq,) and v (nv,) that the run has reached; copies."""
+        run, sizes = self._run, (8 * self._core.nq, 8 * self._core.nv)
+        p, v = (np.frombuffer(ffi.buffer(at, size)[:])
+                for at, size in zip((lib.zd_run_p(run), lib.zd_run_v(run)), sizes, strict=True))
+        return lib.zd_run_time(run), p, v
+
     def results(self) -> Results:
         """Results of the run so far, without its samples."""
         run, size = self._run, 8 * self._core.mh

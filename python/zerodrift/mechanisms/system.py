@@ -354,6 +354,11 @@ class MechanismSystem(BaseSystem):
                 return reason
         return advice.dead_centre(self._started_tables, self._interpreted, t, p)
 
+    def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
+        """Also the forces and torques that jump there."""
+        found = advice.jumping(self._drawing, self._watching, t, p, v, velocity)
+        return super()._advice_on_collapse(t, p, v, velocity) + (f"; {found} jumps there" if found else "")
+
 
 def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Variable]]:
     """Names and units of coordinates and velocities."""

@@ -116,7 +116,13 @@ def finished(solution: Solution, run, results, outcome, on_failure, keyboard) ->
 def _raise_failure(run: _gateway.Run, solution: Solution) -> None:
     if solution.status == _gateway.INTERRUPTED:
         raise Interrupted(solution.message, solution) from None
-    note = run.message if solution.status == _gateway.CALLBACK else _advice(solution)
+    match solution.status:
+        case _gateway.CALLBACK:
+            note = run.message
+        case _gateway.COLLAPSED:
+            note = on_collapse(solution.system, run)
+        case _:
+            note = _advice(solution)
     raise with_solution(run.error(solution.status), solution, note)
 
 
@@ -125,6 +131,11 @@ def _advice(solution: Solution) -> str | None:
     if not len(solution.t):
         return None
     return solution.system._advice_on_failure(float(solution.t[-1]), np.ascontiguousarray(solution.p[-1]))
+
+
+def on_collapse(system: BaseSystem, run: _gateway.Run) -> str:
+    """Velocity and forces that jump where the step size of a run has collapsed."""
+    return system._advice_on_collapse(*run.place(), run.results().statistics.part)
 
 
 def with_solution(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:

@@ -14,7 +14,7 @@ from ..errors import StateWarning, WrongName, WrongState, WrongType, WrongValue
 from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
-from .ending import Outcome, finish_file, solution_of, with_solution
+from .ending import Outcome, finish_file, on_collapse, solution_of, with_solution
 from .inputs import History
 from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
@@ -286,7 +286,9 @@ class Run:
         error = core.error(status)
         core.forget_errors()
         note = core.message if status == _gateway.CALLBACK else None
-        if status not in (_gateway.CALLBACK, _gateway.BAD_INPUT):
+        if status == _gateway.COLLAPSED:
+            note = on_collapse(self.system, core)
+        elif status not in (_gateway.CALLBACK, _gateway.BAD_INPUT):
             note = self.system._advice_on_failure(self.t, self.p)
         if self._record is not None and self._ready.path is None and isinstance(error, Exception):
             with_solution(error, self._solution(Outcome(status, self._seconds, None)))

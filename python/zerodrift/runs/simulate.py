@@ -77,8 +77,9 @@ def simulate(
         coordinates that it integrates. A force that acts in a narrow region, such as a thin wall, may be missed without
         notice; set `max_move` to a third of its width or less.
     max_steps : int or None
-        Adaptive steps: number of steps after which the run fails, with a message on the times at which most were taken. None:
-        unlimited. Fixed steps are not limited.
+        Adaptive steps: number of steps after which the run fails, with a message on the times at which most were taken. It fails
+        after 50 already that get nowhere, as where friction is the sign of a speed: `StepFailed` with the code "step-collapse".
+        None: unlimited. Fixed steps are not limited.
     t_eval : array_like (k,), optional
         Output times in s, increasing, instead of every step. With adaptive steps they use the method's dense output where it
         has one, otherwise a shorter step is taken. All values satisfy the constraints.

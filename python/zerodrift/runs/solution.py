@@ -66,8 +66,8 @@ class Solution:
         * `energy_corrected`: largest error of the energy balance that a single correction removed, in J.
         * `part_error`: estimated error that about a thousand successive fixed steps make in the motion of one coordinate (with
           `kinematics`, one velocity or rotation), in rad or relative to the mechanism's length; `part`: the coordinate with the
-          largest one. `unresolved`: number of checks at which it exceeded 0.03 and a thousandth of the distance moved;
-          `unresolved_time`: time of the first, in s.
+          largest one, or the velocity whose rate jumps where the step size has collapsed. `unresolved`: number of checks at
+          which it exceeded 0.03 and a thousandth of the distance moved; `unresolved_time`: time of the first, in s.
         * `rank`: number of independent constraints; `redundant`: indices of linearly dependent ones; `rank_drops`: number of
           steps in which the rank was temporarily lower.
         * `smallest_pivot`: for a declared structure with more than 40 constraints, smallest relative pivot (square of the

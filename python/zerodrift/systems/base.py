@@ -299,6 +299,10 @@ class BaseSystem:
         """Advice on the error of a run that failed near a state; None: there is none."""
         return None
 
+    def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
+        """Name of the velocity whose rate jumps where the step size of a run has collapsed."""
+        return f"velocity {velocity} is {self.velocities[velocity].name!r}"
+
     def _why_locked(self) -> str | None:
         """Possible reason why the system has no degree of freedom; None: it is intended."""
         return None

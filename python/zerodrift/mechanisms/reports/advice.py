@@ -9,17 +9,20 @@ import numpy as np
 
 from ..._gateway import Variable
 from ..._gateway.mechanisms.plane import MechanismCore
+from ...systems.measure_values import Watching
 from ..assembly import space_advice
 from ..assembly.nudge import OTHERWISE
 from ..assembly.start import Starting
 from ..elements.drawing import Drawing, Inertias
-from ..elements.forces import Actuator, Motor
+from ..elements.forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
 from ..elements.numbers import Numbers
 from ..equations.space_tables import SpaceTables
 from ..equations.tables import Tables
 
 NEAR = 0.2          # of the largest singular value of unit rows: smallest singular value near a dead centre
 TAKES_PART = 0.2    # of the largest share: constraints with smaller shares in the dependency do not matter
+BESIDE = np.array([1e-3, 1e-4, 1e-5, 1e-6])    # of the largest entry of a state: distances from it at which forces are evaluated
+WITH_LAWS = (Motor, Spring, TorsionSpring, Bushing, Force, Torque)
 MOST_ROWS = 300     # constraints, at most, for a singular value decomposition
 
 
@@ -72,3 +75,27 @@ def dead_centre(tables: Tables, core: MechanismCore, t: float, p: np.ndarray) ->
             return (f"near t = {t:g} the mechanism comes to a dead centre of motor {name!r}, where its joints do not let "
                     f"{joint!r} move on: drive another joint, or end before it")
     return None
+
+
+def jumping(drawing: Drawing, watching: Watching, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
+    """Names of the forces and torques that jump where a velocity changes its sign, or the coordinate of its number some value."""
+    states = [np.repeat(each[None], 4 * len(BESIDE), axis=0) for each in (p, v)]
+    for state, half in zip(states, np.split(np.arange(len(states[0])), 2), strict=True):
+        aside = BESIDE * (1 + np.abs(state).max())
+        state[half, min(velocity, state.shape[1] - 1)] += np.concatenate([aside, -aside])
+    others = np.zeros((len(states[0]), watching.core.nv)), np.zeros((len(states[0]), watching.core.m))
+    jumps: dict[str, float] = {}
+    for element in drawing.of(WITH_LAWS):
+        for number in (watching.number.get(f"{element.name}.{quantity}") for quantity in ("force", "torque")):
+            if number is not None:
+                values = watching.core.measure(number, np.full(len(states[0]), t), *states, *others)
+                jumps[element.name] = max(_jump(values), jumps.get(element.name, 0.0))
+    largest = max(jumps.values(), default=0.0)
+    return " or ".join(repr(name) for name, jump in jumps.items() if jump > TAKES_PART * largest)
+
+
+def _jump(values: np.ndarray) -> float:
+    """Largest jump of a quantity, without what is proportional to the distances `BESIDE`, on both sides of two states."""
+    ahead, behind = np.moveaxis(values.reshape(2, 2, len(BESIDE), -1), 1, 0)
+    differences = ahead - behind
+    return float(np.abs(10 * differences[:, 1:] - differences[:, :-1]).max(initial=0.0)) / 9
