@@ -35,6 +35,8 @@ class Packing:
         nq, nv, m = sum(b[0] for b in blocks), sum(b[1] for b in blocks), sum(rows for rows, _ in groups)
         self.shapes = {"A": (nq, nv), "M": (nv, nv), "C": (m, nv)}
         self.offsets = {name: tuple(_begins(sizes).tolist()) for name, sizes in ends.items()}
+        self._are_dense = {name for name, (rows, columns) in self.shapes.items()
+                           if self.size(name) == rows * columns and self.places(name) == list(range(rows * columns))}
 
     @classmethod
     def of(cls, c: Any) -> Packing | None:
@@ -69,6 +71,8 @@ class Packing:
 
     def expand(self, name: str, packed: np.ndarray) -> np.ndarray:
         """The matrix with its zeros, or several of them (k, ...) from packed ones (k, entries)."""
+        if name in self._are_dense:
+            return packed.reshape(*packed.shape[:-1], *self.shapes[name]).copy()
         dense = np.zeros((*packed.shape[:-1], *self.shapes[name]))
         dense[(..., *self._places[name])] = packed
         return dense

@@ -46,8 +46,8 @@ def each_roughly(function: Function, sizes: np.ndarray, width: int) -> np.ndarra
     h, which = ROUGH_STEP / np.maximum(sizes, 1e-300), np.arange(len(sizes))
     if not which.size:
         return np.zeros((0, width))
-    ahead, back = np.split(np.asarray(function(np.tile(which, 2), np.concatenate([h, -h])), dtype=float), 2)
-    return np.where(sizes[:, None] > 0, (ahead - back) / (2 * h[:, None]), 0.0)
+    values = np.asarray(function(np.concatenate([which, which]), np.concatenate([h, -h])), dtype=float)
+    return np.where(sizes[:, None] > 0, (values[:len(h)] - values[len(h):]) / (2 * h[:, None]), 0.0)
 
 
 def each_with_error(function: Function, sizes: np.ndarray, width: int, small: float = 1e-300) -> tuple[np.ndarray, np.ndarray]:
@@ -63,13 +63,14 @@ def each_with_error(function: Function, sizes: np.ndarray, width: int, small: fl
         h = step / sizes[left]
         distances = h[:, None] * np.concatenate([POINTS, -POINTS])
         values = np.asarray(function(np.repeat(left, distances.shape[1]), distances.ravel()), dtype=float)
-        ahead, back = np.split(values.reshape(*distances.shape, width), 2, axis=1)
-        derivative, lower = np.tensordot(WEIGHTS, ahead - back, (1, 1)) / h[:, None]
+        values = values.reshape(*distances.shape, width)
+        change = values[:, :len(POINTS)] - values[:, len(POINTS):]
+        derivative, lower = (WEIGHTS @ change).swapaxes(0, 1) / h[:, None]
         found = np.abs(derivative - lower).max(axis=1, initial=0.0)
         is_better = found < error[left]
         best[left[is_better]], error[left[is_better]] = derivative[is_better], found[is_better]
         if step == STEPS[-1] and np.isinf(error[left]).any():       # not a number at all steps
-            best[np.isinf(error)] = (np.tensordot(FOURTH, ahead - back, (0, 1)) / h[:, None])[np.isinf(error[left])]
+            best[np.isinf(error)] = (FOURTH @ change / h[:, None])[np.isinf(error[left])]
         left = left[~(found <= AGREE * np.abs(derivative).max(axis=1, initial=small))]
     return best, error
 

@@ -10,6 +10,7 @@ retraction.
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -61,7 +62,7 @@ class Balance:
         """The size of the force that counts as zero: from its terms, and from the rounding of positions times the stiffness."""
         terms = np.abs(self.V.T) @ (np.abs(self.at.force) + np.abs(self.rows.T) @ np.abs(self.multipliers))
         unit = float(np.abs(self.reach).max(initial=0.0)) or 1.0
-        return BALANCED * float(np.linalg.norm(terms) + np.abs(self.stiffness).max(initial=0.0) / max(unit, 1e-300))
+        return BALANCED * float(math.sqrt(terms @ terms) + np.abs(self.stiffness).max(initial=0.0) / max(unit, 1e-300))
 
     @functools.cached_property
     def curvature(self) -> tuple[np.ndarray, np.ndarray]:
@@ -106,8 +107,8 @@ class Balance:
         """The same derivatives along displacements (nv, i) and velocities (nv, j), (k, i + j)."""
         at, system, lam, m = self.at, self.at.system, self.multipliers, self.at.system.m
         i, j = displacements.shape[1], velocities.shape[1]
-        dp = np.vstack([(at.A @ displacements).T, np.zeros((j, system.nq))])
-        dv = np.vstack([np.zeros((i, system.nv)), velocities.T])
+        dp, dv = np.zeros((i + j, system.nq)), np.zeros((i + j, system.nv))
+        dp[:i], dv[i:] = (at.A @ displacements).T, velocities.T
 
         def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
             t, p = np.full(len(h), at.t), at.p + h[:, None] * dp[which]
@@ -128,7 +129,7 @@ class Balance:
     @functools.cached_property
     def residual(self) -> float:
         """Norm of the force in the mass metric."""
-        return float(np.linalg.norm(self.force))
+        return math.sqrt(self.force @ self.force)
 
     @functools.cached_property
     def reach(self) -> np.ndarray:
@@ -164,7 +165,8 @@ def downhill(here: Balance) -> np.ndarray:
 
 def _is_pushed(here: Balance, step: np.ndarray, share: float) -> bool:
     """That share of the force remains after a step, as it does in a direction without stiffness."""
-    return bool(np.linalg.norm(here.force - here.stiffness @ step) > 10 * here.rounding + share * here.residual)
+    left = here.force - here.stiffness @ step
+    return math.sqrt(left @ left) > 10 * here.rounding + share * here.residual
 
 
 def nearest(here: Balance) -> np.ndarray:
@@ -264,4 +266,4 @@ class Search:
         step = here.V @ z
         work = float(step @ (here.at.force + there.at.force)) / 2
         foretold = float(z @ here.force - z @ here.stiffness @ z / 2)
-        return 1.0 if abs(work) <= here.rounding * float(np.linalg.norm(z)) else work / max(abs(foretold), 1e-300)
+        return 1.0 if abs(work) <= here.rounding * math.sqrt(z @ z) else work / max(abs(foretold), 1e-300)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,7 +13,7 @@ from ..errors import CorrectionFailed
 from ..systems.base import BaseSystem, core_of
 from .quantities import find, values_of
 from .state import LARGEST, State, scales, state
-from .tangent import DEPENDENT, inverse_factor
+from .tangent import DEPENDENT, inverse_of_products, norms
 
 ITERATIONS = 30
 SHORT_ROW = 1e-3        # of the longest row: residuals of shorter ones are compared with that
@@ -38,7 +39,7 @@ def consistent(system: BaseSystem, p: np.ndarray) -> np.ndarray:
     """A position whose quaternions have length one, and whose counted angles follow them."""
     p = np.array(p)
     for first in system.quaternions:
-        p[first:first + 4] /= np.linalg.norm(p[first:first + 4])
+        p[first:first + 4] /= math.sqrt(p[first:first + 4] @ p[first:first + 4])
     _gateway.follow(core_of(system), p)
     return p
 
@@ -103,13 +104,13 @@ def _position_terms(system: BaseSystem, t: float, p: np.ndarray, held: Mapping[s
 def _least_step(rows: np.ndarray, residual: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, float, bool]:
     """Minimum-norm solution of rows x = -residual in scaled velocities, the largest residual in these units, and independence."""
     rows = rows * scale
-    length = np.linalg.norm(rows, axis=1)
+    length = norms(rows)
     longest = length.max(initial=0.0) or 1.0
     length = np.maximum(length, max(DEPENDENT * longest, 1e-300))
     off = np.abs(residual) / np.maximum(length, max(SHORT_ROW * longest, 1e-300))
     unit, right = rows / length[:, None], -residual / length
-    if (inverse := inverse_factor(unit)) is not None:
-        return scale * (unit.T @ (inverse.T @ (inverse @ right))), float(off.max()), True
+    if (inverse := inverse_of_products(unit)) is not None:
+        return scale * (unit.T @ (inverse @ right)), float(off.max()), True
     return scale * np.linalg.lstsq(unit, right, rcond=DEPENDENT)[0], float(off.max()), False
 
 

@@ -22,20 +22,25 @@ from . import differences
 from .state import State, scales
 
 DEPENDENT = 1e-9        # of the largest singular value of scaled rows: what counts as dependent; rounding leaves 1e-13
-WELL_INDEPENDENT = 1e3  # largest entry of the inverse of the Cholesky factor of unit rows: errors are 1e-10 of a step
+WELL_INDEPENDENT = 1e6  # largest entry of the inverse of the products of unit rows: errors are 1e-10 of a step
 MASSLESS = 1e-13        # of the largest: mass of a motion that counts as none
+
+
+def norms(rows: np.ndarray) -> np.ndarray:
+    """Euclidean norms (m,) of the rows of a matrix (m, n)."""
+    return np.sqrt(np.einsum("ij,ij->i", rows, rows))
 
 
 def scaled_rows(rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
     """Rows in scaled velocities, each divided by its length; rows that are rounding beside the others stay negligible."""
     rows = rows * scale
-    length = np.linalg.norm(rows, axis=1, keepdims=True)
+    length = norms(rows)[:, None]
     return rows / np.maximum(length, max(DEPENDENT * length.max(initial=0.0), 1e-300))
 
 
 def row_lengths(rows: np.ndarray) -> np.ndarray:
     """Norms (m,) of rows, one for rows of zeros, which constrain nothing."""
-    length = np.linalg.norm(rows, axis=1)
+    length = norms(rows)
     return np.where(length > 0, length, 1.0)
 
 
@@ -139,26 +144,31 @@ def multipliers(at: State, right: np.ndarray, rows: np.ndarray | None = None) ->
     if not len(rows):
         return np.zeros((0, *right.shape[1:]))
     scale = scales(at.system, at.p).v
+    scaled, given = rows * scale, (scale * right.T).T
+    length = row_lengths(scaled)
+    unit = scaled / length[:, None]
+    inverse = inverse_of_products(unit)
+    if inverse is None:
+        size = _sizes_by_mass(at, rows, scale)
+        return (np.linalg.lstsq((scaled / size[:, None]).T, given, rcond=DEPENDENT)[0].T / size).T
+    found = inverse @ (unit @ given)
+    found = found + inverse @ (unit @ (given - unit.T @ found))       # as accurate as without normal equations
+    return (found.T / length).T
+
+
+def _sizes_by_mass(at: State, rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
+    """Square roots (m,) of the diagonal of rows M^-1 rows^T; where M is singular, lengths of the scaled rows."""
     try:
         size = np.sqrt(np.maximum((rows * np.linalg.solve(at.M, rows.T).T).sum(axis=1), 0.0))
     except np.linalg.LinAlgError:
-        size = np.linalg.norm(rows * scale, axis=1)
-    size = np.maximum(size, DEPENDENT * (size.max(initial=0.0) or 1.0))
-    scaled, given = rows / size[:, None] * scale, (scale * right.T).T
-    length = row_lengths(scaled)
-    unit = scaled / length[:, None]
-    inverse = inverse_factor(unit)
-    if inverse is None:
-        return (np.linalg.lstsq(scaled.T, given, rcond=DEPENDENT)[0].T / size).T
-    found = inverse.T @ (inverse @ (unit @ given))
-    found = found + inverse.T @ (inverse @ (unit @ (given - unit.T @ found)))       # as accurate as without normal equations
-    return (found.T / (size * length)).T
+        size = norms(rows * scale)
+    return np.maximum(size, DEPENDENT * (size.max(initial=0.0) or 1.0))
 
 
-def inverse_factor(rows: np.ndarray) -> np.ndarray | None:
-    """Inverse (m, m) of the Cholesky factor of rows rows^T, of unit rows (m, n); None where they are not well independent."""
+def inverse_of_products(rows: np.ndarray) -> np.ndarray | None:
+    """Inverse (m, m) of rows rows^T, of unit rows (m, n); None where they are not well independent."""
     try:
-        inverse = np.linalg.inv(np.linalg.cholesky(rows @ rows.T))
+        inverse = np.linalg.inv(rows @ rows.T)
     except np.linalg.LinAlgError:
         return None
     return inverse if np.abs(inverse).max(initial=0.0) < WELL_INDEPENDENT else None
