@@ -26,10 +26,15 @@ zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t
     };
 }
 
+/* `a` is finite, or equal to `b`. */
 static void set_scale(zd_step_loop *loop, const double *a, const double *b)
 {
-    for (int i = 0; i < loop->motion->rate.size; i++)
-        loop->control.scale[i] = loop->settings->atol + loop->settings->rtol * fmax(fabs(a[i]), fabs(b[i]));
+    const double atol = loop->settings->atol, rtol = loop->settings->rtol;
+    double *scale = loop->control.scale;
+    for (int i = 0; i < loop->motion->rate.size; i++) {
+        const double before = fabs(a[i]), now = fabs(b[i]);
+        scale[i] = atol + rtol * (now > before ? now : before);
+    }
 }
 
 static double bounded(const zd_step_loop *loop, double h)
