@@ -85,7 +85,7 @@ def test_parameters_of_andrews():
 
 
 def test_samples_within_steps_that_are_far_too_long():
-    """Where variables change within a step, samples need a series of their own: the former one ended the process."""
+    """Samples need a series of their own where variables change within a step: the former one ended the process."""
     with pytest.raises(zd.CorrectionFailed):
         zd.simulate(zd.models.symbolic.andrews(), 0.03, step=0.03 / 16, t_eval=np.linspace(0, 0.03, 400), integrator="taylor",
                     formulation="independent")
