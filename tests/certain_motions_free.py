@@ -227,21 +227,22 @@ def stiff_spring(rng):
 
 @cache
 def pulse_system():
-    x, v, t, w, T, s = symbols("x v t w T s")
-    blow = sp.exp(-((t - T) / s) ** 2) / (s * sp.sqrt(sp.pi))
+    x, v, t, w, T, s, a = symbols("x v t w T s a")
+    blow = a / s * sp.exp(-((t - T) / s) ** 2)
     return zd.symbolic([x], speeds=[v], kinetic=v**2 / 2, potential=w**2 * x**2 / 2, force=[blow], time=t,
-                       parameters={w: 1.0, T: 1.0, s: 1.0}, p0=[0.0], v0=[1.0], progress=False)
+                       parameters={w: 1.0, T: 1.0, s: 1.0, a: 1.0}, p0=[0.0], v0=[1.0], progress=False)
 
 
 def pulse(rng):
     """A blow of one newton second, and a `max_step` as long as it."""
-    given = {"w": rng.choice([0.0, rng.uniform(0.5, 3)]), "T": rng.uniform(0.5, 1.5), "s": 10 ** rng.uniform(-3, -1)}
-    w, T, s = big(*given.values())
+    given = {"w": rng.choice([0.0, rng.uniform(0.5, 3)]), "T": rng.uniform(0.5, 1.5), "s": 10 ** rng.uniform(-3, -1),
+             "a": np.pi**-0.5}
+    w, T, s, a = big(*given.values())
     v0 = rng.uniform(-1, 1)
 
     def right_side(t, x):
         late = (t - T) / s
-        return [x[1], taylor.exp(-1 * (late * late)) * (1 / (s * mp.sqrt(mp.pi))) - x[0] * (w * w)]
+        return [x[1], taylor.exp(-1 * (late * late)) * (a / s) - x[0] * (w * w)]
 
     system = pulse_system().with_parameters(**given).starting([0.0], [v0])
     return Motion(system, 2.0, by_series(right_side, big(0, v0), halves, longest=given["s"]),

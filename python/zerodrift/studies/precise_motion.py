@@ -53,12 +53,14 @@ class PreciseMotion:
         Largest coordinate of the motion, for tolerances.
     t0 : float
         Time of the start, in s.
+    longest : float
+        Largest step, in s.
     """
 
     def __init__(self, functions: Precise, p0: np.ndarray, v0: np.ndarray, quaternions: Sequence[int],
-                 held: tuple[Sequence[int], Sequence[int]], size: float, t0: float) -> None:
+                 held: tuple[Sequence[int], Sequence[int]], size: float, t0: float, longest: float = math.inf) -> None:
         self.functions, self.start, self.quaternions, self.held = functions, (p0, v0), tuple(quaternions), held
-        self.size, self.t0 = size, float(t0)
+        self.size, self.t0, self.longest = size, float(t0), longest
 
     def run(self, times: np.ndarray, settings: Settings, shift: int = 0) -> PreciseRun:
         """Samples at increasing times from the start on.
@@ -158,7 +160,7 @@ class _Run:
             if not size < math.inf:
                 raise StepFailed("the series in double-double arithmetic is not finite")
             h = min(h, (tolerance / size) ** (1 / k) if size else math.inf)
-        return share * h
+        return min(share * h, self.motion.longest)
 
     def _residual(self, series, following, h: np.ndarray) -> float:
         """Residual of the equations of motion at h, times h, relative to the tolerance."""

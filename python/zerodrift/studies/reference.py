@@ -84,7 +84,9 @@ def reference(
     Raises
     ------
     UnreachableTolerance
-        If `error` is below the limit of the precision for this motion, which the message gives.
+        If `error` is below the limit of the precision for this motion, which the message gives; or `precision` is
+        "double-double" and the motion cannot be computed to more than double precision, as where frames of a mechanism in space
+        are known to the digits of doubles alone.
     ValueError
         If `precision` is "double-double" and the system has no functions in this arithmetic.
     ZerodriftError
@@ -128,7 +130,11 @@ def reference(
             if functions is None:
                 raise
     evidence = Search(motion, pairs, None if wanted is None else EVIDENCE * motion.size).found()
-    found = PreciseSearch(motion, functions, evidence, wanted).certified()
+    search = PreciseSearch(motion, functions, evidence, wanted)
+    found = search.certified()
+    if precision is not None and not found.low:
+        raise UnreachableTolerance(f"this motion has no reference in double-double arithmetic: {search.reason}; in double "
+                                   f"precision, {found.error:.2g} can be certified")
     return found if found.low and found.error <= (wanted or math.inf) else _in_double(motion, pairs, wanted)
 
 

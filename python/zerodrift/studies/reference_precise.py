@@ -16,7 +16,7 @@ import numpy as np
 
 from .. import _gateway
 from .._gateway.compiled.precise import Precise
-from ..errors import ZerodriftError
+from ..errors import ZerodriftError, sentence
 from ..systems.base import BaseSystem
 from . import double_double as dd
 from .certificate import Reference
@@ -52,8 +52,9 @@ class PreciseSearch:
         held = motion.system._held_at_start if motion.is_own_start else ([], [])
         start = (motion.system._exact_start() if motion.is_own_start else None) or tuple(map(dd.of, motion.start))
         self.motion = PreciseMotion(functions, *start, motion.system.quaternions, held, motion.size,
-                                    motion.span[0])
+                                    motion.span[0], (motion.span[1] - motion.span[0]) / motion.most)
         self.found, self.wanted = found, wanted
+        self.reason = "its certified error is not smaller"      # for which there is no better reference in this arithmetic
 
     def certified(self) -> Reference:
         """Reference in double-double arithmetic; the one in double precision if that is better or contradicts it."""
@@ -84,11 +85,13 @@ class PreciseSearch:
         try:
             runs = [self.motion.run(times, settings, shift) for settings, shift in
                     ((Settings(order, tolerance), 0), (finer, 0), (finer, 1))]
-        except ZerodriftError:
+        except ZerodriftError as error:
+            self.reason = sentence(error)
             return None
         own, *others = runs
         apart = [np.abs(getattr(own, name)[..., 0] - getattr(self.found.solution, name)).max() for name in "pv"]
         if not (apart[0] <= self.found.error and apart[1] <= self.found.velocity_error):
+            self.reason = f"its motion differs by {apart[0]:.2g} from that certified in double precision"
             return None
         differences = tuple(self._difference(own, run, finer.order, i > 0) for i, run in enumerate(others))
         errors = [SAFETY * max(getattr(each, name) for each in differences) + FLOOR * float(np.abs(getattr(own, name)).max())
