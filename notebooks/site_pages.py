@@ -112,8 +112,8 @@ def messages() -> Iterable[str]:
     yield from ("# When it stops", "", "A message ends with a code, such as `[zd:branch-jump]`, which `error.code` holds. "
                 "`python -m zerodrift explain branch-jump` prints the section below it.", "",
                 "Errors of the package are {py:class}`zerodrift.ZerodriftError`; most carry the solution up to the place where it "
-                "stopped, as `error.solution`. Errors of arguments are `ValueError`, `TypeError` and `KeyError`, whose message states the "
-                "rule, the value and a hint, and ends without the code; theirs are the first three.", "")
+                "stopped, as `error.solution`. Errors of arguments are `ValueError`, `TypeError` and `KeyError`, too, whose message states "
+                "the rule, the value and a hint; theirs are the first three codes.", "")
     known, explained = codes(), explanations()
     yield from ("| code | meaning |", "|---|---|")
     yield from (f"| [`{code}`](#{code}) | {first_clause(meaning)} |" for code, (_, meaning) in known.items())

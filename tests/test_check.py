@@ -170,7 +170,7 @@ def test_bad_types(call, message):
 
 def test_energy_correction_needs_a_potential():
     free = zd.System(1, mass=[[1.0]], p0=[0.0], name="free")
-    with pytest.raises(ValueError, match=r"^energy correction needs V \(potential energy in J\), and free declares none$"):
+    with pytest.raises(ValueError, match=r"^energy correction needs V \(potential energy in J\), and free declares none "):
         zd.simulate(free, 1, step=0.1, energy=True)
 
 
@@ -180,7 +180,7 @@ def test_corrections_are_given_once():
             run(correction=given)
     with pytest.raises(ValueError, match=r"correction must be one of 'baumgarte', .*, not 'none'"):
         run(correction="none")
-    with pytest.raises(TypeError, match=r"^correction must be names or settings of zd.corrections\(\), not 1$"):
+    with pytest.raises(TypeError, match=r"^correction must be names or settings of zd.corrections\(\), not 1 "):
         run(correction=1)
 
 

@@ -107,7 +107,8 @@ def test_a_file_system_without_locks_is_reported(tmp_path, monkeypatch):
         raise OSError(errno.ENOLCK, "No locks available")
 
     monkeypatch.setattr(_locking, "_lock", lacks)
-    with pytest.warns(RuntimeWarning, match="has no locks .*No locks available.*two processes"), Lock(tmp_path / "lock", ""):
+    said = r"has no locks .*No locks available.*two processes.* \[zd:no-locks\]$"
+    with pytest.warns(zd.errors.NoLocksWarning, match=said), Lock(tmp_path / "lock", ""):
         pass
 
 

@@ -10,7 +10,7 @@ import warnings
 import weakref
 from pathlib import Path
 
-from .errors import InUse
+from .errors import InUse, NoLocksWarning
 
 try:
     import fcntl
@@ -78,7 +78,7 @@ class Lock:
                 owner = os.read(descriptor, MOST).decode(errors="replace")
                 raise InUse(f"{self._refusal} {owner or 'another process'}") from None
             warnings.warn(f"the file system of {self._path.parent} has no locks ({error}): two processes that write to one place "
-                          "are not noticed there", RuntimeWarning, stacklevel=4)
+                          "are not noticed there", NoLocksWarning, stacklevel=4)
 
     def __exit__(self, *_: object) -> None:
         """Release the lock, and remove its file."""

@@ -1,8 +1,8 @@
 """Errors and warnings of the package.
 
 Each has a short stable code, which ends its message, ``[zd:branch-jump]``; ``python -m zerodrift explain branch-jump`` prints
-its causes and cures. Errors of arguments are Python's ValueError, TypeError and KeyError, with a code and without it in the
-message, which states the rule.
+its causes and cures. Errors of arguments are also Python's ValueError, TypeError or KeyError; of missing packages
+and of too little memory, its ImportError and MemoryError.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ class _Coded(BaseException):
     code: str
 
     def __str__(self) -> str:
-        return f"{super().__str__()} [zd:{self.code}]"
+        return f"{BaseException.__str__(self)} [zd:{self.code}]"
 
 
 def sentence(error: BaseException) -> str:
@@ -24,12 +24,16 @@ def sentence(error: BaseException) -> str:
     return BaseException.__str__(error) if isinstance(error, _Coded) else str(error)
 
 
+def of_code(code: str, error: Any) -> Any:
+    """The error with the code of one of its parts."""
+    error.code = code
+    return error
+
+
 def advised(error: Exception, advice: str) -> Exception:
     """The same error, of the same code, with advice at the end of its message."""
     found = type(error)(f"{sentence(error)}; {advice}")
-    if isinstance(error, _Coded):
-        found.code = error.code
-    return found
+    return of_code(error.code, found) if isinstance(error, _Coded) else found
 
 
 # Codes of the core's statuses of which several raise the same exception, by their symbol; the others have the exception's code.
@@ -68,11 +72,7 @@ class ZerodriftError(_Coded, Exception):
 
 
 class _Argument(_Coded):
-    """Base of errors of arguments, whose message states the rule and the value, without the code."""
-
-    def __str__(self) -> str:
-        return super(_Coded, self).__str__()
-
+    """Base of errors of arguments, whose message states the rule and the value."""
 
 class WrongValue(_Argument, ValueError):
     """An argument has a value that the function does not take; the message states the rule, the value and a hint."""
@@ -96,6 +96,18 @@ def described(error: BaseException) -> str:
     """Name of an exception and its message; of an error of an argument, the name of the exception of Python that it is."""
     name = type(error).__bases__[-1].__name__ if isinstance(error, _Argument) else type(error).__name__
     return f"{name}: {error}"
+
+
+class MissingPackage(_Coded, ImportError):
+    """An optional package is not installed; the message has the command that installs it."""
+
+    code = "missing-package"
+
+
+class NoMemory(_Coded, MemoryError):
+    """The samples of a run, or what an ensemble keeps, exceed the free memory; the message states both sizes."""
+
+    code = "no-memory"
 
 
 class InconsistentStart(ZerodriftError, ValueError):
@@ -188,6 +200,12 @@ class InUse(ZerodriftError, ValueError):
     """Another run writes to the file of `save_to`, or another ensemble to the folder of `store`."""
 
     code = "in-use"
+
+
+class NoLocksWarning(_Coded, RuntimeWarning):
+    """The file system has no locks: two processes that write to the same file or folder there are not noticed."""
+
+    code = "no-locks"
 
 
 class StaleCore(ZerodriftError, ImportError):

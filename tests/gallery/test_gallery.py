@@ -80,7 +80,7 @@ def test_the_command_writes_films_and_a_page(tmp_path, monkeypatch, capsys):
 def test_without_sympy_the_command_says_what_to_install(tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "sympy", None)
     assert main(["gallery", "--out", str(tmp_path / "films")]) == 1
-    assert capsys.readouterr().err.endswith("are expressions of SymPy: pip install 'zerodrift[symbolic]'\n")
+    assert capsys.readouterr().err.endswith("are expressions of SymPy: pip install 'zerodrift[symbolic]' [zd:missing-package]\n")
     assert not (tmp_path / "films").exists()
 
 

@@ -61,7 +61,7 @@ def test_what_there_is_not_is_refused(monkeypatch):
     with pytest.raises(ValueError, match=r"^vector must be "):
         run("built in", vector="neon")
     monkeypatch.setattr(zd._gateway, "PROCESSOR_UNIT", 1)
-    with pytest.raises(ValueError, match=r"^vector must be 'baseline' or 'avx2', which this processor has, not 'avx512'$"):
+    with pytest.raises(ValueError, match=r"^vector must be 'baseline' or 'avx2', which this processor has, not 'avx512' "):
         run("built in", vector="avx512")
     monkeypatch.setenv("ZERODRIFT_VECTOR", "avx1024")
     with pytest.raises(ValueError, match=r"^ZERODRIFT_VECTOR must be "):

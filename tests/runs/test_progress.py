@@ -11,7 +11,7 @@ from support import motion
 
 def test_a_progress_bar_needs_tqdm(bar, monkeypatch):
     monkeypatch.setitem(sys.modules, "tqdm.auto", None)
-    with pytest.raises(ImportError, match=r"^progress=True shows a bar with tqdm, which is not installed: pip install tqdm$"):
+    with pytest.raises(ImportError, match=r"^progress=True shows a bar with tqdm, which is not installed: pip install tqdm "):
         zd.simulate(bar, 1, step=0.1, progress=True)
 
 

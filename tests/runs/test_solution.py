@@ -185,14 +185,14 @@ def test_names_that_say_nothing_or_too_much_are_refused():
     with pytest.raises(KeyError, match=r"a name must be unique in system.*, but 'constraint0' names 2 variables"):
         sol["constraint0"]
     for nothing in ("z", 0, None):
-        with pytest.raises(KeyError, match=r"there are x, constraint0, x_dot, constraint0_dot\W*$"):
+        with pytest.raises(KeyError, match=r"there are x, constraint0, x_dot, constraint0_dot \[zd:wrong-name"):
             sol[nothing]
 
 
 def test_of_many_names_the_closest_are_told():
     names = [f"rocker{i}" for i in range(9)]
     sol = zd.simulate(zd.System(names, mass=np.eye(9), p0=np.zeros(9)), 0.1, step=0.1)
-    with pytest.raises(KeyError, match=r"is called 'Roker3'; the closest of 18 names are rocker3, (rocker., ){3}rocker.\W*$"):
+    with pytest.raises(KeyError, match=r"is called 'Roker3'; the closest of 18 names are rocker3, (rocker., ){3}rocker. \[zd:"):
         sol["Roker3"]
     with pytest.raises(KeyError, match="there are rocker0, rocker1, rocker2, rocker3, rocker4 and 13 more"):
         sol["q"]

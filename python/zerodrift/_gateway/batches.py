@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._core import ffi, lib
+from ..errors import NoMemory
 from .base import ERRORS, MESSAGE_SIZE, doubles, text
 from .callbacks import Watcher
 from .runs import COUNTS, NAMES_AND_KINDS
@@ -121,7 +122,7 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     if stop is not None:
         members["stop"] = stop.c
     if lib.zd_batch_run(ffi.new("zd_batch *", members)):
-        raise MemoryError(f"there is no memory for the {capacity} rows of a run")
+        raise NoMemory(f"there is no memory for the {capacity} rows of a run")
     said = [""] * k
     for run in np.flatnonzero(of_runs["status"]).tolist():
         said[run] = messages[run].tobytes().partition(b"\0")[0].decode()

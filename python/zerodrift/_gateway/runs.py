@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._core import ffi, lib
+from ..errors import NoMemory
 from .base import MESSAGE_SIZE, doubles, error_of, row_named, strided_doubles, text
 from .callbacks import Watcher
 from .inputs import Inputs
@@ -147,7 +148,7 @@ class Record:
             return take(*given)
         except (MemoryError, ValueError):
             size = capacity * (self._layout.width - 0.5) * 8 / 2**30
-            raise MemoryError(f"{capacity} samples need {size:.3g} GiB; save fewer with save_every, or write them to a file "
+            raise NoMemory(f"{capacity} samples need {size:.3g} GiB; save fewer with save_every, or write them to a file "
                               "with save_to") from None
 
     def keep(self) -> None:

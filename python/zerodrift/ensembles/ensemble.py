@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import Interrupted, WorkerLost, WrongValue
+from ..errors import Interrupted, NoMemory, WorkerLost, WrongValue
 from ..runs.progress import progress_of
 from ..runs.solution import Solution
 from ..runs.threads import Threads, processors
@@ -212,7 +212,7 @@ class _Work:
             self._size += memory.size_of(part)
             self._parts[first] = part
         if not path and self._plan.sizes is None and memory.exceeds(self._size, 1.0):      # no more than that can be joined
-            raise MemoryError(memory.shortage(self._size, self._count()))
+            raise NoMemory(memory.shortage(self._size, self._count()))
 
     def _count(self) -> int:
         """Number of finished runs."""

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import MissingPackage
 from ..systems.measure_values import AXES
 from .part import Part
 
@@ -15,7 +16,7 @@ def _imported(name: str, method: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError:
-        raise ImportError(f"{method} needs {name}, which is not installed: pip install 'zerodrift[ensembles]'") from None
+        raise MissingPackage(f"{method} needs {name}, which is not installed: pip install 'zerodrift[ensembles]'") from None
 
 
 # ---- xarray ----

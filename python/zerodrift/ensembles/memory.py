@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import CostWarning
+from ..errors import CostWarning, NoMemory, WrongName
 from ..runs import memory as free_space
 from ..runs.recording import UNCHECKED_BYTES
 from ..runs.saving import read_arrays
@@ -37,7 +37,7 @@ def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel
     sentence = (f"{takes}, {free_space.in_words(most)} while they are joined, and {free_space.in_words(free)} of memory are "
                 f"free: {LESS}, or write them to a folder (store)")
     if most > free:
-        raise MemoryError(sentence)
+        raise NoMemory(sentence)
     if most > free / 2:
         warnings.warn(sentence, CostWarning, stacklevel=stacklevel + 1)
 
@@ -105,7 +105,7 @@ class Joined(Mapping):
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._names:
-            raise KeyError(name)
+            raise WrongName(f"no output is called {name!r}; there are {', '.join(self._names)}")
         found, begin = None, 0
         for part in self._parts:
             array = part[name]
@@ -119,8 +119,8 @@ class Joined(Mapping):
         """Uninitialized array for all samples of an output; MemoryError if it exceeds the free memory."""
         size = self._rows * int(np.prod(like.shape[1:])) * like.itemsize
         if size > UNCHECKED_BYTES and (free := free_space.free_memory()) is not None and size > free:
-            raise MemoryError(f"output {name!r} of all runs takes {free_space.in_words(size)}, and {free_space.in_words(free)} "
-                              "of memory are free: ens[i] makes a run again, and each file of the store has outputs of some runs")
+            raise NoMemory(f"output {name!r} of all runs takes {free_space.in_words(size)}, and {free_space.in_words(free)} "
+                           "of memory are free: ens[i] makes a run again, and each file of the store has outputs of some runs")
         return np.empty((self._rows, *like.shape[1:]), like.dtype)
 
     def __iter__(self) -> Iterator[str]:

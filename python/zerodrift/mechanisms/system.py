@@ -286,7 +286,7 @@ class MechanismSystem(BaseSystem):
         try:
             more = {"mechanism": described(self._drawing), "layout": self.layout, "changed": self._changed}
         except ValueError as error:
-            more = {"not_saved": str(error)}
+            more = {"not_saved": sentence(error)}
         return super()._described() | more
 
     def __repr__(self) -> str:

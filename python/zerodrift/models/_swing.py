@@ -6,6 +6,7 @@ import importlib
 from typing import Any
 
 from .. import _check
+from ..errors import MissingPackage
 
 
 def sympy() -> Any:
@@ -13,7 +14,7 @@ def sympy() -> Any:
     try:
         return importlib.import_module("sympy")
     except ImportError as error:
-        raise ImportError("drives and profiles of some models are expressions of SymPy: "
+        raise MissingPackage("drives and profiles of some models are expressions of SymPy: "
                           "pip install 'zerodrift[symbolic]'") from error
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from .. import _check
-from ..errors import WrongType, WrongValue, ZerodriftError
+from ..errors import MissingPackage, WrongType, WrongValue, ZerodriftError
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from .scene import Wanted
@@ -98,7 +98,7 @@ class Exploration:
         try:
             import ipywidgets
         except ImportError:
-            raise ImportError("sliders need ipywidgets, which is not installed: pip install 'zerodrift[notebook]'") from None
+            raise MissingPackage("sliders need ipywidgets, which is not installed: pip install 'zerodrift[notebook]'") from None
         pictures = [ipywidgets.HTML(self._picture()), ipywidgets.HTML(layout={"display": "none"})]
         sliders = [ipywidgets.FloatSlider(value=self.values[name], min=low, max=high, step=(high - low) / STEPS, description=name,
                                           readout_format=".4g", continuous_update=True, style={"description_width": "12em"},

@@ -11,6 +11,7 @@ import numpy as np
 
 from .._gateway import Variable
 from .._writing import write_whole
+from ..errors import MissingPackage
 
 AXES = "xyz"
 
@@ -81,7 +82,7 @@ def _imported(name: str) -> Any:
     try:
         return importlib.import_module(name)
     except ImportError:
-        raise ImportError(f"to_excel needs {name}, which is not installed: pip install 'zerodrift[excel]'") from None
+        raise MissingPackage(f"to_excel needs {name}, which is not installed: pip install 'zerodrift[excel]'") from None
 
 
 def _table(solution: Any, names: Any) -> tuple[list[str], np.ndarray]:

@@ -18,7 +18,7 @@ from zipfile import BadZipFile
 import numpy as np
 
 from .. import _gateway
-from ..errors import WrongValue
+from ..errors import WrongValue, sentence
 from ..systems.base import BaseSystem
 from .saving import unpacked
 
@@ -97,7 +97,7 @@ def _header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any]]:
         if sample.itemsize != layout["row bytes"]:
             raise WrongValue(f"{beside.name} must describe samples of {sample.itemsize} bytes, not {layout['row bytes']}")
     except (ValueError, KeyError) as error:
-        raise WrongValue(f"{path} cannot be read: its header must be whole ({error})") from None
+        raise WrongValue(f"{path} cannot be read: its header must be whole ({sentence(error)})") from None
     return file.tell(), rows, layout
 
 

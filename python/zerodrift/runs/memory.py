@@ -10,7 +10,7 @@ import sys
 import warnings
 from pathlib import Path
 
-from ..errors import CostWarning
+from ..errors import CostWarning, NoMemory
 
 CONTROL = Path("/sys/fs/cgroup")        # where Linux limits the memory of containers
 
@@ -22,7 +22,7 @@ def check_memory(rows: int, row: int, stacklevel: int) -> None:
     sentence = (f"{rows} samples take {in_words(rows * row)}, and {in_words(free)} of memory are free: save fewer with "
                 "save_every or t_eval, or write them to a file with save_to")
     if rows * row > free:
-        raise MemoryError(sentence)
+        raise NoMemory(sentence)
     if rows * row > free / 2:
         warnings.warn(sentence, CostWarning, stacklevel=stacklevel + 1)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ..errors import WrongType
+from ..errors import MissingPackage, WrongType
 
 
 def progress_of(progress: Any) -> tuple[Callable[[float], None], Callable[[], None]]:
@@ -19,7 +19,7 @@ def progress_of(progress: Any) -> tuple[Callable[[float], None], Callable[[], No
     try:
         from tqdm.auto import tqdm
     except ImportError:
-        raise ImportError("progress=True shows a bar with tqdm, which is not installed: pip install tqdm") from None
+        raise MissingPackage("progress=True shows a bar with tqdm, which is not installed: pip install tqdm") from None
     bar = tqdm(total=1.0, bar_format="{percentage:3.0f}%|{bar}| {elapsed}<{remaining}")
 
     def show(part: float) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ..errors import WrongName
+
 RENAMED = {"general_road": "matrix_path_reason"}        # keys of earlier versions, in files and in programs, to those of today
 
 
@@ -17,7 +19,7 @@ class Stats(dict):
     def __missing__(self, name: str) -> Any:
         if name in RENAMED:
             return self[RENAMED[name]]
-        raise KeyError(name)
+        raise WrongName(f"nothing in stats is called {name!r}; there are {', '.join(self)}")
 
     def __contains__(self, name: object) -> bool:
         return super().__contains__(RENAMED.get(name, name) if isinstance(name, str) else name)

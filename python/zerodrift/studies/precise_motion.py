@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._gateway.compiled.precise import Precise
-from ..errors import StepFailed
+from ..errors import Diverged, StepFailed, of_code
 from . import double_double as dd
 
 RANK = 1e-10            # relative singular value below which constraints are redundant
@@ -137,7 +137,7 @@ class _Run:
         while self.done < len(self.times):
             t1, steps = min(t + h, end), steps + 1      # times are doubles, and their differences pairs
             if t1 <= t or steps > MOST_STEPS:
-                raise StepFailed("step size underflow in double-double arithmetic")
+                raise of_code("step-underflow", StepFailed("step size underflow in double-double arithmetic"))
             by = dd.minus(dd.of(t1), dd.of(t))
             after = self.motion.projected(self.functions, dd.of(t1), *(self.functions.value(x, by) for x in series))
             following = self._series(t1, *after)
@@ -158,7 +158,7 @@ class _Run:
         for k in (order - 1, order):
             size = max(float(np.abs(x[k, :, 0] / scale).max()) for x, scale in zip(series, self.scales, strict=True))
             if not size < math.inf:
-                raise StepFailed("the series in double-double arithmetic is not finite")
+                raise Diverged("the series in double-double arithmetic is not finite")
             h = min(h, (tolerance / size) ** (1 / k) if size else math.inf)
         return min(share * h, self.motion.longest)
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from .. import _check
 from .._writing import write_whole
-from ..errors import Interrupted, SingularSystem, WrongType, WrongValue
+from ..errors import Interrupted, MissingPackage, SingularSystem, WrongType, WrongValue
 from ..runs import settings
 from ..runs.operations import acceleration
 from ..runs.progress import progress_of
@@ -104,7 +104,7 @@ class WorkPrecision:
         try:
             import pandas
         except ImportError:
-            raise ImportError("to_dataframe needs pandas, which is not installed: pip install pandas") from None
+            raise MissingPackage("to_dataframe needs pandas, which is not installed: pip install pandas") from None
         return pandas.DataFrame([row.flat() for row in self.rows], columns=[*Setting._fields, *Row._fields[1:]])
 
     def __repr__(self) -> str:

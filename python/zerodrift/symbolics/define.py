@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from ..errors import MissingPackage
+
 try:
     import sympy
 except ImportError as error:
-    raise ImportError("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
+    raise MissingPackage("symbolic systems need SymPy: pip install 'zerodrift[symbolic]'") from error
 
 from ..systems.structure import Structure
 from .arguments import Definition

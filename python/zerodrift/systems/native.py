@@ -12,7 +12,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from .._gateway.inputs import Bound, Place
-from ..errors import WrongType, WrongValue, ZerodriftError
+from ..errors import WrongType, WrongValue, ZerodriftError, sentence
 from .base import BaseSystem, WithInputs
 from .builtin import SystemOfKind
 from .structure import Structure, checked
@@ -239,7 +239,7 @@ def _from_library(found: _gateway.Function, parameters: dict[str, Any]) -> Nativ
         _check.parameters({parameter.name: None for parameter in kind.parameters})
         _checked_terms(_gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
     except ValueError as error:
-        raise WrongValue(f"{where}: {error}") from None
+        raise WrongValue(f"{where}: {sentence(error)}") from None
     return NativeKind(found, kind, parameters)
 
 

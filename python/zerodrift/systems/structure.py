@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import WrongType, WrongValue
+from ..errors import WrongType, WrongValue, sentence
 
 WORDS = {"": 0, "constant": _gateway.CONSTANT, "diagonal": _gateway.DIAGONAL,
          "constant diagonal": _gateway.CONSTANT | _gateway.DIAGONAL}
@@ -104,7 +104,7 @@ class Structure:
         try:
             return self._packing.pack(term, given)
         except ValueError as error:
-            raise WrongValue(f"{term}{error}") from None
+            raise WrongValue(f"{term}{sentence(error)}") from None
 
 
 def of_core(core: _gateway.CoreSystem) -> Structure | None:

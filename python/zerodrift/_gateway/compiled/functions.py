@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from ..._core import ffi, lib
 from ..._fingerprint import fingerprint
-from ...errors import WrongType, WrongValue
+from ...errors import MissingPackage, WrongType, WrongValue, sentence
 from .native import VERSION
 
 SIGNATURE = "int (const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)"
@@ -273,7 +273,7 @@ def _from_numba(function: Any) -> Function:
     try:
         _check_signature(names, "the numba.cfunc")
     except TypeError as error:
-        raise WrongType(f"{error}; zerodrift.numba_signature() is that for numba") from None
+        raise WrongType(f"{sentence(error)}; zerodrift.numba_signature() is that for numba") from None
     origin = _numba_origin(function)
     why_no_origin = "numba would have to find its Python function at the top of a module"
     return Function(function.address, function, origin, why_no_origin)
@@ -311,7 +311,7 @@ def numba_signature() -> Any:
     try:
         from numba import types
     except ImportError:
-        raise ImportError("this needs numba, which is not installed: pip install numba") from None
+        raise MissingPackage("this needs numba, which is not installed: pip install numba") from None
     doubles = types.CPointer(types.float64)
     return types.int32(doubles, types.int32, types.float64, doubles, doubles, types.CPointer(doubles))
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ...errors import WrongValue
+from ...errors import WrongValue, sentence
 from ..building.table_force_verbs import NEEDED, sides
 from ..building.table_joint_verbs import verb
 from ..building.table_verbs import FORCES, PLANE
@@ -107,7 +107,7 @@ def _at(where: str, function: Callable[..., Any], *given: Any, **named: Any) -> 
     try:
         return function(*given, **named)
     except (ValueError, TypeError) as error:
-        raise WrongValue(f"{where}: {error}") from error
+        raise WrongValue(f"{where}: {sentence(error)}") from error
 
 
 # ---- elements ----

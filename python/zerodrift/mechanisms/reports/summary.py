@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from ...errors import ZerodriftError
+from ...errors import ZerodriftError, sentence
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor
 from ..elements.joints import Joint
@@ -36,7 +36,7 @@ def report(drawing: Drawing) -> str:
     try:
         counted = count(drawing)
     except (ZerodriftError, ValueError) as error:
-        return f"{headline(drawing)}\n it cannot start: {error}"
+        return f"{headline(drawing)}\n it cannot start: {sentence(error)}"
     lines = [headline(drawing), f" {_freedom(drawing, counted)}; {_rows(counted)}"]
     if counted.is_of_many and counted.redundant:
         lines.append(" undetermined reactions are not listed for so many constraints")
