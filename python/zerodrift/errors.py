@@ -92,10 +92,12 @@ class WrongName(_Argument, KeyError):
     code = "wrong-name"
 
 
-def described(error: BaseException) -> str:
-    """Name of an exception and its message; of an error of an argument, the name of the exception of Python that it is."""
+def described(error: BaseException, code: bool = True) -> str:
+    """Name of an exception and its message, with its code or, for messages that contain it, without; of an error of an argument,
+    the name of the exception of Python that it is.
+    """
     name = type(error).__bases__[-1].__name__ if isinstance(error, _Argument) else type(error).__name__
-    return f"{name}: {error}"
+    return f"{name}: {error if code else sentence(error)}"
 
 
 class MissingPackage(_Coded, ImportError):

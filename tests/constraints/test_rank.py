@@ -159,8 +159,9 @@ def test_contradicting_constraints_are_named(formulation):
 
     with refused("contradicting-constraints", r"row \d follows from the others, but row \d requires"):
         zd.simulate(rows(2), 1.0, step=0.01, formulation=formulation)
-    with pytest.raises(zd.ZerodriftError, match=r"may contradict them|do not determine the others|contradict each other"):
+    with pytest.raises(zd.ZerodriftError) as caught:
         zd.simulate(rows(3), 1.0, step=0.01, formulation=formulation)
+    assert caught.value.code in ("correction-failed", "dependent-coordinates", "contradicting-constraints")
 
 
 def test_the_smallest_correction_from_a_singular_guess():
@@ -198,7 +199,7 @@ def test_what_inverts_the_mass_names_what_has_none():
 
 
 def test_a_mass_that_is_missing_where_nothing_holds_it_or_is_negative(formulation):
-    with pytest.raises(zd.SingularSystem, match=r"no constraint holds what has no mass|'schur' inverts it"):
+    with refused("mass-not-definite"):
         zd.simulate(slack((0.0, 0.0, 0.0)), 1.0, step=0.01, formulation=formulation)
     with refused("mass-not-definite", "first seen at velocity 2"):
         zd.simulate(slack((1.0, 1.0, -1e-3)), 1.0, step=0.01, formulation=formulation)

@@ -9,7 +9,7 @@ import tolerances as tol
 import zerodrift as zd
 from native_systems import needs_compiler
 from structured import Bodies, bodies_library, chain, four_bars
-from support import FORMULATIONS, along, assert_close, condition, numbers, solved
+from support import FORMULATIONS, along, assert_close, condition, numbers, refused, solved
 from zerodrift._gateway.compiled.functions import load_library
 
 STEPS = dict(step=0.01)
@@ -167,7 +167,7 @@ def test_a_wrong_jacobian_is_noticed():
     system = zd.System(2, mass=np.eye(2), constraints=lambda p: np.array([p[0] * p[0] - 1.0, p[1] * p[1] - 1.0]),
                        jacobian=lambda p: np.diag([2 * p[0], 3 * p[1]]), p0=[1.0, 1.0],
                        structure=zd.Structure([1, 1], [(1, [0]), (1, [1])]))
-    with pytest.raises(zd.InconsistentSystem, match=r"row 1 of the Jacobian, for velocity 1, .*: it is 3, and differences .* 2"):
+    with refused("wrong-jacobian", r"row 1 of the Jacobian, for velocity 1, .*: it is 3, and differences .* 2"):
         zd.simulate(system, 1.0, step=0.1)
 
 
@@ -175,7 +175,7 @@ def test_a_mass_matrix_that_is_not_symmetric_is_named():
     mass = np.eye(4)
     mass[3, 2] = 0.5
     system = zd.System(4, mass=mass, p0=np.zeros(4), structure=zd.Structure([2, 2]))
-    with pytest.raises(zd.SingularSystem, match=r"M\[3, 2\] = 0.5, and M\[2, 3\] = 0"):
+    with refused("mass-not-symmetric", r"M\[3, 2\] = 0.5, and M\[2, 3\] = 0"):
         zd.simulate(system, 1.0, step=0.1)
 
 
@@ -185,12 +185,12 @@ def test_a_mass_that_is_nothing_is_refused_or_held(words):
     options = {"mass": np.diag([1.0, 0.0]), "constraints": lambda p: np.array([p[1] - p[0]]), "p0": [0.0, 0.0],
                "force": [1.0, 0.0]}
     system = zd.System(2, structure=zd.Structure([1, 1], [(1, [0, 1])], words), **options)
-    with pytest.raises(zd.SingularSystem, match="first seen at velocity 1"):
+    with refused("mass-not-definite", "velocity 1"):
         zd.simulate(system, 1.0, step=0.1)
     for formulation in set(FORMULATIONS) - {"schur"}:
         assert zd.simulate(system, 1.0, step=0.1, formulation=formulation).p[-1] == pytest.approx([0.5, 0.5])
     free = zd.System(2, mass=np.diag([1.0, 0.0]), p0=[0.0, 0.0], structure=zd.Structure([1, 1], mass=words))
-    with pytest.raises(zd.SingularSystem, match="no constraint holds what has no mass"):
+    with refused("mass-not-definite"):
         zd.simulate(free, 1.0, step=0.1, formulation="augmented")
 
 

@@ -8,7 +8,7 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from random_networks import MOST_ROUNDINGS, Network, check_acceleration, check_accelerations, check_motion
 from structured import Rods, chain, four_bars
-from support import FORMULATIONS, assert_close, condition, numbers, solved
+from support import FORMULATIONS, assert_close, condition, numbers, refused, solved
 
 SEEDS = (0, 7, 10, 14, 22)
 STEP = {"step": 2e-3}
@@ -164,7 +164,7 @@ def test_rows_of_a_large_structure_that_contradict_each_other_are_named():
                          constraints=lambda p, t: np.append(p[::2] - p[1::2], p[0] - p[1] - t**order),
                          structure=zd.Structure([2] * n, [*((1, [b]) for b in range(n)), (1, [0])], "constant diagonal"))
 
-    with pytest.raises(zd.SingularSystem, match=r"contradict each other \(row \d+ follows from the others, but row \d+ requires"):
+    with refused("contradicting-constraints", r"\(row \d+ follows from the others, but row \d+ requires"):
         zd.simulate(system(2), 0.01, **STEP)
 
 
@@ -178,14 +178,14 @@ def test_a_body_without_mass_among_many(road):
     got, reactions = zd.acceleration(system, rods.p0, np.zeros(system.nv), formulation=road)
     assert_close(got, vdot, 1e-9, what="vdot")
     assert_close(reactions, multipliers, 1e-9, what="multipliers")
-    with pytest.raises(zd.SingularSystem, match="'augmented' and 'nullspace'"):
+    with refused("mass-not-definite", "'augmented' and 'nullspace'"):
         zd.simulate(system, 0.01, **STEP)
 
 
 @needs_compiler
 def test_nothing_that_has_no_mass_may_be_free():
     system = chain(25, masses=[1.0] * 24 + [0.0]).system()
-    with pytest.raises(zd.SingularSystem, match="no constraint holds what has no mass"):
+    with refused("mass-not-definite"):
         zd.simulate(system, 0.01, formulation="augmented", **STEP)
 
 

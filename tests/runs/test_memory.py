@@ -47,7 +47,7 @@ def test_no_memory_for_a_run_is_an_error_with_its_size():
     """, 6)
     lines = output.splitlines()
     assert len(lines) == 4
-    assert all(line.startswith("there is no memory for this: ") and line.endswith(" MiB") for line in lines[:3])
+    assert all(line.startswith("there is no memory for this: ") and line.endswith(" MiB [zd:no-memory]") for line in lines[:3])
     assert lines[3] == "done"
 
 
@@ -62,7 +62,7 @@ def test_a_record_that_outgrows_memory_keeps_what_was_computed():
     except MemoryError as error:
         sol = error.solution
         print(error)
-        print(len(sol.t) > 1000, bool(np.isfinite(sol.p).all()), sol.success, sol.message.startswith("stopped by MemoryError"))
+        print(len(sol.t) > 1000, bool(np.isfinite(sol.p).all()), sol.success, sol.message.startswith("stopped by NoMemory"))
     """, 48)
     lines = output.splitlines()
     assert "samples need" in lines[0]

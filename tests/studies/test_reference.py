@@ -13,7 +13,7 @@ import taylor
 import zerodrift as zd
 from covering import spread
 from reference_files import definition, number, table
-from support import SYSTEMS
+from support import SYSTEMS, refused
 from taylor import mp
 from zerodrift.studies import compare
 
@@ -192,7 +192,7 @@ def test_a_formulation_that_cannot_follow_is_left_for_another(monkeypatch):
     ref = zd.reference(system, 0.2)
     assert [d.formulation for d in ref.differences] == ["augmented", "augmented", "nullspace", "nullspace", "nullspace"]
     assert np.abs(ref.solution.p[:, 0] - np.cos(ref.solution.t)).max() <= ref.error < 1e-12
-    with pytest.raises(zd.SingularSystem, match="'schur' inverts it"):
+    with refused("mass-not-definite"):
         zd.reference(system, 0.2, formulations=("augmented", "schur"))
 
 

@@ -8,7 +8,7 @@ import sympy
 import tolerances as tol
 import zerodrift as zd
 from random_symbolic import random_system
-from support import along, assert_close, consistent_states, numbers, rate, solved
+from support import along, assert_close, consistent_states, numbers, rate, refused, solved
 
 t, k, s, w = sympy.symbols("t k s w", real=True)
 u = s + sympy.Rational(3, 10) * s * w       # w is the rate of s
@@ -96,7 +96,7 @@ def test_a_row_that_follows_from_others():
 def test_a_mass_matrix_that_is_not_definite_has_none():
     """All mass in one direction, and a circle that holds the other one: (8) is regular, and its pivots would need an order."""
     system = swinging(kinetic=RATES[0]**2 / 2, v0=[0.0, 0.0], p0=[0.6, -0.8])
-    with pytest.raises(zd.SingularSystem, match="the Jacobian failed"):
+    with refused("mass-not-definite"):
         jacobian_of(system, 0.0, system.p0, system.v0)
     exact, found = (zd.simulate(system, 0.5, rtol=1e-8, atol=1e-8, integrator=method, formulation="augmented")
                     for method in ("dop853", "radau"))

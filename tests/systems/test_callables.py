@@ -8,7 +8,7 @@ import pytest
 
 import zerodrift as zd
 from four_bar_in_python import ANGLES, DERIVED, force, four_bar, jacobian
-from support import FORMULATIONS, SYSTEMS, assert_close
+from support import FORMULATIONS, SYSTEMS, assert_close, refused
 
 
 def raising(error):
@@ -200,14 +200,14 @@ def test_a_shape_that_changes_on_the_way_is_caught():
         zd.simulate(four_bar(force=lambda t: np.zeros(3 if t < 0.1 else 4)), 1.0, step=0.01)
 
 
-@pytest.mark.parametrize(("changes", "message"), [
-    ({"mass": lambda p: -np.eye(3)}, "not positive definite"),
-    ({"mass": lambda p: np.eye(3) + np.triu(np.ones((3, 3)), 1)}, "not symmetric"),
+@pytest.mark.parametrize(("changes", "code", "names"), [
+    ({"mass": lambda p: -np.eye(3)}, "mass-not-definite", ""),
+    ({"mass": lambda p: np.eye(3) + np.triu(np.ones((3, 3)), 1)}, "mass-not-symmetric", ""),
     ({"constraints": lambda p, t, L: np.array([L @ np.sin(p), 2 * L @ np.sin(p) - t**2]), **DERIVED},
-     "contradict each other .row . follows from the others, but row . requires another acceleration"),
+     "contradicting-constraints", "row . follows from the others, but row . "),
 ])
-def test_what_cannot_be_simulated_is_said_at_the_start(formulation, changes, message):
-    with pytest.raises(zd.SingularSystem, match=message) as caught:
+def test_what_cannot_be_simulated_is_said_at_the_start(formulation, changes, code, names):
+    with refused(code, names) as caught:
         zd.simulate(four_bar(**changes), 1.0, step=0.01, formulation=formulation)
     assert caught.value.solution is None
 

@@ -7,7 +7,7 @@ import zerodrift as zd
 from native_systems import needs_compiler
 from random_networks import Network
 from structured import Bodies, chain, four_bars
-from support import assert_close
+from support import assert_close, refused
 
 AGREES = 1e-11      # of p and v: positions are iterated to 1e-12 of the rows' sizes
 SYSTEMS = {"few rows": Bodies(3), "kinematic matrix": Bodies(4, kinematics=True), "many rows": Network(6, bodies=18),
@@ -55,5 +55,5 @@ def test_what_cannot_be_held_is_told():
     rods = chain(60, closed=True)
     system = rods.system()
     guess = rods.p0 + 0.1
-    with pytest.raises(zd.CorrectionFailed, match="position correction"):
+    with refused("correction-failed"):
         zd.assemble(system, guess, hold=[variable.name for variable in system.coordinates])

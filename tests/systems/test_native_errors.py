@@ -9,6 +9,7 @@ import scipy
 
 import zerodrift as zd
 from native_systems import GIVEN, PENDULUM, TERMS, address, compile_text, motion, needs_compiler, of_ctypes, pendulum
+from support import refused
 from zerodrift.compiled import SLOT
 
 pytestmark = needs_compiler
@@ -132,25 +133,25 @@ def test_a_term_that_is_not_finite_is_named(term, library, formulation):
 def test_where_steps_are_chosen_too(term, library, integrator):
     if not zd.integrators()[integrator].error_order:
         return
-    with pytest.raises(zd.ZerodriftError, match=rf"^at t = 1(\.\d+)? .*the system's {term} must be finite \[zd:"):
+    with refused("term-not-finite", rf"^at t = 1(\.\d+)? .* {term} "):
         zd.simulate(spoilt(library, term), 2.0, rtol=1e-8, integrator=integrator)
 
 
 @pytest.mark.parametrize("term", ["M", "C", "Phi"])
 def test_a_term_that_is_not_finite_at_the_start(term, library):
     system = spoilt(library, term, 0.0)
-    with pytest.raises(zd.ZerodriftError, match=f"the system's {term} must be finite"):
+    with refused("term-not-finite", f" {term} "):
         zd.simulate(system, 1.0, step=0.1)
 
 
 @pytest.mark.parametrize("term", ["M", "C", "f", "xi"])
 def test_outside_a_run(term, library):
-    with pytest.raises(zd.ZerodriftError, match=f"the system's {term} must be finite"):
+    with refused("term-not-finite", f" {term} "):
         zd.acceleration(spoilt(library, term), [1.0, 0.0], [0.0, 0.0], t=1.0)
 
 
 def test_a_failure_that_the_function_reports(library):
     """Whatever number it returns: a positive one does not mean that the run is merely paused."""
-    with pytest.raises(zd.ZerodriftError, match=r"^at t = .* \(step 10\d of 200\): the native function reported") as caught:
+    with refused("evaluation-failed", r"^at t = .* \(step 10\d of 200\)") as caught:
         motion(spoilt(library, "failure"))
     assert 0.98 < caught.value.solution.t[-1] <= 1.0

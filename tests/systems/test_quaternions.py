@@ -11,7 +11,7 @@ from native_systems import compile_text, needs_compiler
 from rotating_bodies import SPIN, TURN, gyroscopic, turning
 from spinning_body import INERTIA, attitude, body, precession
 from spinning_body import SPIN as START
-from support import FORMULATIONS, assert_close
+from support import FORMULATIONS, assert_close, refused
 
 SUITED = [name for name in FORMULATIONS if name != "independent"]
 BODIES = {"said to be one": body(quaternions=[0]), "not said": body()}
@@ -93,7 +93,7 @@ def test_a_singular_mass_matrix_suits_those_that_do_not_invert_it():
     found = zd.work_precision(system, 0.05, integrators=["rk4"], steps=[0.01], rounds=1)
     assert [row.setting.formulation for row in found.rows] == [name for name in FORMULATIONS if name != "schur"]
     assert all(row.error < 1e-4 for row in found.rows)
-    with pytest.raises(zd.SingularSystem, match="'schur' inverts it"):
+    with refused("mass-not-definite"):
         zd.work_precision(system, 0.05, formulations=["schur"], integrators=["rk4"], steps=[0.01], rounds=1)
 
 

@@ -154,14 +154,17 @@ class Status(NamedTuple):
     status: int
     error: str      # name of the exception that stands for it
     sentence: str
-    code: str       # of that exception, where this status raises it; "" of exceptions of Python
+    code: str       # of that exception, where this status raises it; "" of a callable's own exception
+
+
+OF_PYTHON = {"MemoryError": "NoMemory"}     # exceptions of Python in the core's list, to those with a code
 
 
 def statuses() -> list[Status]:
     """The core's list of statuses of failures."""
     rows: list[Status] = []
     while c := lib.zd_status_at(len(rows)):
-        error = text(c.error) or "ZerodriftError"
+        error = OF_PYTHON.get(text(c.error), text(c.error)) or "ZerodriftError"
         code = errors.OF_STATUS.get(text(c.symbol)) or getattr(getattr(errors, error, None), "code", "")
         rows.append(Status(c.status, error, text(c.sentence), code))
     return [row for row in rows if row.status < 0]

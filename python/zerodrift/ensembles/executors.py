@@ -125,7 +125,7 @@ class Elsewhere:
         (first, last), error = min(self._lost.items(), key=lambda pair: pair[0])
         if isinstance(error, WorkerLost | TypeError):
             return error
-        why = described(error).rstrip(": ")
+        why = described(error, code=False).rstrip(": ")
         others = f", nor {len(self._lost) - 1} other portions" if len(self._lost) > 1 else ""
         hint = "" if self._has_received or not isinstance(error, BrokenExecutor) else (
             '; a script that starts processes needs `if __name__ == "__main__":` around what does')

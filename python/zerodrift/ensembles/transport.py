@@ -35,7 +35,7 @@ def packed(what: Any, name: str = "this", *, shares_main: bool = False) -> bytes
         raise WrongType(f"{name} cannot travel to another process: {error}") from None
     except Exception as error:
         holder = unpicklable(what, lambda part: _fits(part, shares_main))
-        raise WrongType(f"{name} cannot travel to another process: {holder}{described(error)}") from error
+        raise WrongType(f"{name} cannot travel to another process: {holder}{described(error, code=False)}") from error
 
 
 def _dumped(what: Any, shares_main: bool) -> bytes:
