@@ -22,7 +22,7 @@ from zerodrift.mechanisms.files.to_json import described
 
 BOARD = ROOT / "notebooks" / "board"
 NODE = shutil.which("node")
-needs_node = pytest.mark.skipif(not NODE, reason="needs node")
+needs_node = pytest.mark.skipif(not NODE, reason="there is no node")
 LARGEST = 1_000_000     # bytes of the page with the core
 SECONDS = 20            # for what takes a fraction of one on a quiet machine
 

@@ -15,7 +15,7 @@ from browser import Browser, needs_chromium
 from zerodrift.export import wasm
 
 NODE = shutil.which("node")
-pytestmark = pytest.mark.skipif(not NODE, reason="needs node")
+pytestmark = pytest.mark.skipif(not NODE, reason="there is no node")
 STEPS, LARGEST = 100_000, 250_000       # bytes, packed
 FEW = 5_000        # steps in Chromium
 SCRIPT = """
