@@ -201,8 +201,8 @@ def test_a_shape_that_changes_on_the_way_is_caught():
 
 
 @pytest.mark.parametrize(("changes", "code", "names"), [
-    ({"mass": lambda p: -np.eye(3)}, "mass-not-definite", ""),
-    ({"mass": lambda p: np.eye(3) + np.triu(np.ones((3, 3)), 1)}, "mass-not-symmetric", ""),
+    ({"mass": lambda p: -np.eye(3)}, "mass-not-definite", None),
+    ({"mass": lambda p: np.eye(3) + np.triu(np.ones((3, 3)), 1)}, "mass-not-symmetric", None),
     ({"constraints": lambda p, t, L: np.array([L @ np.sin(p), 2 * L @ np.sin(p) - t**2]), **DERIVED},
      "contradicting-constraints", "row . follows from the others, but row . "),
 ])
