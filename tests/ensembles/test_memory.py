@@ -38,7 +38,7 @@ def test_more_than_memory_is_refused_before_anything_runs(scarce, monkeypatch):
     scarce(1.5 * SIZE - 1)      # the outputs, and one of two besides as they are joined
     begun = []
     with pytest.raises(MemoryError, match=r"the outputs of 20 runs take 32\.3 kB, 48\.5 kB while they are joined, and 48\.5 kB "
-                                          r"of memory are free: keep fewer outputs .* \(store\)$"):
+                                          r"of memory are free: keep fewer outputs .* \(store\) \[zd:no-memory\]$"):
         zd.ensemble(BAR, 1.0, **STUDY, progress=begun.append)
     assert not begun
     scarce(1.5 * SIZE)

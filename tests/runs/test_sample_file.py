@@ -146,7 +146,7 @@ def test_a_record_that_memory_has_no_room_for(tmp_path):
     print(sol.message, len(sol.t), sol.p.shape, zd.load(sys.argv[1] + ".npy").t[-1], len(str(sol)) > 100)
     """, tmp_path / "run")
     assert re.fullmatch(r"500001 samples take 72 MB, and (4\d|50)(\.\d)? MB of memory are free: save fewer with save_every or "
-                        "t_eval, or write them to a file with save_to", lines[0])
+                        r"t_eval, or write them to a file with save_to \[zd:no-memory\]", lines[0])
     assert lines[1] == "done 500001 (500001, 3) 0.5 True"
 
 
