@@ -225,7 +225,7 @@ def glider(width, force, place):
     return system, np.sqrt(1 + 2 * force * width * np.sqrt(np.pi))
 
 
-@pytest.mark.parametrize(("width", "place"), spread([(0.05, 3.3), (2e-3, 0.31), (0.01, 1.7)], 2))     # 2e-3 takes ten times as long
+@pytest.mark.parametrize(("width", "place"), spread([(0.05, 3.3), (2e-3, 0.31), (0.01, 1.7)], 2))  # 2e-3 takes ten times more
 def test_a_narrow_place_is_found(width, place):
     system, last = glider(width, 0.2 / width, place)
     ref = zd.reference(system, 4.0)
