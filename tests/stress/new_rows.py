@@ -24,6 +24,7 @@ KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", "*.s
 PLANE = "csrc/mechanisms/plane/joints"
 SPACE = "csrc/mechanisms/space/joints"
 FORCES, SPACE_FORCES = "csrc/mechanisms/plane/forces", "csrc/mechanisms/space/forces"
+WIDEST = 142        # columns of a line of C
 REGISTRY, INTERFACE, JOINTS = "csrc/methods.h", "csrc/include/zerodrift/system.h", f"{PLANE}/table.c"
 
 INTEGRATOR = r"""
@@ -632,9 +633,17 @@ WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_method
 
 
 def words(before, after):
-    """Number of words in which two texts differ."""
-    blocks = difflib.SequenceMatcher(None, before.split(), after.split(), autojunk=False).get_opcodes()
+    """Number of words in which two texts differ; a backslash that continues a line is not one."""
+    before, after = ([word for word in text.split() if word != "\\"] for text in (before, after))
+    blocks = difflib.SequenceMatcher(None, before, after, autojunk=False).get_opcodes()
     return sum(max(b - a, d - c) for tag, a, b, c, d in blocks if tag != "equal")
+
+
+def broken(text):
+    """The text with the long lines of its tables broken."""
+    lines = ([line] if len(line) <= WIDEST else [*line[:WIDEST - 2].rpartition(" ")[::2], line[WIDEST - 2:]]
+             for line in text.split("\n"))
+    return "\n".join(f"{head} \\\n    {''.join(rest)}" if rest else head for head, *rest in lines)
 
 
 def add(folder, file, text, changed, where, by):
@@ -645,7 +654,7 @@ def add(folder, file, text, changed, where, by):
     before = path.read_text()
     after, times = re.subn(where, by, before, count=1)
     assert times == 1, f"{changed} has no {where}"
-    path.write_text(after)
+    path.write_text(after := broken(after))
     lines = sum(line.startswith("+ ") for line in difflib.ndiff(before.splitlines(), after.splitlines()))
     return 1 if file else 0, 1, words(before, after), lines
 
