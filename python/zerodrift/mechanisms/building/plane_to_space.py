@@ -12,11 +12,12 @@ from ..elements.bodies import Body, Link, Particle, Point, _Center
 from ..elements.drawing import Drawing
 from ..elements.frames import about
 from ..elements.joints import Joint
-from ..elements.table_forces import TableForce, parameters
+from ..elements.space_joints import BY_KIND
+from ..elements.table_forces import TableForce
 from ..elements.user_functions import Law
 from .coupling_verbs import _Expression, _Follows, _Sum
 from .periodic_spline import PeriodicSpline
-from .table_verbs import FORCES
+from .table_verbs import FORCES, PLANE
 
 NORMAL = (0.0, 0.0, 1.0)
 HINGED = ("revolute", "prismatic", "weld")      # kinds of joints that keep two bodies in one plane
@@ -168,16 +169,10 @@ def _revolute(m: Any, joint: Any) -> None:
         m.spherical(joint.name, *sides)     # a particle has no orientation
 
 
-def _prismatic(m: Any, joint: Any) -> None:
-    m.prismatic(joint.name, *_sides(m, joint), axis=_raised(joint.axis_as_drawn()), damping=joint.damping)
-
-
-def _weld(m: Any, joint: Any) -> None:
-    m.weld(joint.name, *_sides(m, joint))
-
-
-def _rod(m: Any, joint: Any) -> None:
-    m.rod(joint.name, *_sides(m, joint), length=joint.length)
+def _joint(m: Any, joint: Any) -> None:
+    given = {word: getattr(joint, word) for word in joint.takes if word != "cut"}
+    axis = {"axis": _raised(joint.axis_as_drawn())} if "axis" in given else {}
+    getattr(m, joint.kind)(joint.name, *_sides(m, joint), **{**given, **axis})
 
 
 def _slot(m: Any, joint: Any) -> None:
@@ -229,10 +224,7 @@ def _actuator(m: Any, actuator: Any) -> None:
 def _table_force(m: Any, force: TableForce) -> None:
     ends = _sides(m, force) if force.joint is None else (force.joint.name,)
     axis = {} if force.axis is None else {"axis": _raised(force.first.body.pose.direction(force.axis))}
-    given = {word: tuple(force.values[path] for path in paths) for word, paths in parameters(force.row).items()
-             if word != "length" or word in force.values}
-    given = {word: values if len(values) > 1 else values[0] for word, values in given.items()}
-    getattr(m, force.kind)(force.name, *ends, **axis, **(given if force.law is None else _law(m, force.law)))
+    getattr(m, force.kind)(force.name, *ends, **axis, **(force.given() if force.law is None else _law(m, force.law)))
 
 
 def _bushing(m: Any, bushing: Any) -> None:
@@ -254,8 +246,9 @@ def _torque(m: Any, torque: Any) -> None:
 
 
 LIFTED: dict[str, Callable[[Any, Any], None]] = {
-    "body": _body, "link": _link, "particle": _particle, "point": _named_point, "revolute": _revolute, "prismatic": _prismatic,
-    "weld": _weld, "rod": _rod, "slot": _slot, "rolling": _rolling, "knife_edge": _knife_edge, "gear": _linear,
-    "rack_pinion": _linear, "coupler": _coupling, "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
+    "body": _body, "link": _link, "particle": _particle, "point": _named_point,
+    **dict.fromkeys(PLANE.keys() & BY_KIND, _joint), "revolute": _revolute, "slot": _slot, "rolling": _rolling,
+    "knife_edge": _knife_edge, "gear": _linear, "rack_pinion": _linear, "coupler": _coupling,
+    "constraint": _coupling, "nonholonomic": _coupling, "cam": _cam,
     "motor": _motor, "actuator": _actuator, **{kind: _table_force for kind, force in FORCES.items() if 3 in force.entries},
     "bushing": _bushing, "force": _force, "torque": _torque}

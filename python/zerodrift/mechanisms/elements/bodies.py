@@ -112,11 +112,6 @@ class Body(Fixed):
         return len(self.pose.origin)
 
     @property
-    def measured_name(self) -> str:
-        """First part of the names of its measures."""
-        return self.name
-
-    @property
     def center(self) -> Point:
         """Centre of mass as a point, measured as ``body.center.position``; particles attached to the body do not move it."""
         return _Center(self, self._com, f"{self.name}.center")

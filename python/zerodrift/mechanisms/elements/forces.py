@@ -46,11 +46,6 @@ class Motor(Fixed):
         return self.joint.coordinate or {"torque": "angle", "force": "displacement"}.get(self.drives, self.drives)
 
     @property
-    def measured_name(self) -> str:
-        """First part of the names of its measures."""
-        return self.name
-
-    @property
     def prescribes(self) -> bool:
         """True if it prescribes a motion, by a driving constraint; False if it prescribes a torque or force."""
         return self.drives not in ("torque", "force")
@@ -88,11 +83,6 @@ class Actuator(Fixed):
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return self.first.dimension
-
-    @property
-    def measured_name(self) -> str:
-        """First part of the names of its measures."""
-        return self.name
 
     @property
     def prescribes(self) -> bool:

@@ -16,6 +16,13 @@ class Fixed:
         When it is set again; the message names what makes a system with another value.
     """
 
+    name: Any
+
+    @property
+    def measured_name(self) -> str:
+        """First part of the names of its measures."""
+        return self.name
+
     def __setattr__(self, name: str, value: Any) -> None:
         if not name.startswith("_"):
             if name in self.__dict__:

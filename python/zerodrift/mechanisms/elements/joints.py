@@ -68,11 +68,6 @@ class Joint(Fixed):
                    "they do along the joint's coordinate is in their measures, and not in this one.")
 
     @property
-    def measured_name(self) -> str:
-        """First part of the names of its measures."""
-        return self.name
-
-    @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return self.first.dimension

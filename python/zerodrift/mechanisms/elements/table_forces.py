@@ -133,11 +133,6 @@ class TableForce(Fixed):
         self.values = values
 
     @property
-    def measured_name(self) -> str:
-        """First part of the names of its measures."""
-        return self.name
-
-    @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
         return (self.first if self.joint is None else self.joint).dimension
@@ -169,6 +164,11 @@ class TableForce(Fixed):
             return {} if self.law.constant is None else {"value": self.law.constant}
         return {path: self.length_with(now) if path == "length" else self.values[path]
                 for each in parameters(self.row).values() for path in each}
+
+    def given(self) -> dict[str, Any]:
+        """Parameters of a spring as its method takes them: a number, or one for each marker quantity."""
+        words = {word: [self.values[path] for path in each if path in self.values] for word, each in parameters(self.row).items()}
+        return {word: values if len(values) > 1 else values[0] for word, values in words.items() if values}
 
     def zero(self, quantity: ElementQuantity, numbers: Numbers) -> float:
         """Offset of a marker quantity: its value as drawn, or the length or angle at which the element is slack."""

@@ -109,7 +109,7 @@ def _closest_first(name: str, known: Sequence[str]) -> str:
 
 def readable(element: Any) -> list[str]:
     """Names of measures of positions and velocities of an element, vectors as a whole."""
-    named = getattr(element, "measured_name", element.name)
+    named = element.measured_name
     if getattr(element, "dimension", 2) == 3:
         own = [f"{named}.{each}" for each in (*quantities(element), *rates_of(element))]
         return own + [f"{named}.{point}.{each}" for point in _points(element) for each in ("position", "velocity")]

@@ -14,7 +14,7 @@ from ..building.table_verbs import FORCES
 from ..elements.bodies import Body, Point
 from ..elements.drawing import Drawing
 from ..elements.joints import JOINTS, Coupling
-from ..elements.table_forces import ELEMENTS, TableForce, parameters
+from ..elements.table_forces import ELEMENTS, TableForce
 from .expressions_json import to_json
 from .space_to_json import IN_SPACE
 from .values_to_json import law_to_json, not_saved, numbers, place, sides
@@ -139,11 +139,7 @@ def _table_force(force: TableForce, drawing: Drawing) -> dict[str, Any]:
         place["axis"] = numbers(force.axis)
     if force.frames is not None:
         place["frames"] = [numbers(frame) for frame in force.frames]
-    if force.law is not None:
-        return {**place, "value": law_to_json(force.law)}
-    given = {word: [force.values[path] for path in paths] for word, paths in parameters(force.row).items()
-             if word != "length" or word in force.values}
-    return {**place, **{word: values if len(values) > 1 else values[0] for word, values in given.items()}}
+    return {**place, **(force.given() if force.law is None else {"value": law_to_json(force.law)})}
 
 
 WRITTEN: dict[str, Callable[[Any, Drawing], dict[str, Any]]] = {
