@@ -205,9 +205,10 @@ def _with_inputs(chosen: Chosen, tables: Any, packed: Any, texts: blocks.Texts) 
 def _target(name: str, tables: Any) -> tuple[str, int]:
     """Member that an input sets, a force or a speed, and its index in the tables."""
     owner, _, quantity = name.rpartition(".")
-    if quantity in ("force", "torque", "value") and owner in tables.force_of:
-        index = tables.force_of[owner]
-        if tables.forces[index].kind == "constant":
+    if quantity in ("force", "torque", "value"):
+        values = (each.index for each in tables.observed if each.kind == "force value" and each.name.rpartition(".")[0] == owner)
+        index = next(values, None)
+        if index is not None and tables.forces[index].kind == "constant":
             return "force", index
     if quantity == "speed" and owner in tables.relation_names:
         index = tables.relation_names.index(owner)
