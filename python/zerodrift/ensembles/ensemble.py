@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check, _gateway
+from .. import _check, _gateway, _webassembly
 from ..errors import Interrupted, NoMemory, WorkerLost, WrongValue
 from ..runs.progress import progress_of
 from ..runs.solution import Solution
@@ -135,6 +135,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     runs = Runs(system, parameters, p0, v0, start, hold, assembles=_check.instance("assemble", assemble, bool, "True or False"))
     keeps = keep is not None and bool(_check.choice("keep", keep, ("solutions",)))
     place = executors.checked(executor)
+    if threads not in (None, 1):
+        _webassembly.refuse("threads", "1", "runs are made one after the other")
     threads = min(runs.count, processors() if threads is None else _check.count("threads", threads))
     chunk = None if chunk is None else _check.count("chunk", chunk)
     if store is not None and keeps:

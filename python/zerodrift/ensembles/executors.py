@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import concurrent.futures
 import contextlib
 import functools
 import multiprocessing
@@ -9,11 +10,11 @@ import platform
 import queue
 import signal
 from collections.abc import Callable, Iterator
-from concurrent.futures import BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor
+from concurrent.futures import BrokenExecutor, CancelledError, Executor
 from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
-from .. import _check, _gateway
+from .. import _check, _gateway, _webassembly
 from ..errors import WorkerLost, WrongType, described, sentence
 from ..runs.settings import VECTOR_UNITS
 from ..runs.threads import LOOK
@@ -33,6 +34,8 @@ _is_cancelled: Callable[[], bool] = never       # in processes that this module 
 def checked(executor: Any) -> Any:
     """Check the argument `executor` of `ensemble`."""
     if executor is None or executor == "processes" or callable(getattr(executor, "submit", None)):
+        if executor is not None:
+            _webassembly.refuse("executor", "None", "there are no other processes")
         return executor
     raise WrongType('executor must be None, for the threads of this process, "processes", or an Executor, which has submit() as '
                     "those of concurrent.futures, loky, mpi4py.futures and dask's client.get_executor() have, not "
@@ -53,7 +56,7 @@ class Elsewhere:
         self._runs, self._ranges, self._finished, self._executor = plan.runs, ranges, finished, executor
         stamp = {"vector": plan.options["vector"], "version": version()}
         without_table = plan.over(plan.runs.with_table(plan.runs.table(0, 0)))
-        shares_main = executor == "processes" or isinstance(executor, ProcessPoolExecutor)
+        shares_main = executor == "processes" or isinstance(executor, concurrent.futures.ProcessPoolExecutor)
         self._head = packed((stamp, packed(without_table, "the ensemble", shares_main=shares_main)))
         self._done: queue.SimpleQueue[Any] = queue.SimpleQueue()
         self._pending: dict[Any, tuple[int, int]] = {}
@@ -152,7 +155,7 @@ class _Processes(AbstractContextManager):
     def __init__(self, count: int) -> None:
         context = multiprocessing.get_context("spawn")
         self._flag = context.Event()
-        self._pool = ProcessPoolExecutor(count, context, initializer=_listen, initargs=(self._flag,))
+        self._pool = concurrent.futures.ProcessPoolExecutor(count, context, initializer=_listen, initargs=(self._flag,))
 
     def __enter__(self) -> Executor:
         return self._pool

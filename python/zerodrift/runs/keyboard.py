@@ -8,6 +8,8 @@ import threading
 from types import CodeType, FrameType
 from typing import Any
 
+from .. import _webassembly
+
 INTERRUPT = int(signal.SIGINT)
 
 
@@ -29,7 +31,7 @@ class Keyboard:
             frame = frame.f_back
 
     def __enter__(self) -> Keyboard:
-        if (threading.current_thread() is threading.main_thread()
+        if (not _webassembly.IS_USED and threading.current_thread() is threading.main_thread()
                 and _signal.getsignal(INTERRUPT) is signal.default_int_handler):
             _signal.signal(INTERRUPT, self._press)
             self._handles_signal = True

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .. import _gateway
+from .. import _gateway, _webassembly
 from ..errors import WrongState, ZerodriftError, sentence
 from .opening import Prepared
 
@@ -38,6 +38,7 @@ class RunState(NamedTuple):
 
 def saved(ready: Prepared, core: Any, controllers: list[Any]) -> bytes:
     """State of a run of the core, with these states of its controllers."""
+    _webassembly.refuse("the state of a run", "saved on another machine", "addresses have four bytes")
     inputs = core.inputs
     values, places = (inputs.values, inputs.at_places) if inputs else (np.empty(0), np.empty(0))
     return packed(RunState(values, places, controllers, core.save(fingerprint(ready)).state))

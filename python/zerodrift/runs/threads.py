@@ -7,13 +7,15 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from .. import _gateway
+from .. import _gateway, _webassembly
 
 LOOK = 0.05     # s between checks of keyboard and progress; on some systems a join without timeout ignores Ctrl-C
 
 
 def processors() -> int:
     """Number of processors that this process may use."""
+    if _webassembly.IS_USED:
+        return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -32,7 +34,12 @@ class Threads:
         self._lock, self._error, self._stop = threading.Lock(), None, _gateway.Stop()
 
     def run(self, count: int, look: Callable[[], None]) -> None:
-        """Do all parts in `count` threads; meanwhile this thread calls `look` regularly."""
+        """Do all parts in `count` threads; meanwhile this thread calls `look` regularly. In WebAssembly this thread does them."""
+        if _webassembly.IS_USED:
+            for part in self._parts:
+                self._work(part, self._stop)
+                look()
+            return
         workers = [threading.Thread(target=self._take, daemon=True) for _ in range(count)]
         try:
             for worker in workers:
@@ -67,7 +74,7 @@ class Threads:
 def side_by_side(work: Callable[[Any, _gateway.Stop | None], None], parts: Sequence[Any], look: Callable[[], None] = int, *,
                  in_threads: bool) -> None:
     """Do all parts in one thread per available processor, or one after the other if they call Python functions."""
-    if in_threads:
+    if in_threads and not _webassembly.IS_USED:
         Threads(work, iter(parts)).run(min(len(parts), processors()), look)
         return
     for part in parts:

@@ -70,6 +70,8 @@ def find() -> Compiler | None:
     CompilationFailed
         If `CC` cannot be read as a command.
     """
+    if SYSTEM == "emscripten":
+        return None
     for command in [given()] if said() else _candidates():
         program = shutil.which(command[0]) if command else None
         if program:
@@ -101,6 +103,8 @@ def advice() -> str:
 
 def looked_for() -> str:
     """Compilers that `find` searches for, and a way to install one, for messages."""
+    if SYSTEM == "emscripten":
+        return "none, as Python in WebAssembly starts no programs"
     if not said():
         return f"{_names()}; {INSTALLED.get(SYSTEM, IN_PACKAGES)} would bring one"
     program = Path(next(iter(given()), ""))
