@@ -346,7 +346,8 @@ const zd_plane_element_kind zd_soft_plane = {
 
 SPACE_SOFT_PLANE = r"""
 /* A point is pulled back along an axis of the first body, and moves across it freely. */
-#include "primitives.h"
+#include "../joints/primitives.h"
+#include "element.h"
 
 const zd_space_element_kind zd_space_soft_plane = {
     .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},

@@ -53,6 +53,7 @@ class Tables:
         self.relations: list[entries.Relation] = []
         self.relation_names: list[str] = []
         self.forces: list[entries.GeneralizedForce] = []
+        self.force_of: dict[str, int] = {}
         self.observed: list[OutputSpec] = []
         self.laws = function_calls.Laws()
         self.inboard = self.tree() if in_tree else [-1] * len(self.parts)
@@ -270,6 +271,7 @@ class Tables:
 
     def _generalized_force(self, parameter: str, quantity: int, element: Any, joint: int = -1) -> None:
         """Add a generalized force by a number or a user function."""
+        self.force_of[element.name] = len(self.forces)
         if element.law.constant is not None:
             value = self.numbers(element, parameter, element.law.constant)
             self.forces.append(entries.GeneralizedForce("constant", quantity, value=value, joint=joint))
