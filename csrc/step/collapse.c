@@ -4,8 +4,8 @@
  * A step counts if two things hold together. With steps of its size the run would need ten times as many as it may take. And it changes each
  * entry of the state by a few tolerances only, which a step that resolves a fast but smooth motion does not: it changes them by about the
  * inverse of the accuracy, in a power of one over the order. Steps that stability limits are not counted: zd_stiffness. Bounds from
- * steps of dry friction, stiff dampers, stiff impacts and steep smooth laws, by three methods and tolerances from 1e-3 to 1e-9: more than
- * 900 of 1,000 steps at a jump count, at most 16 of any other run.
+ * steps of dry friction, stiff dampers, stiff impacts and steep smooth laws, by three methods and tolerances from 1e-3 to 1e-9: at a jump
+ * whose steps are that short at least a quarter of them count, in any other run at most 16.
  */
 #include "collapse.h"
 
