@@ -186,6 +186,18 @@ def test_runs_in_lanes_have_the_bits_that_they_have_alone(case, vector):
         assert (ours.steps, ours.direct_steps) == (its.steps, its.direct_steps)
 
 
+def test_constants_that_follow_from_inputs_are_computed_for_each_lane():
+    sp = pytest.importorskip("sympy")
+    x, v, u, k = sp.symbols("x v u k")
+    system = zd.symbolic([x], speeds=[v], kinetic=v**2 / 2, potential=0, force=[sp.sqrt(k * u + 2) * sp.cos(x)], inputs=[u],
+                         parameters={k: 2.0}, p0=[0.0])
+    pair = Pair(system, 16, step=0.01, inputs=["u"])
+    for offset in (0.0, 5.0):
+        pair.set("u", offset + np.arange(16.0))
+        pair.step(20)
+    assert len(np.unique(pair.many.p)) == 16
+
+
 def test_a_state_from_a_lane_continues_in_one_run():
     system = cart_pole().system(compiled=True)
     many = zd.Run(system, runs=16, step=0.02, inputs=["drive.force"])

@@ -93,6 +93,7 @@ class CoreSystem(Measuring):
     calls_python = False                    # True if the core calls functions written in Python
     error: BaseException | None = None      # what a system written in Python raised
     row_names: ConstraintNames | None = None
+    without_lanes: CoreSystem | None = None # system that this one has SIMD lanes besides
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
 
     def name_rows(self, system: Any) -> None:
@@ -140,7 +141,7 @@ class CoreSystem(Measuring):
         other, both = copy.copy(self), ffi.new("zd_closed_form[]", [self.c.closed_form[0], more[0]])
         other.c = ffi.new("zd_system *", self.c[0])
         other.c.closed_form, other.c.closed_forms = both, 2
-        other._data = (*self._data, both, keep)
+        other._data, other.without_lanes = (*self._data, both, keep), self
         return other
 
     def for_run(self) -> CoreSystem:

@@ -186,8 +186,9 @@ class SymbolicSystem(BaseSystem):
 
     def _bound(self, core: _gateway.NativeCore, names: Sequence[str]) -> Bound:
         """The system of one run, with data of its own."""
+        alone = core.without_lanes or core
         libraries = [self._library, next((functions.library(vector) for (vector, embeds), known in self._with_direct.items()
-                                          for functions in [self._functions(embeds)] if known is core), None)]
+                                          for functions in [self._functions(embeds)] if known is alone), None)]
         derive = zip(libraries, ("zd_symbolic_constants", f"{DIRECT}_constants"), strict=True)
         mine, pointer, memory = core.with_copied_data()
         places = [Place(name, False, pointer + self._code.parameters.index(name)) for name in names]
