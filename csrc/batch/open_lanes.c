@@ -160,7 +160,7 @@ static int64_t goal_of(const zd_lanes *lanes, int lane, int64_t steps, double t)
     if (t == INFINITY) return last;
     const double whole = zd_count_steps(lanes->t0, t, lanes->step);
     if (!(t >= lanes->t[lane])) return -1;
-    if ((int64_t)whole > last) return last;
+    if (!(whole <= (double)last)) return last;
     return fabs((t - lanes->t0) / lanes->step - whole) <= 1e-9 * whole && (int64_t)whole >= made ? (int64_t)whole : -1;
 }
 

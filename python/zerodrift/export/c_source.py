@@ -48,6 +48,10 @@ def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[
     ValueError
         As `block`.
 
+    Notes
+    -----
+    The median and the longest of a million steps are measured by ``tests/bench/bench_open_runs.py`` of the repository.
+
     Examples
     --------
     >>> import tempfile, zerodrift as zd
