@@ -90,10 +90,11 @@ def test_rooms_depend_downward(uses):
 
 
 def test_the_step_knows_no_closed_form_beyond_its_paths():
-    """Integrators, corrections, checks, sizes of steps, output and samples do not ask whether a step is in closed form."""
+    """The step, the motion, integrators, corrections, checks, output and samples do not ask which path a step is on."""
     asking = {unit_of(path) for path in CSRC.rglob("*.[ch]")
-              if re.search(r"\b(zd_is_direct|zd_is_embedded)\(|path\.is_short", path.read_text())}
-    assert {unit for unit in asking if unit.split("/")[0] not in ("motion", "paths")} == {"step/step"}
+              if re.search(r"\bzd_is_direct\(|path\.(is_short|lands|embeds|direct|order)\b", path.read_text())}
+    assert len(asking) > 5
+    assert {unit.split("/")[0] for unit in asking} == {"paths"}
 
 
 @pytest.mark.parametrize("room", ["integrators", "corrections"])

@@ -56,11 +56,11 @@ int zd_lanes_serve_run(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
     const zd_constraint_target *target = &motion->target;
-    if (!(motion->path.direct || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
+    if (!(zd_has_closed_form(motion) || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
     if (motion->formulation_size != motion->system.nq + motion->system.nv || motion->corrections_size) return 0;
     if (motion->corrections == 0) return 1;
     return rest_serves(run) && target->positions && target->velocities && target->in_mass_metric
-        && (target->every == 1 || motion->path.direct);
+        && (target->every == 1 || zd_has_closed_form(motion));
 }
 
 /* ---- memory ---- */

@@ -237,74 +237,13 @@ static int correct_velocities(projection *self, zd_motion *motion)
 static int has_positions(const zd_motion *motion) { return motion->target.positions && (motion->corrects & ZD_PHI); }
 static int has_velocities(const zd_motion *motion) { return motion->target.velocities && (motion->corrects & ZD_C); }
 
-static int by_matrices(projection *self, zd_motion *motion, int settles)
+static int after_step(void *self, zd_motion *motion)
 {
     int status = ZD_DONE;
     if (has_positions(motion) && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
     if (status || !zd_constraints(&motion->system)) return status;
     if (motion->drifts_from & ZD_C) return has_velocities(motion) ? correct_velocities(self, motion) : ZD_DONE;
-    return settles ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
-}
-
-static int after_step(void *self, zd_motion *motion)
-{
-    return by_matrices(self, motion, motion->formulation->settle != NULL);
-}
-
-/* ---- by closed-form functions: one call has the steps of positions and velocities, the latter being of use after the last ---- */
-
-static int direct_residual(void *context, double *size)
-{
-    position_problem *problem = context;
-    projection *self = problem->self;
-    zd_point *point = problem->motion->point;
-    const zd_elimination *order = problem->motion->path.order;
-    problem->motion->statistics.evaluations++;
-    int status = order->correct(point->system->data, point->terms.inputs, &point->t, point->p, point->v, point->terms.Phi,
-                                problem->motion->path.dp, self->x);
-    if (status) return ZD_CALLBACK;
-    *size = zd_point_violation(point);
-    return ZD_DONE;
-}
-
-static int improve_directly(void *context)
-{
-    position_problem *problem = context;
-    projection *self = problem->self;
-    zd_point *point = problem->motion->point;
-    ZD_SIZED(zd_subtract, point->system->nq, point->p, problem->motion->path.dp, self->p);      /* (25a), (26a), (27a) */
-    zd_quaternions_normalise(point->system, self->p);
-    zd_point_move_position(point, self->p);
-    return ZD_DONE;
-}
-
-static int correct_directly(projection *self, zd_motion *motion, int positions, int velocities)
-{
-    zd_point *point = motion->point;
-    zd_newton newton = {
-        direct_residual, improve_directly, motion->target.tolerance, motion->target.max_iterations, ZD_TRUSTED_SHARE, NULL, 0};
-    position_problem problem = {self, motion, 0};
-    double size;
-    int status = positions && point->system->mh ? iterate(&newton, &problem) : direct_residual(&problem, &size);
-    if (status || !velocities) return status;
-    ZD_SIZED(zd_subtract, point->system->nv, point->v, self->x, self->v);   /* (25b), (26b), (27b) */
-    zd_point_move_velocity(point, self->v);
-    motion->statistics.velocity_corrections++;
-    return ZD_DONE;
-}
-
-static int in_closed_form(void *memory, zd_motion *motion)
-{
-    projection *self = memory;
-    const int positions = has_positions(motion) && (motion->drifts_from & ZD_PHI);
-    const int velocities = has_velocities(motion) && (motion->drifts_from & ZD_C);
-    zd_point *point = motion->point;
-    if (self->plain) return by_matrices(self, motion, 0);
-    if (!zd_constraints(&motion->system) || !(positions || velocities)) return ZD_DONE;
-    if (motion->path.lands) return zd_direct_land(motion, point->t, point->p, point->v);
-    const int status = correct_directly(self, motion, positions, velocities);
-    /* The next correction needs the dependent velocities at these positions. */
-    return !status && motion->path.embeds && motion->corrections > 1 ? zd_embed_settle(motion) : status;
+    return zd_motion_settles(motion) ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
 }
 
 const zd_correction zd_projection_row = {
@@ -325,5 +264,4 @@ const zd_correction zd_projection_row = {
     .target = target,
     .take = take,
     .after_step = after_step,
-    .in_closed_form = in_closed_form,
 };

@@ -4,7 +4,7 @@
 #include "../constraints/limits.h"
 #include "../constraints/rows.h"
 #include "../linalg/small.h"
-#include "embed.h"
+#include "motion.h"
 
 /* ---- leading matrix ---- */
 
@@ -62,38 +62,13 @@ void zd_motion_solve(zd_motion *motion, const double *force, const double *rhs, 
 
 /* ---- accelerations ---- */
 
-static void stabilize(zd_motion *motion)
+void zd_motion_stabilize(zd_motion *motion)
 {
     for (int i = 0; i < motion->corrections; i++) {
         const zd_active *active = &motion->active[i];
         if (active->row->stabilize)
             active->row->stabilize(active->self, motion->point, motion->state + motion->formulation_size + active->extra, motion->point->rhs);
     }
-}
-
-/* Accelerations by the closed-form functions, with multipliers, power and pivots: at the end of a step, the first stage of the next. */
-static int accelerate_directly(zd_motion *motion)
-{
-    zd_point *point = motion->point;
-    zd_path *path = &motion->path;
-    const double *added = NULL;
-    int status = zd_point_need(point, motion->corrections_need);
-    if (status) return status;
-    if (motion->is_stabilized) {
-        for (int k = 0; k < zd_constraints(point->system); k++) point->rhs[k] = 0;
-        stabilize(motion);
-        added = point->rhs;
-    }
-    if (path->embeds) status = zd_embed_accelerate(motion, added);
-    else {
-        motion->statistics.evaluations++;
-        status = path->order->accelerate(point->system->data, point->terms.inputs, &point->t, point->p, point->v, added, path->pdot,
-                                         point->vdot, point->lambda, motion->balance.input ? &path->power : NULL, path->pivots);
-    }
-    if (status) return ZD_CALLBACK;
-    point->known |= ZD_ACCELERATED;
-    path->smallest = 0;
-    return ZD_DONE;
 }
 
 /* f - d; f itself if the system has no d */
@@ -104,15 +79,14 @@ static const double *find_force(const zd_point *point)
     return point->force;
 }
 
-int zd_motion_accelerate_anew(zd_motion *motion)
+static int accelerate(zd_motion *motion)
 {
     zd_point *point = motion->point;
-    if (zd_is_direct(motion)) return accelerate_directly(motion);
     int status = zd_point_need(point, motion->acceleration_needs);
     if (status) return status;
     const double *force = find_force(point);
     zd_copy_all(zd_constraints(point->system), point->terms.xi, point->rhs);
-    if (motion->is_stabilized) stabilize(motion);
+    if (motion->is_stabilized) zd_motion_stabilize(motion);
     status = zd_motion_factor_for(motion, force, point->rhs, point->vdot);
     if (!status) status = zd_limits_replace(point, ZD_LIMIT_XI, point->rhs);
     if (status) return status;
@@ -146,36 +120,9 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     return ZD_DONE;
 }
 
-/* Rate of the state y after the point has been moved to it. */
-static int direct_rate_of_point(zd_motion *motion, double t, const double *y, double *ydot)
+int zd_motion_leave(zd_motion *motion, double *y)
 {
-    zd_point *point = motion->point;
-    const int nq = point->system->nq, nv = point->system->nv;
-    zd_point_move(point, t, y, y + nq);
-    if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
-    int status = zd_motion_accelerate(motion);
-    if (status) return status;
-    zd_copy_all(nq, point->terms.A ? motion->path.pdot : point->v, ydot);
-    zd_copy_all(nv, point->vdot, ydot + nq);
-    if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
-    if (motion->balance.input) ydot[motion->rate.size - 1] = motion->path.power;
-    return ZD_DONE;
+    return motion->formulation->leave(motion->solver, motion->point, y);
 }
 
-/* Stages of a step do not move the point: it stays at the start of the step, whose acceleration is that of the first stage. */
-int zd_motion_direct_rate(void *context, double t, const double *y, double *ydot)
-{
-    zd_motion *motion = context;
-    const zd_point *point = motion->point;
-    const int nq = point->system->nq, nv = point->system->nv;
-    const size_t of_p = (size_t)nq * sizeof *y, of_v = (size_t)nv * sizeof *y;
-    motion->state = y;
-    int is_known = (point->known & ZD_ACCELERATED) && t == point->t && !memcmp(y, point->p, of_p) && !memcmp(y + nq, point->v, of_v);
-    if (is_known || motion->is_stabilized) return direct_rate_of_point(motion, t, y, ydot);
-    motion->statistics.evaluations++;
-    if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);
-    double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
-    int status = motion->path.order->accelerate(point->system->data, point->terms.inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power,
-                                                NULL);
-    return status ? ZD_CALLBACK : ZD_DONE;
-}
+const zd_equations zd_equations_by_matrices = {accelerate, zd_motion_rate, zd_motion_leave, ~0, 1};

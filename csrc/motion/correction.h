@@ -27,7 +27,6 @@ typedef struct zd_correction {
     void *(*take)(zd_arena *arena, const zd_system *system, const void *given);
     /* Functions; NULL if the correction has none of this kind. */
     int (*after_step)(void *self, zd_motion *motion);
-    int (*in_closed_form)(void *self, zd_motion *motion);   /* instead, on the closed-form path; NULL: after_step() */
     /* xi -> xi_stab; `extra`: the correction's own part of the integrated state */
     void (*stabilize)(void *self, const zd_point *point, const double *extra, double *rhs);
     int (*extra_size)(const zd_system *system, const void *given);

@@ -1,4 +1,5 @@
-/* The motion of a system: its equations in one formulation, with the enabled corrections. Integrators and corrections use nothing else.
+/* The motion of a system: its equations in one formulation, with the enabled corrections. Integrators and corrections use nothing else, and
+ * the evaluation paths what they need besides: paths/path.h.
  */
 #ifndef ZD_MOTION_H
 #define ZD_MOTION_H
@@ -69,6 +70,17 @@ typedef struct zd_balance {
     const double *input;    /* J: energy input, the last entry of the state; NULL if the system has none */
 } zd_balance;
 
+/* The equations of motion as an evaluation path has them. */
+typedef struct zd_equations {
+    int (*accelerate)(zd_motion *motion);   /* vdot and lambda at the point */
+    int (*rate)(void *motion, double t, const double *y, double *ydot);     /* of the integrated state */
+    int (*leave)(zd_motion *motion, double *y);     /* y <- the formulation's part of the state at the point */
+    int terms;              /* mask of zd_motion.acceleration_needs: the terms that accelerate() evaluates */
+    int settles;            /* true if a formulation with settle() calls it at corrected positions, and may choose its variables anew */
+} zd_equations;
+
+extern const zd_equations zd_equations_by_matrices;     /* accelerate.c */
+
 /* Range of the bit patterns of doubles of one sign, which as integers are ordered as the magnitudes are. */
 typedef struct zd_range {
     uint64_t least, width;
@@ -78,6 +90,7 @@ typedef struct zd_range {
  * the matrix path, from the formulation's leading matrix. The latter always exists and is taken in any doubt: paths/choose.c. */
 typedef struct zd_path {
     const zd_closed_form *direct;
+    const zd_equations *equations;  /* in closed form */
     const zd_elimination *order;    /* elimination order of the current step; NULL: it takes the matrix path */
     int was_taken;          /* true if steps were made in closed form since the last checks of the matrix path */
     int continues;          /* true if the quick check has passed, so that the next step may reuse this elimination order */
@@ -88,7 +101,8 @@ typedef struct zd_path {
     double *pivots, *before;    /* (nv,): at the point, with its acceleration; at the start of the step. Unused ones are 1 */
     double *pdot;           /* (nq,): at the point, of a system with A */
     double *pdot_of_stage;  /* (nq,): at a stage; that of the point stays, as a rejected step begins with it again */
-    double *dp;             /* (nq,): position correction of one iteration */
+    double *dp, *dv;        /* (nq,), (nv,): corrections of one iteration */
+    double *corrected;      /* (nq,) or (nv,): p or v after it */
     double *allowed;        /* (mh,): largest |Phi| that meets the projection's tolerance */
     int lands;              /* true if one function projects and computes the acceleration at the end of a step */
     int is_short;           /* true if a step needs nothing else, with a state (p, v), pdot = v, that equals the point's at its ends */
@@ -123,6 +137,7 @@ struct zd_motion {
     zd_point *point;        /* quantities at the current (t, p, v) */
     const zd_formulation *formulation;
     void *solver;           /* memory of the formulation */
+    const zd_equations *equations;      /* those of the evaluation path */
     zd_span memory_of_chosen;   /* memory span of the formulation chosen in the settings */
     int drifts_from;        /* ZD_PHI, ZD_C: constraints that drift in this formulation; all of them outside a run */
     int corrects;           /* ZD_PHI, ZD_C: constraints that are corrected after a step */
@@ -181,41 +196,25 @@ void zd_solve_with(const zd_point *point, const zd_formulation *formulation, voi
 /* Solves with the factors at the point. */
 void zd_motion_solve(zd_motion *motion, const double *force, const double *rhs, double *x, double *lambda);
 
-int zd_motion_accelerate_anew(zd_motion *motion);
 /* vdot and lambda at the point. */
 static inline int zd_motion_accelerate(zd_motion *motion)
 {
-    return motion->point->known & ZD_ACCELERATED ? ZD_DONE : zd_motion_accelerate_anew(motion);
+    return motion->point->known & ZD_ACCELERATED ? ZD_DONE : motion->equations->accelerate(motion);
 }
-int zd_motion_rate(void *motion, double t, const double *y, double *ydot);
-int zd_motion_direct_rate(void *motion, double t, const double *y, double *ydot);   /* the same on the closed-form path */
+/* Terms that zd_motion_accelerate() will evaluate at the point, for an evaluation together with others. */
+static inline int zd_motion_acceleration_terms(const zd_motion *motion)
+{
+    return motion->point->known & ZD_ACCELERATED ? 0 : motion->acceleration_needs & motion->equations->terms;
+}
+static inline int zd_motion_settles(const zd_motion *motion) { return motion->formulation->settle && motion->equations->settles; }
+void zd_motion_stabilize(zd_motion *motion);    /* point.rhs <- point.rhs with the terms that corrections add to the right side of (6) */
+int zd_motion_leave(zd_motion *motion, double *y);  /* by the formulation */
+int zd_motion_rate(void *motion, double t, const double *y, double *ydot);     /* after a move of the point there */
 void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* rates of the corrections' part of the state */
 
 /* jacobian.c: derivatives of the rate from the system's own, for (8) with a regular M, from which those of all formulations follow. */
 zd_chain zd_chain_take(const zd_motion *motion, zd_arena *arena);
 int zd_motion_jacobian(void *motion, double t, const double *y, double *J);
-
-/* True on the closed-form path. */
-static inline int zd_is_direct(const zd_motion *motion) { return motion->path.order != NULL; }
-
-/* Terms that zd_motion_accelerate() will evaluate at the point, for an evaluation together with others. */
-static inline int zd_motion_acceleration_terms(const zd_motion *motion)
-{
-    return (motion->point->known & ZD_ACCELERATED) || zd_is_direct(motion) ? 0 : motion->acceleration_needs;
-}
-
-/* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path. */
-static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !zd_is_direct(motion); }
-static inline int zd_is_embedded(const zd_motion *motion) { return motion->path.order && motion->path.embeds; }
-/* embed.c: counterparts of a formulation's enter(), leave() and settle() on the closed-form path, for a step that begins or ends at the
- * point. */
-int zd_embed_enter(zd_motion *motion, double t, const double *y);
-int zd_embed_leave(zd_motion *motion, double *y);
-int zd_embed_settle(zd_motion *motion);
-
-/* correct.c: projection of p and v at the end t of a step on the closed-form path, and the point's acceleration there, if path.lands. p and v
- * are the point's own, or the caller copies them there. */
-int zd_direct_land(zd_motion *motion, double t, double *p, double *v);
 
 static inline void zd_count_position_iterations(zd_motion *motion, int iterations)
 {

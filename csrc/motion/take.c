@@ -43,6 +43,7 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
                               (zd_has_input(system) ? ZD_POWER | ZD_PHI_T : 0),
         .formulation_size = formulation->state_size(independent),
         .solver = solver,
+        .equations = &zd_equations_by_matrices,
         .memory_of_chosen = zd_span_since(arena, used),
     };
     motion->point = zd_point_take(arena, &motion->system, &motion->statistics);

@@ -14,41 +14,8 @@
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../motion/embed.h"
 #include "../step_limits.h"
-
-const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
-{
-    if (zd_constraints(system) > system->nv || (formulation->settle && !formulation->may_have_entries(system))) return NULL;
-    const zd_closed_form *found = NULL;
-    for (int i = 0; i < system->closed_forms; i++) {
-        const zd_closed_form *direct = &system->closed_form[i];
-        if (!(formulation->settle ? direct->embeddings : direct->orders)) continue;
-        if (direct->lanes == 1 && direct->unit <= unit && (!found || direct->unit > found->unit)) found = direct;
-    }
-    return found;
-}
-
-void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
-{
-    const zd_system *system = &motion->system;
-    const zd_closed_form *direct = zd_direct_of(system, motion->formulation, unit);
-    if (!direct) return;
-    const int embeds = motion->formulation->settle != NULL, orders = embeds ? direct->embeddings : direct->orders;
-    motion->path = (zd_path){
-        .direct = direct,
-        .first = embeds ? direct->embedding : direct->order,
-        .orders = orders,
-        .scale = zd_take_doubles(arena, (size_t)(orders * system->nv)),
-        .pivots = zd_take_doubles(arena, (size_t)system->nv),
-        .before = zd_take_doubles(arena, (size_t)system->nv),
-        .pdot = zd_take_doubles(arena, (size_t)system->nq),
-        .range = zd_take(arena, (size_t)system->nv * sizeof(zd_range)),
-        .dp = zd_take_doubles(arena, (size_t)system->nq),
-        .allowed = zd_take_doubles(arena, (size_t)system->mh),
-    };
-    if (embeds) zd_embed_take(&motion->path, arena, system);
-}
+#include "embed.h"
 
 static double *scale_of(const zd_motion *motion, const zd_elimination *order)
 {
@@ -142,9 +109,9 @@ static void use(zd_motion *motion, const zd_elimination *order)
     if (order) forget_pivots(motion);
     motion->path.lands = order && order->finish && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->path.allowed[k] = motion->target.tolerance * motion->point->size[k];
-    const int embeds = motion->path.embeds;
-    motion->rate.evaluate = !order ? zd_motion_rate : embeds ? zd_motion_embedded_rate : zd_motion_direct_rate;
-    motion->rate.direct = motion->is_stabilized || embeds || motion->rate.size > motion->formulation_size ? NULL : order;
+    motion->equations = order ? motion->path.equations : &zd_equations_by_matrices;
+    motion->rate.evaluate = motion->equations->rate;
+    motion->rate.direct = motion->is_stabilized || motion->path.embeds || motion->rate.size > motion->formulation_size ? NULL : order;
     motion->path.is_short = motion->path.lands && motion->target.every == 1 && motion->rate.direct && !motion->point->terms.A
         && !motion->system.quaternions;
 }
@@ -152,6 +119,13 @@ static void use(zd_motion *motion, const zd_elimination *order)
 void zd_direct_leave(zd_motion *motion)
 {
     use(motion, NULL);
+}
+
+void zd_direct_forget(zd_motion *motion)
+{
+    const zd_path *path = &motion->path;
+    zd_direct_leave(motion);
+    for (int i = 0; path->direct && i < path->direct->orders * motion->system.nv; i++) path->scale[i] = 0;
 }
 
 void zd_direct_remember_energy(zd_motion *motion)
@@ -162,8 +136,10 @@ void zd_direct_remember_energy(zd_motion *motion)
     motion->path.skipped_since_row = motion->tally->energy_skipped;
 }
 
-void zd_direct_forget_energy(zd_motion *motion)
+void zd_direct_leave_step(zd_motion *motion)
 {
+    zd_direct_leave(motion);
+    motion->path.was_taken = 0;
     motion->statistics.energy_skipped = motion->path.energy_skipped;
     motion->statistics.energy_corrections = motion->path.energy_corrections;
     motion->statistics.energy_corrected = motion->path.energy_corrected;
@@ -233,4 +209,9 @@ int zd_direct_compare(zd_safeguards *safeguards, double h, double moved)
     path->was_taken = 1;
     remember_pivots(motion);
     return ZD_DONE;
+}
+
+int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
+{
+    return zd_safeguards_judge(safeguards, zd_direct_compare, self->t - self->last.t, next_step, parts);
 }

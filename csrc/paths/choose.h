@@ -3,8 +3,10 @@
 #define ZD_CHOOSE_H
 
 #include "path.h"
+#include "variables.h"
 
-/* Closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this formulation. */
+/* take.c: closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this
+ * formulation. */
 const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
 /* Initializes the closed-form path, if the system has one for the formulation and this vector unit or a narrower one. */
 void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
@@ -24,11 +26,13 @@ static inline const zd_evaluation_path *zd_path_of(const zd_motion *motion)
     return motion->path.is_short ? &zd_closed_form_path : zd_path_of_state(motion);
 }
 
-/* Changes to the matrix path. */
+/* Change to the matrix path: for a part of a step; for a step from its start, with the counters of the energy correction restored; for
+ * another start with other data, which clears the scales of the pivots. */
 void zd_direct_leave(zd_motion *motion);
-/* Save and restore the counters of the energy correction at the start of a step. */
+void zd_direct_leave_step(zd_motion *motion);
+void zd_direct_forget(zd_motion *motion);
+/* Saves the counters of the energy correction at the start of a step. */
 void zd_direct_remember_energy(zd_motion *motion);
-void zd_direct_forget_energy(zd_motion *motion);
 /* Computes the scales of the pivots of all orders. */
 void zd_direct_measure(zd_motion *motion);
 /* zd_comparison of the closed-form path: of the pivots. ZD_SINGULAR: the step must be repeated on the matrix path. */
@@ -45,6 +49,25 @@ static inline int zd_direct_continues(zd_motion *motion)
     motion->path.before = pivots;
     if (motion->corrections > 1) zd_direct_remember_energy(motion);
     return 1;
+}
+
+/* Chooses the integrated variables, then the path of a step that begins at the point. *is_left: true if it is the matrix path after steps in
+ * closed form, which do not save their starts for its checks. */
+static inline int zd_path_choose(zd_stepper *stepper, int *is_left)
+{
+    zd_motion *motion = stepper->motion;
+    int status = motion->formulation == stepper->chosen.formulation ? ZD_DONE : zd_variables_use_chosen(stepper);
+    *is_left = 0;
+    if (status || !motion->path.direct || zd_direct_continues(motion)) return status;
+    *is_left = !zd_direct_choose(motion) && motion->path.was_taken;
+    if (*is_left) motion->path.was_taken = 0;
+    return ZD_DONE;
+}
+
+static inline void zd_path_count(zd_motion *motion)      /* counts a step that was accepted */
+{
+    motion->statistics.steps++;
+    if (zd_is_direct(motion)) motion->statistics.direct_steps++;
 }
 
 #endif

@@ -1,10 +1,83 @@
+/* Steps on the closed-form path that end with the projection and, optionally, the energy correction; equations of motion in closed form. */
 #include "closed_form.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
+#include "../point/quaternions.h"
 #include "choose.h"
+
+/* ---- equations of motion ---- */
+
+/* With multipliers, power and pivots: at the end of a step, the first stage of the next. */
+static int evaluate(zd_motion *motion, const double *added)
+{
+    zd_point *point = motion->point;
+    zd_path *path = &motion->path;
+    motion->statistics.evaluations++;
+    return path->order->accelerate(motion->system.data, point->terms.inputs, &point->t, point->p, point->v, added, path->pdot, point->vdot,
+                                   point->lambda, motion->balance.input ? &path->power : NULL, path->pivots);
+}
+
+int zd_direct_accelerate(zd_motion *motion, int (*evaluate_with)(zd_motion *motion, const double *added))
+{
+    zd_point *point = motion->point;
+    int status = zd_point_need(point, motion->corrections_need);
+    if (status) return status;
+    if (motion->is_stabilized) {
+        for (int k = 0; k < zd_constraints(point->system); k++) point->rhs[k] = 0;
+        zd_motion_stabilize(motion);
+    }
+    if (evaluate_with(motion, motion->is_stabilized ? point->rhs : NULL)) return ZD_CALLBACK;
+    point->known |= ZD_ACCELERATED;
+    motion->path.smallest = 0;
+    return ZD_DONE;
+}
+
+static int accelerate(zd_motion *motion)
+{
+    return zd_direct_accelerate(motion, evaluate);
+}
+
+/* Rate of the state y after the point has been moved to it. */
+static int rate_of_point(zd_motion *motion, double t, const double *y, double *ydot)
+{
+    zd_point *point = motion->point;
+    const int nq = point->system->nq, nv = point->system->nv;
+    zd_point_move(point, t, y, y + nq);
+    if (motion->corrections_size) point->known &= ~ZD_ACCELERATED;
+    int status = zd_motion_accelerate(motion);
+    if (status) return status;
+    zd_copy_all(nq, point->terms.A ? motion->path.pdot : point->v, ydot);
+    zd_copy_all(nv, point->vdot, ydot + nq);
+    if (motion->corrections_size) zd_motion_extra_rates(motion, ydot);
+    if (motion->balance.input) ydot[motion->rate.size - 1] = motion->path.power;
+    return ZD_DONE;
+}
+
+/* Stages of a step do not move the point: it stays at the start of the step, whose acceleration is that of the first stage. */
+static int rate(void *context, double t, const double *y, double *ydot)
+{
+    zd_motion *motion = context;
+    const zd_point *point = motion->point;
+    const int nq = point->system->nq, nv = point->system->nv;
+    const size_t of_p = (size_t)nq * sizeof *y, of_v = (size_t)nv * sizeof *y;
+    motion->state = y;
+    int is_known = (point->known & ZD_ACCELERATED) && t == point->t && !memcmp(y, point->p, of_p) && !memcmp(y + nq, point->v, of_v);
+    if (is_known || motion->is_stabilized) return rate_of_point(motion, t, y, ydot);
+    motion->statistics.evaluations++;
+    if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);
+    double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
+    int status = motion->path.order->accelerate(point->system->data, point->terms.inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power,
+                                                NULL);
+    return status ? ZD_CALLBACK : ZD_DONE;
+}
+
+const zd_equations zd_equations_in_closed_form = {accelerate, rate, zd_motion_leave, 0, 0};
+
+/* ---- integration ---- */
 
 /* Zero times what is not finite is not a number; the sum has no branches. */
 ZD_INLINE int is_finite(const int n, const double *y)
@@ -37,6 +110,53 @@ static int integrate_from(zd_stepper *stepper, double h)
     stepper->last.h = h;
     point->rank->was_ill_conditioned = 0;
     return ZD_SIZED(integrate, point->system->nv, stepper, h);
+}
+
+/* ---- projection at the end of a step on the closed-form path ----
+ *
+ * Positions are iterated onto the constraints,
+ *
+ *     p <- p - dp     (25a), (26a), (27a)     until every |Phi| is at most its tolerance
+ *
+ * and the call that finds them converged also projects the velocities, (25b), (26b), (27b), and computes the acceleration for the first
+ * stage of the next step. Sines and pivots are so computed once for all three.
+ */
+
+/* One iteration p <- p - dp; ZD_NO_CONVERGENCE or ZD_NOT_FINITE if none may follow. */
+static int improve(zd_motion *motion, int iteration, double *first, double *p)
+{
+    zd_point *point = motion->point;
+    const double residual = point->residual_left =
+        ZD_SIZED(zd_largest_scaled, point->system->mh, point->terms.Phi, point->inverse_size);
+    if (!isfinite(residual)) return ZD_NOT_FINITE;
+    if (iteration == motion->target.max_iterations) return ZD_NO_CONVERGENCE;
+    if (iteration == 0) *first = residual;
+    if (iteration == 1 && !(residual <= ZD_TRUSTED_SHARE * *first)) return ZD_NO_CONVERGENCE;
+    ZD_SIZED(zd_subtract_pairs, point->system->nq, p, motion->path.dp, p);    /* (25a), (26a), (27a) */
+    if (point->system->quaternions) zd_quaternions_normalise(point->system, p);
+    return ZD_DONE;
+}
+
+int zd_direct_land(zd_motion *motion, double t, double *p, double *v)
+{
+    zd_point *point = motion->point;
+    zd_path *path = &motion->path;
+    const zd_system *system = &motion->system;
+    double first = 0;
+    int iterations = 0, status;
+    for (;; iterations++) {
+        status = path->order->finish(system->data, point->terms.inputs, &t, p, v, path->allowed, point->terms.Phi, path->dp, path->pdot,
+                                   point->vdot, point->lambda, NULL, path->pivots);
+        if (status != ZD_NO_CONVERGENCE) break;
+        status = improve(motion, iterations, &first, p);
+        if (status) break;
+    }
+    motion->statistics.evaluations += iterations + 1;
+    zd_count_position_iterations(motion, iterations);
+    point->known = status ? 0 : ZD_ACCELERATED;
+    if (status) return status == ZD_NOT_FINITE || status == ZD_NO_CONVERGENCE ? status : ZD_CALLBACK;
+    motion->statistics.velocity_corrections++;
+    return ZD_DONE;
 }
 
 /* Projects the state y at t, and moves the point to it. */
@@ -160,7 +280,7 @@ static int check_state(zd_stepper *stepper, zd_safeguards *safeguards, int64_t n
     return ZD_SIZED(check, stepper->motion->system.nv, stepper, safeguards, next_step, parts);
 }
 
-const zd_evaluation_path zd_closed_form_path = {"closed form", integrate_from, project_state, correct_state, NULL, check_state};
+const zd_evaluation_path zd_closed_form_path = {"closed form", 1, integrate_from, project_state, correct_state, NULL, check_state};
 
 ZD_INLINE int land_between(const int n, zd_stepper *stepper, double t, double *y)
 {

@@ -1,21 +1,12 @@
 /* Parts of a step in independent velocities on the closed-form path: embed() computes the dependent ones. */
+#include "embed.h"
 #include "path.h"
-
-static int integrate(zd_stepper *self, double h)
-{
-    return zd_matrix_path.integrate(self, h);
-}
 
 static int project(zd_stepper *self, double t1, int64_t step, int forced)
 {
     zd_stepper_begin_end(self, t1);
     int status = zd_embed_enter(self->motion, t1, self->y);
-    return status ? status : zd_motion_project(self->motion, step, forced);
-}
-
-static int correct(zd_stepper *self, int64_t step, int forced)
-{
-    return zd_motion_correct_rest(self->motion, step, forced);
+    return status ? status : zd_project_directly(self->motion, step, forced);
 }
 
 static int finish(zd_stepper *self, int within)
@@ -26,4 +17,4 @@ static int finish(zd_stepper *self, int within)
 }
 
 const zd_evaluation_path zd_independent_path = {
-    "independent velocities, closed form", integrate, project, correct, finish, zd_path_check_pivots};
+    "independent velocities, closed form", 1, zd_path_integrate, project, zd_path_correct, finish, zd_path_check_pivots};

@@ -1,11 +1,9 @@
-/* Parts of a step whose state the formulation converts to the point and back: on the matrix path, and on the closed-form path where a step
- * ends with more than the projection.
- */
+/* Parts of a step by matrices: the formulation converts the state to the point and back. */
 #include "../linalg/norms.h"
 #include "../point/quaternions.h"
-#include "choose.h"
+#include "path.h"
 
-static int integrate(zd_stepper *self, double h)
+int zd_path_integrate(zd_stepper *self, double h)
 {
     zd_stepper_remember(self, h);
     int status = zd_stepper_make(self, h);
@@ -13,23 +11,28 @@ static int integrate(zd_stepper *self, double h)
     return zd_is_finite(self->motion->rate.size, self->y) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
-static int project(zd_stepper *self, double t1, int64_t step, int forced)
+int zd_path_enter(zd_stepper *self, double t1)
 {
     zd_motion *motion = self->motion;
     const zd_formulation *formulation = motion->formulation;
     zd_stepper_begin_end(self, t1);
     /* If Phi drifts, the state begins with p; otherwise p has been normalised when it was computed. */
     if (formulation->drifts_from & ZD_PHI) zd_quaternions_normalise(&motion->system, self->y);
-    int status = formulation->enter(motion->solver, motion->point, t1, self->y);
-    return status ? status : zd_motion_project(motion, step, forced);
+    return formulation->enter(motion->solver, motion->point, t1, self->y);
 }
 
-static int correct(zd_stepper *self, int64_t step, int forced)
+static int project(zd_stepper *self, double t1, int64_t step, int forced)
+{
+    int status = zd_path_enter(self, t1);
+    return status ? status : zd_motion_project(self->motion, step, forced);
+}
+
+int zd_path_correct(zd_stepper *self, int64_t step, int forced)
 {
     return zd_motion_correct_rest(self->motion, step, forced);
 }
 
-static int finish(zd_stepper *self, int within)
+int zd_path_finish(zd_stepper *self, int within)
 {
     zd_motion *motion = self->motion;
     const zd_formulation *formulation = motion->formulation;
@@ -41,15 +44,9 @@ static int finish(zd_stepper *self, int within)
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
 }
 
-static int check_by_matrices(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
+static int check(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
     return zd_safeguards_judge(safeguards, zd_safeguards_compare, self->t - self->last.t, next_step, parts);
 }
 
-int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
-{
-    return zd_safeguards_judge(safeguards, zd_direct_compare, self->t - self->last.t, next_step, parts);
-}
-
-const zd_evaluation_path zd_matrix_path = {"matrices", integrate, project, correct, finish, check_by_matrices};
-const zd_evaluation_path zd_converted_path = {"closed form, state converted", integrate, project, correct, finish, zd_path_check_pivots};
+const zd_evaluation_path zd_matrix_path = {"matrices", 0, zd_path_integrate, project, zd_path_correct, zd_path_finish, check};

@@ -9,6 +9,7 @@
 
 typedef struct zd_evaluation_path {
     const char *name;
+    int is_closed_form;     /* true if the matrix path remains for a step that fails */
     int (*integrate)(zd_stepper *self, double h);               /* saves the start, then y from t to t + h */
     /* Moves the point to y at t1 and projects it, (25)-(27), if that is due in this step or `forced` */
     int (*project)(zd_stepper *self, double t1, int64_t step, int forced);
@@ -19,12 +20,27 @@ typedef struct zd_evaluation_path {
     int (*check)(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts);    /* acceptance of the step */
 } zd_evaluation_path;
 
-/* matrix.c: states that the formulation converts, by matrices and by closed form; independent.c: in independent velocities by closed form;
- * closed_form.c: (p, v) by closed form where the projection ends a step. */
+/* matrix.c: by matrices. closed_form.c: (p, v) by closed form, where the projection ends a step; converted.c: where a step has more parts.
+ * independent.c: independent velocities by closed form. */
 extern const zd_evaluation_path zd_matrix_path, zd_converted_path, zd_independent_path, zd_closed_form_path;
 
-/* zd_evaluation_path.check of the closed-form path by full checks, of a step from last.t to t. */
+/* matrix.c: parts of steps whose state the formulation converts. The second moves the point to the state y at t1. */
+int zd_path_integrate(zd_stepper *self, double h);
+int zd_path_enter(zd_stepper *self, double t1);
+int zd_path_correct(zd_stepper *self, int64_t step, int forced);
+int zd_path_finish(zd_stepper *self, int within);
+/* converted.c: the projection by closed-form functions, if it is due in this step or `forced`. */
+int zd_project_directly(zd_motion *motion, int64_t step, int forced);
+/* choose.c: zd_evaluation_path.check by full checks of the pivots, of a step from last.t to t. */
 int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts);
+
+/* True if the system has closed-form functions for the formulation; if the present step is made by them; if one of them projects and computes
+ * the acceleration at the end of a step. */
+static inline int zd_has_closed_form(const zd_motion *motion) { return motion->path.direct != NULL; }
+static inline int zd_is_direct(const zd_motion *motion) { return motion->path.order != NULL; }
+static inline int zd_lands_directly(const zd_motion *motion) { return motion->path.lands; }
+/* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path. */
+static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !zd_is_direct(motion); }
 
 /* Moves the point to y at t1 and applies the corrections that are due in this step, or all if `forced`, to both. */
 static inline int zd_path_end(const zd_evaluation_path *path, zd_stepper *self, double t1, int64_t step, int forced, int within)

@@ -11,11 +11,6 @@
 #include "choose.h"
 #include "closed_form.h"
 
-static int are_reviewed(const zd_motion *motion)
-{
-    return motion->formulation->settle && !zd_is_embedded(motion);
-}
-
 static void *take_chosen(zd_arena *arena, const void *of)
 {
     const zd_motion *motion = of;
@@ -41,7 +36,7 @@ int zd_may_spread(const zd_stepper *stepper, double t0)
 {
     const zd_last *last = &stepper->last;
     if (!stepper->integrator->spread || last->t != t0 || last->h != stepper->t - t0) return 0;
-    return !are_reviewed(stepper->motion) || last->chosen;
+    return !zd_motion_settles(stepper->motion) || last->chosen;
 }
 
 int zd_spread(zd_stepper *stepper)
@@ -49,7 +44,7 @@ int zd_spread(zd_stepper *stepper)
     zd_motion *motion = stepper->motion;
     const zd_last *last = &stepper->last;
     int status = ZD_DONE;
-    if (are_reviewed(motion)) {
+    if (zd_motion_settles(motion)) {
         take_variables_back(stepper);
         status = motion->formulation->express(motion->solver, motion->point, stepper->y);
     }
@@ -63,7 +58,7 @@ int zd_spread(zd_stepper *stepper)
 int zd_spread_land(zd_stepper *stepper, double t, double *y)
 {
     const zd_last *last = &stepper->last;
-    if (are_reviewed(stepper->motion)) take_variables_back(stepper);
+    if (zd_motion_settles(stepper->motion)) take_variables_back(stepper);
     stepper->integrator->between(stepper->memory, (t - last->t) / last->h, last->y, y);
     stepper->motion->statistics.output_steps++;
     if (stepper->motion->path.is_short) return zd_short_land_between(stepper, t, y);

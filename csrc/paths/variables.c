@@ -70,10 +70,10 @@ void zd_variables_restore(zd_stepper *stepper, const zd_formulation *formulation
     if (stepper->motion->formulation != formulation) use(stepper, &stepper->chosen, stepper->y + stepper->motion->formulation_size);
 }
 
-int zd_variables_change_back(zd_stepper *stepper)
+int zd_variables_use_chosen(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;
-    if (motion->point->rank->was_ill_conditioned) return ZD_DONE;
+    if (motion->formulation == stepper->chosen.formulation || motion->point->rank->was_ill_conditioned) return ZD_DONE;
     use(stepper, &stepper->chosen, stepper->y + motion->formulation_size);
     return motion->formulation->leave(motion->solver, motion->point, stepper->y);
 }

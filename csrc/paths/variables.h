@@ -18,11 +18,7 @@ static inline int zd_variables_lose_digits(const zd_stepper *stepper, int status
 int zd_variables_use_dependent(zd_stepper *stepper);
 /* Changes to the given formulation before a state is restored. */
 void zd_variables_restore(zd_stepper *stepper, const zd_formulation *formulation);
-/* Changes back to the chosen formulation, if the point is no longer near a bifurcation. */
-int zd_variables_change_back(zd_stepper *stepper);
-static inline int zd_variables_use_chosen(zd_stepper *stepper)
-{
-    return stepper->motion->formulation == stepper->chosen.formulation ? ZD_DONE : zd_variables_change_back(stepper);
-}
+/* Changes back to the chosen formulation, unless the point is still near a bifurcation. */
+int zd_variables_use_chosen(zd_stepper *stepper);
 
 #endif

@@ -69,7 +69,7 @@ static int begin(zd_resample *self, int64_t row, int is_general)
     zd_motion *motion = &self->run->motion;
     if (is_general) zd_direct_leave(motion);
     int status = place(self, row);
-    if (!status && motion->path.direct && !is_general) zd_direct_choose(motion);
+    if (!status && zd_has_closed_form(motion) && !is_general) zd_direct_choose(motion);
     return status;
 }
 
@@ -80,7 +80,7 @@ static int begin_from_before(zd_resample *self, int64_t row)
     zd_motion *motion = &self->run->motion;
     const int is_cut = self->saved->ends_in_event && row + 2 == self->saved->rows;
     int status = begin(self, row, 0);
-    if (status || !motion->path.lands || row == 0 || is_cut) return status;
+    if (status || !zd_lands_directly(motion) || row == 0 || is_cut) return status;
     status = begin(self, row - 1, 0);
     if (!status) status = make_step(self, row - 1);
     if (status || !is_at(self, row)) return begin(self, row, 0);
@@ -103,10 +103,10 @@ static int make_general_step(zd_resample *self, int64_t row)
  * for bit, if one does. */
 static int make_again(zd_resample *self, int64_t row)
 {
-    const int has_roads = self->run->motion.path.direct != NULL;
+    const int has_closed_form = zd_has_closed_form(&self->run->motion);
     int status = begin_from_before(self, row);
     if (!status) status = make_step(self, row);
-    if (!has_roads || (!status && is_at(self, row + 1))) return status;
+    if (!has_closed_form || (!status && is_at(self, row + 1))) return status;
     const int general_status = make_general_step(self, row);
     self->is_general = status || (!general_status && is_at(self, row + 1));
     if (self->is_general) return general_status;
@@ -116,13 +116,13 @@ static int make_again(zd_resample *self, int64_t row)
 
 /* Finds the evaluation path of the step from a sample, and its dense output if available. Failures are ignored, since a shorter step may
  * succeed; except those of callables, which are returned. */
-static int find_road(zd_resample *self, int64_t row)
+static int find_path(zd_resample *self, int64_t row)
 {
     zd_stepper *stepper = &self->run->stepper;
     const int may_interpolate = may_have_polynomial(self);
     self->row = row;
     self->is_general = self->has_polynomial = 0;
-    int status = may_interpolate || self->run->motion.path.direct ? make_again(self, row) : ZD_DONE;
+    int status = may_interpolate || zd_has_closed_form(&self->run->motion) ? make_again(self, row) : ZD_DONE;
     if (!status && may_interpolate && zd_may_spread(stepper, stepper->last.t)) {
         status = zd_spread(stepper);
         self->has_polynomial = !status;
@@ -136,7 +136,7 @@ int zd_resample_move(zd_resample *self, double t)
 {
     const int64_t row = row_before(self->saved, t);
     if (t == time_of(self->saved, row)) return place(self, row);
-    int status = row == self->row ? ZD_DONE : find_road(self, row);
+    int status = row == self->row ? ZD_DONE : find_path(self, row);
     if (status) return status;
     if (self->has_polynomial) {
         status = zd_spread_land(&self->run->stepper, t, self->run->stepper.y);

@@ -269,7 +269,7 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
     if (!status) status = check_tolerance(run);
     if (!status) status = zd_motion_start_energy(motion);
     if (status) return status;
-    if (motion->path.direct) return choose_step_directly(run, work->states, p0, v0);
+    if (zd_has_closed_form(motion)) return choose_step_directly(run, work->states, p0, v0);
     status = zd_motion_accelerate(motion);
     if (status || !are_independent(motion)) return ZD_SINGULAR;
     status = choose_step(run, work->states, p0, v0);
@@ -279,13 +279,11 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
 static void forget(zd_run *run, const void *data)
 {
     zd_motion *motion = &run->motion;
-    zd_path *path = &motion->path;
-    zd_direct_leave(motion);
+    zd_direct_forget(motion);
     motion->system.data = data;
     motion->point->known = motion->point->measured = motion->in_run = 0;
     motion->balance.initial = motion->statistics.smallest_pivot = 0;
     for (int i = motion->formulation_size; i < motion->rate.size; i++) run->stepper.y[i] = 0;
-    for (int i = 0; path->direct && i < path->direct->orders * motion->system.nv; i++) path->scale[i] = 0;
 }
 
 size_t zd_run_start_memory(const zd_run *run)

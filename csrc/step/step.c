@@ -16,25 +16,15 @@
 #include <math.h>
 
 #include "../paths/choose.h"
-#include "../paths/variables.h"
 #include "passage.h"
 
 enum { MOST_HALVINGS = 8 };     /* largest number of halvings of a substep that fails */
 
-/* Saves the start of the step for the checks of the matrix path; steps in closed form do not need it. */
-static int begin_matrix_path(zd_step_loop *loop)
-{
-    loop->motion->path.was_taken = 0;
-    return zd_safeguards_begin(loop->safeguards, loop->step);
-}
-
 static int choose_path(zd_step_loop *loop)
 {
-    zd_motion *motion = loop->motion;
-    int status = zd_variables_use_chosen(loop->stepper);
-    if (status || !motion->path.direct || zd_direct_continues(motion)) return status;
-    zd_direct_choose(motion);
-    return motion->path.was_taken && !zd_is_direct(motion) ? begin_matrix_path(loop) : ZD_DONE;
+    int is_left;
+    int status = zd_path_choose(loop->stepper, &is_left);
+    return !status && is_left ? zd_safeguards_begin(loop->safeguards, loop->step) : status;
 }
 
 /* `kind` is a->kind, known to the compiler where it is that of a new step. */
@@ -67,11 +57,11 @@ int zd_step_attempt(zd_step_loop *loop, const zd_attempt *a)
 
 static int return_for_matrices(zd_step_loop *loop, const zd_attempt *a)
 {
-    zd_direct_leave(loop->motion);
-    if (a->kind == ZD_SUBSTEP) return zd_stepper_return(loop->stepper);
-    zd_direct_forget_energy(loop->motion);
+    const int is_substep = a->kind == ZD_SUBSTEP;
+    if (is_substep) zd_direct_leave(loop->motion);
+    else zd_direct_leave_step(loop->motion);
     int status = zd_stepper_return(loop->stepper);
-    return status ? status : begin_matrix_path(loop);
+    return status || is_substep ? status : zd_safeguards_begin(loop->safeguards, loop->step);
 }
 
 /* To (p, v); the safeguards may have saved the end of the step already. */
@@ -115,9 +105,11 @@ ZD_INLINE int attempt_or_pass(zd_step_loop *loop, const zd_attempt *a, const int
 }
 
 /* By matrices, and in (p, v), after an attempt with *status that these can mend. */
-static int attempt_again(zd_step_loop *loop, const zd_attempt *a, int status)
+static int attempt_again(zd_step_loop *loop, const zd_attempt *a, int status, const zd_stiffness *before, int64_t stiff)
 {
-    if (status && zd_is_direct(loop->motion)) {
+    if (status && zd_path_of(loop->motion)->is_closed_form) {
+        loop->control.stiffness = *before;      /* the step is counted once */
+        loop->motion->statistics.stiff = stiff;
         status = return_for_matrices(loop, a);
         if (!status) status = attempt_or_pass(loop, a, a->kind);
     }
@@ -132,12 +124,7 @@ ZD_INLINE int attempt_on_each_path(zd_step_loop *loop, const zd_attempt *a, cons
     const zd_stiffness before = loop->control.stiffness;
     const int64_t stiff = loop->motion->statistics.stiff;
     int status = attempt_or_pass(loop, a, kind);
-    if (!status && !rank->was_ill_conditioned) return ZD_DONE;
-    if (status && zd_is_direct(loop->motion)) {     /* the step is counted once */
-        loop->control.stiffness = before;
-        loop->motion->statistics.stiff = stiff;
-    }
-    return attempt_again(loop, a, status);
+    return !status && !rank->was_ill_conditioned ? ZD_DONE : attempt_again(loop, a, status, &before, stiff);
 }
 
 /* ---- steps ---- */
@@ -167,8 +154,7 @@ int zd_step(zd_step_loop *loop)
     if (!status) status = attempt_sizes(loop, rank);
     if (rank->was_deficient) motion->statistics.rank_drops++;
     rank->was_deficient = rank->was_doubtful = 0;
-    if (!status) motion->statistics.steps++;
-    if (!status && zd_is_direct(motion)) motion->statistics.direct_steps++;
+    if (!status) zd_path_count(motion);
     return status;
 }
 

@@ -1,6 +1,7 @@
-/* Rate of a state in independent velocities on the closed-form path: the independent entries of pdot and vdot. */
+/* Equations of motion of states in independent velocities on the closed-form path: a rate has the independent entries of pdot and vdot. */
 #include <string.h>
 
+#include "closed_form.h"
 #include "embed.h"
 
 static void write_rates(const zd_motion *motion, const double *v, const double *pdot, const double *vdot, double power, double *ydot)
@@ -36,7 +37,7 @@ static int is_known(const zd_motion *motion, double t)
     return same && !memcmp(path->p, point->p, (size_t)point->system->nq * sizeof(double));
 }
 
-int zd_motion_embedded_rate(void *context, double t, const double *y, double *ydot)
+static int rate(void *context, double t, const double *y, double *ydot)
 {
     zd_motion *motion = context;
     zd_path *path = &motion->path;
@@ -53,3 +54,10 @@ int zd_motion_embedded_rate(void *context, double t, const double *y, double *yd
     if (!status) write_rates(motion, path->v, of_stage.pdot, of_stage.vdot, power, ydot);
     return status;
 }
+
+static int accelerate(zd_motion *motion)
+{
+    return zd_direct_accelerate(motion, zd_embed_accelerate);
+}
+
+const zd_equations zd_equations_of_independent = {accelerate, rate, zd_embed_leave, 0, 0};

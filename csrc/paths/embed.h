@@ -2,7 +2,9 @@
 #ifndef ZD_EMBED_H
 #define ZD_EMBED_H
 
-#include "motion.h"
+#include "../motion/motion.h"
+
+extern const zd_equations zd_equations_of_independent;      /* embedded_rate.c */
 
 /* Allocates the fields of the path that only these formulations need. */
 void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system);
@@ -12,8 +14,12 @@ const zd_elimination *zd_embed_find(zd_motion *motion);
 void zd_embed_begin(zd_motion *motion);
 /* True if, at the point, an entry of D exceeds the bound up to which the formulation keeps its independent velocities. */
 int zd_embed_is_steep(const zd_motion *motion);
-/* The acceleration at the point */
+/* The acceleration at the point, with the terms `added` to the right side of (6) */
 int zd_embed_accelerate(zd_motion *motion, const double *added);
+/* Counterparts of a formulation's enter(), leave() and settle(), for a step that begins or ends at the point. */
+int zd_embed_enter(zd_motion *motion, double t, const double *y);
+int zd_embed_leave(zd_motion *motion, double *y);
+int zd_embed_settle(zd_motion *motion);
 /* p and v of the path from the state; entries that the state does not have are estimates. */
 void zd_embed_read(zd_motion *motion, double t, const double *y);
 /* y <- the independent entries of p and v, or of their rates */
@@ -24,7 +30,5 @@ typedef struct zd_embedded {    /* outputs of an evaluation; D, lambda, power an
 } zd_embedded;
 /* Dependent entries of the path's v and, with finds_p, of its p, from the independent ones; with them the requested outputs. */
 int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to);
-/* embedded_rate.c */
-int zd_motion_embedded_rate(void *motion, double t, const double *y, double *ydot);
 
 #endif

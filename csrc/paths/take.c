@@ -1,0 +1,40 @@
+/* Closed-form functions for a run, and memory for the closed-form path. */
+#include "choose.h"
+#include "closed_form.h"
+#include "embed.h"
+
+const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
+{
+    if (zd_constraints(system) > system->nv || (formulation->settle && !formulation->may_have_entries(system))) return NULL;
+    const zd_closed_form *found = NULL;
+    for (int i = 0; i < system->closed_forms; i++) {
+        const zd_closed_form *direct = &system->closed_form[i];
+        if (!(formulation->settle ? direct->embeddings : direct->orders)) continue;
+        if (direct->lanes == 1 && direct->unit <= unit && (!found || direct->unit > found->unit)) found = direct;
+    }
+    return found;
+}
+
+void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
+{
+    const zd_system *system = &motion->system;
+    const zd_closed_form *direct = zd_direct_of(system, motion->formulation, unit);
+    if (!direct) return;
+    const int embeds = motion->formulation->settle != NULL, orders = embeds ? direct->embeddings : direct->orders;
+    motion->path = (zd_path){
+        .direct = direct,
+        .equations = embeds ? &zd_equations_of_independent : &zd_equations_in_closed_form,
+        .first = embeds ? direct->embedding : direct->order,
+        .orders = orders,
+        .scale = zd_take_doubles(arena, (size_t)(orders * system->nv)),
+        .pivots = zd_take_doubles(arena, (size_t)system->nv),
+        .before = zd_take_doubles(arena, (size_t)system->nv),
+        .pdot = zd_take_doubles(arena, (size_t)system->nq),
+        .range = zd_take(arena, (size_t)system->nv * sizeof(zd_range)),
+        .dp = zd_take_doubles(arena, (size_t)system->nq),
+        .dv = zd_take_doubles(arena, (size_t)system->nv),
+        .corrected = zd_take_doubles(arena, (size_t)(system->nq > system->nv ? system->nq : system->nv)),
+        .allowed = zd_take_doubles(arena, (size_t)system->mh),
+    };
+    if (embeds) zd_embed_take(&motion->path, arena, system);
+}
