@@ -5,8 +5,8 @@
 
 #include "linalg/norms.h"
 #include "paths/spread.h"
+#include "point/point.h"
 #include "point/quaternions.h"
-#include "point/terms.h"
 #include "registry.h"
 #include "run/arguments/arguments.h"
 #include "run/create.h"

@@ -33,7 +33,6 @@ enum { MAX_ITERATIONS = 100, MOST_STALLS = 8 };    /* iteration for the accelera
 
 static const double PATH = 0x1p-17;     /* path of differences, characteristic scales: their errors, PATH^2 and rounding / PATH, are equal */
 static const double MIN_RATE = 0x1p-22;    /* rate of a row per unit of path, relative to its size: a smaller one may be rounding */
-static const double NEAREST = 0x1p-18;  /* distance, characteristic scales: nearer to the bifurcation c(v) is more accurate than w v */
 static const double SETTLED = 0x1p-36;  /* relative change of an acceleration with which it has converged to that of a branch */
 static const double FALLING = 0.99;     /* ratio to the smallest change so far: a larger change is a stall */
 static const double PARALLEL = 0x1p-10; /* the largest sine of the angle between w and wdot on a branch */
@@ -96,19 +95,6 @@ static int differentiate(zd_point *point)
     return status ? status : zd_point_need(point, known);
 }
 
-static double along_others(const zd_selection *self, const double *share, const double *y, int stride)
-{
-    double sum = 0;
-    for (int a = 0; a < self->independent; a++) sum += share[a] * y[self->row[a] * stride];
-    return sum;
-}
-
-/* y_d - T y_r, for an array y with one entry per constraint. */
-static double own_part(const zd_selection *self, int row, const double *y, int stride)
-{
-    return y[row * stride] - along_others(self, self->limits->T + row * self->m, y, stride);
-}
-
 /* x <- remainder of x, a gradient of this constraint in characteristic scales, after the independent rows are projected out; share
  * (independent,) <- its coefficients in these. */
 static void split(const zd_point *point, int row, double *x, double *share)
@@ -142,7 +128,7 @@ static void set_rates(const zd_point *point)
             zd_row_expand(&own, n, w);
             zd_rank_scale(point, row, w);
             split(point, row, w, limits->T + row * m);
-            for (int i = 0; i < n; i++) wdot[i] = own_part(self, row, limits->Cdot + i, n);
+            for (int i = 0; i < n; i++) wdot[i] = zd_limits_own_part(self, row, limits->Cdot + i, n);
             zd_rank_scale(point, row, wdot);
             split(point, row, wdot, limits->K_rate + row * m);
         }
@@ -265,11 +251,11 @@ static int find_curvature(zd_point *point, int wanted, const double *e, double *
 {
     zd_selection *self = point->rank->selection;
     int status = zd_point_need(point, ZD_XI), rank = self->independent;
-    for (int j = 0; j < wanted; j++) c[j] = own_part(self, self->row[rank + j], point->terms.xi, 1);
+    for (int j = 0; j < wanted; j++) c[j] = zd_limits_own_part(self, self->row[rank + j], point->terms.xi, 1);
     memcpy(self->limits->v, point->v, (size_t)self->n * sizeof(double));
     zd_point_move_velocity(point, e);
     if (!status) status = zd_point_need(point, ZD_XI);
-    for (int j = 0; j < wanted; j++) c[j] = (c[j] - own_part(self, self->row[rank + j], point->terms.xi, 1)) / self->limits->speed;
+    for (int j = 0; j < wanted; j++) c[j] = (c[j] - zd_limits_own_part(self, self->row[rank + j], point->terms.xi, 1)) / self->limits->speed;
     zd_point_move_velocity(point, self->limits->v);
     return status;
 }
@@ -308,7 +294,7 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
     return ZD_DONE;
 }
 
-/* ---- right-hand sides of the limits ---- */
+/* ---- limits, in motion or at rest ---- */
 
 int zd_limits_find(zd_point *point)
 {
@@ -329,45 +315,4 @@ int zd_limits_find(zd_point *point)
     }
     insert(point, wanted);
     return ZD_DONE;
-}
-
-/* (wdot - K C_r) x, from wdot x and C_r x = rhs. */
-static double besides_others(const zd_selection *self, int row, double product, const double *rhs)
-{
-    return product - along_others(self, self->limits->K_rate + row * self->m, rhs, 1);
-}
-
-/* Residual of the limit that replaces a constraint, in Phi or Psi: the constraint's own, divided by its distance; at the bifurcation
- * itself from c(v). */
-static double violation(const zd_point *point, int j, int row, enum zd_limit what, const double *rhs)
-{
-    const zd_selection *self = point->rank->selection;
-    if (fabs(self->limits->distance[j]) > NEAREST) return own_part(self, row, rhs, 1) / self->limits->distance[j];
-    if (what == ZD_LIMIT_PHI) return 0;
-    return besides_others(self, row, -own_part(self, row, point->terms.xi, 1) / self->limits->speed / 2, rhs);
-}
-
-/* Product of the limit with the velocity that satisfies it: the point's velocity, less its residual. rhs holds -Phi_t. */
-static double enforced(const zd_point *point, int j, int row, const double *limit, const double *rhs)
-{
-    double *Psi = point->rank->selection->lambda;
-    int n = point->rank->n;
-    for (int k = 0; k < point->rank->m; k++) {
-        zd_row_of_C own = zd_point_row(point, k);
-        Psi[k] = zd_row_times(&own, point->v) - rhs[k];
-    }
-    return zd_dot(n, limit, point->v) - violation(point, j, row, ZD_LIMIT_PSI, Psi);
-}
-
-int zd_limits_replace_lost(zd_point *point, enum zd_limit what, double *rhs)
-{
-    const zd_selection *self = point->rank->selection;
-    int first = point->holonomic - self->rank->lost, status = zd_point_need(point, ZD_XI);
-    for (int j = 0; j < self->rank->lost && !status; j++) {
-        int row = self->row_at[first + j];
-        rhs[row] = what == ZD_LIMIT_XI ? besides_others(self, row, own_part(self, row, self->limits->xidot, 1) / 3, rhs)
-                 : what == ZD_LIMIT_ENFORCED ? enforced(point, j, row, self->C + (first + j) * self->n, rhs)
-                 : violation(point, j, row, what, rhs);
-    }
-    return status;
 }

@@ -21,7 +21,21 @@ struct zd_limits {
 /* Replaces the constraints lost at the point by their limits, if these exist. Memory is allocated at the first call. */
 int zd_limits_find(zd_point *point);
 
-/* Right-hand side (m,) of all constraints, in which lost ones get the entry of their limit: xi, Phi, Psi or -Phi_t. */
+/* Sum of the entries of y of the independent constraints, with these shares. */
+static inline double zd_limits_along_others(const zd_selection *self, const double *share, const double *y, int stride)
+{
+    double sum = 0;
+    for (int a = 0; a < self->independent; a++) sum += share[a] * y[self->row[a] * stride];
+    return sum;
+}
+
+/* y_d - T y_r, for an array y with one entry per constraint. */
+static inline double zd_limits_own_part(const zd_selection *self, int row, const double *y, int stride)
+{
+    return y[row * stride] - zd_limits_along_others(self, self->limits->T + row * self->m, y, stride);
+}
+
+/* limits_sides.c: right-hand side (m,) of all constraints, in which lost ones get the entry of their limit: xi, Phi, Psi or -Phi_t. */
 enum zd_limit { ZD_LIMIT_XI, ZD_LIMIT_PHI, ZD_LIMIT_PSI, ZD_LIMIT_ENFORCED };
 int zd_limits_replace_lost(zd_point *point, enum zd_limit what, double *rhs);
 static inline int zd_limits_replace(zd_point *point, enum zd_limit what, double *rhs)

@@ -125,4 +125,5 @@ int zd_motion_leave(zd_motion *motion, double *y)
     return motion->formulation->leave(motion->solver, motion->point, y);
 }
 
-const zd_equations zd_equations_by_matrices = {accelerate, zd_motion_rate, zd_motion_leave, ~0, 1};
+const zd_equations zd_equations_by_matrices = {
+    accelerate, zd_motion_rate, zd_motion_leave, zd_motion_expand, zd_motion_reduce, ~0, 1};

@@ -75,6 +75,8 @@ typedef struct zd_equations {
     int (*accelerate)(zd_motion *motion);   /* vdot and lambda at the point */
     int (*rate)(void *motion, double t, const double *y, double *ydot);     /* of the integrated state */
     int (*leave)(zd_motion *motion, double *y);     /* y <- the formulation's part of the state at the point */
+    int (*expand)(void *motion, double t, const double *y, double *whole);      /* those of zd_rate, for states in independent velocities */
+    int (*reduce)(void *motion, double t, const double *whole, double *y);
     int terms;              /* mask of zd_motion.acceleration_needs: the terms that accelerate() evaluates */
     int settles;            /* true if a formulation with settle() calls it at corrected positions, and may choose its variables anew */
 } zd_equations;
@@ -167,9 +169,9 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given);
 /* Attaches the state (rate.size,), after all corrections have been enabled. */
 void zd_motion_attach(zd_motion *motion, double *state);
-/* Sets what of the rate depends on the formulation and on all corrections, after these are known. */
+/* Sets what of the rate depends on the formulation, on all corrections and on the equations, after these are known. */
 void zd_motion_describe_rate(zd_motion *motion);
-/* whole.c: the rate's expand() and reduce() */
+/* whole.c: the rate's expand() and reduce() by the formulation */
 int zd_motion_expand(void *motion, double t, const double *y, double *whole);
 int zd_motion_reduce(void *motion, double t, const double *whole, double *y);
 

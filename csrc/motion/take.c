@@ -51,7 +51,6 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
     if (motion->point) motion->point->rank = rank;
     motion->rate = (zd_rate){
         .inputs = motion->point ? motion->point->inputs : NULL,
-        .evaluate = zd_motion_rate,
         .context = motion,
         .size = motion->formulation_size + zd_has_input(system),
         .system = &motion->system,
@@ -65,8 +64,9 @@ void zd_motion_describe_rate(zd_motion *motion)
 {
     const int are_pairs = !motion->formulation->settle && !(motion->system.provides & ZD_A) && !motion->corrections_size;
     motion->rate.pairs = are_pairs ? motion->system.nv : 0;
-    motion->rate.expand = motion->formulation->settle ? zd_motion_expand : NULL;
-    motion->rate.reduce = motion->formulation->settle ? zd_motion_reduce : NULL;
+    motion->rate.evaluate = motion->equations->rate;
+    motion->rate.expand = motion->formulation->settle ? motion->equations->expand : NULL;
+    motion->rate.reduce = motion->formulation->settle ? motion->equations->reduce : NULL;
 }
 
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given)

@@ -110,7 +110,7 @@ static void use(zd_motion *motion, const zd_elimination *order)
     motion->path.lands = order && order->finish && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->path.allowed[k] = motion->target.tolerance * motion->point->size[k];
     motion->equations = order ? motion->path.equations : &zd_equations_by_matrices;
-    motion->rate.evaluate = motion->equations->rate;
+    zd_motion_describe_rate(motion);
     motion->rate.direct = motion->is_stabilized || motion->path.embeds || motion->rate.size > motion->formulation_size ? NULL : order;
     motion->path.is_short = motion->path.lands && motion->target.every == 1 && motion->rate.direct && !motion->point->terms.A
         && !motion->system.quaternions;

@@ -16,7 +16,7 @@ int zd_direct_choose(zd_motion *motion);
 /* The path for any step or a part of one, whose state may differ from the point. */
 static inline const zd_evaluation_path *zd_path_of_state(const zd_motion *motion)
 {
-    if (!zd_is_direct(motion)) return &zd_matrix_path;
+    if (!motion->path.order) return &zd_matrix_path;
     return motion->path.embeds ? &zd_independent_path : &zd_converted_path;
 }
 
@@ -67,7 +67,7 @@ static inline int zd_path_choose(zd_stepper *stepper, int *is_left)
 static inline void zd_path_count(zd_motion *motion)      /* counts a step that was accepted */
 {
     motion->statistics.steps++;
-    if (zd_is_direct(motion)) motion->statistics.direct_steps++;
+    if (motion->path.order) motion->statistics.direct_steps++;
 }
 
 #endif

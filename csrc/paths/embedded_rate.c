@@ -1,6 +1,7 @@
 /* Equations of motion of states in independent velocities on the closed-form path: a rate has the independent entries of pdot and vdot. */
 #include <string.h>
 
+#include "../linalg/small.h"
 #include "closed_form.h"
 #include "embed.h"
 
@@ -60,4 +61,24 @@ static int accelerate(zd_motion *motion)
     return zd_direct_accelerate(motion, zd_embed_accelerate);
 }
 
-const zd_equations zd_equations_of_independent = {accelerate, rate, zd_embed_leave, 0, 0};
+/* Stages of a step do not move the point. */
+static int expand(void *context, double t, const double *y, double *whole)
+{
+    zd_motion *motion = context;
+    const zd_path *path = &motion->path;
+    zd_embed_read(motion, t, y);
+    int status = zd_embed_entries(motion, t, path->state.q != NULL, NULL, &(zd_embedded){.pdot = path->pdot_of_stage, .vdot = path->vdot});
+    zd_copy_all(motion->system.nq, path->p, whole);
+    zd_copy_all(motion->system.nv, path->v, whole + motion->system.nq);
+    return status;
+}
+
+static int reduce(void *context, double t, const double *whole, double *y)
+{
+    const zd_motion *motion = context;
+    (void)t;
+    zd_embed_write(motion, whole, whole + motion->system.nq, y);
+    return ZD_DONE;
+}
+
+const zd_equations zd_equations_of_independent = {accelerate, rate, zd_embed_leave, expand, reduce, 0, 0};

@@ -3,7 +3,21 @@
 #define ZD_POINT_H
 
 #include "layout.h"
-#include "terms.h"
+
+/* ---- a system and the table of its terms ---- */
+
+static inline int zd_constraints(const zd_system *system) { return system->mh + system->mn; }
+static inline int zd_brings_times_A(const zd_system *system) { return system->operations && system->operations->times_A; }
+/* True if pdot = A v with a kinematic matrix A, false if pdot = v. */
+static inline int zd_has_A(const zd_system *system) { return (system->provides & ZD_A) || zd_brings_times_A(system); }
+/* True if the system's own products replace the entries of C. */
+static inline int zd_needs_no_C(const zd_system *system) { return system->operations && system->operations->add_weighted; }
+
+double **zd_term_in(zd_terms *terms, int row);      /* address of the member for an entry of the list of terms */
+const char *zd_term_name(int term);                 /* name of the term with this bit */
+double *zd_take_inputs(zd_arena *arena, const zd_system *system);   /* (2 inputs + 1,): initial values; NULL without inputs */
+
+/* ---- a point ---- */
 
 #define ZD_BIT_OF_VELOCITY(name, bit, member, shape, depends, text) | ((depends) == ZD_OF_POSITIONS ? 0 : (bit))
 enum {                                  /* bits of `known` besides those of the system's terms */

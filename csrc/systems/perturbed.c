@@ -1,6 +1,6 @@
 /* A system with relative perturbations of rounding size in each argument and term, constant in time: the effect of systematic
  * rounding on a motion is measured by comparing a run of this system with one of the original. */
-#include "../point/terms.h"
+#include "../point/point.h"
 
 static void multiply(int count, const double *factors, double *x)
 {
