@@ -189,7 +189,7 @@ int zd_direct_choose(zd_motion *motion)
     else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, ZD_LARGE_PIVOT) ||
                              find_order(motion, ZD_SUFFICIENT_PIVOT)))
         use(motion, NULL);
-    return zd_is_direct(motion);
+    return path->order != NULL;
 }
 
 int zd_direct_compare(zd_safeguards *safeguards, double h, double moved)

@@ -34,13 +34,12 @@ int zd_project_directly(zd_motion *motion, int64_t step, int forced);
 /* choose.c: zd_evaluation_path.check by full checks of the pivots, of a step from last.t to t. */
 int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts);
 
-/* True if the system has closed-form functions for the formulation; if the present step is made by them; if one of them projects and computes
- * the acceleration at the end of a step. */
+/* True if the system has closed-form functions for the formulation; if one of them projects and computes the acceleration at the end of a
+ * step. */
 static inline int zd_has_closed_form(const zd_motion *motion) { return motion->path.direct != NULL; }
-static inline int zd_is_direct(const zd_motion *motion) { return motion->path.order != NULL; }
 static inline int zd_lands_directly(const zd_motion *motion) { return motion->path.lands; }
 /* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path. */
-static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !zd_is_direct(motion); }
+static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !motion->path.order; }
 
 /* Moves the point to y at t1 and applies the corrections that are due in this step, or all if `forced`, to both. */
 static inline int zd_path_end(const zd_evaluation_path *path, zd_stepper *self, double t1, int64_t step, int forced, int within)
