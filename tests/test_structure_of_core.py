@@ -92,7 +92,7 @@ def test_rooms_depend_downward(uses):
 def test_the_step_knows_no_closed_form_beyond_its_paths():
     """The step, the motion, integrators, corrections, checks, output and samples do not ask which path a step is on."""
     asking = {unit_of(path) for path in CSRC.rglob("*.[ch]")
-              if re.search(r"path\.(is_short|lands|embeds|direct|order)\b", path.read_text())}
+              if re.search(r"path\.(is_short|lands|embeds|order)\b", path.read_text())}
     assert len(asking) > 5
     assert {unit.split("/")[0] for unit in asking} == {"paths"}
 
