@@ -73,9 +73,9 @@ typedef struct zd_balance {
 /* The equations of motion as an evaluation path has them. */
 typedef struct zd_equations {
     int (*accelerate)(zd_motion *motion);   /* vdot and lambda at the point */
-    int (*rate)(void *motion, double t, const double *y, double *ydot);     /* of the integrated state */
+    int (*rate)(void *motion, double t, const double *y, double *ydot);     /* ydot of the integrated state */
     int (*leave)(zd_motion *motion, double *y);     /* y <- the formulation's part of the state at the point */
-    int (*expand)(void *motion, double t, const double *y, double *whole);      /* those of zd_rate, for states in independent velocities */
+    int (*expand)(void *motion, double t, const double *y, double *whole);      /* as in zd_rate, for states in independent velocities */
     int (*reduce)(void *motion, double t, const double *whole, double *y);
     int terms;              /* mask of zd_motion.acceleration_needs: the terms that accelerate() evaluates */
     int settles;            /* true if a formulation with settle() calls it at corrected positions, and may choose its variables anew */
@@ -139,7 +139,7 @@ struct zd_motion {
     zd_point *point;        /* quantities at the current (t, p, v) */
     const zd_formulation *formulation;
     void *solver;           /* memory of the formulation */
-    const zd_equations *equations;      /* those of the evaluation path */
+    const zd_equations *equations;      /* chosen with the evaluation path */
     zd_span memory_of_chosen;   /* memory span of the formulation chosen in the settings */
     int drifts_from;        /* ZD_PHI, ZD_C: constraints that drift in this formulation; all of them outside a run */
     int corrects;           /* ZD_PHI, ZD_C: constraints that are corrected after a step */

@@ -4,7 +4,7 @@
 
 #include "path.h"
 
-extern const zd_equations zd_equations_in_closed_form;      /* of states (p, v) */
+extern const zd_equations zd_equations_in_closed_form;      /* rates of states (p, v) */
 
 /* vdot and lambda at the point from `evaluate`, with the terms that corrections add to the right side of (6); NULL: none. */
 int zd_direct_accelerate(zd_motion *motion, int (*evaluate)(zd_motion *motion, const double *added));
