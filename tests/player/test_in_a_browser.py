@@ -103,15 +103,23 @@ def test_a_film_that_replaces_another_goes_on_at_its_time(browser, crank, tmp_pa
     other = zd.view(crank).frame()
     (tmp_path / "page.html").write_text(f"<!DOCTYPE html><title>x</title>{other}{frames[0]}", encoding="utf-8")
     browser.open((tmp_path / "page.html").as_uri())
-    browser.evaluate(f"""new Promise(done => {{
-      const state = {{zerodrift: "state", time: 2.5, playing: false, rate: 1, view: [1, -0.9, 0.42, [0, 0]], chosen: "pin"}};
-      document.querySelectorAll("iframe")[1].contentWindow.postMessage({{group: {explored.group!r}, ...state}}, "*");
-      setTimeout(() => {{ document.body.insertAdjacentHTML("beforeend", {frames[1]!r}); setTimeout(done, 1500); }}, 300);
-    }})""")
-    found = browser.evaluate(f"""new Promise(done => {{
-      addEventListener("message", each => each.data.zerodrift === "state" && done(each.data));
-      document.querySelectorAll("iframe")[2].contentWindow.postMessage({{group: {explored.group!r}, zerodrift: "where"}}, "*");
-    }})""")
+    found = browser.evaluate(f"""(async () => {{
+      const film = n => document.querySelectorAll("iframe")[n].contentWindow;
+      const post = (n, data) => film(n).postMessage({{group: {explored.group!r}, ...data}}, "*");
+      const at = (n, time) => new Promise(done => {{        // asks a film until it is at a time
+        const timer = setInterval(() => post(n, {{zerodrift: "where"}}), 50);
+        addEventListener("message", function hear(each) {{
+          if (each.source !== film(n) || each.data.zerodrift !== "state" || Math.abs(each.data.time - time) > 0.01) return;
+          clearInterval(timer);
+          removeEventListener("message", hear);
+          done(each.data);
+        }});
+      }});
+      post(1, {{zerodrift: "state", time: 2.5, playing: false, rate: 1, view: [1, -0.9, 0.42, [0, 0]], chosen: "pin"}});
+      await at(1, 2.5);
+      document.body.insertAdjacentHTML("beforeend", {frames[1]!r});
+      return at(2, 2.5);
+    }})()""")
     assert found["time"] == pytest.approx(2.5, abs=0.01)
     assert (found["playing"], found["chosen"]) == (False, "pin")
 
