@@ -61,12 +61,12 @@ class Case:
         self.system = system
         self.start = zd.assemble(system, system.p0, system.v0)
         self.plan = settings.plan(system, (0.0, duration), **(OPTIONS | options))
-        self.core = direct_core_of(system, self.plan.chosen["vector"], self.plan.options)
+        self.core = direct_core_of(system, self.plan.settings["vector"], self.plan.core_settings)
 
     def run(self, saved=None):
         """A run from the start, or from a saved state."""
         p0, v0 = (None, None) if saved else self.start
-        return _gateway.Run(self.core, self.plan.options, p0, v0, saved=saved)
+        return _gateway.Run(self.core, self.plan.core_settings, p0, v0, saved=saved)
 
     def begun(self):
         """A run from the start whose state can be saved."""

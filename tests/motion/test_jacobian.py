@@ -22,7 +22,7 @@ pytestmark = needs_compiler
 def core(tmp_path_factory):
     """These rooms of the core, and what opens them."""
     path = tmp_path_factory.mktemp("jacobian") / "core.so"
-    sources = [each for room in ROOMS for each in sorted((CSRC / room).glob("*.c"))]
+    sources = [each for room in ROOMS for each in sorted((CSRC / room).rglob("*.c"))]
     subprocess.run([CC, "-O0", "-std=c11", "-ffp-contract=off", "-fPIC", "-shared", "-o", path, *sources, CSRC / "workspace.c",
                     ROOT / "tests" / "motion" / "state_jacobian.c", "-lm"], check=True)
     library = ctypes.CDLL(str(path))

@@ -285,4 +285,4 @@ def test_progress_is_shown_when_it_takes_long(monkeypatch, capsys):
 def test_without_sympy_the_extra_is_named():
     code = "import sys; sys.modules['sympy'] = None; import zerodrift as zd; zd.symbolic"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False).stderr
-    assert "ImportError: symbolic systems need SymPy: pip install 'zerodrift[symbolic]'" in said
+    assert "symbolic systems need SymPy: pip install 'zerodrift[symbolic]' [zd:missing-package]" in said

@@ -61,7 +61,7 @@ enum { ZD_INTERFACE_VERSION = 4 };
     STATUS(ZD_CONTRADICTION, -20, "SingularSystem", "dependent constraints contradict each other") \
     STATUS(ZD_BIFURCATION_PASSED, -21, "Bifurcation", \
            "the step passes a bifurcation, where the constraints do not determine the motion, or comes too near one to follow the motion") \
-    STATUS(ZD_TOO_MANY_STEPS, -22, "StepFailed", "settings->max_steps were taken") \
+    STATUS(ZD_TOO_MANY_STEPS, -22, "StepFailed", "the run must end within max_steps steps") \
     STATUS(ZD_NOT_JACOBIAN, -23, "InconsistentSystem", "C or Phi_t are not the derivatives of Phi") \
     STATUS(ZD_NOT_KEPT, -24, "InconsistentSystem", "A v changes the length of a unit quaternion") \
     STATUS(ZD_BAD_INPUT, -25, "InputRefused", "an input is not finite, or beyond its limits") \

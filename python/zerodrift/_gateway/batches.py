@@ -31,9 +31,9 @@ class Stop:
 
 
 class Assembly(NamedTuple):
-    """Settings for making starts consistent: options of the core, and indices of held coordinates and velocities."""
+    """Settings for making starts consistent: a `zd_settings`, and indices of held coordinates and velocities."""
 
-    options: Any
+    settings: Any
     hold_p: list[int]
     hold_v: list[int]
 
@@ -74,13 +74,13 @@ TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "
          "energy_error": "double[]"}
 
 
-def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int, p0: np.ndarray | None, v0: np.ndarray | None,
+def run_batch(core: CoreSystem, settings: Any, data: np.ndarray | None, size: int, p0: np.ndarray | None, v0: np.ndarray | None,
               capacity: int, wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None, *,
               lanes: bool = True, family: Any = None, count: int | None = None, outputs: Any = None,
               events: Watcher | None = None, room: int = 0, measured: bool = False) -> BatchResults:
     """Execute runs of systems with their own data (k, size), from their own starts p0 (k, nq), v0 (k, nv).
 
-    `options` is one `zd_settings` for all runs, or a list with one per run; runs of a list do not use SIMD lanes.
+    `settings` is one `zd_settings` for all runs, or a list with one per run; runs of a list do not use SIMD lanes.
     Events must be evaluated by the core. Up to `room` occurrences of each are stored, with their states if "p" is requested.
 
     If data is None, all runs use the data of the core: `size` doubles, or other data if `size` is 0.
@@ -95,13 +95,13 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     messages = np.empty((k, MESSAGE_SIZE), np.int8)
     found = {name: np.zeros(k) for name in MEASURED} if measured else {}
     happened = None if events is None else _room_for(events, core, k, room, with_states="p" in wanted)
-    several = options if isinstance(options, list) else [options]
+    several = settings if isinstance(settings, list) else [settings]
     for each in several:
         each.given_jacobian, each.events = core.given_jacobian, events.c if events is not None else ffi.NULL
         each.outputs = outputs.c if outputs else ffi.NULL
     members: dict[str, Any] = {
         "system": core.c, "settings": ffi.new("zd_settings[]", [each[0] for each in several]),
-        "settings_differ": several is options, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
+        "settings_differ": several is settings, "runs": k, "capacity": capacity, "message_size": MESSAGE_SIZE,
         "doubles": size, "lanes": lanes, **{name: doubles(array, k, writable=True) for name, array in found.items()},
         "message": ffi.from_buffer("char[]", messages),
         **{name: ffi.from_buffer("int[]" if array.dtype == np.intc else "double[]", array) for name, array in columns.items()},
@@ -117,7 +117,7 @@ def run_batch(core: CoreSystem, options: Any, data: np.ndarray | None, size: int
     if data is not None:
         members |= {"data": doubles(data, data.size)}
     if assembly is not None:
-        members |= {"assembly": assembly.options, "hold_p": ffi.new("int[]", assembly.hold_p),
+        members |= {"assembly": assembly.settings, "hold_p": ffi.new("int[]", assembly.hold_p),
                     "hold_v": ffi.new("int[]", assembly.hold_v)}
     if stop is not None:
         members["stop"] = stop.c

@@ -25,13 +25,13 @@ SETTINGS, RECORD, DOUBLES, INTEGERS = map(ffi.typeof, ("zd_settings *", "zd_reco
 MESSAGE = ffi.typeof(f"char[{MESSAGE_SIZE}]")
 
 
-def settings(options: dict[str, Any], like: Any = None) -> Any:
+def settings(members: dict[str, Any], like: Any = None) -> Any:
     """A `zd_settings` from its members, the others as in `like`; an array `t_eval` has to outlive it.
 
     What is given of rows are their numbers, of corrections by their names.
     """
     made, t_eval = ffi.new(SETTINGS, like[0] if like else None), None
-    for name, value in options.items():
+    for name, value in members.items():
         if name == "t_eval":
             t_eval = value
         elif name == "correction":
@@ -44,25 +44,25 @@ def settings(options: dict[str, Any], like: Any = None) -> Any:
     return made
 
 
-def takes_direct(core: CoreSystem, options: Any) -> bool:
+def takes_direct(core: CoreSystem, settings: Any) -> bool:
     """True if a run of this system with these settings uses closed-form functions, if the system has them."""
-    return bool(lib.zd_takes_direct(options) and lib.zd_may_have_direct(core.c, options))
+    return bool(lib.zd_takes_direct(settings) and lib.zd_may_have_direct(core.c, settings))
 
 
-def disagreement(options: Any) -> str:
+def disagreement(settings: Any) -> str:
     """Reason why formulation, integrator and corrections of these settings exclude each other; empty if they do not."""
     message = ffi.new(MESSAGE)
-    return text(message) if lib.zd_check_methods_agree(options, message, MESSAGE_SIZE) else ""
+    return text(message) if lib.zd_check_methods_agree(settings, message, MESSAGE_SIZE) else ""
 
 
-def takes_series(options: Any) -> bool:
+def takes_series(settings: Any) -> bool:
     """True if the integrator of these settings uses the Taylor series of the system."""
-    return bool(lib.zd_takes_series(options))
+    return bool(lib.zd_takes_series(settings))
 
 
-def takes_jacobian(options: Any) -> bool:
+def takes_jacobian(settings: Any) -> bool:
     """True if the integrator of these settings uses the Jacobian of the system's rates, if the system has one."""
-    return bool(lib.zd_takes_jacobian(options))
+    return bool(lib.zd_takes_jacobian(settings))
 
 
 def row_takes_series(integrator: int) -> bool:
@@ -70,19 +70,19 @@ def row_takes_series(integrator: int) -> bool:
     return takes_series(settings({"integrator": integrator}))
 
 
-def takes_embeddings(options: Any) -> bool:
+def takes_embeddings(settings: Any) -> bool:
     """True if the closed-form functions of these settings are those in independent velocities."""
-    return bool(lib.zd_takes_embeddings(options))
+    return bool(lib.zd_takes_embeddings(settings))
 
 
-def lanes_serve(core: CoreSystem, options: Any) -> bool:
+def lanes_serve(core: CoreSystem, settings: Any) -> bool:
     """True if SIMD lanes can make runs of this system with these settings, if it has closed-form functions for them."""
-    return options.steps == lib.ZD_FIXED_STEPS and bool(lib.zd_lanes_serve_settings(core.c, options))
+    return settings.steps == lib.ZD_FIXED_STEPS and bool(lib.zd_lanes_serve_settings(core.c, settings))
 
 
-def direct_unit(core: CoreSystem, options: Any) -> int | None:
+def direct_unit(core: CoreSystem, settings: Any) -> int | None:
     """Number of the vector unit whose closed-form functions a run of this system uses; None if it uses none."""
-    unit = lib.zd_direct_unit(core.c, options)
+    unit = lib.zd_direct_unit(core.c, settings)
     return unit if unit >= 0 else None
 
 
@@ -268,24 +268,24 @@ class Saved(NamedTuple):
 class Run:
     """A run of the core, from a start, or from a saved state (then p0 and v0 are ignored)."""
 
-    def __init__(self, core: CoreSystem, options: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None,
+    def __init__(self, core: CoreSystem, settings: Any, p0: np.ndarray, v0: np.ndarray, watcher: Watcher | None = None,
                  outputs: Outputs | None = None, inputs: Inputs | None = None,
                  saved: Saved | None = None) -> None:
         self._core = core = core if inputs else core.for_run()      # with inputs, it is this run's own already
         self.inputs = inputs
         self._watcher, self._outputs = watcher, outputs
-        options.given_jacobian = core.given_jacobian
+        settings.given_jacobian = core.given_jacobian
         if watcher:
-            options.events = watcher.c
+            settings.events = watcher.c
         if outputs:
-            options.outputs = outputs.c
-        options.inputs = inputs.c if inputs else ffi.NULL
+            settings.outputs = outputs.c
+        settings.inputs = inputs.c if inputs else ffi.NULL
         status, message = ffi.new(INTEGERS), ffi.new(MESSAGE)
         if saved:
-            run = lib.zd_state_restore(core.c, options, ffi.from_buffer(saved.state), len(saved.state),
+            run = lib.zd_state_restore(core.c, settings, ffi.from_buffer(saved.state), len(saved.state),
                                        saved.fingerprint.encode(), status, message, MESSAGE_SIZE)
         else:
-            run = lib.zd_run_create(core.c, options, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
+            run = lib.zd_run_create(core.c, settings, doubles(p0, core.nq), doubles(v0, core.nv), status, message, MESSAGE_SIZE)
         if not run:
             raise self._raised or error_of(status[0], text(message))
         self._run = ffi.gc(run, lib.zd_run_free)
@@ -372,7 +372,7 @@ def _columns(columns: dict[str, tuple[np.ndarray, int]]) -> tuple[dict[str, Any]
     return {name: doubles(np.ascontiguousarray(array), size) for name, (array, size) in columns.items()}, 0
 
 
-def states_between(core: CoreSystem, options: Any, t: np.ndarray, p: np.ndarray, v: np.ndarray, energy_input: np.ndarray | None,
+def states_between(core: CoreSystem, settings: Any, t: np.ndarray, p: np.ndarray, v: np.ndarray, energy_input: np.ndarray | None,
                    ends_in_event: bool, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """`zd_states_between`: p (k, nq) and v (k, nv) at times (k,) between the samples t, p, v of a run."""
     core, message, rows, count = core.for_run(), ffi.new("char[]", MESSAGE_SIZE), len(t), len(times)
@@ -383,7 +383,7 @@ def states_between(core: CoreSystem, options: Any, t: np.ndarray, p: np.ndarray,
     saved = ffi.new("zd_saved *", {"rows": rows, "ends_in_event": ends_in_event, "stride": stride, **memory})
     found_p, found_v = np.empty((count, core.nq)), np.empty((count, core.nv))
     found = doubles(found_p, count * core.nq, writable=True), doubles(found_v, count * core.nv, writable=True)
-    status = lib.zd_states_between(core.c, options, saved, count, doubles(times, count), *found, message, MESSAGE_SIZE)
+    status = lib.zd_states_between(core.c, settings, saved, count, doubles(times, count), *found, message, MESSAGE_SIZE)
     if status:
         raise core.error or error_of(status, text(message))
     return found_p, found_v
@@ -415,13 +415,13 @@ def accelerations(core: CoreSystem, formulation: int, on_singular: int, t: np.nd
     return vdot
 
 
-def project(core: CoreSystem, options: Any, t: float, p: np.ndarray, v: np.ndarray,
+def project(core: CoreSystem, settings: Any, t: float, p: np.ndarray, v: np.ndarray,
             hold_p: list[int] | None = None, hold_v: list[int] | None = None) -> int:
     """`zd_project`: corrects p and v in place; the number of iterations."""
     core = core.for_run()
     iterations, message = ffi.new("int *"), ffi.new("char[]", MESSAGE_SIZE)
     held = [ffi.NULL if hold is None else ffi.new("int[]", hold) for hold in (hold_p, hold_v)]
-    status = lib.zd_project(core.c, options, t, doubles(p, core.nq, writable=True), doubles(v, core.nv, writable=True),
+    status = lib.zd_project(core.c, settings, t, doubles(p, core.nq, writable=True), doubles(v, core.nv, writable=True),
                             *held, iterations, message, MESSAGE_SIZE)
     if status:
         raise core.error or error_of(status, text(message))

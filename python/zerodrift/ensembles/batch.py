@@ -27,19 +27,19 @@ class Batch(NamedTuple):
     """Arguments of the core that all runs of a plan share."""
 
     system: BaseSystem                      # system whose parameters vary
-    options: Any                            # settings for the core
+    core_settings: Any                      # the same as a `zd_settings`
     rows: int                               # largest number of samples of a run
     columns: dict[str, tuple[str, Any]]     # group ("p", "v", "multipliers", "outputs") and column or columns of each output
     outputs: _gateway.Outputs | None        # measures that the core records
     direct: tuple[str, bool] | None         # vector unit of the closed-form functions, and whether they embed; None: matrix path
     assembly: _gateway.Assembly | None      # settings that make starts consistent; None: starts are used unchanged
-    chosen: dict[str, Any]                  # settings as in `Solution.settings`; keeps t_eval alive, to which `options` points
+    settings: dict[str, Any]                # as in `Solution.settings`; keeps t_eval alive, to which `core_settings` points
     events: _gateway.Watcher | None         # events that the core evaluates
     numbers: int                            # approximate count of numbers in the tables of one run
 
     def core_of(self, tables: NumberTables) -> _gateway.CoreSystem:
         """System in the core whose functions all runs call."""
-        return with_what_it_takes(self.system, tables.core, self.chosen["vector"], self.options)
+        return with_what_it_takes(self.system, tables.core, self.settings["vector"], self.core_settings)
 
     @property
     def runs_at_once(self) -> int:
@@ -71,15 +71,15 @@ def _batch(plan: Plan) -> Batch | None:
     found = settings.plan(system, span, **options)
     if found.rows is None:
         return None
-    takes_direct = _gateway.takes_direct(core_of(system), found.options)
-    direct = (found.chosen["vector"], _gateway.takes_embeddings(found.options)) if takes_direct else None
+    takes_direct = _gateway.takes_direct(core_of(system), found.core_settings)
+    direct = (found.settings["vector"], _gateway.takes_embeddings(found.core_settings)) if takes_direct else None
     tables = runs.tables(system, 0, 1, direct)      # closed-form functions are compiled here, once
     found_columns = _columns(system, plan.names, system._watching.core if tables is None else tables.core)
     is_family = tables is not None and tables.family is not None
     if found_columns is None or (is_family and (watched is not None or (tables.family.drives and span[0] != 0))):
         return None
-    batch = Batch(system, found.options, found.rows, *found_columns, direct,
-                  assembly(system, runs.hold) if runs.assembles(system) else None, found.chosen,
+    batch = Batch(system, found.core_settings, found.rows, *found_columns, direct,
+                  assembly(system, runs.hold) if runs.assembles(system) else None, found.settings,
                   None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
                   tables.family.numbers if is_family else 0)
     if tables is not None:
@@ -139,7 +139,7 @@ def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int,
     p0, v0 = plan.runs.starts(tables, first, last)
     room = plan.remembered.setdefault("events", FEW_EVENTS)     # occurrences of an event that fit into memory
     while True:
-        made = _gateway.run_batch(batch.core_of(tables), batch.options, tables.data, tables.size, p0, v0, batch.rows,
+        made = _gateway.run_batch(batch.core_of(tables), batch.core_settings, tables.data, tables.size, p0, v0, batch.rows,
                                   tuple(dict.fromkeys(wanted)), batch.assembly, stop, family=tables.family, count=last - first,
                                   outputs=batch.outputs, events=batch.events, room=room)
         most = 0 if made.events is None else int(made.events.count.max(initial=0))
@@ -182,16 +182,16 @@ def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int)
         return None
     states = {name: column[0, :made.rows[0]] for name, column in made.columns.items()}
     system, span = plan.runs.system(run), _check.span(plan.t_span)
-    core = direct_core_of(system, batch.chosen["vector"], batch.options)
+    core = direct_core_of(system, batch.settings["vector"], batch.core_settings)
     p0, v0 = system._state_or_start(*plan.runs.start(run, system, span[0]), t=span[0])
-    again, record = _gateway.Run(core, batch.options, p0, v0), _gateway.Record(core, max(1, len(states["t"])))
+    again, record = _gateway.Run(core, batch.core_settings, p0, v0), _gateway.Record(core, max(1, len(states["t"])))
     again.record_states(record, states)
     rows = record.take()
     for name in ("multipliers", *_gateway.COUNTS):
         rows[name][:] = states[name]
     results = again.results()._replace(statistics=_gateway.Statistics(*made.statistics[0].tolist()),
                                        largest_kinetic=float(made.kinetic[0]))
-    return solution_of_rows(system, span, batch.chosen, record, results, time.perf_counter() - begin, int(made.status[0]),
+    return solution_of_rows(system, span, batch.settings, record, results, time.perf_counter() - begin, int(made.status[0]),
                             made.messages[0] or "done", None if made.events is None else made.events.of(0))
 
 

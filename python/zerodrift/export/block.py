@@ -30,7 +30,7 @@ class Chosen(NamedTuple):
     system: MechanismSystem
     p: Any
     v: Any
-    options: Any                    # a `zd_settings`
+    core_settings: Any              # a `zd_settings`
     outputs: tuple[str, ...] | None     # measures; None: all, and none is recorded
     inputs: tuple[str, ...]
     limits: Mapping[str, tuple[float, float]] = MappingProxyType({})       # of parameters
@@ -99,12 +99,12 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
     unknown = set(chosen) - {*given, "formulation", "stabilization", "on_singular", "max_steps"}
     if unknown:
         raise WrongType(f"block() has no argument {sorted(unknown)[0]!r}")
-    options = settings.plan(
+    core_settings = settings.plan(
         system, (t0, t0 + 1), None, 1, step, formulation=chosen.get("formulation", settings.FORMULATION),
         stabilization=chosen.get("stabilization", settings.STABILIZATION), on_singular=chosen.get("on_singular", "stop"),
-        max_steps=chosen.get("max_steps", settings.MAX_STEPS), direct=False, vector="baseline", **given).options
+        max_steps=chosen.get("max_steps", settings.MAX_STEPS), direct=False, vector="baseline", **given).core_settings
     names = None if outputs is None else _measures(_outputs.names(outputs, system), system)
-    return Chosen(system, p, v, options, names, _inputs(inputs))
+    return Chosen(system, p, v, core_settings, names, _inputs(inputs))
 
 
 def _measures(names: Sequence[str], system: MechanismSystem) -> tuple[str, ...]:
@@ -132,7 +132,7 @@ def written(chosen: Chosen) -> bytes:
     sections, counts, measures = _tables(chosen, tables, texts)
     sections |= {
         "start": [*chosen.p.tolist(), *chosen.v.tolist()], "outputs": [measures.index(name) for name in chosen.outputs or ()],
-        "settings": blocks.settings(chosen.options), "methods": blocks.methods(chosen.options, texts),
+        "settings": blocks.settings(chosen.core_settings), "methods": blocks.methods(chosen.core_settings, texts),
         "names": [texts.offset(name) for name in (*(body.name for body in tables.parts), *(joint.name for joint in tables.joints),
                                                   *tables.relation_names)],
         **_parameter_sections(chosen, sections, texts)}

@@ -78,7 +78,7 @@ def write_core(made: Chosen, folder: Path) -> None:
 
 def core_of(made: Chosen, more: Sequence[str] = ()) -> CoreFiles:
     """Files of the core for the methods and the dimension of these choices, and `more` of them."""
-    names = blocks.method_names(made.options)
+    names = blocks.method_names(made.core_settings)
     dimension = {2: "zd_block_plane", 3: "zd_block_space"}[made.system._drawing.dimension]
     return CoreFiles({
         "SYSTEM": (), "FORMULATION": [entry("FORMULATION", *names["formulations"])],

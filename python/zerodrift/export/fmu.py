@@ -204,7 +204,7 @@ def _heading(made: Chosen, version: str, token: str) -> str:
 
 
 def _experiment(made: Chosen) -> str:
-    return f'  <DefaultExperiment startTime="{made.options.t0!r}" stepSize="{made.options.step!r}"/>\n'
+    return f'  <DefaultExperiment startTime="{made.core_settings.t0!r}" stepSize="{made.core_settings.step!r}"/>\n'
 
 
 def _description3(made: Chosen, identifier: str, token: str, scalars: Sequence[Scalar], files: CoreFiles) -> str:

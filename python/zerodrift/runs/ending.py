@@ -33,10 +33,10 @@ def solution_of(ready: Prepared, run: _gateway.Run, record: Any, results: _gatew
     """Solution of a run that has ended, with its arrays made at first use."""
     record.join()
     return Solution._of_run(
-        functools.partial(_arrays_and_stats, record, results, outcome.seconds, ready.recorded, ready.system, ready.chosen,
+        functools.partial(_arrays_and_stats, record, results, outcome.seconds, ready.recorded, ready.system, ready.settings,
                           history),
         status=outcome.status, success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=message_of(run, outcome),
-        settings=ready.chosen, system=ready.system, t_span=span or ready.span, **events_found(ready.watcher))
+        settings=ready.settings, system=ready.system, t_span=span or ready.span, **events_found(ready.watcher))
 
 
 def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: _gateway.Record,

@@ -89,7 +89,7 @@ class ManyRuns:
                          inputs=inputs, is_open=True)
         if count >= FEWEST_IN_LANES:
             ready = _in_lanes(ready)
-        self.system, self.settings = ready.system, ready.chosen
+        self.system, self.settings = ready.system, ready.settings
         self.inputs = np.zeros((count, len(ready.declared.names) if ready.declared else 0))
         self._places = {name: i for i, name in enumerate(ready.declared.names)} if ready.declared else {}
         self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), inputs, self.inputs)
@@ -321,8 +321,8 @@ def _of_each(ready: Prepared, count: int, tables: list[dict[str, Any]], states: 
 def _in_lanes(ready: Prepared) -> Prepared:
     """The same with functions for SIMD lanes, where the system has them and the settings admit lanes."""
     of: BaseSystem = ready.declared.of.system if ready.declared else ready.system
-    vector = ready.chosen["vector"]
-    if vector is None or not ready.source.has_direct or not _gateway.lanes_serve(ready.source, ready.options):
+    vector = ready.settings["vector"]
+    if vector is None or not ready.source.has_direct or not _gateway.lanes_serve(ready.source, ready.core_settings):
         return ready
     return ready._replace(source=of._core_in_lanes(vector))
 
@@ -331,9 +331,9 @@ def _with_parameters(ready: Prepared, parameters: dict[str, Any], inputs: Any) -
     system = ready.system.with_parameters(parameters)
     declared = declared_inputs(inputs, system)
     of = declared.of.system if declared else system
-    core = direct_core_of(of, ready.chosen["vector"] or "baseline", ready.options)
+    core = direct_core_of(of, ready.settings["vector"] or "baseline", ready.core_settings)
     if ready.source.has_lanes:
-        core = of._core_in_lanes(ready.chosen["vector"])
+        core = of._core_in_lanes(ready.settings["vector"])
     p0, v0 = of._state_or_start(None, None, t=ready.span[0]) if system.p0 is not None else (ready.p0, ready.v0)
     return ready._replace(system=system, core=core, measured=of._watching.core, source=core, source_measured=of._watching.core,
                           declared=declared, p0=p0, v0=v0)

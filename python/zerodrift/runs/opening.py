@@ -27,8 +27,8 @@ class Prepared(NamedTuple):
 
     system: BaseSystem              # as given; that of the run has inputs in the place of numbers
     span: tuple[float, float]       # s
-    chosen: dict[str, Any]          # settings by name, as in `Solution.settings`
-    options: Any                    # the same as a structure of the core
+    settings: dict[str, Any]        # by name, as in `Solution.settings`
+    core_settings: Any              # the same as a `zd_settings`
     core: _gateway.CoreSystem
     measured: _gateway.CoreSystem | None    # the system that has the measures
     rows: int | None                # number of samples; None: not known in advance
@@ -51,7 +51,7 @@ class Prepared(NamedTuple):
     def created(self, kind: Any = _gateway.Run, saved: Any = None) -> Any:
         """The core's run; the error of a singular system is extended by the system's advice."""
         try:
-            return kind(self.core, self.options, self.p0, self.v0, self.watcher, self.outputs, self.inputs, saved)
+            return kind(self.core, self.core_settings, self.p0, self.v0, self.watcher, self.outputs, self.inputs, saved)
         except SingularSystem as error:
             advice = self.system._advice(error)
             if advice is None:
@@ -74,22 +74,22 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     declared = declared_inputs(inputs, system)
     of = declared.of.system if declared else system
     plan = settings.plan(of, span, **arguments)
-    plan.options.is_open = is_open
-    core = direct_core_of(of, plan.chosen["vector"], plan.options)
-    plan.chosen["vector"] = evaluation_path.unit(core, plan.options)
+    plan.core_settings.is_open = is_open
+    core = direct_core_of(of, plan.settings["vector"], plan.core_settings)
+    plan.settings["vector"] = evaluation_path.unit(core, plan.core_settings)
     if declared:
-        _check_speeds(declared, plan.chosen["step"])
-        plan.chosen["inputs"] = list(declared.names)
+        _check_speeds(declared, plan.settings["step"])
+        plan.settings["inputs"] = list(declared.names)
     if outputs is not None:
-        plan.chosen["outputs"] = _outputs.names(outputs, of)
+        plan.settings["outputs"] = _outputs.names(outputs, of)
     p0, v0 = of._state_or_start(p0, v0, t=span[0])
     path = None if save_to is None else recording.file_of_samples().checked(save_to)
     if not is_open and (told := system._what_it_costs(plan.steps)):
         warnings.warn(told, CostWarning, stacklevel=stacklevel + 1)
     rows = None if is_open else plan.rows
     watched = _events.events(events, of)
-    ready = Prepared(system, span, plan.chosen, plan.options, core, of._watching.core, rows, p0, v0, watched, None, None, path,
-                     declared, None, core, of._watching.core)
+    ready = Prepared(system, span, plan.settings, plan.core_settings, core, of._watching.core, rows, p0, v0, watched, None, None,
+                     path, declared, None, core, of._watching.core)
     return with_own(ready, of)
 
 
@@ -98,7 +98,7 @@ def with_own(ready: Prepared, of: BaseSystem, values: np.ndarray | None = None) 
     core, measured, inputs = ready.core, ready.measured, None
     if ready.declared:
         inputs, (core, measured) = ready.declared.bound(core, measured, values=values)
-    names, recorded = ready.chosen.get("outputs"), None
+    names, recorded = ready.settings.get("outputs"), None
     if names is not None:
         recorded = _outputs.Recorded(names, of, core, measured if inputs else None)
     watcher = None

@@ -135,9 +135,9 @@ class Run:
 
     def _begin(self, ready: Prepared, of: Any) -> None:
         """Create the core's run at the start of `ready`, without a record."""
-        self._ready, self.system, self.settings = ready, ready.system, ready.chosen
+        self._ready, self.system, self.settings = ready, ready.system, ready.settings
         self._controllers = of
-        self._sampling = Sampling(of, ready.span[0], ready.chosen["step"]) if of else None
+        self._sampling = Sampling(of, ready.span[0], ready.settings["step"]) if of else None
         self._record, self._c_record, self._history, self._seconds = None, _gateway.NO_RECORD, None, 0.0
         self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
         self._places = {name: i for i, name in enumerate(ready.inputs.names)} if ready.inputs else {}
@@ -182,7 +182,7 @@ class Run:
         if ready.inputs:
             self._history = History(self.t, self.inputs)
         if ready.path:
-            recording.begin_file(self._record, self._core, ready.system, ready.span, ready.chosen, ready.recorded)
+            recording.begin_file(self._record, self._core, ready.system, ready.span, ready.settings, ready.recorded)
 
     # ---- advance ----
 

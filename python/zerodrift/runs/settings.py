@@ -82,9 +82,9 @@ def _one_correction(value: Any) -> RowSettings:
     raise WrongType(f"correction must be names or settings of zd.corrections(), not {value!r}")
 
 
-def corrections_of(chosen: dict[str, Any]) -> list[RowSettings]:
+def corrections_of(settings: dict[str, Any]) -> list[RowSettings]:
     """List of all corrections that the settings of a run switch on."""
-    return [each for each in (chosen["stabilization"], chosen["energy"], *chosen.get("correction", ())) if each]
+    return [each for each in (settings["stabilization"], settings["energy"], *settings.get("correction", ())) if each]
 
 
 def formulation_row(value: Any) -> int:
@@ -120,21 +120,22 @@ RESOLVED = 16 * float(np.finfo(float).eps)      # shortest step, relative to the
 class Plan(NamedTuple):
     """Arguments of a run, checked."""
 
-    chosen: dict[str, Any]      # settings by name, as in `Solution.settings`
-    options: Any                # the same as a structure of the core
+    settings: dict[str, Any]    # by name, as in `Solution.settings`
+    core_settings: Any          # the same as a `zd_settings`
     rows: int | None            # number of samples, including the start; None with adaptive steps, as it is not known in advance
 
     @property
     def steps(self) -> int | None:
         """Number of fixed steps; None with adaptive steps."""
-        return _gateway.count_steps(self.options.t0, self.options.t1, self.options.step) if self.chosen["step"] else None
+        of = self.core_settings
+        return _gateway.count_steps(of.t0, of.t1, of.step) if self.settings["step"] else None
 
 
 class _Known(NamedTuple):
     """Settings that do not depend on the time span; cached."""
 
-    chosen: dict[str, Any]
-    options: Any
+    settings: dict[str, Any]
+    core_settings: Any
     corrections: Sequence[RowSettings]
     requires: int               # bit mask of the terms that the corrections require
 
@@ -155,14 +156,14 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
         found = _plan.__wrapped__(*given)
     if found.requires & ~core_of(system).provides:
         _refuse_corrections(system, found.corrections)
-    chosen, course = found.chosen.copy(), {"t0": span[0], "t1": span[1]}
-    _check_resolved(chosen, span)
+    settings, course = found.settings.copy(), {"t0": span[0], "t1": span[1]}
+    _check_resolved(settings, span)
     if t_eval is None:
-        rows = saved_rows(span, chosen)
+        rows = saved_rows(span, settings)
     else:
-        course["t_eval"] = chosen["t_eval"] = times = times_to_save(t_eval, chosen["save_every"], span)
+        course["t_eval"] = settings["t_eval"] = times = times_to_save(t_eval, settings["save_every"], span)
         rows = len(times) + 1       # one more, as an event may end the run between two of them
-    return Plan(chosen, _gateway.settings(course, found.options), rows)
+    return Plan(settings, _gateway.settings(course, found.core_settings), rows)
 
 
 # Cached, as the checks take as long as a short run. `typed` keeps 1 and True apart.
@@ -175,10 +176,10 @@ def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max
         raise WrongValue(f"direct must be None, which uses direct functions, or False, not {direct!r}")
     tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step, "max_move": max_move}
     methods, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
-    chosen = {**_steps(step, integrator, max_steps, tolerances), **methods,
+    settings = {**_steps(step, integrator, max_steps, tolerances), **methods,
               "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "direct": direct,
               "vector": vector}
-    return _Known(chosen, core_settings((0.0, 0.0), chosen), corrections, requires)
+    return _Known(settings, core_settings((0.0, 0.0), settings), corrections, requires)
 
 
 VECTOR_UNITS = ("baseline", "avx2", "avx512")       # index: number in the core
@@ -204,14 +205,14 @@ def times_to_save(t_eval: Any, save_every: int, span: tuple[float, float]) -> np
     return times
 
 
-def _check_resolved(chosen: dict[str, Any], span: tuple[float, float]) -> None:
+def _check_resolved(settings: dict[str, Any], span: tuple[float, float]) -> None:
     """Check that the steps are long enough to change the time in double precision."""
     latest = max(abs(span[0]), abs(span[1]))
-    smallest, step = RESOLVED * latest, chosen["step"]
+    smallest, step = RESOLVED * latest, settings["step"]
     if step is None:
         for name in ("first_step", "max_step"):
-            if chosen[name] is not None:
-                _check.number(name, chosen[name], least=smallest)
+            if settings[name] is not None:
+                _check.number(name, settings[name], least=smallest)
     elif step < smallest:
         raise WrongValue(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}")
 
@@ -270,25 +271,25 @@ def _refuse_corrections(system: BaseSystem, corrections: Sequence[RowSettings]) 
                 raise WrongValue(f"{name} correction needs {term} ({row.text}), and {system.name} declares none")
 
 
-def saved_rows(span: tuple[float, float], chosen: dict[str, Any]) -> int | None:
+def saved_rows(span: tuple[float, float], settings: dict[str, Any]) -> int | None:
     """Number of samples of a run, including the start; None with adaptive steps, as it is not known in advance."""
-    if chosen["step"] is None:
+    if settings["step"] is None:
         return None
-    steps = _gateway.count_steps(*span, chosen["step"])
-    return steps // chosen["save_every"] + 1 + (steps % chosen["save_every"] != 0)
+    steps = _gateway.count_steps(*span, settings["step"])
+    return steps // settings["save_every"] + 1 + (steps % settings["save_every"] != 0)
 
 
 # Settings that the core has under the same name with the same value.
 _PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_move", "max_steps", "save_every", "t_eval")
 
 
-def core_settings(span: tuple[float, float], chosen: dict[str, Any]) -> Any:
+def core_settings(span: tuple[float, float], settings: dict[str, Any]) -> Any:
     """Settings of the core from those of a solution."""
-    like = _core_methods(chosen["formulation"], chosen["integrator"], chosen.get("on_singular", "stop"),
-                         chosen.get("direct") is None, VECTOR_UNITS.index(chosen.get("vector") or "baseline"),
-                         *corrections_of(chosen))
-    changed = {name: chosen[name] for name in _PASSED_ON if chosen.get(name) is not None}
-    steps = _gateway.ADAPTIVE_STEPS if chosen.get("step") is None else _gateway.FIXED_STEPS
+    like = _core_methods(settings["formulation"], settings["integrator"], settings.get("on_singular", "stop"),
+                         settings.get("direct") is None, VECTOR_UNITS.index(settings.get("vector") or "baseline"),
+                         *corrections_of(settings))
+    changed = {name: settings[name] for name in _PASSED_ON if settings.get(name) is not None}
+    steps = _gateway.ADAPTIVE_STEPS if settings.get("step") is None else _gateway.FIXED_STEPS
     return _gateway.settings({"t0": span[0], "t1": span[1], "steps": steps, **changed}, like)
 
 
@@ -302,9 +303,9 @@ def _core_methods(formulation: Any, integrator: Any, on_singular: str, direct: b
         **given(formulation, integrator, *corrections)})
 
 
-def disagreement(chosen: dict[str, Any]) -> str:
+def disagreement(settings: dict[str, Any]) -> str:
     """Reason why the methods in these settings cannot be combined; empty if they can."""
-    return _gateway.disagreement(core_settings((0.0, 0.0), chosen))
+    return _gateway.disagreement(core_settings((0.0, 0.0), settings))
 
 
 def given(*chosen: Any) -> dict[str, Any]:

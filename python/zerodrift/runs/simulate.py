@@ -219,7 +219,7 @@ def simulate(
         controlled = Run.of(ready, of) if of or inputs else None
         run, record = controlled._core if controlled else ready.created(), ready.record()
         if path:
-            recording.begin_file(record, run, ready.system, ready.span, ready.chosen, ready.recorded)
+            recording.begin_file(record, run, ready.system, ready.span, ready.settings, ready.recorded)
         outcome = _drive(run, record, progress, keyboard, controlled)
         results = run.results()
         solution = solution_of(ready, run, record, results, outcome, history=controlled._history if controlled else None)

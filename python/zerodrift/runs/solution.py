@@ -364,10 +364,10 @@ class Solution:
         p, v = self.p[rows], self.v[rows]
         between = times > self.t[rows]
         if between.any():
-            options = core_settings(self.t_span, self.settings)
-            core = direct_core_of(self.system, self.settings.get("vector") or "baseline", options)
+            settings = core_settings(self.t_span, self.settings)
+            core = direct_core_of(self.system, self.settings.get("vector") or "baseline", settings)
             rows_of = (self.t, self.p, self.v, self.energy_input, self.status == _gateway.EVENT)
-            p[between], v[between] = _gateway.states_between(core, options, *rows_of, times[between])
+            p[between], v[between] = _gateway.states_between(core, settings, *rows_of, times[between])
         return p, v
 
     @property

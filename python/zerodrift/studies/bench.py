@@ -198,14 +198,14 @@ class Bench:
         return settings.plan(self.system, self.span, **(OPTIONS | setting.settings | {"direct": self.direct, "t_eval": t_eval}))
 
     def _core(self, plan: settings.Plan) -> _gateway.CoreSystem:
-        return direct_core_of(self.system, plan.chosen["vector"], plan.options)
+        return direct_core_of(self.system, plan.settings["vector"], plan.core_settings)
 
     def _made(self, core: _gateway.CoreSystem, plans: Sequence[settings.Plan],
               stop: _gateway.Stop | None) -> _gateway.BatchResults:
-        options, rows = [plan.options for plan in plans], max(plan.rows for plan in plans)
+        each, rows = [plan.core_settings for plan in plans], max(plan.rows for plan in plans)
         p0, v0 = (np.tile(x, (len(plans), 1)) for x in self.system._state_or_start(*self.start, t=self.span[0]))
-        wanted = ("p",) if "t_eval" in plans[0].chosen else ()
-        return _gateway.run_batch(core, options, None, 0, p0, v0, rows, wanted, stop=stop, lanes=False, measured=True)
+        wanted = ("p",) if "t_eval" in plans[0].settings else ()
+        return _gateway.run_batch(core, each, None, 0, p0, v0, rows, wanted, stop=stop, lanes=False, measured=True)
 
 
 def _seconds_of(outcomes: Sequence[Outcome]) -> float:
@@ -226,7 +226,7 @@ def _outcome_of(core: _gateway.CoreSystem, plan: settings.Plan, made: _gateway.B
     measured = {name: float(values[run]) for name, values in made.measured.items()}
     energy = float(made.energy_error[run]) if core.has_energy and rows else np.nan
     return Outcome(
-        is_done, _message(made.messages[run] or "done", stats | measured, plan.chosen["integrator"], is_done=is_done),
+        is_done, _message(made.messages[run] or "done", stats | measured, plan.settings["integrator"], is_done=is_done),
         measured["seconds"], stats["steps"], stats["evaluations"], made.columns["p"][run, :rows] if made.columns else None,
         (measured["position_violation"], measured["velocity_violation"], energy))
 

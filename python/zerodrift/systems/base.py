@@ -437,23 +437,23 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     return core
 
 
-def direct_core_of(system: Any, vector: str, options: Any) -> _gateway.CoreSystem:
+def direct_core_of(system: Any, vector: str, core_settings: Any) -> _gateway.CoreSystem:
     """The same with the system's direct functions for a vector unit, where it has any that serve a run with this `zd_settings`.
 
     They are compiled at first use.
     """
     core = core_of(system)
-    if _gateway.takes_direct(core, options):
-        core = system._direct_core(vector, _gateway.takes_embeddings(options))
+    if _gateway.takes_direct(core, core_settings):
+        core = system._direct_core(vector, _gateway.takes_embeddings(core_settings))
         core.name_rows(system)
-    brought = with_what_it_takes(system, core, vector, options)
+    brought = with_what_it_takes(system, core, vector, core_settings)
     if brought is not core:
         brought.name_rows(system)
     return brought
 
 
-def with_what_it_takes(system: Any, core: _gateway.CoreSystem, vector: str, options: Any) -> _gateway.CoreSystem:
+def with_what_it_takes(system: Any, core: _gateway.CoreSystem, vector: str, core_settings: Any) -> _gateway.CoreSystem:
     """The core's system with the series or the Jacobian that the integrator of these settings uses."""
-    if _gateway.takes_series(options):
+    if _gateway.takes_series(core_settings):
         return system._with_series(core, vector)
-    return system._with_jacobian(core, vector) if _gateway.takes_jacobian(options) else core
+    return system._with_jacobian(core, vector) if _gateway.takes_jacobian(core_settings) else core

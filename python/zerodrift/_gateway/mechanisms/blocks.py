@@ -75,12 +75,12 @@ def _numbers(value: Any, texts: Texts) -> list[float]:
     return [texts.offset(text(value))]
 
 
-def methods(options: Any, texts: Texts) -> list[float]:
+def methods(core_settings: Any, texts: Texts) -> list[float]:
     """Section with the methods of a run, from its settings, a `zd_settings`."""
-    chosen = [("formulations", options.formulation, options.of_formulation),
-              ("integrators", options.integrator, options.of_integrator)]
-    chosen += [("corrections", row, options.correction[row]) for row in range(len(cards("corrections")))
-               if options.correction[row].given]
+    chosen = [("formulations", core_settings.formulation, core_settings.of_formulation),
+              ("integrators", core_settings.integrator, core_settings.of_integrator)]
+    chosen += [("corrections", row, core_settings.correction[row]) for row in range(len(cards("corrections")))
+               if core_settings.correction[row].given]
     found: list[float] = []
     for table, row, given in chosen:
         card = lib.zd_row(TABLES[table], row)
@@ -89,17 +89,17 @@ def methods(options: Any, texts: Texts) -> list[float]:
     return found
 
 
-def method_names(options: Any) -> dict[str, list[str]]:
+def method_names(core_settings: Any) -> dict[str, list[str]]:
     """Names of the formulation, the integrator and the corrections of settings, by table."""
-    rows = {"formulations": [options.formulation], "integrators": [options.integrator],
-            "corrections": [row for row in range(len(cards("corrections"))) if options.correction[row].given]}
+    rows = {"formulations": [core_settings.formulation], "integrators": [core_settings.integrator],
+            "corrections": [row for row in range(len(cards("corrections"))) if core_settings.correction[row].given]}
     return {table: [text(lib.zd_row(TABLES[table], row).name) for row in found] for table, found in rows.items()}
 
 
-def settings(options: Any) -> list[float]:
+def settings(core_settings: Any) -> list[float]:
     """Section with the steps of a run, from its settings."""
     names = ("t0", "step", "rtol", "atol", "first_step", "max_step", "max_move", "max_steps", "on_singular")
-    return [float(getattr(options, name)) for name in names]
+    return [float(getattr(core_settings, name)) for name in names]
 
 
 WIDTHS = {"laws": 4, "instructions": 4, "splines": 2, "knots": 5, "inputs": 5, "settings": 9, "methods": 2 + lib.ZD_ROW_VALUES,
