@@ -625,8 +625,9 @@ ADDED = {
                                  r"\1 X(zd_swivel)"),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }
-NAMES = ("ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide "
-         "or point_on_plane or soft_plane or swivel")
+# Without the tests near bifurcations, where the example of a formulation does not find which constraints are redundant.
+NAMES = ("(ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide "
+         "or point_on_plane or soft_plane or swivel) and not small_singular_values")
 WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_methods.py", "tests/point/test_terms.py",
          "tests/test_structure_of_core.py", "tests/mechanisms/plane/joints", "tests/mechanisms/test_joint_verbs.py",
          "tests/mechanisms/test_force_verbs.py", "tests/mechanisms/test_table_verbs.py", "tests/mechanisms/test_files.py",
