@@ -34,7 +34,7 @@ void __wrap_free(void *memory)
 }
 
 /* Each with cranks of 0.3 m and a coupler of 1 m, whose inertia is constant; no forces. The second crank's angle is s + BEND s^2, so that no
- * step ends on the constraints by itself. */
+ * step ends on the constraints without a correction. */
 static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     static const double length[3] = {0.3, 1, -0.3};

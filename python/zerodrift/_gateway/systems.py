@@ -128,7 +128,7 @@ class CoreSystem(Measuring):
 
     @property
     def lane_numbers(self) -> Any:
-        """Numbers that closed-form functions read, an array of C; None: there are no such functions."""
+        """Numbers that closed-form functions read, an array of C, or None without such functions."""
         return self._data[0] if self.has_direct and self._data[0] else None
 
     def with_lanes(self, address: int, keep: Any) -> Self:

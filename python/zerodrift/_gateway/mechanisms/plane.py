@@ -221,7 +221,7 @@ class MechanismCore(CoreSystem):
 
     @property
     def lane_numbers(self) -> Any:
-        """Numbers that generated closed-form functions read, an array of C; None: there are no such functions."""
+        """Numbers that generated closed-form functions read, an array of C, or None without such functions."""
         return self._numbers if self.has_direct and self._numbers else None
 
     @property
