@@ -14,6 +14,7 @@ from support import ROOT
 
 LONGEST = 40        # lines of a function
 LARGEST = 20        # files of a room
+TALLEST = 350       # lines of a file
 WIDEST = 142        # columns of a line
 
 
@@ -132,6 +133,13 @@ def test_rooms_are_small():
     rooms = Counter(folder_of(path.relative_to(CSRC).as_posix()) for path in CSRC.rglob("*.[ch]"))
     assert len(rooms) > 30
     assert {room: files for room, files in rooms.items() if files > LARGEST} == {}
+
+
+def test_files_are_short():
+    lines = {unit_of(path) + path.suffix: len(path.read_text(encoding="utf-8").splitlines()) for path in CSRC.rglob("*.[ch]")
+             if not is_generated(path)}
+    assert len(lines) > 300
+    assert {name: count for name, count in lines.items() if count > TALLEST} == {}
 
 
 def test_functions_are_short():

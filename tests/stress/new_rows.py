@@ -3,7 +3,7 @@
     python tests/stress/new_rows.py [FOLDER]        prints a table; some minutes
 
 A new entry is a new file and one word in `methods.h`, a new kind of joint or force element a file and one word in the
-`table.c` of its room, and a new term one line in `system.h`. The tests that run were not written for them: they are
+`table.c` of its room, and a new term one line in `terms.h`. The tests that run were not written for them: they are
 parametrized over the core's tables, and selected by the new names. The entries are small, but each one that can have
 parameters has one. The joints and force elements, of the plane and of space, are then used from Python, and compared with
 closed forms of simple motions and with the same mechanism made of existing joints and constraints. The declarations of
@@ -25,7 +25,7 @@ PLANE = "csrc/mechanisms/plane/joints"
 SPACE = "csrc/mechanisms/space/joints"
 FORCES, SPACE_FORCES = "csrc/mechanisms/plane/forces", "csrc/mechanisms/space/forces"
 WIDEST = 142        # columns of a line of C
-REGISTRY, INTERFACE, JOINTS = "csrc/methods.h", "csrc/include/zerodrift/system.h", f"{PLANE}/table.c"
+REGISTRY, INTERFACE, JOINTS = "csrc/methods.h", "csrc/include/zerodrift/terms.h", f"{PLANE}/table.c"
 
 INTEGRATOR = r"""
 /* Explicit Runge-Kutta methods with two stages, of which the second is a part theta of the step away. */

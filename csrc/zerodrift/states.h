@@ -1,0 +1,51 @@
+/* Operations at given states, without a run: part of zerodrift.h. */
+#ifndef ZERODRIFT_STATES_H
+#define ZERODRIFT_STATES_H
+
+#include "run.h"
+
+/* ---- a system perturbed by rounding errors, to measure the sensitivity of its motion ---- */
+
+/* Factors near 1 of the arguments of evaluate() and of the terms that it writes. Factors of M must be symmetric. */
+typedef struct zd_perturbation {
+    const double *numbers;      /* data of the series, found here as the first member; NULL: no series */
+    const zd_series *series;    /* Taylor series of the perturbed motion; NULL: none */
+    const zd_system *system;    /* the unperturbed system */
+    double t;
+    const double *p, *v;    /* (nq,), (nv,) */
+    zd_terms terms;         /* factors of each term; NULL: unperturbed */
+} zd_perturbation;
+
+zd_system zd_perturbed(const zd_perturbation *perturbation);      /* refers to the perturbation and its system, which must outlive it */
+
+/* ---- operations of a run for single states; on failure each writes one sentence into `message` ---- */
+
+int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
+                    double *vdot, double *multipliers, char *message, int message_size);
+/* The same at many states: t (rows,), p (rows, nq), v (rows, nv) give vdot (rows, nv) and multipliers (rows, m). */
+int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
+                     const double *p, const double *v, double *vdot, double *multipliers, char *message, int message_size);
+/* A measure at many states: values (rows, size); scratch of the size that the measures declare. vdot and multipliers may be NULL if the
+ * measure does not depend on them. */
+int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
+                      const double *v, const double *vdot, const double *multipliers, double *values, double *scratch);
+
+/* The terms in `want` at many states t (states,), p (states, nq), v (states, nv): `first` has the memory of the first, the others follow
+ * it, (states, size) of each term, with a single scratch. */
+int zd_evaluate_states(const zd_system *system, int want, int64_t states, const double *t, const double *p, const double *v,
+                       const zd_terms *first);
+
+/* Values, rates, Jacobians and biases, all requested, of several measures of positions or velocities at many states; their components follow
+ * one another, (states, size of all) of each, of Jacobians (states, size of all, nv). */
+int zd_measure_rates(const zd_system *system, const double *inputs, int count, const int *measures, int64_t states, const double *t,
+                     const double *p, const double *v, const zd_measured *first, double *scratch);
+/* Projects p and v in place onto the constraints by the corrections of `settings`. Coordinates and velocities with nonzero hold_p, hold_v
+ * are held fixed (either may be NULL); iterations may be NULL. */
+int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
+               const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size);
+/* States p (count, nq), v (count, nv) at times t (count,) within a finished run, from its samples of every step and its settings: the values
+ * that the run itself would have saved at these times. Increasing times are fastest. */
+int zd_states_between(const zd_system *system, const zd_settings *settings, const zd_saved *saved, int64_t count, const double *t, double *p,
+                      double *v, char *message, int message_size);
+
+#endif
