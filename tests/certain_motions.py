@@ -20,7 +20,7 @@ FAMILIES = {family.__name__: family for family in (
     free.kepler, free.stiff_spring, free.pulse, free.body, held.pendulum, held.moved_pendulum, held.double_pendulum,
     held.double_pendulum_in_cartesian, held.ellipse, held.wire, held.hung_plate, held.crank, held.sleigh, held.knife_edge,
     held.vertical_disc)}
-ROWS = 12       # of each motion that are compared
+ROWS = 12       # times that are asked for; of a motion that has every step, three times as many rows are compared
 
 
 class Outcome(NamedTuple):
@@ -41,6 +41,16 @@ def draw(name, seed):
     return motion, times
 
 
+def rows_of(count):
+    """Rows that are compared: all of a few, otherwise evenly spaced ones, and more of them at the beginning, after which a stiff
+    motion has died away.
+    """
+    if count <= ROWS + 1:
+        return np.arange(count)
+    evenly = np.linspace(0, count - 1, 2 * ROWS).round().astype(int)
+    return np.unique(np.r_[evenly, np.geomspace(1, count - 1, ROWS).astype(int)])
+
+
 def compare(name, seed, precision="double", **options):
     """Certified and true errors of a random motion.
 
@@ -54,7 +64,7 @@ def compare(name, seed, precision="double", **options):
     begin = perf_counter()
     ref = zd.reference(motion.system, motion.end, t_eval=times, precision=precision, **(motion.options | options))
     done = perf_counter()
-    rows = np.unique(np.linspace(0, len(ref.solution.t) - 1, ROWS).round().astype(int))
+    rows = rows_of(len(ref.solution.t))
     found = [[[mp.mpf(float(a)) + mp.mpf(float(b)) for a, b in zip(high[row], low[row], strict=True)] for row in rows]
              for high, low in ((ref.p, ref.p_low), (ref.v, ref.v_low))]
     start = [motion.minimal(found[0][0], found[1][0])] if is_finer and motion.minimal else []

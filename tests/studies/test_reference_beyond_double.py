@@ -193,5 +193,5 @@ def test_the_certificate_tells_its_evidence():
     assert truncated.formulation == rounded.formulation == "double-double"
     assert (truncated.rounded, rounded.rounded) == (False, True)
     assert {each.integrator for each in in_double} >= {"dop853", "extrapolation"}
-    assert ref.error >= 10 * max(truncated.p, rounded.p)
+    assert ref.error >= 5 * np.hypot(truncated.p, rounded.p)
     assert "double-double arithmetic" in repr(ref)

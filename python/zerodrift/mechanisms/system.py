@@ -28,7 +28,7 @@ from .elements.drawing import Drawing
 from .elements.forces import driven, inputs_of
 from .elements.numbers import Numbers
 from .elements.space_bodies import SpaceInertias
-from .equations.generated_code import Written
+from .equations.generated_code import Written, measure_program
 from .equations.measure_tables import measuring, orientation
 from .equations.space_tables import SpaceTables, tables_of
 from .equations.tables import Tables, constraint_names
@@ -191,6 +191,9 @@ class MechanismSystem(BaseSystem):
     def _precise_functions(self, vector: str = "baseline") -> Precise | None:
         return self._written.precise(vector) if self.compiled else None
 
+    def _program_of(self, name: str, component: int) -> tuple[Any, int, list[float]] | None:
+        return measure_program(self._started_tables, name, component)
+
     @property
     def _held_at_start(self) -> tuple[list[int], list[int]]:
         p, v = ([i for i, variable in enumerate(group) if variable.name in self._drawing.held]
@@ -228,8 +231,7 @@ class MechanismSystem(BaseSystem):
         drawing = self._drawing
         more, wished = (targets(given, what, drawing.dimension) for given, what in ((held, "held"), (wish, "wish")))
         drawing = drawing._replace(held=drawing.held | more, wished=drawing.wished | wished)
-        start = Starting(drawing, self._numbers, self._tables)
-        return self._core.state(*start.at(t, nudge=nudge))
+        return self._core.state(*Starting(drawing, self._numbers, self._tables).at(t, nudge=nudge))
 
     def _state_or_start(self, p: Any, v: Any, p_name: str = "p0", v_name: str = "v0",
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:

@@ -16,6 +16,7 @@ from .._gateway.compiled.precise import Precise
 from ..errors import Diverged, StepFailed, of_code
 from . import double_double as dd
 
+ROUNDED = 2.0**-105     # relative rounding error of most operations, of which one or two perturb a run
 RANK = 1e-10            # relative singular value below which constraints are redundant
 CORRECTIONS = 4         # of the start, each of which gains the digits of a double
 RESIDUAL = 10           # bound of h times the difference of rates, in units of the order times the tolerance
@@ -31,12 +32,20 @@ class Settings(NamedTuple):
     share: float = 1.0
 
 
+class Piece(NamedTuple):
+    """Polynomial of a step: its beginning, and the coefficients of p and v."""
+
+    t: float
+    series: tuple[np.ndarray, np.ndarray]
+
+
 class PreciseRun(NamedTuple):
-    """Samples p (k, nq, 2) and v (k, nv, 2), and the number of steps."""
+    """Samples p (k, nq, 2) and v (k, nv, 2), the number of steps, and if requested, the polynomials of all steps."""
 
     p: np.ndarray
     v: np.ndarray
     steps: int
+    pieces: tuple[Piece, ...] = ()
 
 
 class PreciseMotion:
@@ -62,22 +71,23 @@ class PreciseMotion:
         self.functions, self.start, self.quaternions, self.held = functions, (p0, v0), tuple(quaternions), held
         self.size, self.t0, self.longest = size, float(t0), longest
 
-    def run(self, times: np.ndarray, settings: Settings, shift: int = 0) -> PreciseRun:
+    def run(self, times: np.ndarray, settings: Settings, shift: int = 0, *, keeps_pieces: bool = False) -> PreciseRun:
         """Samples at increasing times from the start on.
 
-        `shift` other than 0 perturbs numbers and start by rounding, by chance with this seed.
+        `shift` other than 0 perturbs numbers and start by rounding, by chance with this seed. With `keeps_pieces`, the
+        polynomials of all steps are kept.
         """
         functions, (p, v) = self.functions, self.start
         p, v = self._assembled(functions, dd.of(self.t0), p, v)
         if shift:
             functions, p, v = self._shifted(shift, p, v)
-        return _Run(self, functions, times, settings).made(self.t0, p, v)
+        return _Run(self, functions, times, settings, keeps_pieces).made(self.t0, p, v)
 
     def _shifted(self, seed: int, p: np.ndarray, v: np.ndarray) -> tuple[Precise, np.ndarray, np.ndarray]:
         chance = np.random.default_rng(seed)
 
         def off(x: np.ndarray) -> np.ndarray:
-            return dd.times(x, np.stack([np.ones(len(x)), dd.EPS * chance.choice([-2.0, -1.0, 1.0, 2.0], len(x))], axis=-1))
+            return dd.times(x, np.stack([np.ones(len(x)), ROUNDED * chance.choice([-2.0, -1.0, 1.0, 2.0], len(x))], axis=-1))
 
         return self.functions.with_numbers(off(self.functions.numbers)), off(p), off(v)
 
@@ -123,10 +133,11 @@ class PreciseMotion:
 class _Run:
     """One run: its steps, and the samples within them."""
 
-    def __init__(self, motion: PreciseMotion, functions: Precise, times: np.ndarray, settings: Settings) -> None:
+    def __init__(self, motion: PreciseMotion, functions: Precise, times: np.ndarray, settings: Settings,
+                 keeps_pieces: bool) -> None:
         self.motion, self.functions, self.times, self.settings = motion, functions, times, settings
         self.p, self.v = np.empty((len(times), functions.nq, 2)), np.empty((len(times), functions.nv, 2))
-        self.done = 0
+        self.done, self.pieces, self.keeps_pieces = 0, list[Piece](), keeps_pieces
         self.scales = np.full(functions.nq, motion.size), np.full(functions.nv, motion.size)
 
     def made(self, t: float, p: np.ndarray, v: np.ndarray) -> PreciseRun:
@@ -145,8 +156,10 @@ class _Run:
                 h = SHORTER * by[0]
                 continue
             self._sample(t, t1, series)
+            if self.keeps_pieces:
+                self.pieces.append(Piece(t, series))
             t, series, h = t1, following, self._step(following)
-        return PreciseRun(self.p, self.v, steps)
+        return PreciseRun(self.p, self.v, steps, tuple(self.pieces))
 
     def _series(self, t: float, p, v) -> tuple[np.ndarray, np.ndarray]:
         return self.functions.series(self.settings.order, dd.of(t), p, v)

@@ -40,12 +40,15 @@ def reference(
 
     The fixed step of the integrator of highest order is halved until successive runs agree. The result is compared with runs
     with other steps, by another method, in another formulation, and with start and terms perturbed by rounding. The certified
-    error is three times the largest difference, or ten times where terms are not smooth, plus the effect of rounding of time. If
-    that exceeds `error`, systems with Taylor coefficients are also computed by `taylor`, which needs fewer steps.
+    error is 1.5 times the root of the sum of squares of the differences, or ten times the largest where terms are not smooth,
+    plus the effect of rounding of time. If that exceeds `error`, systems with Taylor coefficients are also computed by `taylor`,
+    which needs fewer steps.
 
     If that is not enough, and without `error`, the motion is computed in double-double arithmetic, by Taylor's method with
     projection. It must lie within what is certified in double precision, and is compared with a run of higher order and shorter
-    steps, and with one whose start and numbers are perturbed: ten times the largest difference is certified.
+    steps, and with one whose start and numbers are perturbed: five times the root of the sum of squares is certified. Values
+    between samples, measures and times of events then are known beyond double precision, too: `Reference.at`, `Reference.measure`
+    and `Reference.events`.
 
     Parameters
     ----------

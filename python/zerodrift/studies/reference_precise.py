@@ -21,13 +21,12 @@ from ..systems.base import BaseSystem
 from . import double_double as dd
 from .certificate import Reference
 from .precise_motion import PreciseMotion, PreciseRun, Settings
+from .precise_values import Runs, bound
 from .reference_runs import EPS, Difference, Motion
 
 PRECISIONS = ("double", "double-double")
 VECTOR = "avx2" if _gateway.PROCESSOR_UNIT else "baseline"      # same bits, but faster with fma
 METHOD = "taylor, order {}"
-SAFETY = 10             # the certified error, in units of the largest difference
-FLOOR = 8 * dd.EPS     # part of the motion's size; the accuracy of sums and differences of samples
 FINEST, COARSEST = 1e-30, 1e-18     # tolerance of the motion, relative to its size
 MARGIN = 1000           # of the wanted error over the tolerance, times what the motion makes of rounding
 FINER = 0.03            # tolerance of the run of higher order, relative to that of the motion
@@ -83,23 +82,23 @@ class PreciseSearch:
         order = order_of(tolerance)
         finer = Settings(order + MORE_ORDERS, FINER * tolerance, SHARE)
         try:
-            runs = [self.motion.run(times, settings, shift) for settings, shift in
-                    ((Settings(order, tolerance), 0), (finer, 0), (finer, 1))]
+            ways = (Settings(order, tolerance), 0), (finer, 0), (finer, 1)
+            runs = Runs(self.motion, ways, times, tuple(self.motion.run(times, *way) for way in ways))
         except ZerodriftError as error:
             self.reason = sentence(error)
             return None
-        own, *others = runs
+        own, *others = runs.made
         apart = [np.abs(getattr(own, name)[..., 0] - getattr(self.found.solution, name)).max() for name in "pv"]
         if not (apart[0] <= self.found.error and apart[1] <= self.found.velocity_error):
             self.reason = f"its motion differs by {apart[0]:.2g} from that certified in double precision"
             return None
         differences = tuple(self._difference(own, run, finer.order, i > 0) for i, run in enumerate(others))
-        errors = [SAFETY * max(getattr(each, name) for each in differences) + FLOOR * float(np.abs(getattr(own, name)).max())
+        errors = [bound((getattr(each, name) for each in differences), float(np.abs(getattr(own, name)).max()))
                   for name in "pv"]
         high, low = ([_frozen(x[..., part]) for x in (own.p, own.v)] for part in (0, 1))
         solution = dataclasses.replace(self.found.solution, p=high[0], v=high[1])
         return dataclasses.replace(self.found, solution=solution, error=errors[0], velocity_error=errors[1],
-                                   differences=differences + self.found.differences, low=tuple(low))
+                                   differences=differences + self.found.differences, low=tuple(low), _runs=runs)
 
     def _difference(self, own: PreciseRun, run: PreciseRun, order: int, is_rounded: bool) -> Difference:
         apart = [float(np.abs(dd.minus(getattr(own, name), getattr(run, name))[..., 0]).max()) for name in "pv"]

@@ -98,6 +98,10 @@ class Motion:
         self.steps = UNIT * math.ceil(max(probe.stats["steps"], self.most) / UNIT)
         self.shift = [_shift(probe.t, x) for x in (probe.p, probe.v)]
 
+    def shift_at(self, samples: np.ndarray) -> list[float]:
+        """Largest changes of p and v at samples by rounding of the time."""
+        return [_shift(self.probe.t, x, samples) for x in (self.probe.p, self.probe.v)]
+
     def follows_series(self, formulation: str) -> bool:
         """True if Taylor's method can integrate the system in this formulation."""
         chosen = self.probe.settings | {"integrator": SERIES, "formulation": formulation}
@@ -175,7 +179,11 @@ class Motion:
         return Difference(way.steps, equations, *apart, way.integrator, way.rounding > 0)
 
 
-def _shift(t: np.ndarray, x: np.ndarray) -> float:
-    """Largest change of x by rounding of the time and of the elapsed time."""
+def _shift(t: np.ndarray, x: np.ndarray, samples: np.ndarray | None = None) -> float:
+    """Largest change of x by rounding of the time and of the elapsed time; at samples, with the rates around them."""
     rates = np.abs(np.diff(x, axis=0)).max(axis=1) / np.diff(t)
-    return float(EPS * (rates * (np.abs(t) + t - t[0])[1:]).max())
+    by_step = rates * (np.abs(t) + t - t[0])[1:]
+    if samples is not None:
+        steps = np.clip(np.searchsorted(t, samples) - 1, 0, len(by_step) - 1)
+        by_step = by_step[np.clip(np.add.outer((-1, 0, 1), steps), 0, len(by_step) - 1)]
+    return float(EPS * by_step.max(initial=0.0))

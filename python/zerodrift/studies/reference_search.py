@@ -1,8 +1,9 @@
 """Certificates in double precision, from comparisons with independent runs.
 
 The motion is computed with fixed steps by the integrator of highest order, and the step is halved until two such runs do not
-come closer any more. What is certified is three times the *largest* of its differences from four other runs, or ten times where
-halving the step divides these too slowly for smooth terms. Each of the four has another reason to disagree:
+come closer any more. It is compared with four other runs, and the differences are added as independent errors are: what is
+certified is 1.5 times the root of the sum of their squares, three times one of them if all are equal. It is ten times the largest
+where halving the step divides the differences too slowly for smooth terms. Each of the four has another reason to disagree:
 
 * one with half the steps, for a step that is still too long: its truncation error is 2^8 times as large;
 * one with the same steps, whose start, arguments and terms are all off by one or two units of rounding, always the same way:
@@ -15,7 +16,8 @@ halving the step divides these too slowly for smooth terms. Each of the four has
 * of a mechanism that has joint and absolute coordinates, one in the others: runs that share coordinates share what follows from
   their ranks;
 * where terms are not all polynomials, sines and cosines, so that something may act in a narrow place which no other run has
-  evaluated: one with many times the steps, whose points of evaluation lie as densely in the state as in time.
+  evaluated: one with many times the steps, whose points of evaluation lie as densely in the state as in time. At least three
+  times its difference is certified, as it may be the only one that has seen something.
 
 Each is compared with the motion at all rows that both have. The differences cannot all be small by luck, as they are not
 rounded alike. Where a system has a Taylor series and that is not enough, the motion is computed once more by this, with some
@@ -23,7 +25,8 @@ tenth of the steps, so that less is rounded. The integrator of highest order amo
 many steps as bring it nearest.
 
 To this is added what no run shows: times are doubles, and the steps and coefficients that are multiplied by rates are, too, which
-may shift the motion by two roundings of the time that has passed. What none of this can exclude is said in `Reference.caveats`.
+may shift the motion by two roundings of the time that has passed, at the rates around each sample. What none of this can exclude
+is said in `Reference.caveats`.
 """
 
 from __future__ import annotations
@@ -42,8 +45,9 @@ from ..systems.base import core_of
 from .certificate import Reference
 from .reference_runs import EPS, UNIT, Difference, Motion, Way
 
-SAFETY = 3          # the certified error, in units of the largest difference; no random motion erred by twice that difference
-SAFETY_ROUGH = 10   # the same where terms are not smooth for the steps
+SAFETY = 1.5        # the certified error, in units of the root of the sum of squares of all differences
+SAFETY_DENSE = 3    # the smallest, in units of the difference of the run that looks for what acts in a narrow place
+SAFETY_ROUGH = 10   # the certified error, in units of the largest difference, where terms are not smooth for the steps
 STALL_RATIO = 4     # halving the step has stalled where it divides the difference by less than this, perhaps for rounding
 SMOOTH_RATIO = 8    # where it divides the difference by less than this, far above rounding, terms are not smooth for the steps
 MOST_STALLS = 2     # refinement ends after so many stalls that rounding does not explain, unless a smaller error is wanted
@@ -116,16 +120,24 @@ class Search:
             differences.append(motion.difference(self._dense(steps), fine, steps))
         if motion.elsewhere is not None:
             differences += self._in_other_coordinates(fine, steps)
-        found = Reference(fine, *self._bounds(fine, differences, SAFETY), tuple(differences))
+        found = Reference(fine, *self._bounds(fine, differences), tuple(differences))
         caveats = tuple(self._caveats(found, steps, previous))
         if any(caveat.startswith(SLOWLY) for caveat in caveats):
-            found = Reference(fine, *self._bounds(fine, differences, SAFETY_ROUGH), tuple(differences))
+            found = Reference(fine, *self._bounds(fine, differences, is_rough=True), tuple(differences))
         return dataclasses.replace(found, caveats=caveats)
 
-    def _bounds(self, fine: Solution, differences: list[Difference], safety: float) -> list[float]:
-        """Bounds of the errors of p and v: a multiple of the largest difference, and what rounding of times and samples adds."""
-        return [safety * max(getattr(d, name) for d in differences) + shift + SPACING * float(np.abs(getattr(fine, name)).max())
-                for name, shift in zip("pv", self.motion.shift, strict=True)]
+    def _bounds(self, fine: Solution, differences: list[Difference], is_rough: bool = False) -> list[float]:
+        """Bounds of the errors of p and v: from the differences, and what rounding of times and samples adds."""
+        return [self._bound([getattr(d, name) for d in differences], is_rough) + shift
+                + SPACING * float(np.abs(getattr(fine, name)).max())
+                for name, shift in zip("pv", self.motion.shift_at(fine.t), strict=True)]
+
+    def _bound(self, seen: list[float], is_rough: bool) -> float:
+        """Bound of the error that all differences of one variable show."""
+        if is_rough:
+            return SAFETY_ROUGH * max(seen)
+        dense = seen[CHECKS] if self._looks_for_places else 0.0
+        return max(SAFETY * math.hypot(*seen), SAFETY_DENSE * dense)
 
     def _by_other_method(self, fine: Solution, steps: int) -> Difference:
         """In the first of the other formulations that can follow the motion; those that cannot are not asked again."""

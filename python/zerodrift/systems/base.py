@@ -350,6 +350,12 @@ class BaseSystem:
         """Functions of the system in double-double arithmetic; None: it has none."""
         return None
 
+    def _program_of(self, name: str, component: int) -> tuple[Any, int, list[float]] | None:
+        """Operations of a component of a measure of positions or velocities, as those of a symbolic graph: the lowering, the
+        operation whose value it is, and the parameters that are read; None: the measure is not one of these.
+        """
+        return None
+
     def _exact_start(self) -> tuple[np.ndarray, np.ndarray] | None:
         """Start (nq, 2), (nv, 2) of the system as pairs of doubles, if more than doubles is known of it."""
         return None

@@ -36,17 +36,27 @@ def _pairs(numbers: Sequence[Fraction]) -> np.ndarray:
 
 
 def sine_and_cosine(angle: Fraction) -> tuple[Fraction, Fraction]:
-    """Sine and cosine to some 50 digits: by their series at a small part of the angle, doubled as often as that takes."""
+    """Sine and cosine to some 50 digits."""
+    with decimal.localcontext(decimal.Context(prec=60)):
+        sine, cosine = turned(decimal.Decimal(angle.numerator) / decimal.Decimal(angle.denominator))
+    return Fraction(sine), Fraction(cosine)
+
+
+def turned(angle: decimal.Decimal) -> tuple[decimal.Decimal, decimal.Decimal]:
+    """Sine and cosine to the digits of the decimal context: by their series at a small part of the angle, doubled as often as
+    that takes.
+    """
     halvings = max(0, int(abs(angle)).bit_length() + 4)
-    with decimal.localcontext(decimal.Context(prec=70 + halvings)):
-        x = decimal.Decimal(angle.numerator) / decimal.Decimal(angle.denominator) / 2**halvings
-        term, sine, cosine = decimal.Decimal(1), decimal.Decimal(0), decimal.Decimal(0)
-        for n in range(40):
+    with decimal.localcontext() as context:
+        context.prec += 10 + halvings
+        x, least = angle / 2**halvings, decimal.Decimal(10)**-context.prec
+        term, sine, cosine, n = decimal.Decimal(1), decimal.Decimal(0), decimal.Decimal(0), 0
+        while abs(term) > least:
             cosine, sine = cosine + term * (1, 0, -1, 0)[n % 4], sine + term * (0, 1, 0, -1)[n % 4]
-            term = term * x / (n + 1)
+            term, n = term * x / (n + 1), n + 1
         for _ in range(halvings):
             sine, cosine = 2 * sine * cosine, (cosine - sine) * (cosine + sine)
-        return Fraction(sine), Fraction(cosine)
+    return sine, cosine
 
 
 def _pendulum_start(given: Mapping[str, Fraction]) -> tuple[list[Fraction], list[Fraction]]:

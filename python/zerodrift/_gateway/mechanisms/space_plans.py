@@ -6,6 +6,7 @@ coordinates all links are free.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -69,13 +70,14 @@ class SpacePlan(NamedTuple):
     has_rates: bool                     # whether rates of p are more than v
 
 
-def plan_of(core: SpaceCore) -> SpacePlan:
-    """The plan of a mechanism."""
+def plan_of(core: SpaceCore, measured: Sequence[int] = ()) -> SpacePlan:
+    """The plan of a mechanism; marker quantities of measures, by their numbers in the core's table, follow those in use."""
     c, tables = lib.zd_space_planned(core._mechanism), core.tables
     used: dict[int, int] = {}       # by their numbers in the core's table, as measures have marker quantities of their own there
     rows, forces = rows_of_plan(c, core.m, used), forces_of(c, len(tables.forces), used)
-    return SpacePlan(_links(core), tuple(_quantity(c.quantity[i]) for i in used), rows, forces, _angles(core), core.c.followers,
-                     tuple(tables.gravity), bool(core.provides & lib.ZD_A))
+    quantities = tuple(_quantity(c.quantity[i]) for i in (*used, *measured))
+    return SpacePlan(_links(core), quantities, rows, forces, _angles(core), core.c.followers, tuple(tables.gravity),
+                     bool(core.provides & lib.ZD_A))
 
 
 def _quantity(c: Any) -> Quantity:

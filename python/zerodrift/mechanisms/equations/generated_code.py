@@ -36,6 +36,8 @@ from ...symbolics.compile.series_library import JacobianFunctions, PreciseFuncti
 from ...symbolics.graph.plain_functions import Plain
 from . import nodes, space_nodes
 from .function_calls import Laws
+from .measure_tables import read
+from .tables import Tables
 
 DATA = "*(const double *const *)data"       # the doubles that functions receive: csrc/mechanisms/plane/tables.h
 MOST_VELOCITIES = 400   # with six a body, each of which takes more than ten operations: see closed_form_writer.MOST_OPERATIONS
@@ -192,6 +194,28 @@ class Written:
     def with_direct(self, direct: ClosedFormFunctions, vector: str) -> MechanismCore | SpaceCore:
         """The same with closed-form functions for a vector unit, if it has them."""
         return self._compiled(direct, vector) if self.is_compiled and direct.library(vector) else self.core
+
+
+def measure_program(tables: Tables, name: str, component: int) -> tuple[Any, int, list[float]] | None:
+    """Operations of a component of a measure of positions or velocities: the lowering, the operation whose value it is, and the
+    parameters that are read; None for other measures.
+    """
+    from ...symbolics.graph.lowering import Lowering
+
+    quantities, measures = read(tables, {name})
+    measure = next((each for each in measures if each.name == name), None)
+    if measure is None:
+        return None
+    core, laws = tables.core(quantities, measures), tables.laws
+    reader = _reader(laws)
+    number = nodes.Numbering(reader.graph)
+    room, planned = (space_nodes, space_plans.plan_of) if isinstance(core, SpaceCore) else (nodes, plan_of)
+    plan = planned(core, [measure.index + component])
+    plan, own = room.with_nodes(plan, number), {key: number.new(value) for key, value in tables.parameters.items()}
+    equations = room.Equations(plan, reader, (core.nq, core.nv, core.mh, core.mn), laws, own)
+    value, rate = equations.readings[-1]
+    lowering = Lowering(reader.graph, equations.values)
+    return lowering, lowering.lower(rate if measure.kind == "rates" else value), number.values
 
 
 def _reader(laws: Laws) -> Any:
