@@ -20,7 +20,7 @@ FAMILIES = {family.__name__: family for family in (
     free.kepler, free.stiff_spring, free.pulse, free.body, held.pendulum, held.moved_pendulum, held.double_pendulum,
     held.double_pendulum_in_cartesian, held.ellipse, held.wire, held.hung_plate, held.crank, held.sleigh, held.knife_edge,
     held.vertical_disc)}
-ROWS = 12       # times that are asked for; of a motion that has every step, three times as many rows are compared
+ROWS = 12       # output times; of a motion with every step, three times as many rows are compared
 
 
 class Outcome(NamedTuple):

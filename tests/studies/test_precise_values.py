@@ -8,6 +8,7 @@ import pytest
 import sympy
 
 import zerodrift as zd
+from zerodrift.systems.exact_numbers import low_parts_of_frames
 
 DIGITS = 45     # of mpmath, where closed forms are evaluated
 MASS, STIFFNESS, X0 = 0.1, 0.3, 0.7
@@ -149,6 +150,30 @@ def test_measures_of_a_rod_satisfy_its_length(cranking):
     value, low, error = cranking.measure(sympy.sqrt((x - u)**2 + (y - w)**2), of=ends)
     lengths = numbers(value, low)
     assert max(abs(each - lengths[0]) for each in lengths) <= 2 * error <= 1e-25
+
+
+def test_the_spatial_slider_crank_whose_joints_are_not_along_axes():
+    """Its slider is where the length of the rod has it; frames of its joints are rotations to 32 digits."""
+    ref = zd.reference(zd.models.spatial_slider_crank().system(compiled=True), 0.1, t_eval=[0.0, 0.06, 0.1],
+                       precision="double-double")
+    assert ref.error <= 1e-28
+    a, b, c, u, v, w = sympy.symbols("a b c u v w")
+    ends = dict(zip("abcuvw", (f"{end}.position.{axis}" for end in ("crank.end", "rod.end") for axis in "xyz"), strict=True))
+    value, low, error = ref.measure(sympy.sqrt((u - a)**2 + (v - b)**2 + (w - c)**2), of=ends)
+    lengths = numbers(value, low)
+    assert max(abs(each - lengths[0]) for each in lengths) <= 2 * error <= 1e-27
+    assert np.abs(ref.measure("slider.position.x").value - ref.solution["slider.position.x"]).max() <= 1e-15
+
+
+def test_frames_become_rotations():
+    """Equal entries stay equal, zeros and ones stay as they are, and frames that are not rotations have no low parts."""
+    values = np.array([0.6, 0.8])
+    turned = [[[(0, 1), (1, 1), (-1, 0)], [(1, -1), (0, 1), (-1, 0)], [(-1, 0), (-1, 0), (-1, 1)]]]
+    low = low_parts_of_frames(turned, values)
+    assert abs(number(0.6, low[0])**2 + number(0.8, low[1])**2 - 1) <= mpmath.mpf(10)**-32
+    assert 0 < np.abs(low).max() < 1e-16
+    assert not low_parts_of_frames(turned, np.array([0.6, 0.7])).any()
+    assert not low_parts_of_frames([], values).any()
 
 
 # ---- refusals ----

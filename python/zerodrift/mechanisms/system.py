@@ -191,7 +191,7 @@ class MechanismSystem(BaseSystem):
     def _precise_functions(self, vector: str = "baseline") -> Precise | None:
         return self._written.precise(vector) if self.compiled else None
 
-    def _program_of(self, name: str, component: int) -> tuple[Any, int, list[float]] | None:
+    def _program_of(self, name: str, component: int) -> tuple[Any, int, np.ndarray] | None:
         return measure_program(self._started_tables, name, component)
 
     @property

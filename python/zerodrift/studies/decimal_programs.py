@@ -17,22 +17,22 @@ Decimals = Sequence[Decimal]
 
 
 class Program(NamedTuple):
-    """Operations of a `Lowering`, the one whose value is wanted, and the parameters that they read."""
+    """Operations of a `Lowering`, the one whose value is wanted, and the parameters (k, 2), pairs of doubles, that they read."""
 
     lowering: Any
     wanted: int
-    parameters: Sequence[float]
+    parameters: np.ndarray
 
     def value(self, t: Decimal, p: Decimals, v: Decimals) -> Decimal:
         """Value at a state, in the current decimal context."""
         operations, exact = self.lowering.operations, self.lowering.exact
-        leaves = {"t": [t], "p": p, "v": v}
+        leaves = {"t": [t], "p": p, "v": v, "parameter": decimals(self.parameters)}
         known: dict[int, Decimal] = {}
         for number in self._needed():
             code, arguments, _ = operations[number]
             if code == "leaf":
                 kind, place = arguments
-                known[number] = Decimal(self.parameters[place]) if kind == "parameter" else leaves[kind][place]
+                known[number] = leaves[kind][place]
             elif code == "number":
                 known[number] = _number(arguments[0], exact.get(repr(arguments[0])))
             else:

@@ -88,8 +88,7 @@ def reference(
     ------
     UnreachableTolerance
         If `error` is below the limit of the precision for this motion, which the message gives; or `precision` is
-        "double-double" and the motion cannot be computed to more than double precision, as where frames of a mechanism in space
-        are known to the digits of doubles alone.
+        "double-double" and the motion cannot be computed to more than double precision.
     ValueError
         If `precision` is "double-double" and the system has no functions in this arithmetic.
     ZerodriftError

@@ -87,6 +87,49 @@ def _exact(value: Any) -> tuple[Fraction, ...]:
     return tuple(map(Fraction, value)) if isinstance(value, Sequence) else (Fraction(value),)
 
 
+ORTHONORMAL = Fraction(1, 10**32)       # largest residual of a frame that is orthonormal
+REFINEMENTS = 4     # of frames, each of which gains the digits of a double
+
+Entry = tuple[int, int]     # of a frame: the number of a value, or -1, and the factor of the value, or the entry itself
+
+
+def low_parts_of_frames(frames: Sequence[Sequence[Sequence[Entry]]], values: np.ndarray) -> np.ndarray:
+    """Low parts (k,) of values, with which frames (3, 3) of these are orthonormal; zeros if there are none.
+
+    The frames are orthonormal to the digits of doubles. Newton's method solves F F^T = 1 by the smallest changes of their
+    entries, with residuals in fractions.
+    """
+    numbers = {number for frame in frames for row in frame for number, _ in row} - {-1}
+    places = {number: i for i, number in enumerate(sorted(numbers))}
+    exact = {number: Fraction(float(values[number])) for number in places}
+    for _ in range(REFINEMENTS):
+        residuals, slopes = _orthonormality(frames, exact, places)
+        if max(map(abs, residuals), default=0) <= ORTHONORMAL:
+            low = np.zeros(len(values))
+            for number, value in exact.items():
+                low[number] = float(value - Fraction(float(values[number])))
+            return low
+        changes = np.linalg.lstsq(slopes, -np.array(residuals, dtype=float), rcond=None)[0]
+        exact = {number: value + Fraction(float(changes[places[number]])) for number, value in exact.items()}
+    return np.zeros(len(values))
+
+
+def _orthonormality(frames: Sequence[Sequence[Sequence[Entry]]], exact: Mapping[int, Fraction],
+                    places: Mapping[int, int]) -> tuple[list[Fraction], np.ndarray]:
+    """Residuals F F^T - 1 of frames, and their derivatives with respect to the values."""
+    residuals, slopes = [], []
+    for frame in frames:
+        entries = [[factor * exact.get(number, Fraction(1)) for number, factor in row] for row in frame]
+        for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)):
+            residuals.append(sum(a * b for a, b in zip(entries[i], entries[j], strict=True)) - (i == j))
+            slopes.append(np.zeros(len(places)))
+            for one, other in ((i, j), (j, i)):
+                for (number, factor), value in zip(frame[one], entries[other], strict=True):
+                    if number >= 0:
+                        slopes[-1][places[number]] += factor * float(value)
+    return residuals, np.array(slopes).reshape(len(residuals), len(places))
+
+
 Groups = list[Sequence[Fraction]]
 Given = Mapping[str, Sequence[Fraction]]
 

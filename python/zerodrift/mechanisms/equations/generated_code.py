@@ -34,6 +34,7 @@ from ...symbolics.compile import compilers, shared_library
 from ...symbolics.compile.closed_form_library import DIRECT, ClosedFormFunctions
 from ...symbolics.compile.series_library import JacobianFunctions, PreciseFunctions, SeriesFunctions
 from ...symbolics.graph.plain_functions import Plain
+from ...systems.exact_numbers import low_parts_of_frames
 from . import nodes, space_nodes
 from .function_calls import Laws
 from .measure_tables import read
@@ -90,7 +91,7 @@ class Written:
                 else nodes.with_nodes(plan_of(core), number))
         self._index = {key: len(number.values) + i for i, key in enumerate(parameters)}
         own = {key: number.new(value) for key, value in parameters.items()}
-        self._values = np.array(number.values)
+        self._values, self._frames = np.array(number.values), (space_nodes if is_in_space else nodes).frames_of(plan)
         self.key = kept.digest_of(_writing_code(type(reader)), repr(plan), repr(own), self._sizes, core.packing is None,
                                   _described(laws.rows))
         equations = space_nodes.Equations if is_in_space else nodes.Equations
@@ -179,11 +180,11 @@ class Written:
         return self._compiled(None, vector, series=self._series.library(vector))
 
     def precise(self, vector: str) -> Precise | None:
-        """Functions in double-double arithmetic, of the numbers as doubles; None: there are none."""
+        """Functions in double-double arithmetic, of numbers with which frames are orthonormal in it; None: there are none."""
         library = self._precise.library(vector) if self.is_compiled else None
         if library is None:
             return None
-        numbers = np.stack([self._values, np.zeros(len(self._values))], axis=-1)
+        numbers = _pairs(self._values, self._frames)
         return Precise(_gateway.address_of(library, PreciseFunctions.symbol), numbers, self._sizes, library)
 
     def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> ClosedFormFunctions:
@@ -196,9 +197,9 @@ class Written:
         return self._compiled(direct, vector) if self.is_compiled and direct.library(vector) else self.core
 
 
-def measure_program(tables: Tables, name: str, component: int) -> tuple[Any, int, list[float]] | None:
+def measure_program(tables: Tables, name: str, component: int) -> tuple[Any, int, np.ndarray] | None:
     """Operations of a component of a measure of positions or velocities: the lowering, the operation whose value it is, and the
-    parameters that are read; None for other measures.
+    parameters (k, 2) that are read, as pairs of doubles; None for other measures.
     """
     from ...symbolics.graph.lowering import Lowering
 
@@ -215,7 +216,13 @@ def measure_program(tables: Tables, name: str, component: int) -> tuple[Any, int
     equations = room.Equations(plan, reader, (core.nq, core.nv, core.mh, core.mn), laws, own)
     value, rate = equations.readings[-1]
     lowering = Lowering(reader.graph, equations.values)
-    return lowering, lowering.lower(rate if measure.kind == "rates" else value), number.values
+    frames = room.frames_of(plan)
+    return lowering, lowering.lower(rate if measure.kind == "rates" else value), _pairs(np.array(number.values), frames)
+
+
+def _pairs(values: np.ndarray, frames: Any) -> np.ndarray:
+    """Numbers (k, 2) as pairs of doubles, with which the frames of joints are orthonormal."""
+    return np.stack([values, low_parts_of_frames(frames, values)], axis=-1)
 
 
 def _reader(laws: Laws) -> Any:

@@ -70,6 +70,11 @@ def with_nodes(plan: Plan, number: Numbering) -> Plan:
     return Plan(links, quantities, rows, forces, number.pair(plan.gravity))
 
 
+def frames_of(plan: Plan) -> list[Any]:
+    """Frames of joints, as `space_nodes.frames_of` gives them: in the plane there are none."""
+    return []
+
+
 def row_with_nodes(row: Relation, number: Numbering) -> Relation:
     return row._replace(coefficients=[number(factor) for factor in row.coefficients], constant=number(row.constant),
                         slope=number(row.slope))

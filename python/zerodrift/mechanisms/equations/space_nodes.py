@@ -62,6 +62,21 @@ def with_nodes(plan: SpacePlan, number: nodes.Numbering) -> SpacePlan:
         gravity=tuple(map(number, plan.gravity)))
 
 
+def frames_of(plan: SpacePlan) -> list[list[list[tuple[int, int]]]]:
+    """Frames (3, 3) of the joints of the tree whose numbers are nodes: of each entry the parameter and its sign, or -1 and the
+    entry.
+    """
+    return [[[_entry(node) for node in row] for row in frame]
+            for link in plan.links if link.ways is not None for frame in (link.near_axes, link.far_axes)]
+
+
+def _entry(node: Node) -> tuple[int, int]:
+    if node.kind == "number":
+        return -1, int(node.content[0])
+    (leaf, sign), = node.content if node.kind == "sum" else ((node, 1),)
+    return leaf.content[1], sign
+
+
 class Equations(Relations):
     """The terms of a plan whose numbers are nodes; arguments are those of `nodes.Equations`.
 
