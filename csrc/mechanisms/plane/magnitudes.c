@@ -7,7 +7,7 @@
  */
 #include "magnitudes.h"
 
-#include "../common/laws.h"
+#include "../common/actions.h"
 #include "../../linalg/roots.h"
 #include "marker_quantity.h"
 #include "plan.h"
@@ -17,15 +17,18 @@ static double distance_of(const zd_plane_pose *pose, const double *point)
     return zd_hypotenuse(pose->at.x, pose->at.y) + zd_hypotenuse(point[0], point[1]);
 }
 
-static void add(const zd_plane *self, const zd_plane_frame *frame, int quantity, double factor, double *magnitude)
+static void add(const zd_readings *at, void *to, int quantity, double factor)
 {
+    const zd_plane *self = at->mechanism;
+    const zd_plane_pose *pose = ((const zd_plane_frame *)at->frame)->pose;
     const zd_plane_quantity *of = self->quantity + quantity;
+    double *magnitude = to;
     const double size = fabs(factor);
     if (of->kind == ZD_PLANE_ANGLE) {
         magnitude[1] += size;
         return;
     }
-    const double lever = distance_of(frame->pose + of->first, of->point1) + distance_of(frame->pose + of->second, of->point2);
+    const double lever = distance_of(pose + of->first, of->point1) + distance_of(pose + of->second, of->point2);
     magnitude[0] += size;
     magnitude[1] += size * (self->system.length + lever);
 }
@@ -35,16 +38,9 @@ int zd_plane_magnitudes(const void *data, double t, const double *p, const doubl
     const zd_plane *self = data;
     const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
     const zd_readings readings = zd_plane_frame_readings(self, &frame);
+    const zd_actions actions = {&self->elements, &readings, add, NULL};
     zd_plane_tree_turn(&self->tree, p, frame.sines);
     zd_plane_tree_place(&self->tree, p, frame.sines, frame.pose);
     zd_plane_tree_move(&self->tree, frame.pose, v, frame.twist);
-    for (int i = 0; i < self->elements.m; i++, magnitude += 2) {
-        const zd_relation *row = self->elements.row + i;
-        zd_combined all;
-        const int status = zd_combine(&self->elements, &readings, row, t, &all);
-        if (status) return status;
-        magnitude[0] = magnitude[1] = 0;
-        for (int k = 0; k < row->terms; k++) add(self, &frame, self->elements.term[row->first + k].quantity, all.factors[k], magnitude);
-    }
-    return ZD_DONE;
+    return zd_rows_magnitudes(&actions, t, magnitude);
 }

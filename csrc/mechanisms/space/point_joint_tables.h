@@ -38,7 +38,7 @@ typedef struct zd_point_joints {
     zd_point_joint_points *points;
     zd_directions *directions;
     zd_point_joint_entries *entries;
-    unsigned char *has_row; /* (m,) 1 if the row is a point joint's */
+    int *has_row;           /* (m,) 1 if the row is a point joint's */
     int *end_at;            /* (bodies + 2,) offsets of each body's joints in `end` */
     int *end;               /* (2 count,) 2 * joint, plus 1 where the body is its second */
     int rows;               /* number of rows of each joint; 0: they differ */

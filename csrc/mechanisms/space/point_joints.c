@@ -91,7 +91,7 @@ void zd_point_joints_plan(zd_point_joints *self, const zd_space *space)
         rows = count_rows(space, row);
         if (!rows) continue;
         add_socket(self, space, row, rows);
-        memset(self->has_row + row, 1, (size_t)rows);
+        for (int i = 0; i < rows; i++) self->has_row[row + i] = 1;
         of_sockets += rows;
     }
     list_ends(self, space->bodies);

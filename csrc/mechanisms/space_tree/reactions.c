@@ -1,34 +1,17 @@
 /* Reaction of an inboard joint: inertia forces of the outer bodies minus all other forces on them. */
 #include "reactions.h"
 
-#include "../common/laws.h"
-#include "../space/marker_quantity.h"
 #include "../space/system/forces.h"
 #include "inertia.h"
 #include "inward.h"
 #include "motion.h"
 
-/* frame->wrench += what a row does to bodies, `scale` times */
-static void add_row(const zd_space *space, const zd_space_frame *frame, const zd_relation *row, const double *factors, double scale)
-{
-    for (int i = 0; i < row->terms; i++) {
-        const zd_space_quantity *quantity = space->quantity + space->elements.term[row->first + i].quantity;
-        const zd_space_reading reading = zd_space_quantity_read(quantity, frame->pose);
-        zd_space_add_wrench(frame->wrench + quantity->first, scale * factors[i], reading.first);
-        zd_space_add_wrench(frame->wrench + quantity->second, scale * factors[i], reading.second);
-    }
-}
-
 /* frame->wrench <- inertia force of each body minus the applied and constraint forces on it, without joints of the tree. */
 static int write_needs(const zd_space *space, const zd_space_frame *frame, double t, const double *vdot, const double *lambda)
 {
     const zd_readings readings = zd_space_frame_readings(space, frame);
-    if (zd_space_forces_apply(space, frame, t)) return ZD_CALLBACK;
-    for (int i = 0; i < space->elements.m; i++) {
-        zd_combined all;
-        if (zd_combine(&space->elements, &readings, space->elements.row + i, t, &all)) return ZD_CALLBACK;
-        add_row(space, frame, space->elements.row + i, all.factors, -lambda[i]);
-    }
+    const zd_actions actions = {&space->elements, &readings, zd_space_add_force, NULL};
+    if (zd_space_forces_apply(space, frame, t) || zd_rows_act(&actions, t, lambda)) return ZD_CALLBACK;
     zd_space_tree_accelerate(space, frame, vdot);
     const zd_space_twist *change = zd_space_tree_frame_of(zd_space_tree_of(space), frame).change;
     for (int body = 1; body <= space->bodies; body++) {

@@ -4,6 +4,7 @@
 #include "../../common/measures.h"
 #include "../marker_quantity.h"
 #include "reactions.h"
+#include "rows.h"
 
 static void place(const void *mechanism, const void *frame, const double *p)
 {
@@ -18,15 +19,6 @@ static void move(const void *mechanism, const void *frame, const double *v)
     const zd_plane *self = mechanism;
     const zd_plane_frame *at = frame;
     zd_plane_tree_move(&self->tree, at->pose, v, at->twist);
-}
-
-static double bias_of(const void *mechanism, const void *frame, int quantity)
-{
-    const zd_plane *self = mechanism;
-    const zd_plane_frame *at = frame;
-    double bias;
-    zd_plane_quantity_rate(self->quantity + quantity, at->pose, at->twist, &bias);
-    return bias;
 }
 
 static void write_row(const void *mechanism, const void *frame, int index, double scale, double *row)
@@ -68,7 +60,7 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
     vector[0] = apart.x, vector[1] = apart.y;
 }
 
-static const zd_measure_numerics NUMERICS = {2, 1, place, move, bias_of, write_row, unit_wrench, reaction_of, apart_of};
+static const zd_measure_numerics NUMERICS = {2, 1, place, move, zd_plane_bias, write_row, unit_wrench, reaction_of, apart_of};
 
 static int evaluate(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
                     const double *lambda, const zd_measured *out, double *scratch)

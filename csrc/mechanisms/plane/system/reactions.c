@@ -3,10 +3,8 @@
  * their accelerations beyond what else acts on them. */
 #include "reactions.h"
 
-#include "../../common/output_spec.h"
 #include "../marker_quantity.h"
 #include "forces.h"
-#include "rows.h"
 
 /* The joint's point of the second body; where a wheel rolls, the contact. */
 static zd_vector point_of(const zd_plane_frame *frame, const zd_plane_joint *joint)
@@ -28,14 +26,9 @@ static zd_plane_wrench about(zd_plane_wrench what, const zd_plane_pose *body, zd
 /* frame->wrench <- inertia force of each body minus the applied and constraint forces on it, without joints of the tree. */
 static int write_needs(const zd_plane *self, const zd_plane_frame *frame, double t, const double *vdot, const double *lambda)
 {
-    const zd_readings at = zd_plane_frame_readings(self, frame);
-    int status = zd_plane_forces_apply(self, frame, t);
-    if (status) return status;
-    for (int i = 0; i < self->elements.m; i++) {
-        zd_combined all;
-        if (zd_combine(&self->elements, &at, self->elements.row + i, t, &all)) return ZD_CALLBACK;
-        zd_plane_row_act(self, frame, self->elements.row + i, all.factors, -lambda[i]);
-    }
+    const zd_readings readings = zd_plane_frame_readings(self, frame);
+    const zd_actions actions = {&self->elements, &readings, zd_plane_add_force, NULL};
+    if (zd_plane_forces_apply(self, frame, t) || zd_rows_act(&actions, t, lambda)) return ZD_CALLBACK;
     zd_plane_tree_accelerate(&self->tree, frame->pose, frame->twist, vdot, frame->spin);
     for (int i = 1; i <= self->tree.bodies; i++) {
         const zd_plane_link *link = self->tree.link + i;
@@ -63,51 +56,30 @@ static int of_tree(const zd_plane *self, const zd_plane_frame *frame, int joint,
     return ZD_DONE;
 }
 
-/* to += scale times what a unit force along a marker quantity is for its second body, about the point. */
-static void add_quantity(const zd_plane *self, const zd_plane_frame *frame, int index, zd_vector point, double scale, zd_plane_wrench *to)
-{
-    const zd_plane_quantity *quantity = self->quantity + index;
-    zd_plane_add_wrench(to, scale, about(zd_plane_quantity_read(quantity, frame->pose).second, frame->pose + quantity->second, point));
-}
+/* Reaction of a joint on its second body, about a point of it. */
+typedef struct reaction_at {
+    zd_vector point;
+    zd_plane_wrench *reaction;
+} reaction_at;
 
-static void of_rows(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, const double *lambda, zd_plane_wrench *to)
+static void add_quantity(const zd_readings *at, void *to, int index, double force)
 {
-    for (int k = 0; k < self->planned[joint].row_count; k++) {
-        const zd_relation *row = self->elements.row + self->planned[joint].rows[k];
-        for (int i = 0; i < row->terms; i++) {
-            const zd_quantity_term *term = self->elements.term + row->first + i;
-            add_quantity(self, frame, term->quantity, point, -lambda[row - self->elements.row] * term->coefficient, to);
-        }
-    }
-}
-
-/* Motors of the joint, by rows and by generalized forces, and its damping */
-static int of_drives(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, double t, const double *lambda,
-                     zd_plane_wrench *to)
-{
-    const zd_readings at = zd_plane_frame_readings(self, frame);
-    double value;
-    for (int i = 0; i < self->elements.forces; i++) {
-        if (self->elements.force[i].joint != joint) continue;
-        if (zd_force_evaluate(&self->elements, &at, self->elements.force + i, t, &value, NULL)) return ZD_CALLBACK;
-        add_quantity(self, frame, self->elements.force[i].quantity, point, value, to);
-    }
-    for (int i = 0; i < self->elements.relations; i++) {
-        const zd_relation *row = self->elements.row + self->elements.row_of_relation[i];
-        if (row->joint != joint) continue;
-        if (zd_drive_force(&self->elements, &at, i, 0, t, lambda, &value)) return ZD_CALLBACK;
-        add_quantity(self, frame, self->elements.term[row->first].quantity, point, value, to);
-    }
-    return ZD_DONE;
+    const zd_plane_quantity *quantity = ((const zd_plane *)at->mechanism)->quantity + index;
+    const zd_plane_pose *pose = ((const zd_plane_frame *)at->frame)->pose;
+    const reaction_at *of = to;
+    zd_plane_add_wrench(of->reaction, force, about(zd_plane_quantity_read(quantity, pose).second, pose + quantity->second, of->point));
 }
 
 int zd_plane_joint_reaction(const zd_plane *self, const zd_plane_frame *frame, int joint, double t, const double *vdot, const double *lambda,
                       zd_plane_wrench *reaction)
 {
-    zd_vector point = point_of(frame, self->joint + joint);
+    const zd_plane_planned_joint *planned = self->planned + joint;
+    reaction_at to = {point_of(frame, self->joint + joint), reaction};
+    const zd_readings readings = zd_plane_frame_readings(self, frame);
+    const zd_actions actions = {&self->elements, &readings, add_quantity, &to};
     *reaction = (zd_plane_wrench){.torque = 0};
     int status = ZD_DONE;
-    if (self->planned[joint].carried) status = of_tree(self, frame, joint, point, t, vdot, lambda, reaction);
-    else of_rows(self, frame, joint, point, lambda, reaction);
-    return status ? status : of_drives(self, frame, joint, point, t, lambda, reaction);
+    if (planned->carried) status = of_tree(self, frame, joint, to.point, t, vdot, lambda, reaction);
+    else zd_joint_rows_act(&actions, planned->row_count, planned->rows, lambda);
+    return status ? status : zd_drives_act(&actions, joint, t, lambda);
 }

@@ -4,17 +4,11 @@
 #include "../../common/measures.h"
 #include "../marker_quantity.h"
 #include "reactions.h"
+#include "rows.h"
 
 static void place(const void *mechanism, const void *frame, const double *p) { zd_space_frame_place(mechanism, frame, p); }
 
 static void move(const void *mechanism, const void *frame, const double *v) { zd_space_frame_move(mechanism, frame, v); }
-
-static double bias_of(const void *mechanism, const void *frame, int quantity)
-{
-    const zd_space *self = mechanism;
-    const zd_space_frame *at = frame;
-    return zd_space_quantity_bias_with(self->quantity + quantity, at->pose, at->twist, at->bias);
-}
 
 static void write_row(const void *mechanism, const void *frame, int index, double scale, double *row)
 {
@@ -72,7 +66,7 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
     write_vector(zd_minus3(second, first), vector);
 }
 
-static const zd_measure_numerics NUMERICS = {3, 3, place, move, bias_of, write_row, unit_wrench, reaction_of, apart_of};
+static const zd_measure_numerics NUMERICS = {3, 3, place, move, zd_space_bias, write_row, unit_wrench, reaction_of, apart_of};
 
 static int evaluate(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
                     const double *lambda, const zd_measured *out, double *scratch)

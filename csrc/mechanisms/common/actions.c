@@ -1,0 +1,59 @@
+/* Sums over terms of rows and generalized forces: what plane and space share. Their numerics are functions of the caller. */
+#include "actions.h"
+
+#include "output_spec.h"
+
+/* Adds the terms of a row, `scale` times their factors. */
+static void add_row(const zd_actions *self, const zd_relation *row, const double *factors, double scale, void *to)
+{
+    const zd_quantity_term *term = self->elements->term + row->first;
+    for (int i = 0; i < row->terms; i++) self->add(self->readings, to, term[i].quantity, scale * factors[i]);
+}
+
+int zd_rows_act(const zd_actions *self, double t, const double *lambda)
+{
+    for (int i = 0; i < self->elements->m; i++) {
+        zd_combined all;
+        if (zd_combine(self->elements, self->readings, self->elements->row + i, t, &all)) return ZD_CALLBACK;
+        add_row(self, self->elements->row + i, all.factors, -lambda[i], self->to);
+    }
+    return ZD_DONE;
+}
+
+void zd_joint_rows_act(const zd_actions *self, int count, const int *rows, const double *lambda)
+{
+    for (int k = 0; k < count; k++) {
+        const zd_relation *row = self->elements->row + rows[k];
+        add_row(self, row, self->elements->coefficient + row->first, -lambda[rows[k]], self->to);
+    }
+}
+
+int zd_drives_act(const zd_actions *self, int joint, double t, const double *lambda)
+{
+    const zd_planned_elements *elements = self->elements;
+    double value;
+    for (int i = 0; i < elements->forces; i++) {
+        if (elements->force[i].joint != joint) continue;
+        if (zd_force_evaluate(elements, self->readings, elements->force + i, t, &value, NULL)) return ZD_CALLBACK;
+        self->add(self->readings, self->to, elements->force[i].quantity, value);
+    }
+    for (int i = 0; i < elements->relations; i++) {
+        const zd_relation *row = elements->row + elements->row_of_relation[i];
+        if (row->joint != joint) continue;
+        if (zd_drive_force(elements, self->readings, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        self->add(self->readings, self->to, elements->term[row->first].quantity, value);
+    }
+    return ZD_DONE;
+}
+
+int zd_rows_magnitudes(const zd_actions *self, double t, double *magnitude)
+{
+    for (int i = 0; i < self->elements->m; i++, magnitude += 2) {
+        zd_combined all;
+        const int status = zd_combine(self->elements, self->readings, self->elements->row + i, t, &all);
+        if (status) return status;
+        magnitude[0] = magnitude[1] = 0;
+        add_row(self, self->elements->row + i, all.factors, 1, magnitude);
+    }
+    return ZD_DONE;
+}
