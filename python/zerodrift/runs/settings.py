@@ -117,7 +117,7 @@ FINEST_RTOL = 100 * np.finfo(float).eps     # smallest rtol: below it, error est
 RESOLVED = 16 * float(np.finfo(float).eps)      # shortest step, relative to the time
 
 
-class Plan(NamedTuple):
+class CheckedSettings(NamedTuple):
     """Arguments of a run, checked."""
 
     settings: dict[str, Any]    # by name, as in `Solution.settings`
@@ -142,7 +142,7 @@ class _Known(NamedTuple):
 
 def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every: Any, step: Any, rtol: Any, atol: Any,
          first_step: Any, max_step: Any, max_move: Any, max_steps: Any, formulation: Any, integrator: Any,
-         stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any, vector: Any) -> Plan:
+         stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any, vector: Any) -> CheckedSettings:
     """Check the arguments of `simulate` and translate them for the core."""
     if isinstance(correction, list):
         correction = tuple(correction)
@@ -163,7 +163,7 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
     else:
         course["t_eval"] = settings["t_eval"] = times = times_to_save(t_eval, settings["save_every"], span)
         rows = len(times) + 1       # one more, as an event may end the run between two of them
-    return Plan(settings, _gateway.settings(course, found.core_settings), rows)
+    return CheckedSettings(settings, _gateway.settings(course, found.core_settings), rows)
 
 
 # Cached, as the checks take as long as a short run. `typed` keeps 1 and True apart.

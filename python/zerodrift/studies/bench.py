@@ -194,13 +194,13 @@ class Bench:
                     found[place] = _outcome_of(core, plans[place], made, run)
         return [found[place] for place in range(len(plans))]
 
-    def _plan(self, setting: Setting, t_eval: Any = None) -> settings.Plan:
+    def _plan(self, setting: Setting, t_eval: Any = None) -> settings.CheckedSettings:
         return settings.plan(self.system, self.span, **(OPTIONS | setting.settings | {"direct": self.direct, "t_eval": t_eval}))
 
-    def _core(self, plan: settings.Plan) -> _gateway.CoreSystem:
+    def _core(self, plan: settings.CheckedSettings) -> _gateway.CoreSystem:
         return direct_core_of(self.system, plan.settings["vector"], plan.core_settings)
 
-    def _made(self, core: _gateway.CoreSystem, plans: Sequence[settings.Plan],
+    def _made(self, core: _gateway.CoreSystem, plans: Sequence[settings.CheckedSettings],
               stop: _gateway.Stop | None) -> _gateway.BatchResults:
         each, rows = [plan.core_settings for plan in plans], max(plan.rows for plan in plans)
         p0, v0 = (np.tile(x, (len(plans), 1)) for x in self.system._state_or_start(*self.start, t=self.span[0]))
@@ -219,7 +219,7 @@ def _outcome(solution: Solution) -> Outcome:
         map(_largest, (solution.position_violation, solution.velocity_violation, solution.energy_violation))))
 
 
-def _outcome_of(core: _gateway.CoreSystem, plan: settings.Plan, made: _gateway.BatchResults, run: int) -> Outcome:
+def _outcome_of(core: _gateway.CoreSystem, plan: settings.CheckedSettings, made: _gateway.BatchResults, run: int) -> Outcome:
     """Outcome of a run in a batch."""
     rows, is_done = int(made.rows[run]), bool(made.status[run] == _gateway.DONE)
     stats = dict(zip(made.statistics.dtype.names, made.statistics[run].item(), strict=True))

@@ -36,7 +36,7 @@ class Link(NamedTuple):
     inertia: Any
 
 
-class Plan(NamedTuple):
+class PlanePlan(NamedTuple):
     """A `zd_plane_plan`; bodies have the tree's numbers, the first link is that of body 1, and all marker quantities are used."""
 
     links: tuple[Link, ...]
@@ -46,13 +46,13 @@ class Plan(NamedTuple):
     gravity: tuple[Any, Any]
 
 
-def plan_of(core: MechanismCore, measured: Sequence[int] = ()) -> Plan:
+def plan_of(core: MechanismCore, measured: Sequence[int] = ()) -> PlanePlan:
     """The plan of a mechanism; marker quantities of measures, by their numbers in the core's table, follow those in use."""
     c = lib.zd_plane_planned(core._mechanism)
     links = tuple(_link(c.link[i]) for i in range(1, len(core.tables.bodies) + 1))
     used: dict[int, int] = {}       # by their numbers in the core's table, as measures have marker quantities of their own there
     rows, forces = rows_of_plan(c, core.m, used), forces_of(c, len(core.tables.forces), used)
-    return Plan(links, tuple(_quantity(c.quantity[i]) for i in (*used, *measured)), rows, forces, core.tables.gravity)
+    return PlanePlan(links, tuple(_quantity(c.quantity[i]) for i in (*used, *measured)), rows, forces, core.tables.gravity)
 
 
 def _pair(vector: Any) -> tuple[float, float]:

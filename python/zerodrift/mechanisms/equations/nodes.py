@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from ..._gateway.mechanisms import plans
 from ..._gateway.mechanisms.element_tables import GeneralizedForce, Relation
 from ..._gateway.mechanisms.plane import Quantity
-from ..._gateway.mechanisms.plans import Link, Plan
+from ..._gateway.mechanisms.plans import Link, PlanePlan
 from ...symbolics.graph.derivation import Derivation, Given
 from ...symbolics.graph.graph import Graph, Node
 from .function_calls import Laws
@@ -56,7 +56,7 @@ class Numbering:
         return self(vector[0], *place, "x"), self(vector[1], *place, "y")
 
 
-def with_nodes(plan: Plan, number: Numbering) -> Plan:
+def with_nodes(plan: PlanePlan, number: Numbering) -> PlanePlan:
     """Plan whose numbers are nodes."""
     links = tuple(link._replace(
         near=number.pair(link.near, link.inner), far=number.pair(link.far, i), axis=number.pair(link.axis, "axis", link.inner),
@@ -67,10 +67,10 @@ def with_nodes(plan: Plan, number: Numbering) -> Plan:
         axis=number.pair(quantity.axis, "axis", quantity.first), zero=number(quantity.zero)) for quantity in plan.quantities)
     rows = tuple(row_with_nodes(row, number) for row in plan.rows)
     forces = tuple(force_with_nodes(force, number) for force in plan.forces)
-    return Plan(links, quantities, rows, forces, number.pair(plan.gravity))
+    return PlanePlan(links, quantities, rows, forces, number.pair(plan.gravity))
 
 
-def frames_of(plan: Plan) -> list[Any]:
+def frames_of(plan: PlanePlan) -> list[Any]:
     """Frames of joints, as `space_nodes.frames_of` gives them: in the plane there are none."""
     return []
 
@@ -118,7 +118,7 @@ class Equations(Relations):
         What leaves of the graph stand for: of these none.
     """
 
-    def __init__(self, plan: Plan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
+    def __init__(self, plan: PlanePlan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,
                  parameters: Mapping[str, Node]) -> None:
         self.plan, self.graph, self.read, self.laws, self.parameters = plan, reader.graph, reader.read, laws, parameters
         self.functions = reader     # sin, cos and floor
