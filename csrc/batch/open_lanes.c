@@ -13,19 +13,20 @@
 
 /* ---- creation ---- */
 
-static int has_speeds(const zd_inputs *inputs)
+static int lanes_serve_inputs(const zd_inputs *inputs)
 {
     for (int k = 0; inputs && k < inputs->places; k++)
-        if (inputs->place[k].is_speed) return 1;
-    return 0;
+        if (inputs->place[k].is_speed) return 0;
+    return !inputs || !inputs->measures;
 }
 
-/* True if lanes can make the steps of a run like this one. A speed is followed within a step, which lanes do not do. */
+/* True if lanes can make the steps of a run like this one. A speed is followed within a step, and user functions
+ * may read reactions of the last one, which lanes do not do. */
 static int are_served(const zd_open_runs *runs, const zd_run *run, const zd_closed_form **direct)
 {
     const zd_settings *settings = &run->settings;
     const zd_system *system = &run->motion.system;
-    return runs->data && settings->steps == ZD_FIXED_STEPS && !settings->events && !has_speeds(settings->inputs)
+    return runs->data && settings->steps == ZD_FIXED_STEPS && !settings->events && lanes_serve_inputs(settings->inputs)
         && zd_lanes_serve_settings(system, settings) && !system->structure && zd_has_closed_form(&run->motion) && zd_lanes_serve_run(run)
         && run->motion.corrections < 2 && zd_lane_functions_of(system, settings->vector, direct) != NULL;
 }

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static int largest_size(const zd_measures *measures)
+int zd_largest_measure(const zd_measures *measures)
 {
     int largest = 0;
     for (int i = 0; measures && i < measures->count; i++)
@@ -22,7 +22,7 @@ zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_syst
         .of = of,
         .inputs = inputs,
         .x = zd_take_doubles(arena, (size_t)most),
-        .measured = zd_take_doubles(arena, (size_t)largest_size(of->measures)),
+        .measured = zd_take_doubles(arena, (size_t)zd_largest_measure(of->measures)),
         .scratch = zd_take_doubles(arena, of->measures ? (size_t)of->measures->scratch : 0),
     };
 }

@@ -1,15 +1,22 @@
 /* Inputs are constant within a step, except speeds: these follow an input linearly over one step, so that velocities do not jump. A change
  * makes what is known at the start of the step invalid; without a change nothing is done, and the bits are those of a run without inputs.
+ * Reactions and accelerations that user functions read are inputs, too, which are read from the accepted state before each step.
  */
 #include "inputs.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../constraints/rank.h"
+
 zd_held_inputs zd_inputs_take(zd_arena *arena, const zd_inputs *inputs)
 {
-    const size_t count = inputs ? (size_t)inputs->count : 0;
-    zd_held_inputs held = {.value = zd_take_doubles(arena, count), .has_ramp = 0};
+    const size_t count = inputs ? (size_t)inputs->count : 0, measures = inputs ? (size_t)inputs->measures : 0;
+    zd_held_inputs held = {.value = zd_take_doubles(arena, count + measures)};
+    if (measures) {
+        held.measured = zd_take_doubles(arena, (size_t)zd_largest_measure(inputs->of->measures));
+        held.scratch = zd_take_doubles(arena, (size_t)inputs->of->measures->scratch);
+    }
     if (held.value && count) memcpy(held.value, inputs->value, count * sizeof(double));
     return held;
 }
@@ -81,10 +88,36 @@ void zd_inputs_write(zd_run *run)
     run->held.is_new = 0;
 }
 
+/* Reads the measures of the accepted state, once before each step, also before one that is made again after a failure. */
+static int read_measures(zd_run *run, int *have_changed)
+{
+    const zd_inputs *inputs = run->settings.inputs;
+    zd_held_inputs *held = &run->held;
+    const zd_point *point = run->motion.point;
+    if (!inputs->measures || held->measured_step == run->loop.step + 1) return ZD_DONE;
+    int status = zd_motion_accelerate(&run->motion);
+    if (status) return status;
+    zd_rank_find_multipliers(run->motion.point);
+    for (int i = 0; i < inputs->measures; i++) {
+        const zd_measured out = {.value = held->measured};
+        double *value = held->value + inputs->count + i;
+        const zd_measures *measures = inputs->of->measures;
+        if (measures->evaluate(inputs->of->data, point->terms.inputs, inputs->measure[i].measure, point->t, point->p, point->v, point->vdot,
+                               point->lambda, &out, held->scratch)) return ZD_CALLBACK;
+        *have_changed |= *value != held->measured[inputs->measure[i].component];
+        *value = held->measured[inputs->measure[i].component];
+    }
+    held->measured_step = run->loop.step + 1;
+    return ZD_DONE;
+}
+
 int zd_inputs_begin_step(zd_run *run)
 {
     zd_held_inputs *held = &run->held;
-    if (!held->is_new && !held->has_ramp) return ZD_DONE;
+    int have_changed = 0;
+    const int status = read_measures(run, &have_changed);
+    if (status) return status;
+    if (!held->is_new && !held->has_ramp && !have_changed) return ZD_DONE;
     write(run, held->is_new ? run->settings.step : 0);
     if (!held->is_new) held->has_ramp = 0;
     held->is_new = 0;

@@ -25,7 +25,9 @@ typedef struct zd_goal {    /* end of the present advance of an open run */
 } zd_goal;
 
 typedef struct zd_held_inputs {     /* inputs of the settings, as the present step has them */
-    double *value;          /* (count,) */
+    double *value;          /* (count + measures,) */
+    double *measured, *scratch;     /* a measure; scratch memory of the measures */
+    int64_t measured_step;  /* number of steps made when the measures were read, + 1 */
     int is_new;             /* true if they changed since the last step */
     int has_ramp;           /* true if the last step followed a speed, which is constant in the next */
 } zd_held_inputs;

@@ -54,6 +54,11 @@ typedef struct zd_input_place {
     double *place;              /* in the data of the system, which belongs to this run */
 } zd_input_place;
 
+typedef struct zd_input_measure {
+    int measure;                /* index of a measure, and of its component */
+    int component;
+} zd_input_measure;
+
 typedef struct zd_inputs {
     int count;
     const double *value;        /* (count,): read at the start of each advance; the places hold the initial ones already */
@@ -63,6 +68,9 @@ typedef struct zd_inputs {
     int derivations;            /* functions that recompute what the system derives from its data */
     void (*const *derive)(double *data);    /* (derivations,) */
     double *const *data;        /* (derivations,) */
+    int measures;               /* reactions and accelerations that the core reads of each accepted state, as inputs of the next step */
+    const zd_input_measure *measure;    /* (measures,): their places have the indices from `count` on, and hold 0 until the first step */
+    const struct zd_system *of; /* system whose measures these are, with the same inputs */
 } zd_inputs;
 
 /* ---- settings of a run ---- */

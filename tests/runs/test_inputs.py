@@ -288,3 +288,25 @@ def test_accelerations_under_a_speed_that_is_an_input_are_recorded():
     assert np.isclose(sol["crank.angular_velocity"][-1], 2.0, rtol=1e-10)
     with pytest.raises(ValueError, match="must be recorded by the run"):
         sol["A.force"]
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+def test_values_between_samples_have_the_inputs_of_their_step(compiled):
+    system, numbers = four_bar(torque=0.0).system(compiled=compiled), iter([3.0, -2.0, 8.0, 0.5])
+
+    def set_next(run):
+        run["drive.torque"] = next(numbers)
+
+    given = {"step": 0.02, "inputs": ["drive.torque"]}
+    sol = zd.simulate(system, 0.4, **given, control=zd.every(0.1, set_next))
+    times, numbers = np.array([0.05, 0.11, 0.25, 0.39]), iter([3.0, -2.0, 8.0, 0.5])
+    exact = zd.simulate(system, 0.4, **given, control=zd.every(0.1, set_next), t_eval=times)   # ends at the last of these
+    p, v = sol(times)
+    assert np.array_equal(p, exact.p)
+    assert np.array_equal(v, exact.v)
+
+
+def test_values_between_samples_need_t_eval_if_a_speed_is_an_input():
+    sol = zd.simulate(four_bar(speed=1.0), 0.1, step=0.01, inputs=["drive.speed"])
+    with pytest.raises(ValueError, match="values between samples must be requested by t_eval, as a speed is an input"):
+        sol(0.055)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -42,6 +42,9 @@ class Inputs:
         Systems with places of these inputs.
     values : ndarray (k,), optional
         Memory for the values, which holds the initial ones.
+    reactions : dict of str to (int, int), optional
+        Measures of the last system in `bound`, and their components, that the core reads of each accepted state and writes to the
+        places of their names.
 
     Attributes
     ----------
@@ -50,20 +53,25 @@ class Inputs:
     """
 
     def __init__(self, names: Sequence[str], initial: np.ndarray, lower: np.ndarray, upper: np.ndarray,
-                 bound: Iterable[Bound], values: np.ndarray | None = None) -> None:
+                 bound: Iterable[Bound], values: np.ndarray | None = None,
+                 reactions: Mapping[str, tuple[int, int]] | None = None) -> None:
         self.names, self.lower, self.upper = tuple(names), lower, upper
         self.values = initial.copy() if values is None else values
         self._bound = tuple(bound)
         places = [place for each in self._bound for place in each.places]
         derivations = [each for bound in self._bound for each in bound.derivations]
-        rows = ffi.new("zd_input_place[]", [(self.names.index(each.name), each.is_speed, each.address) for each in places])
+        held = reactions or {}
+        index = {name: i for i, name in enumerate((*self.names, *held))}
+        rows = ffi.new("zd_input_place[]", [(index[each.name], each.is_speed, each.address) for each in places])
+        measures = ffi.new("zd_input_measure[]", list(held.values()))
         functions = ffi.new("void (*[])(double *)", [ffi.cast("void (*)(double *)", address) for address, _ in derivations])
         data = ffi.new("double *[]", [each for _, each in derivations])
         k = len(names)
-        self._memory = rows, functions, data, places
+        self._memory = rows, functions, data, measures, places
         self.c = ffi.new("zd_inputs *", {
             "count": k, "value": doubles(self.values, k), "lower": doubles(lower, k), "upper": doubles(upper, k),
-            "places": len(places), "place": rows, "derivations": len(derivations), "derive": functions, "data": data})
+            "places": len(places), "place": rows, "derivations": len(derivations), "derive": functions, "data": data,
+            "measures": len(held), "measure": measures, "of": self._bound[-1].core.c if held else ffi.NULL})
 
     @property
     def at_places(self) -> np.ndarray:

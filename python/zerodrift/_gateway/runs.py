@@ -373,9 +373,12 @@ def _columns(columns: dict[str, tuple[np.ndarray, int]]) -> tuple[dict[str, Any]
 
 
 def states_between(core: CoreSystem, settings: Any, t: np.ndarray, p: np.ndarray, v: np.ndarray, energy_input: np.ndarray | None,
-                   ends_in_event: bool, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """`zd_states_between`: p (k, nq) and v (k, nv) at times (k,) between the samples t, p, v of a run."""
-    core, message, rows, count = core.for_run(), ffi.new("char[]", MESSAGE_SIZE), len(t), len(times)
+                   ends_in_event: bool, times: np.ndarray, *, is_own: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """`zd_states_between`: p (k, nq) and v (k, nv) at times (k,) between the samples t, p, v of a run.
+
+    is_own: the system's data belong to the caller.
+    """
+    core, message, rows, count = core if is_own else core.for_run(), ffi.new("char[]", MESSAGE_SIZE), len(t), len(times)
     columns = {"t": (t, rows), "p": (p, rows * core.nq), "v": (v, rows * core.nv)}
     if energy_input is not None:
         columns["input"] = energy_input, rows

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
-from ..systems.base import BaseSystem, Makes, core_of, system_of
+from ..systems.base import BaseSystem, Makes, core_of, stateless_system_of
 from .effort_result import Efforts
 from .kinematic_result import Kinematics
 from .names import dominant
@@ -73,7 +73,7 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
     >>> inv["pin.angle"].round(9)       # 3 * 2**2 / 3 * 1.5 + 3 * 9.81
     array([35.43])
     """
-    given, system = system, system_of(system)
+    given, system = system, stateless_system_of(system)
     core_of(system)
     names = None if efforts is None else names_of(efforts, "efforts")
     if isinstance(motion, Kinematics):

@@ -14,9 +14,10 @@ from .._gateway import is_length as is_length_of
 from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.plane import MechanismCore
-from ..errors import ZerodriftError, sentence
+from ..errors import WrongValue, ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import DIRECT, NO_COMPILER, ClosedFormFunctions
 from ..systems.base import BaseSystem, WithInputs
+from ..systems.measure_values import Place
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
 from .assembly import space_advice
@@ -29,6 +30,7 @@ from .elements.forces import driven, inputs_of
 from .elements.numbers import Numbers
 from .elements.space_bodies import SpaceInertias
 from .equations.generated_code import Written, measure_program
+from .equations.measure_names import reading
 from .equations.measure_tables import measuring, orientation
 from .equations.space_tables import SpaceTables, tables_of
 from .equations.tables import Tables, constraint_names
@@ -263,7 +265,17 @@ class MechanismSystem(BaseSystem):
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         found = driven(self._drawing, names, self._changed)
         system = MechanismSystem(found.drawing, self.layout, self._changed, self._is_written_out)
-        return WithInputs(system, found.initial, found.units, law_inputs.bound)
+        return WithInputs(system, found.initial, found.units, law_inputs.bound, system._held_reactions())
+
+    def _held_reactions(self) -> dict[str, Place]:
+        """Reactions and accelerations that user functions read, by name, among the measures."""
+        names = self._drawing.reactions()
+        places = {name: self._watching.find(name) for name in names}
+        for name, place in places.items():
+            if place is None or (place.component is None and self._measuring.measure_size(place.number) > 1):
+                raise WrongValue(f"user functions must depend on scalar measures, and {name!r} is none; "
+                                 f"{_check.closest(name, self.measures)}")
+        return places
 
     def _names_of_inputs(self) -> list[str]:
         return list(inputs_of(self._drawing))
@@ -319,8 +331,19 @@ class MechanismSystem(BaseSystem):
 
     def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
         """As of any system; also orientations of bodies in space, as matrices, quaternions and angles."""
+        self._check_recorded(getattr(name, "name", name))
         found = orientation(self._watching, getattr(name, "name", name), solution) if self._drawing.dimension == 3 else None
         return super()._measured(name, solution) if found is None else found
+
+    def _unique(self, name: Any, solution: Any) -> Any:
+        self._check_recorded(getattr(name, "name", name))
+        return super()._unique(name, solution)
+
+    def _check_recorded(self, name: str) -> None:
+        """Check that samples alone give the measure: reactions that user functions read are not among them."""
+        if self._drawing.reactions() and self._watching.find(name) and not reading(name, self._drawing.elements):
+            raise WrongValue(f"{name!r} must be recorded by the run, by outputs=[{name!r}], as user functions of {self.name} "
+                             "read reactions of the last accepted state")
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
         elements, drawing, numbers = chosen(self._drawing, names), self._drawing, self._numbers

@@ -23,23 +23,27 @@ class Declared(NamedTuple):
 
     def bound(self, *cores: Any, values: np.ndarray | None = None) -> tuple[_gateway.Inputs, list[Any]]:
         """Inputs of one run, in given memory, and its own systems in the place of these; None stays."""
-        found = [None if core is None else self.of.bound(core, self.names) for core in cores]
+        held = self.of.reactions
+        found = [None if core is None else self.of.bound(core, (*self.names, *held)) for core in cores]
         if values is not None:
             values[:] = self.of.initial
         inputs = _gateway.Inputs(self.names, np.array(self.of.initial), self.lower, self.upper, [each for each in found if each],
-                                 values)
+                                 values, {name: (place.number, place.component or 0) for name, place in held.items()})
         return inputs, [each and each.core for each in found]
 
 
 def declared(given: Any, system: BaseSystem) -> Declared | None:
-    """Check the argument `inputs`: None, names, or a dict of names to limits (lower, upper), None for no limits."""
-    if given is None:
+    """Check the argument `inputs`: None, names, or a dict of names to limits (lower, upper), None for no limits.
+
+    A system whose user functions read reactions has inputs, perhaps none by name: the core sets these.
+    """
+    if given is None and not system._held_reactions():
         return None
-    limits = given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
+    limits = {} if given is None else given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
     names = tuple(map(_name, limits))
-    if not names:
+    if not names and given is not None:
         raise WrongValue("inputs must name at least one input")
-    bounds = np.array([_limits(name, each) for name, each in zip(names, limits.values(), strict=True)])
+    bounds = np.array([_limits(name, each) for name, each in zip(names, limits.values(), strict=True)]).reshape(-1, 2)
     lower, upper = (np.ascontiguousarray(column) for column in bounds.T)
     return Declared(names, lower, upper, system._with_inputs(names))
 

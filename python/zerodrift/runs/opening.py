@@ -79,7 +79,8 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     plan.settings["vector"] = evaluation_path.unit(core, plan.core_settings)
     if declared:
         _check_speeds(declared, plan.settings["step"])
-        plan.settings["inputs"] = list(declared.names)
+        if declared.names:
+            plan.settings["inputs"] = list(declared.names)
     if outputs is not None:
         plan.settings["outputs"] = _outputs.names(outputs, of)
     p0, v0 = of._state_or_start(p0, v0, t=span[0])

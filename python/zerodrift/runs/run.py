@@ -85,8 +85,10 @@ class Run:
     A step that fails raises the error that `simulate` raises, and leaves the run at the start of that step: it can be read and go
     on, for example after another input. The same holds for Ctrl-C, and for what events and controllers raise.
 
-    Not available: speeds as inputs with adaptive steps; jumps of a speed within no time, as an impulse; and user functions of a
-    mechanism and events that read reactions, which controllers and ``run[name]`` do.
+    Forces of a mechanism may read reactions of the last accepted state by name, see `Mechanism.motor`: with fixed steps as a
+    controller that is called before each of them.
+
+    Not available: speeds as inputs with adaptive steps; and jumps of a speed within no time, as an impulse.
 
     Examples
     --------
@@ -168,7 +170,10 @@ class Run:
 
     def _goes_on(self) -> bool:
         """True if a run with an end has reached an instant of a controller, not its end."""
-        return self._sampling is not None and self._core.t < self._ready.span[1] and self.event is None
+        ready = self._ready
+        requested = ready.settings.get("t_eval", ()) if ready.events is None else ()
+        end = requested[-1] if len(requested) else ready.span[1]
+        return self._sampling is not None and self._core.t < end and self.event is None
 
     @property
     def _of(self) -> BaseSystem:

@@ -12,12 +12,12 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..errors import WrongName, WrongValue
-from ..systems.base import BaseSystem, direct_core_of
+from ..systems.base import BaseSystem
 from ..systems.measure_values import AXES
+from .between_samples import states_between
 from .columns import to_csv, to_excel
 from .instant import Instant
 from .saving import write
-from .settings import core_settings
 from .stats import Stats
 from .summary import summary
 
@@ -307,7 +307,8 @@ class Solution:
         Raises
         ------
         ValueError
-            For times outside the samples, or if not every step was saved.
+            For times outside the samples, if not every step was saved, or if speeds are inputs or user functions read reactions
+            of the last accepted state.
 
         Examples
         --------
@@ -364,10 +365,7 @@ class Solution:
         p, v = self.p[rows], self.v[rows]
         between = times > self.t[rows]
         if between.any():
-            settings = core_settings(self.t_span, self.settings)
-            core = direct_core_of(self.system, self.settings.get("vector") or "baseline", settings)
-            rows_of = (self.t, self.p, self.v, self.energy_input, self.status == _gateway.EVENT)
-            p[between], v[between] = _gateway.states_between(core, settings, *rows_of, times[between])
+            p[between], v[between] = states_between(self, rows[between], times[between])
         return p, v
 
     @property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,6 +30,7 @@ class WithInputs(NamedTuple):
     initial: list[float]
     units: list[str]
     bound: Any      # function of a core of this system and of the names: the core of one run, with the places of its inputs
+    reactions: Mapping[str, Place] = MappingProxyType({})   # measures of the last accepted state that its user functions read
 
 
 class BaseSystem:
@@ -325,6 +327,10 @@ class BaseSystem:
         raise WrongValue("inputs must be forces and speeds of a mechanism, symbols declared by zd.symbolic(inputs=), or "
                          f"parameters of a zd.System or zd.native system, and {self.name} has none")
 
+    def _held_reactions(self) -> Mapping[str, Place]:
+        """Measures of the last accepted state that its user functions read, by name."""
+        return {}
+
     def _names_of_inputs(self) -> list[str]:
         """Names of numbers that may be inputs."""
         return []
@@ -420,6 +426,15 @@ def system_of(given: Any, *state: Any) -> Any:
         raise WrongType(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where "
                         'it starts by its start(), or take its system("joint")')
     return given.system()
+
+
+def stateless_system_of(given: Any, *state: Any) -> Any:
+    """The same for a study, in which equations of motion must not read reactions of the last accepted state."""
+    system = system_of(given, *state)
+    if isinstance(system, BaseSystem) and (names := system._held_reactions()):
+        raise WrongValue(f"user functions must depend on t, positions and velocities in a study, and those of {system.name} read "
+                         f"{', '.join(names)} of the last accepted state, which a run has: simulate or Run")
+    return system
 
 
 def _listed(variables: Sequence[Variable]) -> str:

@@ -37,7 +37,9 @@ class ForceVerbs(Elements):
             The rate of that coordinate, in rad/s or m/s: a number, or a function of t, parameters and measures of positions.
         torque, force : float, callable or expression
             What acts on the joint's second body, its opposite on the first, in N m or N; of t, parameters and measures of
-            positions and velocities.
+            positions and velocities; and of reactions and accelerations of the last accepted state, such as ``"pin.force.x"``.
+            These are read before each step and held during it, so that the motion tends to that of the law itself with the first
+            order of the step size. The first step is made with those of a motion in which they are 0 in the law.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -70,7 +72,8 @@ class ForceVerbs(Elements):
         joint = self._joint(f"joint of motor {name!r}", joint, DRIVES[drives])
         if joint.coordinate is None and drives == "speed":
             raise WrongValue(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed")
-        law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"))
+        law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"),
+                        reactions=drives in ("torque", "force"))
         if drives in ("angle", "displacement") and law.measures:
             raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
         motor = Motor(name, joint, drives, law)
@@ -91,7 +94,7 @@ class ForceVerbs(Elements):
         length : float, callable or SymPy expression of t
             The distance of the points, in m; t counts from 0. Callables are built of NumPy's functions.
         force : float, callable or expression
-            What pushes them apart, in N; of t, parameters and measures of positions and velocities.
+            What pushes them apart, in N; of the same as the torque of `motor`.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -119,7 +122,7 @@ class ForceVerbs(Elements):
         if (length is None) == (force is None):
             raise WrongType(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}")
         drives, given = ("length", length) if force is None else ("force", force)
-        law = self._law(f"{drives} of actuator {name!r}", given, of)
+        law = self._law(f"{drives} of actuator {name!r}", given, of, reactions=drives == "force")
         if drives == "length" and law.measures:
             raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
         if drives == "length" and law.constant is not None:
@@ -138,7 +141,7 @@ class ForceVerbs(Elements):
         along : array_like (2,) or (3,)
             Its direction in the drawing; the length of the vector is ignored. Left out where `value` is a vector.
         value : float, callable, SymPy expression, or array_like (2,) or (3,)
-            In N, of t, parameters and measures of positions and velocities; or a constant force as a vector in the drawing.
+            In N, of the same as the torque of `motor`; or a constant force as a vector in the drawing.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
         frame : Body or name, optional
@@ -175,7 +178,7 @@ class ForceVerbs(Elements):
         self._turning(name, "the frame of", frame)
         if point.body is self.ground:
             raise WrongValue(f"force {name!r} acts on the ground, which does not move: point must be of another body")
-        law = self._law(f"value of force {name!r}", value, of)
+        law = self._law(f"value of force {name!r}", value, of, reactions=True)
         return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
 
     def _direction_and_magnitude(self, name: str, along: Any, value: Any) -> tuple[np.ndarray, Any]:
@@ -202,8 +205,7 @@ class ForceVerbs(Elements):
         name : str
         body : Body or name
         value : float, callable or SymPy expression
-            In N m, counter-clockwise, in space right-handed about the axis; of t, parameters and measures of positions and
-            velocities.
+            In N m, counter-clockwise, in space right-handed about the axis; of the same as the torque of `motor`.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
         against : Body or name, optional
@@ -231,7 +233,7 @@ class ForceVerbs(Elements):
         self._turning(name, "torque", body, against)
         if body is against:
             raise WrongValue(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed")
-        law = self._law(f"value of torque {name!r}", value, of)
+        law = self._law(f"value of torque {name!r}", value, of, reactions=True)
         if self.dimension == 3:
             return self._space_torque(name, body, against, law, axis, frame)
         if axis is not None or frame is not None:

@@ -15,7 +15,7 @@ from ..elements.forces import Motor
 from ..elements.joints import Joint
 from ..elements.space_bodies import SpaceGround
 from ..elements.user_functions import Law
-from ..equations.measure_names import reading
+from ..equations.measure_names import is_dynamic, reading
 
 
 class Elements:
@@ -152,16 +152,22 @@ class Elements:
             raise WrongValue(f"{argument} must be a direction in the drawing, and {tuple(map(float, vector))} has length zero")
         return vector / length
 
-    def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False) -> Law:
-        """User function whose measures exist."""
-        law = Law(what, given, of=of, parameters=self.parameters)
+    def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False,
+             reactions: bool = False) -> Law:
+        """User function whose measures exist; with `reactions`, of reactions and accelerations of the last state, too."""
+        law, held = Law(what, given, of=of, parameters=self.parameters), []
         for measure in law.measures:
             self._check_measured(what, measure)
             read = reading(measure, self._elements)
+            if reactions and read is None and is_dynamic(measure, self._elements[measure.partition(".")[0]]):
+                held.append(measure)
+                continue
             if read is None or len(read.quantities) != 1:
                 raise WrongValue(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is none")
             if read.is_rate and positions:
                 raise WrongValue(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity")
+        if held:
+            law.hold(held)
         return law
 
     def _check_measured(self, what: str, measure: str) -> None:

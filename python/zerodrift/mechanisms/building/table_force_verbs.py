@@ -25,7 +25,7 @@ WORDS = {
     "length": ("float, optional", "Unstressed length in m, at least 0; left out: as drawn."),
     "angle": ("float", "Of the joint, at which it is slack, in rad."),
     "value": ("float, callable or SymPy expression",
-              "In {unit}; of t, parameters and measures of positions and velocities."),
+              "In {unit}; of the same as the torque of `motor`."),
     "of": ("dict of str to measure", "Measures by the names of the callable's arguments.")}
 UNITS = {"stiffness": ("N/m", "N m/rad"), "damping": ("N s/m", "N m s/rad"), "torsion": ("", "N m/rad"),
          "torsion_damping": ("", "N m s/rad"), "value": ("N", "N m")}      # along marker quantities in m and in rad
@@ -98,7 +98,8 @@ def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any])
     if entry.is_spring:
         values = {path: value for word in parameters(entry) for path, value in _values(word, name, entry, given[word]).items()}
         return m._add(force(name, *ends, values=values, **place))
-    return m._add(force(name, *ends, values={}, law=m._law(f"value of {what} {name!r}", given["value"], given["of"]), **place))
+    law = m._law(f"value of {what} {name!r}", given["value"], given["of"], reactions=True)
+    return m._add(force(name, *ends, values={}, law=law, **place))
 
 
 def _entry(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any]) -> ElementKind:

@@ -41,6 +41,11 @@ class Drawing(NamedTuple):
         sides = (getattr(element, side, None) for element in self.elements.values() for side in ("first", "second"))
         return [point for point in sides if isinstance(point, Point)]
 
+    def reactions(self) -> list[str]:
+        """Reactions and accelerations of the last accepted state that user functions read, by name."""
+        laws = (getattr(element, "law", None) for element in self.elements.values())
+        return list(dict.fromkeys(name for law in laws if law is not None for name in law.reactions.values()))
+
     def parts(self) -> list[Body]:
         """Bodies with their own coordinates: without the ground and particles that are attached to others."""
         return [body for body in self.of(Body) if body is not self.ground and not (isinstance(body, Particle) and body.carrier)]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -27,13 +28,16 @@ class Law:
     what : str
         Whose it is, for errors: ``"speed of motor 'drive'"``.
     measures : tuple of str
-        The measures it depends on, in the order in which `value` takes them.
+        The measures of positions and velocities it depends on, in the order in which `value` takes them.
+    reactions : dict of str to str
+        Reactions and accelerations of the last accepted state, by its own names; a run holds them as parameters in each step.
     constant : float or None
         Its value where it is a plain number.
     """
 
     input: str | None = None        # name of the input that takes its place in a run
     is_speed = False
+    reactions: Mapping[str, str] = MappingProxyType({})
 
     def __init__(self, what: str, given: Any, *, of: Mapping[str, Any] | None = None, parameters: Iterable[str] = ()) -> None:
         self.what, self.constant, self.expression, self._function = what, None, None, None
@@ -66,6 +70,22 @@ class Law:
                 raise WrongType(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures")
             self._names.append(name)
 
+    def hold(self, reactions: Iterable[str]) -> None:
+        """Take these of its measures as reactions."""
+        held = frozenset(reactions)
+        self.reactions = {name: measure for name, measure in self._bound.items() if measure in held}
+        self.measures = tuple(self._bound[name] for name in self._picked)
+
+    @property
+    def _picked(self) -> list[str]:
+        """Own names of its measures without reactions."""
+        return [name for name in self._bound if name not in self.reactions]
+
+    def _known(self, parameters: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Parameters with the reactions by own names."""
+        held = {name: parameters[measure] for name, measure in self.reactions.items()}
+        return {**parameters, **held} if held else parameters
+
     @functools.cached_property
     def _call(self) -> Callable[..., Any]:
         """Function of `names`, in their order."""
@@ -78,7 +98,7 @@ class Law:
         """Value at a time and values of its measures; a jet if these are jets."""
         if self.constant is not None:
             return self.constant
-        known = {**parameters, "t": t, **dict(zip(self._bound, x, strict=True))}
+        known = {**self._known(parameters), "t": t, **dict(zip(self._picked, x, strict=True))}
         try:
             return self._call(*(known[name] for name in self._names))
         except BaseException as error:
@@ -86,7 +106,9 @@ class Law:
             raise
 
     def number(self, t: float, x: Iterable[float], parameters: Mapping[str, Any]) -> float:
-        """Value, checked to be a finite number."""
+        """Value, checked to be a finite number; NaN without the reactions that a run provides."""
+        if self.reactions and any(math.isnan(parameters[measure]) for measure in self.reactions.values()):
+            return math.nan
         value = self.value(t, x, parameters)
         if type(value) is float and -np.inf < value < np.inf:
             return value
@@ -124,12 +146,12 @@ class Law:
         """True if it depends on no measure, or is a polynomial of measures and of sines and cosines of them."""
         if not self.measures:
             return True
-        return self.expression is not None and is_plain_expression(self.expression, set(self._bound))
+        return self.expression is not None and is_plain_expression(self.expression, set(self._picked))
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of its arguments: t, parameters, and its own names of measures."""
-        return tuple(self._names)
+        """Names of its arguments: t, parameters, its own names of measures, and reactions."""
+        return (*self._names, *(measure for measure in self.reactions.values() if measure not in self._names))
 
     @property
     def kind(self) -> tuple[Any, ...]:
@@ -149,7 +171,7 @@ class Law:
 
     def written(self, equations: Any, x: Iterable[Any]) -> Any:
         """Node of its value, from the nodes x of its measures."""
-        known = {**equations.parameters, "t": equations.t, **dict(zip(self._bound, x, strict=True))}
+        known = {**self._known(equations.parameters), "t": equations.t, **dict(zip(self._picked, x, strict=True))}
         if self.constant is not None:
             return equations.graph.number(self.constant)
         if self.expression is not None:
@@ -169,6 +191,7 @@ class InputLaw:
     __slots__ = ("initial", "input", "is_speed", "what")
 
     measures: tuple[str, ...] = ()
+    reactions: Mapping[str, str] = MappingProxyType({})
     names: tuple[str, ...] = ()
     kind: tuple[Any, ...] = ()
     constant = expression = inner_expression = None

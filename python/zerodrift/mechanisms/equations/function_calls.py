@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import copy
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,39 @@ from ..elements.user_functions import Law
 from . import function_code
 
 
+class Held(Mapping[str, float]):
+    """Parameters with reactions, whose present numbers are read at each access."""
+
+    def __init__(self, parameters: Mapping[str, float], numbers: Mapping[str, np.ndarray]) -> None:
+        self._parameters, self._numbers = parameters, numbers
+
+    def __getitem__(self, name: str) -> float:
+        return float(self._numbers[name][0]) if name in self._numbers else self._parameters[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._parameters)
+
+    def __len__(self) -> int:
+        return len(self._parameters)
+
+
 class Call:
     """User function with its arguments: `picks` has, for each measure, its marker quantity and whether the rate is meant."""
 
     def __init__(self, law: Law, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
+
+    def held(self, numbers: Mapping[str, np.ndarray]) -> Call:
+        """The same with reactions from `numbers`, each (1,), which the core changes between steps."""
+        other = copy.copy(self)
+        other.parameters = Held(self.parameters, {name: numbers[name] for name in self.law.reactions.values()})
+        return other
+
+    @property
+    def reactions(self) -> dict[str, int]:
+        """Index of each reaction among the numbers of the compiled function."""
+        names = function_code.names_of(self)
+        return {name: names.index(name) for name in self.law.reactions.values()}
 
     def _numbers(self, t: float, x: np.ndarray, xdot: np.ndarray) -> float:
         values = [float((xdot if is_rate else x)[place]) for place, is_rate in self.picks]
@@ -116,6 +145,15 @@ class Laws:
         """Index under which the core calls it."""
         self.rows.append(row)
         return len(self.rows) - 1
+
+    def held(self) -> tuple[Laws, dict[str, np.ndarray]]:
+        """The same for one run, and the memory of the reactions that user functions in Python read, each (1,)."""
+        numbers = {name: np.zeros(1) for row in self.rows for name in row.law.reactions.values()}
+        if not numbers:
+            return self, numbers
+        mine = Laws()
+        mine.rows = [row.held(numbers) if row.law.reactions else row for row in self.rows]
+        return mine, numbers
 
     def __call__(self, number: int, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         return self.rows[number](t, x, xdot)

@@ -5,6 +5,7 @@ Parameters and the decimal numbers of an expression are arguments: functions tha
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
@@ -23,10 +24,10 @@ def compiled(row: Any, k: int) -> Compiled | None:
     if row.law.input is not None:
         return row.law.compiled
     expression = row.law.inner_expression
-    if expression is None:
+    if expression is None or any(math.isnan(row.parameters[name]) for name in row.law.reactions.values()):
         return None
     template, numbers = _without_numbers(expression)
-    names = tuple(sorted(name for name in row.parameters if name in row.law.names))
+    names = names_of(row)
     key = type(row), row.law.kind, template, row.picks, names, k
     if key not in _functions:
         try:
@@ -43,10 +44,15 @@ def compiled(row: Any, k: int) -> Compiled | None:
     return function and (function[0], np.array([*(row.parameters[name] for name in names), *numbers], dtype=float), function[1])
 
 
+def names_of(row: Any) -> tuple[str, ...]:
+    """Names of the parameters that a user function reads, in the order of its numbers."""
+    return tuple(sorted(name for name in row.parameters if name in row.law.names))
+
+
 def nodes_of(row: Any, k: int) -> tuple[Any, Any, list[float]]:
     """Graph and nodes of a user function that has an expression, as they are compiled, and the values of its parameters."""
     template, numbers = _without_numbers(row.law.inner_expression)
-    names = tuple(sorted(name for name in row.parameters if name in row.law.names))
+    names = names_of(row)
     equations = _Equations(template, names, len(numbers), k)
     return equations.graph, equations.results(row), [*(float(row.parameters[name]) for name in names), *numbers]
 

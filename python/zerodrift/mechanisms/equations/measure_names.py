@@ -17,6 +17,7 @@ from ..elements.table_forces import TableForce, has
 from . import transmission
 
 RATES = {"velocity": "position", "angular_velocity": "angle"}      # and "speed" of a joint's coordinate
+DYNAMIC = ("force", "torque", "tension", "power", "acceleration")       # last words of reactions and accelerations
 
 
 class Reading(NamedTuple):
@@ -47,6 +48,14 @@ def reading(name: str, elements: Mapping[str, Any]) -> Reading | None:
         return Reading(tuple(f"{owner}.position.{axis}" for axis in axes), base != quantity) if set(axes) <= {"x", "y"} and (
             len(component) <= 1) else None
     return None if component else Reading((f"{owner}.{base}",), base != quantity)
+
+
+def is_dynamic(name: str, element: Any) -> bool:
+    """True for the name of a scalar reaction or acceleration; whether the element has it is checked when a run begins."""
+    *_, quantity, last = ("", *name.split("."))
+    if last in ("x", "y", "z"):
+        return quantity.endswith(DYNAMIC)
+    return last.endswith(DYNAMIC) and not (last == "force" and isinstance(element, Joint))
 
 
 def _in_space(owner: str, element: Any, quantity: str, component: list[str]) -> Reading | None:

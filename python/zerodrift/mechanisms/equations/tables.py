@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -45,6 +46,8 @@ class Tables:
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> None:
         self.drawing, self.numbers, self.starts = drawing, numbers, starts or {}
         self.parameters = {name: numbers.changed.get(name, value) for name, value in drawing.parameters.items()}
+        for name in drawing.reactions():
+            self.parameters.setdefault(name, math.nan)      # a run has them
         self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), self._masses()
         self.number = {"ground": 0, **{body.name: i for i, body in enumerate(self.parts, 1)}}
         self.joint_number = {joint.name: i for i, joint in enumerate(self.joints)}

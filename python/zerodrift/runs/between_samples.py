@@ -1,0 +1,49 @@
+"""States of a solution between its samples: a part of the step to the next sample is made again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from .. import _gateway
+from ..errors import WrongValue
+from ..systems.base import direct_core_of
+from .settings import core_settings
+
+
+def states_between(solution: Any, rows: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Coordinates (k, nq) and velocities (k, nv) at increasing times (k,), each in the step that begins at sample `rows` (k,)."""
+    settings = core_settings(solution.t_span, solution.settings)
+    samples = (solution.t, solution.p, solution.v, solution.energy_input, solution.status == _gateway.EVENT)
+    p, v = np.empty((len(times), solution.p.shape[1])), np.empty((len(times), solution.v.shape[1]))
+    for core, part in _cores(solution, settings, rows):
+        p[part], v[part] = _gateway.states_between(core, settings, *samples, times[part],
+                                                     is_own="inputs" in solution.settings)
+    return p, v
+
+
+def _cores(solution: Any, settings: Any, rows: np.ndarray) -> Iterator[tuple[Any, np.ndarray]]:
+    """The core's system with the inputs of these steps, and which of them have these."""
+    system, vector = solution.system, solution.settings.get("vector") or "baseline"
+    names = solution.settings.get("inputs", ())
+    if system._held_reactions():
+        raise _wrong(f"user functions of {system.name} read reactions of the last accepted state")
+    if not names:
+        yield direct_core_of(system, vector, settings), np.ones(len(rows), dtype=bool)
+        return
+    of = system._with_inputs(names)
+    bound = of.bound(direct_core_of(of.system, vector, settings), names)
+    if any(place.is_speed for place in bound.places):
+        raise _wrong("a speed is an input")
+    given = np.column_stack([solution[name] for name in names])
+    inputs = _gateway.Inputs(names, given[0].copy(), given[0], given[0], [bound])
+    each, which = np.unique(given[rows + 1], axis=0, return_inverse=True)
+    for i, values in enumerate(each):
+        inputs.set_constant(values)
+        yield bound.core, which.reshape(-1) == i
+
+
+def _wrong(reason: str) -> Exception:
+    return WrongValue(f"values between samples must be requested by t_eval, as {reason}")
