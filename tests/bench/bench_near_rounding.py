@@ -8,6 +8,7 @@ thread, and the same vector unit.
 """
 
 import dataclasses
+import functools
 import itertools
 import sys
 import time
@@ -27,6 +28,7 @@ TOLERANCES = 10.0 ** -np.arange(8, 15, 0.5)
 FINEST_TOLERANCE = 2.3e-14     # of zerodrift's tolerances
 ROUNDS = 40
 BAR = zd.systems.four_bar()
+CREATIONS = 10      # of heyoka.py's integrator
 COLUMNS = ("span", "error", "method", "tolerance", "its error", "microseconds", "of heyoka's best")
 
 
@@ -97,6 +99,13 @@ def measured(t_end):
     return [(*case[:3], np.quantile(times, 0.25)) for case, times in zip(cases, zip(*rounds, strict=True), strict=True)]
 
 
+def creation():
+    """Milliseconds of the creation of heyoka.py's integrator: for the first time, and with its code in the process's cache."""
+    system, start = with_heyoka._reduced(problems.four_bar())
+    return [1e3 * timed(functools.partial(with_heyoka.hy.taylor_adaptive, system, list(map(float, start)), tol=1e-10))
+            for _ in range(CREATIONS)]
+
+
 def rows():
     """The quickest setting of each method that reaches an error."""
     for t_end, errors in SPANS.items():
@@ -113,6 +122,8 @@ def rows():
 
 
 if __name__ == "__main__":
+    first, *again = creation()
+    print(f"heyoka.py's integrator is created in {first:.0f} ms, again in {min(again):.0f} ms")
     lines = [",".join(COLUMNS)]
     for row in rows():
         print(*row, sep="  ", flush=True)
