@@ -20,9 +20,10 @@ def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[
     """Write a mechanism as a folder of C11 sources, with a program that simulates it.
 
     The folder has the files of the core that this mechanism and its methods need, the mechanism as one block (see `block`)
-    in ``data.h``, and a short ``main.c``. They need a C compiler and its standard library, and nothing else; all memory is
-    allocated before the first step. ``main T`` simulates T seconds and prints t and the outputs with 17 digits, one line for each
-    step. Compiled with ``-ffp-contract=off``, its numbers have the bits of `simulate` with ``vector="baseline"``.
+    in ``data.h``, and a short ``main.c`` with the memory of a sample in ``sample.h``. They need a C compiler and its standard
+    library, and nothing else; all memory is allocated before the first step. ``main T`` simulates T seconds and prints t and the
+    outputs with 17 digits, one line for each step. Compiled with ``-ffp-contract=off``, its numbers have the bits of `simulate`
+    with ``vector="baseline"``.
 
     Parameters
     ----------
@@ -66,7 +67,8 @@ def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[
     if folder.exists() and any(folder.iterdir()):
         raise FileExistsError(f"the folder must be empty or not exist, and {folder} has files")
     write_core(made, folder)
-    (folder / "main.c").write_text(resources.files(__package__).joinpath("main.c").read_text(encoding="utf-8"), encoding="utf-8")
+    for name in ("main.c", "sample.h"):
+        (folder / name).write_text(resources.files(__package__).joinpath(name).read_text(encoding="utf-8"), encoding="utf-8")
     return folder
 
 
