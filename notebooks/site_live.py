@@ -14,7 +14,7 @@ from zerodrift import gallery
 from zerodrift.errors import CompilationFailed
 from zerodrift.export import wasm
 from zerodrift.mechanisms.files.to_json import described
-from zerodrift.player.live import live_view
+from zerodrift.player.live import live_view, player
 
 BOARD = Path(__file__).parent / "board"
 SCRIPTS = ("model.js", "block.js", "python.js", "edit.js", "fields.js", "picture.js", "board.js")      # what a script uses stands before it
@@ -44,19 +44,15 @@ def board() -> str:
     return text["board.html"].replace("/*style*/", text["board.css"]).replace("/*script*/", script)
 
 
-def lives(folder: Path) -> set[str]:
-    """Write the pages that simulate the models of the plane, each once for a version of the package; names of these models."""
+def lives(folder: Path) -> None:
+    """Write the pages that simulate the models, each once for a version of the package, and the player that they share."""
     folder.mkdir(exist_ok=True)
-    made = {}
+    (folder / "player.js").write_text(player(), encoding="utf-8")
     for each in gallery.exhibits():
         path = folder / f"{each.name}.html"
-        if getattr(each.made(), "dimension", 0) != 2:
-            continue
-        made[each.name] = path
         if not path.exists():
             view = live_view(each.made(), step=min(each.step, 0.01), speed=each.speed, **dict(each.options))
-            path.write_text(view.linked("../core_bytes.js"), encoding="utf-8")
-    return set(made)
+            path.write_text(view.linked("../core_bytes.js", "player.js"), encoding="utf-8")
 
 
 def plain(script: str) -> str:

@@ -166,7 +166,7 @@ def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
     kept = folder / "graphs.json"
     known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
     shown = {each.name: each for each in gallery.exhibits()}
-    simulated = site_live.lives(folder / "extra" / "live")
+    site_live.lives(folder / "extra" / "live")
     for exhibit in shown.values():
         path = folder / "extra" / "films" / f"{exhibit.name}.html"
         if not path.exists() or exhibit.name not in known:
@@ -176,7 +176,7 @@ def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
             film.save(path)
             known[exhibit.name] = plotted(sol)[0]
             kept.write_text(json.dumps(known), encoding="utf-8")
-        yield f"models/{exhibit.name}", model(exhibit, known, exhibit.name in simulated)
+        yield f"models/{exhibit.name}", model(exhibit, known)
     yield "gallery", [
         "# Gallery", "", f"{len(shown)} mechanisms; pictures play when pointed at.", "",
         *(line for kind, names in KINDS.items() for line in (f"## {kind}", "", "```{raw} html", '<div class="films">',
@@ -198,10 +198,12 @@ def card(exhibit: gallery.Exhibit) -> str:
             f'alt="{html.escape(exhibit.see)}" class="dark-light" loading="lazy"></span><b>{exhibit.title}</b></a>')
 
 
+TURNING = " The view is turned by dragging beside it, or by Shift with the arrow keys."
 LIVE = """## Simulated on this page
 
-Sliders change lengths and motors, and a point that is dragged takes the mechanism along; `n` chooses a point for the arrow keys. A length
-with which it cannot close is refused. Below it are the position violation and the energy error of the run; the core simulates in the browser.
+Sliders change lengths, springs, masses, gravity and motors. A point that is dragged takes the mechanism along, as by a spring, in space parallel to
+the screen; `n` chooses a part for the arrow keys.{turning} A length with which it cannot close is refused, and so is pulling what a motor holds.
+Below it are the position violation and the energy error of the run; the core simulates in the browser.
 
 ```{{raw}} html
 <iframe src="../../live/{name}.html" title="{title}, simulated" loading="lazy"
@@ -210,7 +212,7 @@ style="width:100%;height:560px;border:0"></iframe>
 """
 
 
-def model(exhibit: gallery.Exhibit, graphs: dict[str, str], is_simulated: bool) -> Iterable[str]:
+def model(exhibit: gallery.Exhibit, graphs: dict[str, str]) -> Iterable[str]:
     """The page of a model: film with a plot, lines, simulation, the mechanism in words, sources of its numbers, code."""
     made, name, graph = getattr(zd.models, exhibit.name), exhibit.name, graphs[exhibit.name]
     with warnings.catch_warnings():
@@ -222,7 +224,7 @@ def model(exhibit: gallery.Exhibit, graphs: dict[str, str], is_simulated: bool) 
     yield from (f"# {exhibit.title}", "", exhibit.see, "", f"Beside it: `{graph}`.", "", "```{raw} html", f'<iframe src="../../films/{name}.html" '
                 f'title="Film: {html.escape(exhibit.see)}" sandbox="allow-scripts" style="width:100%;height:460px;border:0"></iframe>', "```", "",
                 "```python", "import zerodrift as zd", "", *exhibit.lines[:-1], shown, "```", "",
-                *([LIVE.format(name=name, title=exhibit.title)] if is_simulated else []), "## The mechanism", "",
+                LIVE.format(name=name, title=exhibit.title, turning=TURNING if exhibit.made().dimension == 3 else ""), "## The mechanism", "",
                 text.split("\n\n")[0], "", "```text", words, "```", "")
     if "References\n----------" in text:
         source = text.split("References\n----------\n")[1].split("\nExamples\n")[0].strip()

@@ -91,6 +91,10 @@ void zd_block_free(zd_block *block);
 const zd_system *zd_block_system(const zd_block *block);
 /* Start: p (nq,), v (nv,); NULL: not given. */
 const double *zd_block_start(const zd_block *block);
+/* poses (bodies, size) <- those of the mass centres at p: x, y, angle in the plane; in space position and principal axes, one after another.
+ * `scratch` holds system->scratch doubles. Returns the size of a pose, also where `poses` is NULL and nothing is computed. */
+int zd_block_poses(const zd_block *block, const double *p, double *poses, double *scratch);
+int zd_block_bodies(const zd_block *block);
 /* Settings of a run and its outputs, which refer to the block; the caller sets t1 and samples. Returns ZD_DONE, or ZD_BAD_ARGUMENT. */
 int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int message_size);
 

@@ -170,6 +170,15 @@ void zd_block_free(zd_block *block)
 
 const zd_system *zd_block_system(const zd_block *block) { return &block->system; }
 
+int zd_block_bodies(const zd_block *block) { return count_of(&block->layout, ZD_BLOCK_BODIES); }
+
+int zd_block_poses(const zd_block *block, const double *p, double *poses, double *scratch)
+{
+    const zd_block_dimension *of = block->layout.of;
+    if (poses) of->poses(block->mechanism, p, poses, scratch);
+    return of->pose;
+}
+
 const double *zd_block_start(const zd_block *block)
 {
     const zd_block_part *start = block->layout.part + ZD_BLOCK_START;

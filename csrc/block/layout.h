@@ -26,6 +26,8 @@ struct zd_block_dimension {
     /* The mechanism and its system, from the unpacked entries of each section. Returns 0 with the reason on failure. */
     int (*make)(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to);
     void (*release)(void *mechanism);
+    int pose;                   /* numbers of a pose, see zd_block_poses() */
+    void (*poses)(const void *mechanism, const double *p, double *poses, double *scratch);
     void (*name_row)(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size);
 };
 

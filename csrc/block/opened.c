@@ -194,6 +194,8 @@ int zd_opened_measure(zd_opened *self, int measure, double *value)
     return status ? status : evaluate(self, measure, self->vdot, self->lambda, value);
 }
 
+void zd_opened_poses(zd_opened *self, double *poses) { zd_block_poses(self->block, zd_run_p(self->run), poses, self->scratch); }
+
 double zd_opened_violation(zd_opened *self)
 {
     const zd_system *system = zd_block_system(self->block);

@@ -28,6 +28,8 @@ const zd_run *zd_opened_run(const zd_opened *self);
 const char *zd_opened_message(const zd_opened *self);      /* the last failure in one sentence */
 /* Values of a measure at the present state: (size,). */
 int zd_opened_measure(zd_opened *self, int measure, double *value);
+/* Poses of the bodies at the present state, as zd_block_poses(): (bodies, size). */
+void zd_opened_poses(zd_opened *self, double *poses);
 /* Largest residual of the position constraints at the present state. */
 double zd_opened_violation(zd_opened *self);
 /* J: error of the energy (28) at the present state; NaN where it is not defined. */

@@ -45,6 +45,11 @@ static int make(zd_block *self, void *const *section, const zd_elements *element
 
 static void release(void *mechanism) { zd_plane_free(mechanism); }
 
+static void poses(const void *mechanism, const double *p, double *poses, double *scratch)
+{
+    zd_plane_poses(mechanism, p, NULL, poses, NULL, scratch);
+}
+
 static void name_row(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
 {
     static const char *const word[] = {"x", "y", "angle", "along", "across", "distance", "glide", "skid"};
@@ -54,5 +59,5 @@ static void name_row(const zd_block_layout *layout, int joint, int component, co
 }
 
 const zd_block_dimension zd_block_plane = {
-    .dimension = 2, .structure = structure, .make = make, .release = release, .name_row = name_row,
+    .dimension = 2, .structure = structure, .make = make, .release = release, .pose = 3, .poses = poses, .name_row = name_row,
 };

@@ -48,6 +48,11 @@ static int make(zd_block *self, void *const *section, const zd_elements *element
 
 static void release(void *mechanism) { zd_space_free(mechanism); }
 
+static void poses(const void *mechanism, const double *p, double *poses, double *scratch)
+{
+    zd_space_tree_poses(mechanism, p, NULL, poses, NULL, scratch);
+}
+
 static void name_row(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
 {
     static const char *const axis[] = {"x", "y", "z"}, *const direction[] = {"axis", "normal", "third"};
@@ -60,5 +65,5 @@ static void name_row(const zd_block_layout *layout, int joint, int component, co
 }
 
 const zd_block_dimension zd_block_space = {
-    .dimension = 3, .structure = structure, .make = make, .release = release, .name_row = name_row,
+    .dimension = 3, .structure = structure, .make = make, .release = release, .pose = 12, .poses = poses, .name_row = name_row,
 };

@@ -1,6 +1,7 @@
 """The core in WebAssembly: its numbers in node are the native core's, to the bit."""
 
 import base64
+import functools
 import gzip
 import json
 import re
@@ -12,7 +13,9 @@ import pytest
 
 import zerodrift as zd
 from browser import Browser, needs_chromium
+from zerodrift._rotations import rotation_of
 from zerodrift.export import wasm
+from zerodrift.export.block import choose, written
 
 NODE = shutil.which("node")
 pytestmark = pytest.mark.skipif(not NODE, reason="there is no node")
@@ -55,23 +58,35 @@ def test_it_is_small_enough(web):
     assert len(gzip.compress(wasm.core(), 9)) < LARGEST
 
 
-MODELS = {"four_bar": 1e-3, "slider_crank": 1e-3, "jansen": 1e-4, "rolling_disc": 1e-4}
+def driven_slider_crank():
+    """A slider-crank whose crank a motor turns."""
+    m = zd.Mechanism("driven slider-crank", gravity=(0, -9.81))
+    crank = m.link("crank", (0, 0), (0.2, 0.3), mass=1.0)
+    rod = m.link("rod", (0.2, 0.3), (1.2, 0), mass=0.8)
+    m.revolute("main", m.ground.point((0, 0)), crank.start)
+    m.revolute("pin", crank.end, rod.start)
+    m.slot("guide", m.ground, rod.end, axis=(1, 0))
+    m.motor("drive", "main", speed=6.0)
+    return m
 
 
-@pytest.mark.parametrize("name", MODELS)
-def test_runs_have_the_bits_of_the_native_core(web, name):
-    model, step = getattr(zd.models, name)(), MODELS[name]
-    found, = web(f"const m = zd.create(core, block('{name}')); zd.step(m, {STEPS});"
-                 "tell([bits(zd.positions(m)), bits(zd.velocities(m))]);", **{name: zd.block(model, step=step, outputs=[])})
-    run = zd.Run(model, step=step, direct=False, vector="baseline")
-    run.step(STEPS)
+MODELS = {zd.models.four_bar: (1e-3, STEPS), zd.models.slider_crank: (1e-3, STEPS), zd.models.jansen: (1e-4, STEPS),
+          zd.models.rolling_disc: (1e-4, STEPS), driven_slider_crank: (1e-3, FEW)}      # step, number of steps
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
+def test_runs_have_the_bits_of_the_native_core(web, model):
+    step, steps = MODELS[model]
+    found, = web(f"const m = zd.create(core, block('it')); zd.step(m, {steps});"
+                 "tell([bits(zd.positions(m)), bits(zd.velocities(m))]);", it=zd.block(model(), step=step, outputs=[]))
+    run = zd.Run(model(), step=step, direct=False, vector="baseline")
+    run.step(steps)
     assert found == [bits(run.p), bits(run.v)]
 
 
 @needs_chromium
 def test_runs_have_the_bits_of_the_native_core_in_chromium(web, tmp_path):
-    blocks = {name: base64.b64encode(zd.block(getattr(zd.models, name)(), step=step, outputs=[])).decode()
-              for name, step in MODELS.items()}
+    blocks = {model: base64.b64encode(zd.block(model(), step=step, outputs=[])).decode() for model, (step, _) in MODELS.items()}
     names = ", ".join(re.findall(r"^export (?:async )?function (\w+)", wasm.text("core.js"), re.MULTILINE))
     script = re.sub(r"^export ", "", wasm.text("core.js"), flags=re.MULTILINE)
     core = base64.b64encode(wasm.core()).decode()
@@ -81,14 +96,14 @@ def test_runs_have_the_bits_of_the_native_core_in_chromium(web, tmp_path):
         globalThis.zd = {{{names}, bytes, bits: (array) => Array.from(new BigUint64Array(array.buffer), String)}};</script>""")
     with Browser(tmp_path / "profile") as browser:
         browser.open((tmp_path / "core.html").as_uri())
-        for name, step in MODELS.items():
+        for model, (step, _) in MODELS.items():
             found = browser.evaluate(f"""(async () => {{
-                const m = zd.create(await core, zd.bytes("{blocks[name]}"));
+                const m = zd.create(await core, zd.bytes("{blocks[model]}"));
                 zd.step(m, {FEW});
                 return [zd.bits(zd.positions(m)), zd.bits(zd.velocities(m))]; }})()""")
-            run = zd.Run(getattr(zd.models, name)(), step=step, direct=False, vector="baseline")
+            run = zd.Run(model(), step=step, direct=False, vector="baseline")
             run.step(FEW)
-            assert found == [bits(run.p), bits(run.v)], name
+            assert found == [bits(run.p), bits(run.v)], model
         assert browser.errors == []
 
 
@@ -177,3 +192,38 @@ def test_a_redundant_constraint_is_named(web):
     assert told["rank"] == 3
     assert len(told["redundant"]) == 1
     assert told["redundant"][0].partition(".")[0] in ("left", "right")
+
+
+GRIP = """
+    const m = zd.create(core, block("it"), 0), axes = ["x", "y", "z"].filter((axis) => m.inputs.includes(`grip.force.${axis}`));
+    zd.setParameter(m, "grip.body", BODY);
+    axes.forEach((axis, k) => { zd.setParameter(m, `grip.${axis}`, POINT[k]); zd.setInput(m, `grip.force.${axis}`, FORCE[k]); });
+    zd.step(m, 200);
+    tell([[...zd.positions(m)], [...zd.poses(m)]]);
+"""
+
+
+@pytest.mark.parametrize(("model", "link", "force"), [
+    (zd.models.four_bar, "coupler", (0.3, -0.5)), (functools.partial(zd.models.chain, 2), "link 1", (0.3, -0.5, 0.7))])
+def test_a_grip_is_a_force_on_a_point_of_a_body(web, model, link, force):
+    """As the force of the mechanism itself; poses are those of the native core."""
+    loaded, start = model(), zd.simulate(model(), 1e-3, step=1e-3)
+    number = [body.name for body in start.system._drawing.parts()].index(link)
+    at, R = placed(start.system._first_core.poses(start.p[0])[0][number])
+    point = R.T @ (start[f"{link}.end.position"][0] - at)
+    block = written(choose(start.system, None, None, 0.0, 1e-3, [], [], {})._replace(has_grip=True))
+    script = GRIP.replace("BODY", str(number + 1)).replace("POINT", str(point.tolist())).replace("FORCE", str(list(force)))
+    (p, poses), = web(script, it=block)
+    loaded.force("load", f"{link}.end", value=force)
+    sol = zd.simulate(loaded, 0.2, step=1e-3, direct=False, vector="baseline")
+    np.testing.assert_allclose(p, sol.p[-1], atol=1e-9)         # the projections of the grip's parameters
+    native = start.system._first_core.poses(np.array(p))[0]
+    expected = native if len(force) == 2 else [[*at, *R.T.ravel()] for at, R in map(placed, native)]
+    np.testing.assert_allclose(poses, np.ravel(expected), atol=1e-12)
+
+
+def placed(pose):
+    """Mass centre and rotation of a pose."""
+    if len(pose) == 7:
+        return pose[:3], rotation_of(pose[3:])
+    return pose[:2], np.array([[np.cos(pose[2]), -np.sin(pose[2])], [np.sin(pose[2]), np.cos(pose[2])]])

@@ -16,7 +16,8 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
 
 /* From the state to poses (bodies, 12), position of the mass centre and the three axes of each body, and twists (bodies, 6), velocity and
  * angular velocity, all in global axes; and back. Angles are in (-pi, pi], those of screws nearest to the displacement. Motion that joints of
- * the tree do not allow is ignored. `twists` and `v` may be NULL; `scratch` holds system->scratch doubles. */
+ * the tree do not allow is ignored. `twists` and `v` may be NULL; `scratch` holds system->scratch doubles. Poses are also those of mechanisms
+ * without a tree. */
 void zd_space_tree_poses(const zd_space *space, const double *p, const double *v, double *poses, double *twists, double *scratch);
 void zd_space_tree_state(const zd_space *space, const double *poses, const double *twists, double *p, double *v);
 

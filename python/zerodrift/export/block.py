@@ -20,6 +20,7 @@ from ..runs import settings
 from ..runs.start import start_of
 from ..systems.base import stateless_system_of
 from . import parameters as _parameters
+from .grip import Grip
 from .law_programs import Programs
 
 MOST_MEASURES = 8192        # of a system of the core
@@ -35,6 +36,7 @@ class Chosen(NamedTuple):
     outputs: tuple[str, ...] | None     # measures; None: all, and none is recorded
     inputs: tuple[str, ...]
     limits: Mapping[str, tuple[float, float]] = MappingProxyType({})       # of parameters
+    has_grip: bool = False          # a force on a point of a body, see `grip`
 
 
 def block(system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = 0.01, outputs: Any = None,
@@ -136,7 +138,7 @@ def written(chosen: Chosen) -> bytes:
         "settings": blocks.settings(chosen.core_settings), "methods": blocks.methods(chosen.core_settings, texts),
         "names": [texts.offset(name) for name in (*(body.name for body in tables.parts), *(joint.name for joint in tables.joints),
                                                   *tables.relation_names)],
-        **_parameter_sections(chosen, sections, texts)}
+        **_parameter_sections(chosen, sections, counts, texts)}
     return blocks.assembled(system._drawing.dimension, sections, counts, texts)
 
 
@@ -145,11 +147,16 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
     quantities, observed = read(tables)
     if chosen.outputs is not None:
         quantities, observed = _kept(len(tables.quantities), quantities, [row for row in observed if row.name in chosen.outputs])
-    measures = [row.name for row in observed]
+    packed, grip = tables.written(quantities, observed), None
+    if chosen.has_grip:
+        grip = Grip(chosen.system._drawing.dimension, len(quantities), len(tables.forces), len(tables.parts))
+        packed = grip.added(packed)._replace(measures=[*observed, grip.measure])
+    measures = [row.name for row in packed.measures]
     if len(measures) > MOST_MEASURES:
         raise WrongValue(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, "
                          f"as {chosen.system.name} has")
-    packed, inputs, programs = _with_inputs(chosen, tables, tables.written(quantities, observed), texts)
+    packed, inputs, programs = _with_inputs(chosen, tables, packed, texts)
+    inputs += grip.inputs(texts) if grip else []
     sections = {**blocks.tables(packed, texts), **vars(programs), "inputs": inputs}
     counts = {"bodies": len(packed.bodies), "joints": len(packed.joints), "quantities": len(packed.quantities),
               "terms": len(sections["terms"]) // 2, "relations": len(packed.relations), "forces": len(packed.forces),
@@ -167,7 +174,8 @@ def _kept(own: int, quantities: Sequence[Any], observed: Sequence[OutputSpec]) -
     return kept, found
 
 
-def _parameter_sections(chosen: Chosen, sections: Mapping[str, list[float]], texts: blocks.Texts) -> dict[str, list[float]]:
+def _parameter_sections(chosen: Chosen, sections: Mapping[str, list[float]], counts: Mapping[str, int],
+                        texts: blocks.Texts) -> dict[str, list[float]]:
     """Sections of parameters, and of the words that they change."""
     system, limits = chosen.system, chosen.limits
     before = blocks.SECTIONS[:blocks.SECTIONS.index("start")]
@@ -183,6 +191,12 @@ def _parameter_sections(chosen: Chosen, sections: Mapping[str, list[float]], tex
     found = [each + first if i % 3 == 0 else each for i, each in enumerate(found)]
     entries = [number for name, (least, most) in limits.items()
                for number in (texts.offset(name), texts.offset(""), system.parameters[name], least, most)]
+    if chosen.has_grip:
+        drawing, width = system._drawing, len(sections["quantities"]) // counts["quantities"]
+        grip = Grip(drawing.dimension, counts["quantities"] - drawing.dimension, 0, counts["bodies"])
+        begin = first + sum(len(sections[name]) for name in before[:before.index("quantities")])
+        more = grip.effects(begin, width, len(limits), len(products) // 7)
+        entries, found, products = entries + grip.parameters(texts), found + more[0], products + more[1]
     return {"parameters": entries, "effects": found, "products": products}
 
 

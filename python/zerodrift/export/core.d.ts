@@ -32,6 +32,8 @@ export function advance(m: Mechanism, t: number): void;
 export function time(m: Mechanism): number;
 export function positions(m: Mechanism): Float64Array;
 export function velocities(m: Mechanism): Float64Array;
+/** Poses of the bodies, one after another: x, y, angle in the plane; in space the mass centre and the three principal axes. */
+export function poses(m: Mechanism): Float64Array;
 /** Components of a measure at the present state. */
 export function read(m: Mechanism, name: string): Float64Array;
 export function unit(m: Mechanism, name: string): string;

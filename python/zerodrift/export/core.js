@@ -121,6 +121,15 @@ export function velocities(m) {
   return doublesAt(m, m.core.page_v(m.run), m.core.page_nv(m.run)).slice();
 }
 
+// Poses of the bodies at the present state, one after another: x, y, angle in the plane; in space the mass centre and the three principal axes.
+export function poses(m) {
+  const size = m.core.page_bodies(m.run) * m.core.page_pose(m.run);
+  return withDoubles(m, [new Float64Array(size)], (address) => {
+    m.core.page_poses(m.run, address);
+    return doublesAt(m, address, size).slice();
+  });
+}
+
 // Components of a measure at the present state.
 export function read(m, name) {
   const index = indexOf(m.measures, name, "measure"), size = m.core.page_measure_size(m.run, index);

@@ -50,6 +50,10 @@ PAGE(const char *, page_constraint)(const zd_opened *self, int row)
     return message;
 }
 
+PAGE(int, page_bodies)(const zd_opened *self) { return zd_block_bodies(zd_opened_block(self)); }
+PAGE(int, page_pose)(const zd_opened *self) { return zd_block_poses(zd_opened_block(self), NULL, NULL, NULL); }
+PAGE(void, page_poses)(zd_opened *self, double *poses) { zd_opened_poses(self, poses); }
+
 PAGE(int, page_measures)(const zd_opened *self) { return system_of(self)->measures->count; }
 PAGE(const char *, page_measure_name)(const zd_opened *self, int i) { return measure_of(self, i)->name; }
 PAGE(const char *, page_measure_unit)(const zd_opened *self, int i) { return measure_of(self, i)->unit; }

@@ -1,13 +1,13 @@
 // A mechanism that is simulated while it is shown: sliders change its parameters and inputs, and a point that is dragged takes it along.
-// Stands behind core.js, whose functions it uses, in one module.
+// Stands after core.js and picture.js, whose functions it uses, in one module.
 
 const scene = JSON.parse(document.getElementById("live").textContent);
-const canvas = document.getElementById("picture"), pen = canvas.getContext("2d");
+const canvas = document.getElementById("picture"), AXES = ["x", "y", "z"].slice(0, scene.dimension);
 const words = {play: document.getElementById("play"), state: document.getElementById("state"), told: document.getElementById("told")};
 const BUDGET = 8;           // ms of computation in a picture
-const live = {mechanism: null, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches, dragged: null, cost: 0, pictures: 0, trust: [], chosen: null};
-live.place = (point) => { const box = canvas.getBoundingClientRect(), [x, y] = onScreen(point); return [x + box.left, y + box.top]; };
-globalThis.zerodrift = {live, read, time, setParameter, setInput, save, violation, energyViolation, freedoms};
+const live = {mechanism: null, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches, dragged: null, turned: null, cost: 0, pictures: 0,
+  trust: [], chosen: null, initial: null, sliders: []};
+globalThis.zerodrift = {live, scene, read, time, poses, parameter, setParameter, setInput, input, save, violation, energyViolation, freedoms};
 
 const bytesOf = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
@@ -15,91 +15,51 @@ async function unpacked(bytes) {
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
-// ---- view: the rectangle of the drawing in m, and its scale ----
+// ---- points: bodies carry them; parameters move them in their bodies ----
 
-let frame = {x: 0, y: 0, scale: 1};
-const placeOf = (point) => (typeof point === "string" ? read(live.mechanism, point) : point);
-const onScreen = ([x, y]) => [(x - frame.x) * frame.scale, (frame.y - y) * frame.scale];
-const inDrawing = (event) => {
-  const box = canvas.getBoundingClientRect();
-  return [(event.clientX - box.left) / frame.scale + frame.x, frame.y - (event.clientY - box.top) / frame.scale];
-};
+const layer = {shapes: scene.shapes, at: [], fixed: scene.fixed, paths: [], arrows: [], loads: []};
+scene.layers = [layer];
+const picture = pictureOf(scene, canvas, () => {});
 
-function fit() {
-  const box = canvas.getBoundingClientRect(), ratio = devicePixelRatio || 1;
-  canvas.width = box.width * ratio;
-  canvas.height = box.height * ratio;
-  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-  const [left, low, right, high] = scene.extent;
-  frame.scale = Math.min(box.width / (right - left), box.height / (high - low));
-  frame.x = (left + right) / 2 - box.width / 2 / frame.scale;
-  frame.y = (low + high) / 2 + box.height / 2 / frame.scale;
+function locate() {
+  const pose = poses(live.mechanism), size = scene.dimension === 3 ? 12 : 3;
+  layer.at = scene.points.map(([body, isDirection, ...own]) => {
+    const at = pose.subarray(size * (body - 1), size * body), cosine = Math.cos(at[2]), sine = Math.sin(at[2]);
+    const turned = size === 12 ? AXES.map((_, k) => at[3 + k] * own[0] + at[6 + k] * own[1] + at[9 + k] * own[2])
+      : [cosine * own[0] - sine * own[1], sine * own[0] + cosine * own[1]];
+    return isDirection ? turned : turned.map((x, k) => x + at[k]);
+  });
 }
 
-// ---- drawing ----
-
-function line(points, width, colour) {
-  pen.beginPath();
-  points.forEach((point, i) => (i ? pen.lineTo(...point) : pen.moveTo(...point)));
-  if (points.length > 2) pen.closePath();
-  Object.assign(pen, {lineWidth: width, strokeStyle: colour, fillStyle: colour, lineCap: "round", lineJoin: "round"});
-  pen.stroke();
-  if (points.length > 2) { pen.globalAlpha = 0.25; pen.fill(); pen.globalAlpha = 1; }
-}
-
-function spring(a, b, colour) {
-  const dx = b[0] - a[0], dy = b[1] - a[1], size = Math.hypot(dx, dy) || 1, turns = 8;
-  const points = [a, b];
-  for (let i = 1; i < 2 * turns; i++) {
-    const along = 0.15 + 0.7 * i / (2 * turns), across = (i % 2 ? 6 : -6) / size;
-    points.splice(-1, 0, [a[0] + along * dx - across * dy, a[1] + along * dy + across * dx]);
+function reshape() {
+  const {effects, products, names} = scene.changes, value = names.map((name) => parameter(live.mechanism, name));
+  for (let i = 0; i < effects.length; i += 3) {
+    let sum = 0;
+    for (let k = 7 * effects[i + 1]; k < 7 * (effects[i + 1] + effects[i + 2]); k += 7)
+      sum += products[k] * [1, 3, 5].reduce((all, j) => all * value[products[k + j]] ** products[k + j + 1], 1);
+    scene.points[Math.floor(effects[i] / scene.dimension)][2 + effects[i] % scene.dimension] = sum;
   }
-  pen.beginPath();
-  points.forEach((point, i) => (i ? pen.lineTo(...point) : pen.moveTo(...point)));
-  Object.assign(pen, {lineWidth: 1.5, strokeStyle: colour});
-  pen.stroke();
 }
 
-// The view grows with the motion; a mechanism that nothing joins to the ground is followed.
+// The view grows with the motion; what goes far is followed.
 function look() {
-  const places = pointNames().map(placeOf), [left, low, right, high] = scene.extent, isFree = !scene.pins.some((pin) => pin.ground);
-  const [a, b] = [0, 1].map((k) => Math.min(...places.map((at) => at[k]))), [c, d] = [0, 1].map((k) => Math.max(...places.map((at) => at[k])));
-  if (!places.length || (a >= left && b >= low && c <= right && d <= high)) return;
-  const x = (a + c - left - right) / 2, y = (b + d - low - high) / 2, room = 0.1 * (right - left);
-  scene.extent = isFree ? [left + x, low + y, right + x, high + y]
-    : [a < left ? a - room : left, b < low ? b - room : low, c > right ? c + room : right, d > high ? d + room : high];
-  fit();
+  if (scene.follow) return;
+  const places = layer.at.filter((_, i) => !scene.points[i][1]), room = 0.1 * picture.length(picture.sub(scene.high, scene.low));
+  let grown = false;
+  for (const k of AXES.keys()) {
+    const low = Math.min(...places.map((at) => at[k])), high = Math.max(...places.map((at) => at[k]));
+    if (low < scene.low[k]) [scene.low[k], grown] = [low - room, true];
+    if (high > scene.high[k]) [scene.high[k], grown] = [high + room, true];
+  }
+  if (grown) picture.frame();
 }
 
 function draw() {
+  locate();
   look();
-  const ink = getComputedStyle(document.body).color, box = canvas.getBoundingClientRect();
-  pen.clearRect(0, 0, box.width, box.height);
-  scene.bodies.forEach((body, i) => {
-    const points = body.points.map(placeOf).map(onScreen), colour = `hsl(${(i * 137.5 + 210) % 360} 55% 50%)`;
-    if (points.length > 1) return line(points, 7, colour);
-    pen.fillStyle = colour;
-    for (const [x, y] of points) pen.fillRect(x - 16, y - 10, 32, 20);
-  });
-  if (live.chosen) {
-    const [x, y] = onScreen(placeOf(live.chosen));
-    pen.beginPath();
-    pen.arc(x, y, 13, 0, 7);
-    Object.assign(pen, {strokeStyle: ink, lineWidth: 2});
-    pen.stroke();
-  }
-  for (const [a, b] of scene.springs) spring(onScreen(placeOf(a)), onScreen(placeOf(b)), ink);
-  for (const pin of scene.pins) {
-    const [x, y] = onScreen(placeOf(pin.at));
-    pen.beginPath();
-    if (pin.ground) { pen.moveTo(x, y); pen.lineTo(x - 9, y + 14); pen.lineTo(x + 9, y + 14); pen.closePath(); }
-    Object.assign(pen, {fillStyle: "white", strokeStyle: ink, lineWidth: 1.5});
-    pen.stroke();
-    pen.beginPath();
-    pen.arc(x, y, 4, 0, 7);
-    pen.fill();
-    pen.stroke();
-  }
+  picture.draw();
+  if (live.chosen) picture.ring(layer.at[live.chosen.point], live.chosen.name);
+  if (live.dragged) picture.thread(layer.at[live.dragged.point], live.dragged.screen);
 }
 
 function tell() {
@@ -149,11 +109,13 @@ function next(now) {
   const begin = performance.now(), elapsed = Math.min((now - (live.last ?? now)) / 1000, 0.05) * scene.speed;
   live.last = now;
   try {
-    if (live.dragged) pull(live.mechanism, live.dragged.name, live.dragged.target);
-    else if (live.playing) {
-      const goal = time(live.mechanism) + elapsed;
-      while (time(live.mechanism) < goal - scene.step / 2 && performance.now() - begin < BUDGET) step(live.mechanism, 1);
-    }
+    if (live.playing || (live.dragged && !assembles())) {
+      const goal = time(live.mechanism) + elapsed, tug = live.dragged ? springOf(live.dragged) : () => {};
+      while (time(live.mechanism) < goal - scene.step / 2 && performance.now() - begin < BUDGET) {
+        tug();
+        step(live.mechanism, 1);
+      }
+    } else if (live.dragged) pull(live.mechanism, () => whereIs(live.dragged.point), targetOf(live.dragged));
     keepTrust();
     draw();
     drawTrust();
@@ -168,76 +130,180 @@ function next(now) {
   requestAnimationFrame(next);
 }
 
-// ---- hands ----
+// ---- pulling: a spring from the pointer while time goes on, assembly while it stands; in space parallel to the screen ----
 
-function toggle() {
-  live.playing = !live.playing;
-  words.play.textContent = live.playing ? "Pause" : "Play";
+const MOST = 30;            // coordinates of a mechanism that is assembled within a picture; of larger ones time goes on while they are pulled
+const assembles = () => positions(live.mechanism).length <= MOST;
+const HELD = 1e-9;          // mobility of a point, relative to that of a free body, below which the constraints hold it
+const whereIs = (point) => { locate(); return layer.at[point]; };
+const targetOf = ({screen, depth}) => picture.unproject(screen, depth);
+
+function setForce(force) {
+  AXES.forEach((axis, k) => setInput(live.mechanism, `grip.force.${axis}`, force[k]));
+}
+
+// Moves the grip to a point. Returns the sum of its accelerations along the axes for forces of 1 N, in 1/kg: 0 where the constraints hold it.
+function grip(point) {
+  const m = live.mechanism, [body, , ...own] = scene.points[point], unit = scene.mass;
+  AXES.forEach((axis) => setParameter(m, `grip.${axis}`, 0));
+  setParameter(m, "grip.body", body);
+  AXES.forEach((axis, k) => setParameter(m, `grip.${axis}`, own[k]));
+  const accelerations = [null, ...AXES.keys()].map((along) => {
+    setForce(AXES.map((_, k) => (k === along ? unit : 0)));
+    restore(m, save(m));
+    return read(m, "grip.acceleration");
+  });
+  release();
+  return AXES.reduce((sum, _, k) => sum + (accelerations[k + 1][k] - accelerations[0][k]) / unit, 0);
+}
+
+function release() {
+  const m = live.mechanism;
+  setForce(AXES.map(() => 0));
+  restore(m, save(m));
+}
+
+// Begins to pull at a point: a spring as stiff as four oscillations a second of the picture, and as the weight of the mechanism needs, but not too
+// stiff for the steps; its damping is that of the point alone.
+function hold(point, screen) {
+  let mobility = 0;
+  try {
+    mobility = grip(point);
+  } catch (error) {
+    return fail(error);
+  }
+  const h = scene.step;
+  if (!(mobility * scene.mass > HELD)) {
+    return fail(new Error("This point cannot be pulled: a motor whose motion is given, or the constraints, hold it."));
+  }
+  const wanted = Math.max((8 * Math.PI / scene.speed) ** 2 / mobility, scene.weight / (0.05 * picture.length(picture.sub(scene.high, scene.low))));
+  const stiffness = Math.min(wanted, (0.3 / h) ** 2 / mobility), damping = Math.min(1.4 * Math.sqrt(stiffness / mobility), 0.5 / (h * mobility));
+  live.dragged = {point, screen, depth: picture.project(whereIs(point))[2], stiffness, damping};
   words.told.textContent = "";
 }
 
-const pointNames = () => [...new Set(scene.bodies.flatMap((body) => body.points).filter((point) => typeof point === "string"))];
-
-function nearest(event) {
-  const [x, y] = inDrawing(event), reach = 25 / frame.scale, names = pointNames();
-  const far = (name) => { const [a, b] = placeOf(name); return Math.hypot(a - x, b - y); };
-  const name = names.sort((a, b) => far(a) - far(b))[0];
-  return name && far(name) < reach ? name : null;
+// A function that sets the spring's force for the next step.
+function springOf(dragged) {
+  const target = targetOf(dragged);
+  return () => {
+    const at = whereIs(dragged.point), before = dragged.before ?? at;
+    dragged.before = at;
+    setForce(at.map((x, k) => dragged.stiffness * (target[k] - x) - dragged.damping * (x - before[k]) / scene.step));
+  };
 }
 
-const PULL = 40;        // points of the screen that an arrow key pulls
+function letGo() {
+  if (live.dragged) release();
+  live.dragged = live.turned = null;
+}
+
+// ---- hands ----
+
+const REACH = 25, PULL = 40;        // points of the screen: from a point that is grasped, and that an arrow key pulls
+const onScreen = (event) => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
+const parts = scene.shapes.map(([, name, numbers]) => ({name, point: numbers.findLast((i) => i >= 0 && !scene.points[i][1])}))
+  .filter((part, i, all) => part.name && part.point !== undefined && all.findIndex((each) => each.name === part.name) === i);
+
+function play(on) {
+  live.playing = on;
+  words.play.textContent = on ? "Pause" : "Play";
+}
+
+function toggle() {
+  play(!live.playing);
+  words.told.textContent = "";
+}
+
+function restart() {
+  restoreRun(live.mechanism, live.initial);
+  live.trust = [];
+  live.dragged = null;
+  words.told.textContent = "";
+  reshape();
+  live.sliders.forEach((show) => show());
+}
+
+function nearest([x, y]) {
+  const far = (i) => { const [a, b] = picture.project(layer.at[i]); return Math.hypot(a - x, b - y); };
+  const known = [...layer.at.keys()].filter((i) => !scene.points[i][1]).map((i) => [far(i), i]).sort((a, b) => a[0] - b[0])[0];
+  return known && known[0] < REACH ? known[1] : null;
+}
 
 function onKey(event) {
-  const names = pointNames(), way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+  const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
   if (event.key === " " && [document.body, canvas].includes(event.target)) toggle();
   else if (event.target !== canvas) return;
-  else if (event.key === "n") live.chosen = names[(names.indexOf(live.chosen) + 1) % names.length];
-  else if (way && live.chosen) live.dragged = {name: live.chosen, target: placeOf(live.chosen).map((x, k) => x + way[k] * PULL / frame.scale)};
-  else return;
+  else if (event.key === "n") live.chosen = parts[(parts.indexOf(live.chosen) + 1) % parts.length];
+  else if (event.key === "+" || event.key === "-") picture.zoomBy(event.key === "+" ? 1.2 : 1 / 1.2);
+  else if (way && event.shiftKey && scene.dimension === 3) picture.turnBy(-way[0] / 15, -way[1] / 15);
+  else if (way && live.chosen) {
+    const [x, y] = picture.project(layer.at[live.chosen.point]), screen = [x + PULL * way[0], y + PULL * way[1]];
+    if (live.dragged) live.dragged.screen = screen;
+    else if (!event.repeat) hold(live.chosen.point, screen);
+  } else return;
   event.preventDefault();
 }
 
 function listen() {
   canvas.addEventListener("pointerdown", (event) => {
-    const name = nearest(event);
-    if (!name) return;
-    live.dragged = {name, target: inDrawing(event)};
+    const at = onScreen(event), point = nearest(at);
+    if (point !== null) hold(point, at);
+    else if (scene.dimension === 3) live.turned = at;
     canvas.setPointerCapture(event.pointerId);
   });
-  canvas.addEventListener("pointermove", (event) => { if (live.dragged) live.dragged.target = inDrawing(event); });
-  for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, () => { live.dragged = null; });
+  canvas.addEventListener("pointermove", (event) => {
+    const at = onScreen(event);
+    if (live.dragged) live.dragged.screen = at;
+    else if (live.turned) {
+      picture.turnBy((at[0] - live.turned[0]) / 150, (at[1] - live.turned[1]) / 150);
+      live.turned = at;
+    }
+  });
+  for (const kind of ["pointerup", "pointercancel"]) canvas.addEventListener(kind, letGo);
+  canvas.addEventListener("wheel", (event) => {
+    if (!event.ctrlKey) return;
+    event.preventDefault();
+    picture.zoomBy(Math.exp(-event.deltaY / 300));
+  }, {passive: false});
   words.play.addEventListener("click", toggle);
+  document.getElementById("restart").addEventListener("click", restart);
   addEventListener("keydown", onKey);
-  addEventListener("keyup", (event) => { if (event.key.startsWith("Arrow")) live.dragged = null; });
-  addEventListener("resize", fit);
+  addEventListener("keyup", (event) => { if (event.key.startsWith("Arrow")) letGo(); });
 }
 
 function addSlider({name, kind, least, most, value}) {
   const label = document.createElement("label"), slider = document.createElement("input"), shown = document.createElement("output");
+  const [set, get] = kind === "input" ? [setInput, input] : [setParameter, parameter];
   Object.assign(slider, {type: "range", min: least, max: most, step: (most - least) / 200, value});
   slider.setAttribute("aria-label", name);
-  shown.textContent = value.toPrecision(4);
+  const show = () => {
+    slider.value = get(live.mechanism, name);
+    shown.textContent = get(live.mechanism, name).toPrecision(4);
+  };
   slider.addEventListener("input", () => {
-    const set = kind === "input" ? setInput : setParameter, m = live.mechanism;
+    const wanted = Math.min(most, Math.max(least, +slider.value));
     try {
-      set(m, name, Math.min(most, Math.max(least, +slider.value)));
+      set(live.mechanism, name, wanted);
       words.told.textContent = "";
     } catch (error) {
-      slider.value = (kind === "input" ? input : parameter)(m, name);
-      fail(new Error(`${name} cannot be ${(+slider.value).toPrecision(4)}: ${error.message}`));
+      fail(new Error(`${name} cannot be ${wanted.toPrecision(4)}: ${error.message}`));
     }
-    shown.textContent = (kind === "input" ? input : parameter)(m, name).toPrecision(4);
+    show();
+    reshape();
   });
+  show();
+  live.sliders.push(show);
   label.append(name, slider, shown);
   document.getElementById("sliders").append(label);
 }
 
+Object.assign(globalThis.zerodrift, {parts, spot: (point) => picture.project(layer.at[point]), at: (point) => { locate(); return picture.place(layer, point); }});
 const packed = scene.core ?? globalThis.zerodriftCore;
-words.play.textContent = live.playing ? "Pause" : "Play";
+play(live.playing);
 if (packed) {
   live.mechanism = create(await load(await unpacked(bytesOf(packed))), bytesOf(scene.block), scene.t);
+  live.initial = saveRun(live.mechanism);
   scene.sliders.forEach(addSlider);
   listen();
-  fit();
   requestAnimationFrame(next);
 } else fail(new Error("the core is missing: the site must be built with the package ziglang"));

@@ -1,4 +1,4 @@
-"""`zd.view(m, live=True)`: a page in which a mechanism of the plane is simulated while it is shown."""
+"""`zd.view(m, live=True)`: a page in which a mechanism is simulated while it is shown."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import html
 import json
 import re
 import tempfile
+import warnings
 import webbrowser
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -20,22 +21,33 @@ import numpy as np
 from .. import _check
 from .._gateway.mechanisms.blocks import BlockCore
 from .._writing import write_whole
-from ..errors import WrongValue
+from ..errors import WrongValue, ZerodriftError
+from ..export import parameters as _parameters
 from ..export import wasm
-from ..export.block import block
-from ..mechanisms.elements.bodies import Body, Link, Point
-from ..mechanisms.elements.forces import Motor, Spring
-from ..mechanisms.elements.joints import Joint
+from ..export.block import choose, written
+from ..mechanisms.elements.forces import Motor
+from ..mechanisms.system import MechanismSystem
+from ..runs.simulate import simulate
+from ..runs.solution import Solution
 from ..runs.start import start_of
+from .body_points import BodyPoints, body_points, moved
+from .scene import Wanted, scene
 
 HEIGHT = 520            # of the page in a notebook, in points of the screen
-MARGIN = 0.35           # around the drawing, part of its size
-AUTOMATIC = 4           # sliders for lengths, where none are named
+AUTOMATIC = {".length": 4, ".stiffness": 1, ".mass": 1, "gravity.": 1}     # sliders, where none are named
+TRIALS = 3              # parameters of a kind that are tried for each slider: some change too much for a block
 AROUND = 0.25           # part of a value, to both sides
 STEP = 1e-3             # s
+MOTION = 1000           # steps from which extent and rails are known
+SAMPLES = 60            # of this motion
+UNMOVED = (".mass", ".stiffness", ".damping")       # parameters that move no point of the drawing in its body
+DIGITS, EXACT = 9, 14   # decimal places of coordinates in m, in pages and in polynomials
+TURNING = ", with Shift they turn the view"
+Limits = dict[str, tuple[float, float]]
 BODY = """<canvas id="picture" role="img" tabindex="0"
-aria-label="{name}, simulated; n chooses a point, arrow keys pull it"></canvas><div id="bar"><button id="play">Pause</button>
-<span id="state"></span></div><canvas id="trust" role="img" aria-label="Position violation and energy error over time"></canvas>
+aria-label="{name}, simulated; n chooses a part, arrow keys pull it{turning}"></canvas><div id="bar">
+<button id="play">Pause</button><button id="restart">Restart</button><span id="state"></span></div>
+<canvas id="trust" role="img" aria-label="Position violation and energy error over time"></canvas>
 <div id="told" role="alert"></div><div id="sliders"></div>"""
 
 
@@ -55,18 +67,21 @@ class LiveView:
     def page(self) -> str:
         return self._page({"core": _encoded(gzip.compress(wasm.core(), 9))})
 
-    def linked(self, core: str) -> str:
-        """The page without the core, which it takes from a script of this address: ``globalThis.zerodriftCore``, in base 64."""
-        return self._page({}, f'<script src="{html.escape(core, quote=True)}"></script>')
+    def linked(self, *scripts: str) -> str:
+        """The page without core and player, which it takes from scripts of these addresses: `player`, and before it one that sets
+        ``globalThis.zerodriftCore`` to the core in base 64.
+        """
+        return self._page({}, "".join(f'<script src="{html.escape(each, quote=True)}"></script>' for each in scripts))
 
-    def _page(self, more: Mapping[str, Any], before: str = "") -> str:
+    def _page(self, more: Mapping[str, Any], scripts: str = "") -> str:
         name = html.escape(self._scene["name"], quote=True)
         data = json.dumps({**self._scene, **more}, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
-        script = re.sub(r"^export ", "", wasm.text("core.js"), flags=re.MULTILINE) + _text("live.js")
         return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
-                f'<meta name="viewport" content="width=device-width"><style>{_text("live.css")}</style></head>'
-                f'<body>{BODY.format(name=name)}{before}'
-                f'<script type="application/json" id="live">{data}</script><script type="module">{script}</script></body></html>')
+                f'<meta name="viewport" content="width=device-width">'
+                f'<style>{_text("colours.css")}{_text("live.css")}</style></head>'
+                f'<body>{BODY.format(name=name, turning=TURNING if self._scene["dimension"] == 3 else "")}'
+                f'<script type="application/json" id="live">{data}</script>{scripts or f"<script>{player()}</script>"}'
+                '</body></html>')
 
     def save(self, path: str | Path) -> Path:
         """Write the page to an HTML file, which needs no other file and no network; the suffix ``.html`` is added."""
@@ -90,109 +105,127 @@ class LiveView:
         return f"<live view of {self._scene['name']}: {len(self._scene['sliders'])} sliders, {len(self.page) / 1000:.0f} kB>"
 
 
+def player() -> str:
+    """Script of all live pages."""
+    functions = re.sub(r"^export ", "", wasm.text("core.js"), flags=re.MULTILINE)
+    return f'(async () => {{\n{functions}{_text("picture.js")}{_text("live.js")}}})();\n'
+
+
 def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None = None, *, step: float = STEP,
               speed: float | None = None, **options: Any) -> LiveView:
     """Page of a mechanism, with sliders of these parameters and inputs, by name with smallest and largest value, and the methods
     that `zerodrift.block` takes.
     """
     system, *_ = start_of(mechanism, None, None, 0.0)
-    if getattr(getattr(system, "_drawing", None), "dimension", 0) != 2:
-        raise WrongValue("a live view must be of a mechanism in the plane")
-    inputs, limits = _sorted(system, sliders)
-    points = _Points(system)
-    bodies = [{"name": body.name, "points": found} for body in system._drawing.of(Body) if (found := points.of_body(body))]
-    springs = [[points.of(spring.first), points.of(spring.second)] for spring in system._drawing.of(Spring)]
-    springs = [ends for ends in springs if None not in ends]
-    names = sorted({point for body in bodies for point in body["points"] if isinstance(point, str)} |
-                   {point for ends in springs for point in ends if isinstance(point, str)} |
-                   {pin["at"] for pin in points.pins if isinstance(pin["at"], str)})
-    data = block(system, step=step, outputs=names, inputs=list(inputs), parameters=limits, **options)
+    if not isinstance(system, MechanismSystem):
+        raise WrongValue("a live view must be of a mechanism: the page simulates its block, and equations have none")
+    speed = 1.0 if speed is None else _check.number("speed", speed, above=0)
+    sol = _motion(system, step, options)
+    points = body_points(system, sol.p)
+    inputs, limits = _given(system, sliders) if sliders is not None else _automatic(system, points)
+    chosen = choose(system, None, None, 0.0, step, [], list(inputs), options)
+    data = written(chosen._replace(limits=_parameters.ranges(limits, system.parameters), has_grip=True))
     values = {**system.parameters, **BlockCore(data).inputs}
     shown = [{"name": name, "kind": kind, "least": least, "most": most, "value": values[name]}
              for kind, those in (("parameter", limits), ("input", inputs)) for name, (least, most) in those.items()]
-    ends = [*springs, *([pin["at"]] for pin in points.pins)]
+    film = scene([sol], [system.name], Wanted(samples=SAMPLES))
+    kept = {name: film[name] for name in ("name", "upside", "dimension", "low", "high", "follow", "pin")}
+    mass = sum(body.mass for body in system._started_tables.written().bodies)
+    gravity = float(np.linalg.norm([value for name, value in system.parameters.items() if name.startswith("gravity.")]))
     return LiveView({
-        "name": system.name, "block": _encoded(data), "t": 0.0, "step": step,
-        "speed": 1.0 if speed is None else _check.number("speed", speed, above=0), "bodies": bodies, "springs": springs,
-        "pins": points.pins, "sliders": shown, "extent": _extent(system, names, ends)})
+        **kept, **_drawn(points), "changes": _changes(system, points, limits), "block": _encoded(data), "t": 0.0, "step": step,
+        "speed": speed, "sliders": shown, "mass": mass, "weight": mass * gravity, "names": False, "arrow": 0})
 
 
-def _sorted(system: Any, sliders: Mapping[str, tuple[float, float]] | None) -> tuple[dict[str, Any], dict[str, Any]]:
+def _motion(system: MechanismSystem, step: float, options: Mapping[str, Any]) -> Solution:
+    """A motion from the start: as far as it gets."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return simulate(system, MOTION * step, step=step, save_every=MOTION // SAMPLES, **options)
+        except ZerodriftError as error:
+            if getattr(error, "solution", None) is None:
+                raise
+            return error.solution
+
+
+# ---- points ----
+
+
+def _drawn(points: BodyPoints) -> dict[str, Any]:
+    """Shapes, points on the ground, and points (body, 1 if it is a direction, coordinates in the body)."""
+    numbers, fixed, carried = [], [], []
+    for body, is_direction, own in zip(points.bodies, points.directions, points.local, strict=True):
+        if body == 0:
+            fixed.append(own.tolist())
+            numbers.append(-len(fixed))
+        else:
+            numbers.append(len(carried))
+            carried.append([int(body), int(is_direction), *np.round(own, DIGITS).tolist()])
+    ends = np.cumsum([len(shape.points) for shape in points.shapes])
+    shapes = [[shape.kind, shape.name, numbers[end - len(shape.points):end], round(float(shape.number), DIGITS)]
+              for shape, end in zip(points.shapes, ends, strict=True)]
+    return {"shapes": shapes, "fixed": fixed, "points": carried}
+
+
+def _changes(system: MechanismSystem, points: BodyPoints, limits: Mapping[str, Any]) -> dict[str, Any]:
+    """Coordinates of points in their bodies as polynomials of the parameters that move them, as in a block.
+
+    Raises
+    ------
+    ValueError
+        If they are not polynomials.
+    """
+    moving = {name: each for name, each in limits.items() if not name.endswith(UNMOVED) and not name.startswith("gravity.")}
+    is_carried = points.bodies > 0
+
+    def words(changed: Mapping[str, float]) -> np.ndarray:
+        return np.round(moved(system._with(dict(changed)) if changed else system, points)[is_carried], EXACT).ravel()
+
+    found, products = _parameters.effects(words, moving)
+    return {"effects": found, "products": products, "names": list(moving)}
+
+
+# ---- sliders ----
+
+
+def _given(system: MechanismSystem, sliders: Mapping[str, tuple[float, float]]) -> tuple[Limits, Limits]:
     """Inputs and parameters among the sliders."""
-    motors = {f"{motor.name}.{motor.drives}": motor.law.constant for motor in system._drawing.of(Motor)
-              if motor.law.constant is not None and motor.drives in ("speed", "torque", "force")}
-    if sliders is None:
-        lengths = [name for name in system.parameters if name.endswith(".length")][:AUTOMATIC]
-        sliders = {name: _around(system.parameters[name]) for name in lengths} | {
-            name: _around(value or 1.0) if value else (-1.0, 1.0) for name, value in motors.items()}
+    motors = _motors(system)
     inputs = {name: (float(limits[0]), float(limits[1])) for name, limits in sliders.items() if name in motors}
     return inputs, {name: limits for name, limits in sliders.items() if name not in motors}
+
+
+def _motors(system: MechanismSystem) -> dict[str, float]:
+    return {f"{motor.name}.{motor.drives}": motor.law.constant for motor in system._drawing.of(Motor)
+            if motor.law.constant is not None and motor.drives in ("speed", "torque", "force")}
+
+
+def _automatic(system: MechanismSystem, points: BodyPoints) -> tuple[Limits, Limits]:
+    """All motors, and some lengths, springs, masses and gravity whose change a block and the drawing can follow."""
+    limits: Limits = {}
+    for kind, most in AUTOMATIC.items():
+        names = [name for name, value in system.parameters.items() if value and (name.endswith(kind) or name.startswith(kind))]
+        left = most
+        for name in names[:TRIALS * most]:
+            around = _around(system.parameters[name])
+            if left and _can_change(system, points, {name: around}):
+                limits, left = {**limits, name: around}, left - 1
+    return {name: _around(value) if value else (-1.0, 1.0) for name, value in _motors(system).items()}, limits
+
+
+def _can_change(system: MechanismSystem, points: BodyPoints, limits: Limits) -> bool:
+    try:
+        _changes(system, points, limits)
+        written(choose(system, None, None, 0.0, STEP, [], [], {})._replace(limits=limits))
+    except ValueError:
+        return False
+    return True
 
 
 def _around(value: float) -> tuple[float, float]:
     low, high = sorted(((1 - AROUND) * value, (1 + AROUND) * value))
     return low, high
-
-
-class _Points:
-    """Points of a mechanism as the page reads them: a name of a measure, or a place on the ground."""
-
-    def __init__(self, system: Any) -> None:
-        self._drawing, self._known = system._drawing, system._watching.number
-        self._on: dict[str, list[Any]] = {}
-        self.pins: list[dict[str, Any]] = []
-        for joint in self._drawing.of(Joint):
-            self._add(joint)
-        for point in self._drawing.of(Point):
-            if (at := self.of(point)) is not None:
-                self._on.setdefault(point.body.name, []).append(at)
-
-    def _add(self, joint: Joint) -> None:
-        at = f"{joint.name}.position" if f"{joint.name}.position" in self._known else self.of(joint.second)
-        if at is None:
-            return
-        bodies = [body.name for body in joint.bodies]
-        self.pins.append({"at": at, "ground": "ground" in bodies})
-        for name in bodies:
-            self._on.setdefault(name, []).append(at)
-
-    def of(self, point: Point) -> Any:
-        """Name of the measure of a point, its place on the ground, or None if it is not measured."""
-        if point.body is self._drawing.ground:
-            return [float(each) for each in point.drawn]
-        name = point.name if point.name else point.body.name if not np.any(point.local) else ""
-        return f"{name}.position" if f"{name}.position" in self._known else None
-
-    def _at_ends(self, body: Link) -> list[Any]:
-        """Joints and points at the ends of a link."""
-        ends, found = [body.start.local, body.end.local], []
-        for joint in self._drawing.of(Joint):
-            found += [f"{joint.name}.position" for side in (joint.first, joint.second) if side.body is body
-                      and any(np.allclose(side.local, end) for end in ends)]
-        return found
-
-    def of_body(self, body: Body) -> list[Any]:
-        """Points between which a body is drawn: ends of a link, and its joints."""
-        if body is self._drawing.ground:
-            return []
-        ends = [f"{body.name}.start.position", f"{body.name}.end.position"] if isinstance(body, Link) else []
-        found = [name for name in ends if name in self._known]
-        if len(found) == 2:
-            others = [each for each in self._on.get(body.name, []) if each not in self._at_ends(body)]
-            return [*found, *others]
-        points, own = self._on.get(body.name, []), f"{body.name}.position"
-        return points if len(points) > 1 or own not in self._known else [*points, own]
-
-
-def _extent(system: Any, names: Sequence[str], more: Sequence[Sequence[Any]]) -> list[float]:
-    """Rectangle around the start: left, low, right, high, with a margin of the size of the mechanism."""
-    places = [np.asarray(point, dtype=float) for group in more for point in group if not isinstance(point, str)]
-    core = system._watching.core
-    for name in names:
-        places.append(core.measure(system._watching.number[name], np.zeros(1), system.p0[None], system.v0[None])[0])
-    low, high = np.min(places, axis=0), np.max(places, axis=0)
-    size = max(float((high - low).max()), 1e-3)
-    return [*(low - MARGIN * size).tolist(), *(high + MARGIN * size).tolist()]
 
 
 def _encoded(data: bytes) -> str:
@@ -201,4 +234,5 @@ def _encoded(data: bytes) -> str:
 
 @functools.cache
 def _text(name: str) -> str:
-    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
+    """A file of the player, without indentation."""
+    return "\n".join(map(str.lstrip, resources.files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines())) + "\n"

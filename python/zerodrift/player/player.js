@@ -1,10 +1,8 @@
-"use strict";
 (() => {
 const film = JSON.parse(document.getElementById("scene").textContent);
 const space = film.dimension === 3, last = film.samples - 1;
 const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-let now = 0, playing = last > 0 && !still, before = 0, rate = 1, chosen = null, dirty = true;
-let zoom = 1, turn = -0.9, tilt = 0.42, shift = [0, 0];
+let now = 0, playing = last > 0 && !still, before = 0, rate = 1, dirty = true;
 
 /* ---- numbers ---- */
 
@@ -20,7 +18,6 @@ for (const layer of film.layers) {
 }
 for (const line of [...film.graphs, ...film.trust]) line.values = new Float32Array(bytes(line.values));
 
-const place = (layer, number) => number < 0 ? layer.fixed[-1 - number] : layer.at[number];
 const locate = layer => {       // points on straight lines between two samples, then those that bodies carry
   const i = Math.min(Math.floor(now), last), share = now - i, d = film.dimension, from = i * layer.moving * d, to = Math.min(i + 1, last) * layer.moving * d;
   const low = film.box[0], step = film.box[1].map((x, k) => (x - low[k]) / 65535), table = layer.table;
@@ -36,10 +33,6 @@ const locate = layer => {       // points on straight lines between two samples,
     layer.at.push(a.map((x, k) => x + own[0] * along[k] + own[1] * aside[k] + own[2] * normal[k] / far));
   }
 };
-const sub = (a, b) => a.map((x, i) => x - b[i]), add = (a, b, s = 1) => a.map((x, i) => x + s * b[i]);
-const length = a => Math.hypot(...a), unit = a => { const l = length(a) || 1; return a.map(x => x / l); };
-const across = a => [-a[1], a[0]];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
 /* ---- page ---- */
 
@@ -63,334 +56,23 @@ for (const each of [0.1, 0.25, 0.5, 1, 2, 4]) make("option", speeds, {value: eac
 speeds.value = 1;
 const trust = film.trust.length ? make("canvas", make("div", document.body, {class: "trust"}), {role: "img", "aria-label": "Position violation and energy error over time"}) : null;
 const note = make("div", document.body, {class: "note", "aria-live": "polite"});
-
-const colour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-let tones = {};
-const probe = make("span", document.body, {hidden: ""});
-const readColours = () => {     // light-dark() as it is seen
-  for (const name of ["paper", "ink", "grey", "body", "line", "accent", "force", "path", "second", "third"]) {
-    probe.style.color = "var(--" + name + ")";
-    tones[name] = getComputedStyle(probe).color;
-  }
-  dirty = true;
-};
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", readColours);
-
-/* ---- view ---- */
-
-let pen, scale, middle, width, height;
-let centre = film.low.map((x, i) => (x + film.high[i]) / 2);
-const extent = film.follow ? film.low.map(() => film.follow) : sub(film.high, film.low), reach = length(extent) || 1;
-const fit = (element, context) => {
-  const ratio = devicePixelRatio || 1, box = element.getBoundingClientRect();
-  if (element.width !== Math.round(box.width * ratio) || element.height !== Math.round(box.height * ratio)) {
-    element.width = Math.round(box.width * ratio);
-    element.height = Math.round(box.height * ratio);
-  }
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
-  return [box.width, box.height];
-};
-const project = at => {         // (x, y, depth, scale there) on the screen
-  if (!space) return [middle[0] + (at[0] - centre[0]) * scale, middle[1] - (at[1] - centre[1]) * scale, 0, scale];
-  const [x, y0, z0] = sub(at, centre), y = film.upside ? -y0 : y0, z = film.upside ? -z0 : z0, c = Math.cos(turn), s = Math.sin(turn), ct = Math.cos(tilt), st = Math.sin(tilt);
-  const right = c * x + s * y, deep = -s * x + c * y, up = ct * z - st * deep, depth = ct * deep + st * z;
-  const seen = scale * 3 * reach / (3 * reach + depth);
-  return [middle[0] + right * seen, middle[1] - up * seen, depth, seen];
-};
-const seenFirst = space ? (() => {       // width and height of the box around all motion, in metres of the screen, as the film begins
-  [scale, middle] = [1, [0, 0]];
-  const corners = Array.from({length: 8}, (_, i) => project(centre.map((x, k) => x + (i >> k & 1 ? 0.5 : -0.5) * extent[k])));
-  return [0, 1].map(k => Math.max(0.3 * reach, 2 * Math.max(...corners.map(at => Math.abs(at[k])))));
-})() : null;
-const begin = () => {
-  pen = canvas.getContext("2d");
-  [width, height] = fit(canvas, pen);
-  const margin = space ? 30 : 34;
-  scale = zoom * (space ? Math.min((width - 2 * margin) / seenFirst[0], (height - 2 * margin) / seenFirst[1])
-    : Math.min((width - 2 * margin) / Math.max(extent[0], 0.2 * reach), (height - 2 * margin) / Math.max(extent[1], 0.2 * reach)));
-  middle = [width / 2 + shift[0], height / 2 + shift[1]];
-  pen.clearRect(0, 0, width, height);
-  pen.lineCap = pen.lineJoin = "round";
-};
-
-/* ---- marks: the path of each, and how paths of one style are painted; among many those of one style are painted together ---- */
-
-let marks = [], spots = [];
-const MANY = 600, SLICES = 48;      // marks, and slices of depth within which they may change places
-const put = (points, style, add, paint) => {
-  const seen = points.map(project);
-  marks.push({depth: space ? seen.reduce((sum, p) => sum + p[2], 0) / seen.length : 0, order: marks.length, style, seen, add, paint});
-};
-const paintAll = () => {
-  const many = marks.length > MANY;
-  if (space) {
-    const slice = many ? 2 * reach / SLICES : 0;
-    for (const each of marks) if (slice) each.depth = Math.round(each.depth / slice);
-    marks.sort((a, b) => b.depth - a.depth || (many && a.style !== b.style ? a.style < b.style ? -1 : 1 : a.order - b.order));
-  }
-  for (let i = 0; i < marks.length;) {
-    let next = i + 1;
-    if (many && marks[i].style) while (next < marks.length && marks[next].style === marks[i].style) next++;
-    const run = marks.slice(i, next);
-    pen.beginPath();
-    for (const each of run) each.add(each.seen);
-    run[0].paint(run, many);
-    i = next;
-  }
-};
-const trace = (seen, closed) => {
-  seen.forEach((p, i) => i ? pen.lineTo(p[0], p[1]) : pen.moveTo(p[0], p[1]));
-  if (closed) pen.closePath();
-};
-const stroke = (tone, wide) => { pen.strokeStyle = tone; pen.lineWidth = wide; pen.stroke(); };
-const fill = tone => { pen.fillStyle = tone; pen.fill(); };
-const line = (points, tone, wide, dash = []) => put(points, "line" + tone + wide + dash, seen => trace(seen), () => {
-  pen.setLineDash(dash);
-  stroke(tone, wide);
-  pen.setLineDash([]);
-});
-const area = (points, face, edge, wide = 1.2) => put(points, "", seen => trace(seen, true), () => {
-  if (face) fill(face);
-  if (edge) stroke(edge, wide);
-});
-const dot = (at, radius, face, edge, wide = 1.4) => put([at], "dot" + face + edge + wide, ([p]) => {
-  const round = Math.max(radius * p[3], 1.8);
-  pen.moveTo(p[0] + round, p[1]);
-  pen.arc(p[0], p[1], round, 0, 2 * Math.PI);
-}, (run, many) => {
-  if (face) fill(face);
-  if (edge) stroke(edge, wide);
-  const p = run[0].seen[0], round = radius * p[3];
-  if (!space || many || !face || round < 4) return;       // a sphere
-  const shine = pen.createRadialGradient(p[0] - 0.35 * round, p[1] - 0.4 * round, 0, p[0], p[1], round);
-  shine.addColorStop(0, "#fff9");
-  shine.addColorStop(1, "#fff0");
-  fill(shine);
-});
-const bar = (points, wide, tone, edge) => {      // a rod with round ends and an outline; long ones in parts, so that depths are right
-  const parts = space ? Math.max(1, Math.min(8, Math.ceil(length(sub(points[1], points[0])) / (0.15 * reach)))) : 1;
-  for (let i = 0; i < parts; i++) {
-    const ends = parts > 1 ? [i / parts, (i + 1) / parts].map(s => add(points[0], sub(points[1], points[0]), s)) : points;
-    const broad = Math.max(Math.round(2 * wide * (space ? project(ends[0])[3] : scale)) / 2, 2);
-    put(ends, "bar" + broad + tone + edge, seen => trace(seen), (run, many) => {
-      pen.lineCap = space ? "butt" : "round";
-      stroke(edge, broad + 2);
-      pen.lineCap = "round";
-      stroke(tone, broad);
-      if (!space || many || broad <= 5) return;
-      pen.beginPath();
-      trace(run[0].seen.map(([x, y]) => [x, y - 0.22 * broad]));       // a round rod, lit from above
-      stroke("#fff6", 0.3 * broad);
-    });
-  }
-};
-const arrow = (from, to, tone, wide = 2.2) => put([from, to], "", () => 0, ([{seen: [a, b]}]) => {
-  const far = Math.hypot(b[0] - a[0], b[1] - a[1]);
-  if (far < 2) return;
-  const x = (b[0] - a[0]) / far, y = (b[1] - a[1]) / far, head = Math.min(11, 0.6 * far);
-  trace([a, [b[0] - 0.8 * head * x, b[1] - 0.8 * head * y]]);
-  stroke(tone, wide);
-  pen.beginPath();
-  trace([b, [b[0] - head * x + 0.4 * head * y, b[1] - head * y - 0.4 * head * x], [b[0] - head * x - 0.4 * head * y, b[1] - head * y + 0.4 * head * x]], true);
-  fill(tone);
-});
-const box = (at, axis, along, aside, face, edge) => {
-  const side = across(axis);
-  area([[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => add(add(at, axis, a * along), side, b * aside)), face, edge);
-};
-const circle = (at, radius, first = [1, 0]) => Array.from({length: 49}, (_, i) => {
-  const angle = 2 * Math.PI * i / 48, side = across(first);
-  return add(add(at, first, radius * Math.cos(angle)), side, radius * Math.sin(angle));
-});
-const zigzag = (a, b, wide, turns) => {
-  const along = sub(b, a), side = space ? unit(cross(unit(along), Math.abs(along[2]) < 0.9 * length(along) ? [0, 0, 1] : [1, 0, 0])) : across(unit(along)), points = [a];
-  for (let i = 0; i <= 2 * turns; i++)
-    points.push(add(add(a, along, 0.15 + 0.7 * i / (2 * turns)), side, i === 0 || i === 2 * turns ? 0 : wide * (i % 2 ? 1 : -1)));
-  return [...points, b];
-};
-const ground = (at, size) => {
-  const low = 2.3 * size, wide = 2.1 * size;
-  if (space) return area([[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => add(at, [a * size * 1.6, b * size * 1.6, 0])), tones.body, tones.line, 0.8);
-  area([at, add(at, [-wide, -low]), add(at, [wide, -low])], tones.body, tones.line);
-  for (let i = -3; i <= 3; i++) line([add(at, [i * 0.75 * size, -low]), add(at, [(i - 0.9) * 0.75 * size, -low - 0.9 * size])], tones.line, 1);
-};
-const hatched = (a, b, away, size) => {
-  line([a, b], tones.line, 1.6);
-  const along = unit(sub(b, a)), count = Math.max(2, Math.round(length(sub(b, a)) / (1.6 * size)));
-  for (let i = 0; i <= count; i++) {
-    const at = add(a, sub(b, a), i / count);
-    line([at, add(add(at, away, -size), along, -0.8 * size)], tones.line, 0.9);
-  }
-};
-const turning = (at, radius, number, tone) => {
-  const from = -0.75 * Math.PI, sign = number >= 0 ? 1 : -1;
-  const points = Array.from({length: 25}, (_, i) => { const a = (sign > 0 ? from : Math.PI - from) + sign * 1.45 * Math.PI * i / 24; return add(at, [radius * Math.cos(a), radius * Math.sin(a)]); });
-  line(points.slice(0, 24), tone, 1.8);
-  arrow(points[20], points[24], tone, 1.8);
-};
-
-/* ---- kinds of shapes: (points, number, size, tone of the body, its edge) ---- */
-
-const wheel = (p, r, size, face, edge) => { area(circle(p[0], r, unit(p[1])), face, edge, 1.6); line([p[0], add(p[0], unit(p[1]), r)], edge, 1.2); dot(p[0], 0.5 * size, edge); };
-const flat = {
-  link: (p, r, size, face, edge) => p.length === 2 || thin(p) ? bar(ends(p), 1.5 * size, face, edge) : area(hull(p), face, edge, 1.6),
-  disc: (p, r, size, face, edge) => { dot(p[0], 2 * size, face, edge); line([p[0], add(p[0], p[1], 2 * size)], edge, 1.2); },
-  particle: (p, r, size, face, edge) => p.forEach(at => dot(at, 1.7 * size, edge, tones.paper)),
-  mark: (p, r, size) => dot(p[0], 0.45 * size, tones.ink),
-  curve: (p, r, size, face, edge) => line(p, edge, 1.6),
-  pin: (p, r, size) => dot(p[0], 0.85 * size, tones.paper, tones.ink, 1.5),
-  ground: (p, r, size) => ground(p[0], size),
-  wall: (p, r, size) => { const a = across(unit(p[1])); hatched(add(p[0], a, -2 * size), add(p[0], a, 2 * size), unit(p[1]), size); },
-  rail: (p, r, size) => hatched(add(p[0], unit(sub(p[1], p[0])), -2 * size), add(p[1], unit(sub(p[1], p[0])), 2 * size), p[2], size),
-  road: (p, r, size) => { const along = unit(p[2]); hatched(add(p[0], along, -2 * size), add(p[1], along, 2 * size), across(along), size); },
-  groove: (p, r, size, face, edge) => { bar([p[0], p[1]], 2.4 * size, tones.paper, edge); },
-  guide: (p, r, size, face, edge) => line([p[0], p[1]], edge, 2),
-  slider: (p, r, size, face, edge) => box(p[0], unit(p[1]), 2 * size, 1.3 * size, face, edge),
-  block: (p, r, size, face, edge) => box(p[0], unit(p[1]), 1.6 * size, 1 * size, face, edge),
-  weld: (p, r, size, face, edge) => box(p[0], unit(p[1]), 0.7 * size, 0.7 * size, edge, null),
-  rod: (p, r, size, face, edge) => line(p, edge, 1.8),
-  blade: (p, r, size, face, edge) => bar([add(p[0], unit(p[1]), -4.5 * size), add(p[0], unit(p[1]), 4.5 * size)], 0.8 * size, tones.ink, tones.ink),
-  wheel, gear: wheel, ring: (p, r, size, face, edge) => area(circle(p[0], r), null, edge, 3),
-  rack: (p, r, size, face, edge) => bar([p[0], p[1]], 0.9 * size, face, edge),
-  cam: (p, r, size, face, edge) => area(p, face, edge),
-  roller: (p, r, size, face, edge) => dot(p[0], Math.max(r, size), tones.paper, edge),
-  coupled: (p, r, size) => line(p, tones.grey, 1, [3, 4]),
-  spring: (p, r, size) => line(zigzag(shifted(p, r, size)[0], shifted(p, r, size)[1], 1.1 * size, 7), tones.third, 1.5),
-  damper: (p, r, size, face, edge) => { const [a, b] = shifted(p, r, size); line([a, b], edge, 1.2); bar([add(a, sub(b, a), 0.38), add(a, sub(b, a), 0.6)], 1.5 * size, face, edge); },
-  cylinder: (p, r, size, face, edge) => { line(p, edge, 2.4); bar([p[0], add(p[0], sub(p[1], p[0]), 0.55)], 1.7 * size, face, edge); },
-  spiral: (p, r, size) => line(Array.from({length: 60}, (_, i) => { const a = (4 * Math.PI + r) * i / 59; return add(p[0], [size * (0.8 + 2.2 * i / 59) * Math.cos(a), size * (0.8 + 2.2 * i / 59) * Math.sin(a)]); }), tones.third, 1.4),
-  bushing: (p, r, size, face, edge) => { dot(p[0], 1.6 * size, null, tones.third, 3); dot(p[0], 0.6 * size, edge); },
-  motor: (p, r, size) => turning(p[0], 3.1 * size, r, tones.accent),
-  drive: (p, r, size) => { const at = add(p[0], p[2], 2.8 * size), s = r >= 0 ? 1 : -1; arrow(add(at, p[1], -3 * s * size), add(at, p[1], 3 * s * size), tones.accent, 1.8); },
-  load: (p, r, size) => arrow(p[0], add(p[0], p[1], 8 * size), tones.force, 2),
-  load_symbol: (p, r, size) => arrow(p[0], add(p[0], p[1], 8 * size), tones.grey, 1.4),
-  moment: (p, r, size) => turning(p[0], 3.8 * size, r, tones.force),
-};
-/* Faces in space are lit from above, on the viewer's left: as bright as their normal is near to the light, whichever side is seen. */
-const light = unit([-0.35, -0.5, 0.8]);
-const lit = (p, tone) => {
-  const parts = /rgba?\(([^)]*)\)/.exec(tone)?.[1].split(/[ ,]+/).map(Number);
-  if (!parts || parts.length > 3) return tone;
-  const normal = unit(cross(sub(p[1], p[0]), sub(p[Math.min(2, p.length - 1)], p[0])));
-  const share = 0.72 + 0.36 * Math.abs(normal.reduce((sum, x, i) => sum + x * light[i], 0));
-  return `rgb(${parts.map(x => Math.min(255, Math.round(x * share))).join(",")})`;
-};
-const face3 = (p, face, edge, wide) => area(p, lit(p, face), edge, wide);
-const glass = tone => tone.replace("rgb(", "rgba(").replace(")", ", 0.55)");        // boxes of inertia, through which one sees their joints
-const faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
-const solid = {
-  bar: (p, r, size, face, edge) => bar(p, 0.9 * size, face, edge),
-  plate: (p, r, size, face, edge) => face3(p, face, edge),
-  box: (p, r, size, face, edge) => faces.forEach(each => area(each.map(i => p[i]), glass(lit(each.map(i => p[i]), face)), edge, 0.8)),
-  disc: (p, r, size, face, edge) => face3(p, face, edge, 1.6), ring: (p, r, size, face, edge) => line([...p, p[0]], edge, 1.4),
-  patch: (p, r, size) => area([[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => add(add(p[0], p[1], 2 * a * size), p[2], 2 * b * size)), null, tones.accent),
-  rod: (p, r, size, face, edge) => line(p, edge, 1.6), track: (p, r, size) => line(p, tones.grey, 1, [2, 4]),
-  spring: (p, r, size) => line(zigzag(p[0], p[1], 0.9 * size, 9), tones.third, 1.6),
-  pin: (p, r, size) => bar([add(p[0], p[1], -1.5 * size), add(p[0], p[1], 1.5 * size)], 0.7 * size, tones.second, tones.paper),
-  sleeve: (p, r, size) => bar([add(p[0], p[1], -2 * size), add(p[0], p[1], 2 * size)], 1.5 * size, tones.accent, tones.paper),
-  dot: (p, r, size, face, edge) => p.forEach(at => dot(at, 1.1 * size, edge)), weld: (p, r, size) => dot(p[0], 0.6 * size, tones.ink),
-  ball: (p, r, size) => dot(p[0], 0.9 * size, tones.second, tones.paper), bushing: (p, r, size) => dot(p[0], 1.2 * size, null, tones.third, 3),
-  ground: (p, r, size) => ground(p[0], size),
-};
-const ends = p => { let best = [p[0], p[1]]; for (const a of p) for (const b of p) if (length(sub(a, b)) > length(sub(...best))) best = [a, b]; return best; };
-const thin = p => { const [a, b] = ends(p), side = across(unit(sub(b, a))); return p.every(at => Math.abs(at.reduce((s, x, i) => s + (x - a[i]) * side[i], 0)) < 0.02 * length(sub(b, a))); };
-const hull = p => {
-  const sorted = [...p].sort((a, b) => a[0] - b[0] || a[1] - b[1]), half = list => list.reduce((kept, at) => {
-    while (kept.length > 1 && (kept.at(-1)[0] - kept.at(-2)[0]) * (at[1] - kept.at(-2)[1]) <= (kept.at(-1)[1] - kept.at(-2)[1]) * (at[0] - kept.at(-2)[0])) kept.pop();
-    return [...kept, at];
-  }, []);
-  return [...half(sorted).slice(0, -1), ...half([...sorted].reverse()).slice(0, -1)];
-};
-const shifted = (p, r, size) => { const side = across(unit(sub(p[1], p[0]))); return p.map(at => add(at, side, (r || 0) * 2.2 * size)); };
+const picture = pictureOf(film, canvas, () => { dirty = true; });
+const {view, tones, fit, place, number, turnBy, zoomBy, sub, cross, length, project} = picture;
 
 /* ---- a picture ---- */
 
-/* What goes far is followed, and a grid at rest shows how it goes. */
-const follow = () => {
-  const layer = film.layers[0], seen = layer.shapes.map(each => each[2][0]).filter(n => n >= 0).map(n => place(layer, n));
-  centre = film.low.map((_, k) => (Math.min(...seen.map(at => at[k])) + Math.max(...seen.map(at => at[k]))) / 2);
-  const near = film.follow / 3, power = 10 ** Math.floor(Math.log10(near)), step = power * [1, 2, 5].findLast(each => each * power <= near * 1.001);
-  const [a, b] = [0, 1].map(k => Math.round(centre[k] / step)), most = space ? 4 : 8, floor = space ? [film.upside ? film.high[2] : film.low[2]] : [];
-  for (let i = -most; i <= most; i++) {
-    line([[(a + i) * step, (b - most) * step, ...floor], [(a + i) * step, (b + most) * step, ...floor]], tones.body, 0.7);
-    line([[(a - most) * step, (b + i) * step, ...floor], [(a + most) * step, (b + i) * step, ...floor]], tones.body, 0.7);
-  }
-  marks.forEach(each => { each.depth = Infinity; });
-};
-
-const anchor = points => points.length > 1 ? points[0].map((x, i) => (x + points[1][i]) / 2) : points[0];
-const single = new Set(["pin", "ball", "weld", "ground", "sleeve", "slider", "block", "wheel", "gear", "patch", "motor", "drive", "disc", "particle", "dot", "bushing", "blade", "mark"]);
-const back = ["ring", "gear", "cam", "ground", "wall", "rail", "road", "wheel", "disc", "coupled", "guide", "link", "curve", "groove", "rod", "cylinder", "damper", "spring", "slider", "rack", "block", "bushing", "weld", "particle", "roller", "spiral", "pin"];
 const draw = () => {
-  begin();
-  marks = [];
-  spots = [];
   film.layers.forEach(locate);
-  if (film.follow) follow();
-  film.layers.forEach((layer, number) => {
-    const face = number ? "transparent" : tones.body, edge = [tones.line, tones.second, tones.accent][number % 3];
-    layer.order ??= space ? layer.shapes : [...layer.shapes].sort((a, b) => (back.indexOf(a[0]) + 1 || 99) - (back.indexOf(b[0]) + 1 || 99));
-    for (const [kind, name, numbers, radius] of layer.order) {
-      const points = numbers.map(i => place(layer, i));
-      const how = (space ? solid : flat)[kind] || ((p, r, size, f, e) => line(p, e, 1.4));
-      how(points, radius, film.pin * (space ? 1.25 : 1), face, edge);
-      if (name) spots.push({name, at: single.has(kind) ? points[0] : anchor(points)});
-    }
-    for (const way of layer.paths) line(way, tones.path, 1.5, [7, 4]);
-    for (const each of layer.arrows) {
-      const at = place(layer, each.at), force = place(layer, each.to);
-      each.size = length(force) * each.scale;
-      if (length(force) > 0.01) arrow(at, add(at, force, film.arrow), tones.force, 2.4);
-    }
-  });
-  paintAll();
-  labels();
+  picture.draw(view.chosen && told());
   if (trust) lines(trust, film.trust.map(each => ({...each, log: true})), true);
   graphs.forEach(each => lines(each.canvas, each.lines, false, each.unit));
 };
-const words = (text, x, y, tone = tones.ink) => {
-  pen.font = "12px system-ui, sans-serif";
-  pen.lineWidth = 3;
-  pen.strokeStyle = tones.paper;
-  pen.strokeText(text, x, y);
-  pen.fillStyle = tone;
-  pen.fillText(text, x, y);
-};
-const labels = () => {
-  const shown = new Set();
-  if (film.names) for (const {name, at} of spots) {
-    if (shown.has(name)) continue;
-    shown.add(name);
-    const [x, y] = project(at);
-    words(name, x + 8, y - 7);
-  }
-  const scales = film.layers.flatMap(layer => layer.arrows);
-  if (scales.length) {
-    const most = scales[0].scale, long = film.arrow * scale;
-    pen.beginPath();
-    trace([[12, height - 12], [12 + long, height - 12]]);
-    stroke(tones.force, 2.4);
-    words(number(most) + " N", 16, height - 18, tones.force);
-  }
-  if (film.layers.length > 1) film.layers.forEach((layer, i) => words(layer.label, 12, 18 + 16 * i, [tones.line, tones.second, tones.accent][i % 3]));
-  if (chosen) {
-    const spot = spots.find(each => each.name === chosen);
-    if (spot) {
-      const [x, y] = project(spot.at);
-      pen.beginPath();
-      pen.arc(x, y, 13, 0, 2 * Math.PI);
-      stroke(tones.accent, 2);
-      words(told(), x + 16, y + 5, tones.accent);
-    }
-  }
-};
 const told = () => {        // the chosen part, and its forces in each of the films
-  const loads = film.layers.flatMap(layer => layer.loads.filter(each => each.name === chosen).map(each => number(at(each.values)) + " " + each.unit));
-  const arrows = loads.length ? [] : film.layers.flatMap(layer => layer.arrows.filter(each => each.name === chosen).map(each => number(each.size) + " N"));
-  return [chosen, [...loads, ...arrows].join(", ")].filter(Boolean).join(": ");
+  const loads = film.layers.flatMap(layer => layer.loads.filter(each => each.name === view.chosen).map(each => number(at(each.values)) + " " + each.unit));
+  const arrows = loads.length ? [] : film.layers.flatMap(layer => layer.arrows.filter(each => each.name === view.chosen).map(each => number(each.size) + " N"));
+  return [view.chosen, [...loads, ...arrows].join(", ")].filter(Boolean).join(": ");
 };
 const at = values => { const i = Math.min(Math.floor(now), last), next = values[Math.min(i + 1, last)]; return values[i] + (next - values[i]) * (now - i); };
-const number = x => x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(2) : x.toPrecision(3);
 const hues = () => [tones.accent, tones.second, tones.third, tones.ink, tones.grey, tones.force];
 const lines = (element, all, slim, unitOf) => {        // lines over time, with a cursor; the lines are drawn once for each size
   const brush = element.getContext("2d"), [w, h] = fit(element, brush), left = slim ? 0 : 8, top = slim ? 14 : 20, low = slim ? 4 : 8;
@@ -463,21 +145,21 @@ const frame = stamp => {
   requestAnimationFrame(frame);
 };
 /* Films that replace each other, as behind sliders, go on where the one before is: a new one asks the frames of its page. */
-const state = () => ({group: film.group, zerodrift: "state", time: seconds(), playing, rate, view: [zoom, turn, tilt, shift], chosen});
+const state = () => ({group: film.group, zerodrift: "state", time: seconds(), playing, rate, view: [view.zoom, view.turn, view.tilt, view.shift], chosen: view.chosen});
 addEventListener("message", ({data, source}) => {
   if (!film.group || data?.group !== film.group) return;
   if (data.zerodrift === "where" && source !== window) source.postMessage(state(), "*");
   if (data.zerodrift !== "state" || state.known) return;
   state.known = true;
-  [zoom, turn, tilt, shift] = data.view;
-  [rate, chosen] = [data.rate, data.chosen];
+  [view.zoom, view.turn, view.tilt, view.shift] = data.view;
+  [rate, view.chosen] = [data.rate, data.chosen];
   speeds.value = rate;
   set((data.time - film.span[0]) / (film.span[1] - film.span[0]) * last);
   play(data.playing);
 });
 if (film.group) for (let i = 0; i < parent.length; i++) if (parent[i] !== window) parent[i].postMessage({group: film.group, zerodrift: "where"}, "*");
 window.zerodrift = {film, tones, play, show: value => { play(false); set(value); draw(); }, choose: name => choose(name), get now() { return now; }, get playing() { return playing; },
-  get told() { return told(); }, get spots() { return spots.map(({name, at}) => ({name, at: project(at)})); }};
+  get told() { return told(); }, get spots() { return picture.spots.map(({name, at}) => ({name, at: project(at)})); }};
 
 button.addEventListener("click", () => play(!playing));
 slider.addEventListener("input", () => { play(false); set(+slider.value); });
@@ -503,7 +185,7 @@ canvas.addEventListener("pointermove", event => {
   if (!held) return;
   const x = event.clientX - held[0], y = event.clientY - held[1];
   if (!held[2] && Math.hypot(x, y) < 4) return;
-  if (space && !event.shiftKey) turnBy(x / 150, y / 150); else shift = [shift[0] + x, shift[1] + y];
+  if (space && !event.shiftKey) turnBy(x / 150, y / 150); else view.shift = [view.shift[0] + x, view.shift[1] + y];
   held = [event.clientX, event.clientY, true];
   dirty = true;
 });
@@ -511,12 +193,10 @@ canvas.addEventListener("pointerup", event => {
   if (held && !held[2]) choose(nearest(event));
   held = null;
 });
-const turnBy = (x, y) => { turn -= x; tilt = Math.min(Math.max(tilt + y, -1.5), 1.5); dirty = true; };
-const zoomBy = factor => { zoom = Math.min(Math.max(zoom * factor, 0.2), 20); dirty = true; };
 const nearest = event => {
   const box = canvas.getBoundingClientRect();
   let best = 26, found = null;
-  for (const {name, at} of [...spots].sort((a, b) => hasLoad(b.name) - hasLoad(a.name))) {     // of a joint and a body in one place, the joint
+  for (const {name, at} of [...picture.spots].sort((a, b) => hasLoad(b.name) - hasLoad(a.name))) {     // of a joint and a body in one place, the joint
     const [x, y] = project(at), far = Math.hypot(x - event.clientX + box.left, y - event.clientY + box.top);
     if (far < best - 0.5) { best = far; found = name; }
   }
@@ -524,12 +204,12 @@ const nearest = event => {
 };
 const hasLoad = name => film.layers.some(layer => layer.loads.some(each => each.name === name));
 const next = way => {
-  const names = [...new Set(spots.map(each => each.name))];
-  return names[(names.indexOf(chosen) + way + names.length) % names.length] ?? null;
+  const names = [...new Set(picture.spots.map(each => each.name))];
+  return names[(names.indexOf(view.chosen) + way + names.length) % names.length] ?? null;
 };
 const choose = name => {
-  chosen = name;
-  note.textContent = chosen ? told() : "";
+  view.chosen = name;
+  note.textContent = view.chosen ? told() : "";
   dirty = true;
 };
 canvas.addEventListener("wheel", event => {
@@ -537,9 +217,8 @@ canvas.addEventListener("wheel", event => {
   event.preventDefault();
   zoomBy(Math.exp(-event.deltaY / 300));
 }, {passive: false});
-canvas.addEventListener("dblclick", () => { zoom = 1; shift = [0, 0]; dirty = true; });
+canvas.addEventListener("dblclick", () => { view.zoom = 1; view.shift = [0, 0]; dirty = true; });
 new ResizeObserver(() => { dirty = true; }).observe(document.body);
-readColours();
 play(playing);
 requestAnimationFrame(frame);
 })();

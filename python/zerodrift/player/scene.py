@@ -106,7 +106,7 @@ def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     for shape in moments[0]:
         entries.append((shape, range(begin, begin + len(shape.points))))
         begin += len(shape.points)
-    at = [i for shape, numbers in entries for i in numbers[:_places(shape)]]
+    at = [i for shape, numbers in entries for i in numbers[:count_places(shape)]]
     extent = [points[:, at].reshape(-1, points.shape[2])]
     round_ones = [(points[:, numbers[0]], shape.number) for shape, numbers in entries if shape.kind in ROUND]
     extent += [at + side * radius for at, radius in round_ones for side in (-1, 1)]
@@ -116,7 +116,7 @@ def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
             "loads": _loads(dense(sol), times), "at": at, "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
 
 
-def _places(shape: Shape) -> int:
+def count_places(shape: Shape) -> int:
     """The points of a shape that are places; the last ones of some kinds are directions."""
     if shape.points.shape[1] == 3:
         return 1 if shape.kind in ("pin", "sleeve", "patch") else len(shape.points)
@@ -207,7 +207,7 @@ def _bodies(layer: dict[str, Any], moves: np.ndarray) -> list[list[int]]:
     """Moving points of shapes that share a name, without directions."""
     found: dict[str, list[int]] = {}
     for shape, numbers in layer["entries"]:
-        found.setdefault(shape.name, []).extend(i for i in numbers[:_places(shape)] if moves[i])
+        found.setdefault(shape.name, []).extend(i for i in numbers[:count_places(shape)] if moves[i])
     return list(found.values())
 
 

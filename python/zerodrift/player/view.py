@@ -47,8 +47,10 @@ class View:
         name = html.escape(self._scene["name"])
         data = json.dumps(self._scene, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
         return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
-                f'<meta name="viewport" content="width=device-width"><style>{_text("player.css")}</style></head><body>'
-                f'<script type="application/json" id="scene">{data}</script><script>{_text("player.js")}</script></body></html>')
+                f'<meta name="viewport" content="width=device-width">'
+                f'<style>{_text("colours.css")}{_text("player.css")}</style></head><body>'
+                f'<script type="application/json" id="scene">{data}</script>'
+                f'<script>{_text("picture.js")}{_text("player.js")}</script></body></html>')
 
     def save(self, path: str | Path) -> Path:
         """Write the film to an HTML file, which needs no other file and no network.
@@ -159,12 +161,13 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
     labels : sequence of str, optional
         Names of the solutions.
     live : bool
-        True: instead of solutions a mechanism of the plane is given, which the page simulates itself, by the core in WebAssembly.
-        Points are dragged, and sliders change parameters and motors; what cannot close is refused with a sentence. The core is
-        compiled once, by the package ziglang (the extra ``web``).
+        True: instead of solutions a mechanism is given, which the page simulates itself, by the core in WebAssembly. Points are
+        dragged by a spring from the pointer, in space parallel to the screen, and sliders change parameters and motors; what
+        cannot close is refused with a sentence. The core is compiled once, by the package ziglang (the extra ``web``).
     sliders : dict of (float, float), optional
         With ``live=True``: parameters and motors of the mechanism, with smallest and largest values, such as
-        ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``. By default some lengths and all motors.
+        ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``. By default some lengths, a spring, a mass,
+        gravity, and all motors.
 
     Returns
     -------

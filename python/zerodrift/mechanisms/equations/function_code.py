@@ -18,6 +18,8 @@ Compiled = tuple[int, np.ndarray, Any]      # address of a function, its numbers
 
 _functions: dict[Any, tuple[int, Any] | None] = {}      # by template and names; None if C has no counterpart
 
+_graphs: dict[Any, tuple[Any, Any]] = {}        # and graphs with the nodes of their results
+
 
 def compiled(row: Any, k: int) -> Compiled | None:
     """Compiled user function of k marker quantities; None if it has no expression, or if there is no compiler."""
@@ -53,8 +55,11 @@ def nodes_of(row: Any, k: int) -> tuple[Any, Any, list[float]]:
     """Graph and nodes of a user function that has an expression, as they are compiled, and the values of its parameters."""
     template, numbers = _without_numbers(row.law.inner_expression)
     names = names_of(row)
-    equations = _Equations(template, names, len(numbers), k)
-    return equations.graph, equations.results(row), [*(float(row.parameters[name]) for name in names), *numbers]
+    key = type(row), row.law.kind, template, row.picks, names, k
+    if key not in _graphs:
+        equations = _Equations(template, names, len(numbers), k)
+        _graphs[key] = equations.graph, equations.results(row)
+    return *_graphs[key], [*(float(row.parameters[name]) for name in names), *numbers]
 
 
 class _Equations:
