@@ -168,7 +168,8 @@ static double quadratic_of_block(const zd_layout *layout, int b, const double *M
     return sum;
 }
 
-double zd_times_M_times(const zd_point *point, const double *M, const double *x)
+/* x^T M x */
+static double times_M_times(const zd_point *point, const double *M, const double *x)
 {
     const zd_layout *layout = point->layout;
     double sum = 0;
@@ -179,7 +180,7 @@ double zd_times_M_times(const zd_point *point, const double *M, const double *x)
 
 double zd_point_kinetic(const zd_point *point)
 {
-    return 0.5 * zd_times_M_times(point, point->terms.M, point->v);
+    return 0.5 * times_M_times(point, point->terms.M, point->v);
 }
 
 /* ---- entries ---- */

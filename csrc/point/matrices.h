@@ -22,7 +22,6 @@ void zd_point_rate(const zd_point *point, const double *v, double *pdot);   /* (
 double zd_point_kinetic(const zd_point *point);     /* J: kinetic energy; requires M */
 /* y (nv,) <- M x; M stored as the point's. */
 void zd_times_M(const zd_point *point, const double *M, const double *x, double *y);
-double zd_times_M_times(const zd_point *point, const double *M, const double *x);       /* x^T M x */
 double zd_packed_entry_of_M(const zd_layout *layout, const double *M, int i, int j);
 static inline double zd_entry_of_M(const zd_point *point, int i, int j)
 {

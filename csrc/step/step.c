@@ -1,15 +1,16 @@
 /* One step of a run, in order:
  *
- *  1. choose the integrated variables, the evaluation path and the size
- *  2. save the start of the step; integrate
+ *  1. zd_step(): choose the integrated variables, the evaluation path, then the size, anew for each attempt
+ *  2. attempt(): save the start of the step; integrate
  *  3. adaptive steps: estimate the error, and reject the step if it is too large
  *  4. project positions, then velocities, onto the constraints: (25)-(27)
  *  5. correct the energy: (29)
  *  6. write the integrated state from the corrected point
  *  7. check: assembly branch, pivots or orientation of C, stability, resolution, consistency of the system
- *  8. accept; or return to the start of the step and repeat it: by matrices, through a bifurcation, in (p, v), or with a shorter step
+ *  8. attempt_sizes(): accept; or return to the start of the step and repeat it: through a bifurcation, by matrices, in (p, v), or with a
+ *     shorter step
  *
- * A step to a sample or an event within the last one is the same without 3 and 7.
+ * zd_substep(): a step to a sample or an event within the last one is the same without 3 and 7.
  */
 #include "step.h"
 

@@ -30,7 +30,7 @@ void zd_elements_add_term(zd_element_parts *to, int quantity, double coefficient
     to->term[to->terms++] = (zd_quantity_term){quantity, coefficient};
 }
 
-void zd_elements_add_row(zd_element_parts *to, zd_relation row, zd_row_owner owner)
+static void add_row(zd_element_parts *to, zd_relation row, zd_row_owner owner)
 {
     to->row[to->rows] = row;
     to->owner_of_row[to->rows++] = owner;
@@ -39,7 +39,7 @@ void zd_elements_add_row(zd_element_parts *to, zd_relation row, zd_row_owner own
 void zd_elements_add_joint_row(zd_element_parts *to, int first, int nonholonomic, int joint, int component)
 {
     const zd_relation row = {first, to->terms - first, nonholonomic, -1, 0, 0, joint};
-    zd_elements_add_row(to, row, (zd_row_owner){ZD_OF_JOINT, joint, component});
+    add_row(to, row, (zd_row_owner){ZD_OF_JOINT, joint, component});
 }
 
 void zd_elements_add_relations(const zd_elements *elements, int nonholonomic, zd_element_parts *to)
@@ -47,7 +47,7 @@ void zd_elements_add_relations(const zd_elements *elements, int nonholonomic, zd
     for (int i = 0; i < elements->relations; i++) {
         if (elements->relation[i].nonholonomic != nonholonomic) continue;
         to->row_of_relation[i] = to->rows;
-        zd_elements_add_row(to, elements->relation[i], (zd_row_owner){ZD_OF_RELATION, i, 0});
+        add_row(to, elements->relation[i], (zd_row_owner){ZD_OF_RELATION, i, 0});
     }
 }
 

@@ -39,7 +39,6 @@ void zd_elements_take(zd_element_parts *to, zd_arena *arena, const zd_elements *
 /* Copies terms, generalized forces and measures; rows are added individually. */
 void zd_elements_copy(const zd_elements *elements, zd_element_parts *to);
 void zd_elements_add_term(zd_element_parts *to, int quantity, double coefficient);
-void zd_elements_add_row(zd_element_parts *to, zd_relation row, zd_row_owner owner);
 /* Adds the row of a joint whose terms are the last ones, from `first` on. */
 void zd_elements_add_joint_row(zd_element_parts *to, int first, int nonholonomic, int joint, int component);
 /* Adds the holonomic or the nonholonomic relations as rows. */
