@@ -112,14 +112,15 @@ def messages() -> Iterable[str]:
     yield from ("# When it stops", "", "A message ends with a code, such as `[zd:branch-jump]`, which `error.code` holds. "
                 "`python -m zerodrift explain branch-jump` prints the section below it.", "",
                 "Errors of the package are {py:class}`zerodrift.ZerodriftError`; most carry the solution up to the place where it "
-                "stopped, as `error.solution`. Errors of arguments are `ValueError`, `TypeError` and `KeyError`, too, whose message states "
-                "the rule, the value and a hint; theirs are the first three codes.", "")
+                "stopped, as `error.solution`. Errors of arguments are `ValueError`, `TypeError` and `KeyError`, too; their message states "
+                "the rule, the value and a hint, and their code is that of the rule, such as `shape`, or one of the first three.", "")
     known, explained = codes(), explanations()
     yield from ("| code | meaning |", "|---|---|")
     yield from (f"| [`{code}`](#{code}) | {first_clause(meaning)} |" for code, (_, meaning) in known.items())
     for code, (each, meaning) in known.items():
         found = explained[code]
-        yield from ("", f"({code})=", f"## {code}", "", f"`zerodrift.{each.__name__}`. {meaning}", "")
+        name = each.__name__ if hasattr(zd, each.__name__) else f"errors.{each.__name__}"
+        yield from ("", f"({code})=", f"## {code}", "", f"`zerodrift.{name}`. {meaning}", "")
         if said := [row.sentence for row in statuses() if row.code == code]:
             yield from ("As printed:", "", *(f"* {sentence}" for sentence in said), "")
         for title, sentences in (("Causes", found.causes), ("Cures", found.cures)):

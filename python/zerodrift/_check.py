@@ -26,18 +26,18 @@ def instance(name: str, value: Any, kinds: type | tuple[type, ...], allowed: str
     return value
 
 
-def number(name: str, value: Any, *, above: float | None = None, least: float | None = None) -> float:
-    """A finite real number, more than `above` or at least `least`."""
+def number(name: str, value: Any, *, above: float | None = None, least: float | None = None, code: str = "") -> float:
+    """A finite real number, more than `above` or at least `least`; `code` is that of its errors, if it is not the usual one."""
     if type(value) is not float:        # as most are: the questions take longer than all else here
         if isinstance(value, bool | np.bool_) or not isinstance(value, Real):
             raise WrongType(f"{name} must be a real number, not {value!r}")
         value = _double(value)
     if not math.isfinite(value):
-        raise WrongValue(f"{name} must be finite, not {value}")
+        raise WrongValue(f"{name} must be finite, not {value}", code or "not-finite")
     if above is not None and not value > above:
-        raise WrongValue(f"{name} must be greater than {above:g}, not {value:g}")
+        raise WrongValue(f"{name} must be greater than {above:g}, not {value:g}", code or "out-of-range")
     if least is not None and not value >= least:
-        raise WrongValue(f"{name} must be at least {least:g}, not {value:g}")
+        raise WrongValue(f"{name} must be at least {least:g}, not {value:g}", code or "out-of-range")
     return value
 
 
@@ -53,7 +53,7 @@ def count(name: str, value: Any, *, least: int = 1) -> int:
     if type(value) is not int and (isinstance(value, bool | np.bool_) or not isinstance(value, Integral)):
         raise WrongType(f"{name} must be a whole number, not {value!r}")
     if not least <= value < 2**31:
-        raise WrongValue(f"{name} must be between {least} and {2**31 - 1}, not {value}")
+        raise WrongValue(f"{name} must be between {least} and {2**31 - 1}, not {value}", "out-of-range")
     return int(value)
 
 
@@ -62,7 +62,7 @@ def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
     words = allowed if isinstance(allowed, tuple | dict) else list(allowed)
     if isinstance(value, str) and value in words:
         return value
-    raise WrongValue(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}")
+    raise WrongValue(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}", "unknown-choice")
 
 
 def closest(name: Any, known: Iterable[str], most: int = 5) -> str:
@@ -86,7 +86,7 @@ def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:
         return [f"{prefix}{i}" for i in range(count(name, value, least=least))]
     words = list(value)
     if len(words) < least or not all(isinstance(word, str) and word for word in words) or len(set(words)) != len(words):
-        raise WrongValue(f"{name} must be a number or different names, not {words!r}")
+        raise WrongValue(f"{name} must be a number or different names, not {words!r}", "duplicate-name")
     return words
 
 
@@ -106,7 +106,7 @@ def vector(name: str, value: Any, size: int) -> np.ndarray:
     shape = f"{name} must have shape ({size},), not"
     array = real(f"{name} must hold", value, ragged=f"{shape} be")
     if array.shape != (size,):
-        raise WrongValue(f"{shape} {array.shape}")
+        raise WrongValue(f"{shape} {array.shape}", "shape")
     return _finite(name, array)
 
 
@@ -115,7 +115,7 @@ def times(name: str, value: Any, first: float, last: float) -> np.ndarray:
     array = _finite(name, real(f"{name} must hold", value, ragged=f"{name} must be a regular array of times, not be"))
     outside = (array < first) | (array > last)
     if outside.any():
-        raise WrongValue(f"{name} must be between {first:g} and {last:g}, not {_at(array, outside)}")
+        raise WrongValue(f"{name} must be between {first:g} and {last:g}, not {_at(array, outside)}", "out-of-range")
     return array
 
 
@@ -126,12 +126,13 @@ def increasing(name: str, value: Any, first: float, last: float) -> np.ndarray:
         return value.copy()
     array = times(name, value, first, last)
     if array.ndim != 1:
-        raise WrongValue(f"{name} must have shape (k,), not {array.shape}")
+        raise WrongValue(f"{name} must have shape (k,), not {array.shape}", "shape")
     if not array.size:
-        raise WrongValue(f"{name} must increase, and needs at least one time")
+        raise WrongValue(f"{name} must increase, and needs at least one time", "not-increasing")
     falls = np.diff(array, prepend=-np.inf) <= 0
     if falls.any():
-        raise WrongValue(f"{name} must increase, but {_at(array, falls)} comes after {float(array[falls.argmax() - 1])}")
+        raise WrongValue(f"{name} must increase, but {_at(array, falls)} comes after {float(array[falls.argmax() - 1])}",
+                         "not-increasing")
     return array
 
 
@@ -139,7 +140,7 @@ def _finite(name: str, array: np.ndarray) -> np.ndarray:
     array = np.array(array, dtype=np.float64, order="C")
     infinite = ~np.isfinite(array)
     if infinite.any():
-        raise WrongValue(f"{name} must be finite, not {_at(array, infinite)}")
+        raise WrongValue(f"{name} must be finite, not {_at(array, infinite)}", "not-finite")
     return array
 
 
@@ -156,11 +157,11 @@ def real(must: str, value: Any, where: str = "", *, objects: bool = False, ragge
     `must` says whose it is and begins the error, "p0 must hold", and `where` ends it; `ragged` begins that of no array at all.
     """
     if is_masked(value):
-        raise WrongValue(f"{must} real numbers, none of them masked, not {shown(value)}{where}")
+        raise WrongValue(f"{must} real numbers, none of them masked, not {shown(value)}{where}", "not-finite")
     try:
         array = np.asarray(value)
     except ValueError as error:
-        raise WrongValue(f"{ragged or f'{must} an array of real numbers, not'} a ragged sequence{where}") from error
+        raise WrongValue(f"{ragged or f'{must} an array of real numbers, not'} a ragged sequence{where}", "shape") from error
     if array.dtype.kind == "O" and objects:
         return _as_floats(array, must, value, where)
     if array.dtype.kind not in "fiu":
@@ -207,7 +208,8 @@ def parameters(given: Any) -> dict[str, Any]:
         if not isinstance(name, str):
             raise WrongType(f"parameters must have strings for names, not {name!r}")
         if name in STATE:
-            raise WrongValue(f"parameters cannot have {name!r}: {', '.join(STATE)} are time, coordinates and velocities")
+            raise WrongValue(f"parameters cannot have {name!r}: {', '.join(STATE)} are time, coordinates and velocities",
+                             "duplicate-name")
     return dict(given)
 
 
@@ -229,6 +231,6 @@ def span(value: Any) -> tuple[float, float]:
             raise WrongType(f"t_span must be an end time or a pair (t0, t1), not {value!r}") from None
         t0, t1 = number("t_span[0]", t0), number("t_span[1]", t1)
     if not t1 > t0:
-        raise WrongValue(f"t_span must run forwards: {t1:g} is not after {t0:g}")
+        raise WrongValue(f"t_span must run forwards: {t1:g} is not after {t0:g}", "not-increasing")
     number("the length of t_span", t1 - t0)
     return t0, t1

@@ -1,8 +1,9 @@
 """Errors and warnings of the package.
 
 Each has a short stable code, which ends its message, ``[zd:branch-jump]``; ``python -m zerodrift explain branch-jump`` prints
-its causes and cures. Errors of arguments are also Python's ValueError, TypeError or KeyError; of missing packages
-and of too little memory, its ImportError and MemoryError.
+its causes and cures. Errors of arguments are also Python's ValueError, TypeError, KeyError, AttributeError or IndexError, and
+have the code of the rule that is broken, "shape" or "not-finite"; those of files, packages and memory are Python's OSError,
+ImportError and MemoryError.
 """
 
 from __future__ import annotations
@@ -71,32 +72,110 @@ class ZerodriftError(_Coded, Exception):
     solution: Any = None
 
 
-class _Argument(_Coded):
+# Codes of the rules that arguments must keep, each the second argument of an error below; without one, it has that of its class.
+OF_ARGUMENTS = {
+    "not-finite": "A number is NaN or infinite, or an entry of an array is masked.",
+    "out-of-range": "A number is not between the limits in the message.",
+    "unknown-choice": "A word is none of those in the message.",
+    "duplicate-name": "A name is given twice, is taken, or belongs to several things.",
+    "shape": "An array or a list has another shape or number of entries than it must have.",
+    "not-increasing": "Times or values are not in increasing order.",
+    "step-size": "The step is missing, or it is too short or does not divide a period.",
+    "tolerance": "A tolerance is zero, negative, not finite or below round-off.",
+    "missing-argument": "An argument is missing that another one, or this system, requires.",
+    "conflicting-arguments": "Arguments exclude each other; the message states which must be left out.",
+    "wrong-dimension": "An argument or element of space is given to a mechanism in the plane, or vice versa.",
+    "geometry": "No body, joint or mechanism has these lengths, directions or rotations.",
+    "inertia": "No body has this tensor of inertia.",
+    "prescribed-twice": "One motion is prescribed twice, by two motors or by a motor and the start.",
+    "wrong-measure": "A measure is of another kind than required: of velocities, with components, or of a dependent coordinate.",
+    "wrong-element": "An element is of another kind than required, or of another mechanism.",
+    "user-function": "A function does not take the arguments, or is not as smooth or linear, as required.",
+    "expression": "An expression or equation of SymPy is not of the form that is required.",
+    "not-available": "A system or solution does not have what is requested of it.",
+    "unreadable-file": "A file is damaged, incomplete, or not of this package or version.",
+    "not-portable": "A function cannot be written to a file or a block, or sent to another process.",
+    "other-study": "The folder of `store` belongs to another study or to another kind of processor.",
+    "compiled-function": "A compiled function or library does not have the interface that is required.",
+    "declared-structure": "The declared structure of a system disagrees with the system.",
+}
+
+
+class WrongArgument(_Coded, Exception):
     """Base of errors of arguments, whose message states the rule and the value."""
 
-class WrongValue(_Argument, ValueError):
+    def __init__(self, message: str, code: str = "") -> None:
+        super().__init__(message)
+        if code:
+            self.code = code
+
+
+class WrongValue(WrongArgument, ValueError):
     """An argument has a value that the function does not take; the message states the rule, the value and a hint."""
 
     code = "wrong-value"
 
 
-class WrongType(_Argument, TypeError):
+class WrongType(WrongArgument, TypeError):
     """An argument is of a type that the function does not take; the message states what it must be."""
 
     code = "wrong-type"
 
 
-class WrongName(_Argument, KeyError):
+class WrongName(WrongArgument, KeyError):
     """Nothing has this name; the message has the closest ones."""
 
     code = "wrong-name"
+
+
+class WrongAttribute(WrongArgument, AttributeError):
+    """An element does not have this quantity, or it must not be changed."""
+
+    code = "wrong-attribute"
+
+
+class WrongIndex(WrongArgument, IndexError):
+    """Nothing has this number; the message states how many there are."""
+
+    code = "wrong-index"
+
+
+class MissingFile(_Coded, FileNotFoundError):
+    """A file or folder does not exist."""
+
+    code = "missing-file"
+
+
+class ExistingFile(_Coded, FileExistsError):
+    """A file or folder exists that would be overwritten, and is not one that this function has written."""
+
+    code = "existing-file"
+
+
+class FileInUse(_Coded, PermissionError):
+    """A file of samples cannot be replaced on Windows while a solution reads it."""
+
+    code = "file-in-use"
+
+
+class NoSpace(_Coded, OSError):
+    """The samples of a run, or the outputs of an ensemble, exceed the free space of the disk; the message states both sizes."""
+
+    code = "no-space"
+
+
+class NeedsCompiler(_Coded, NotImplementedError):
+    """A function of C has no counterpart in Python, and there is no C compiler."""
+
+    code = "needs-compiler"
 
 
 def described(error: BaseException, code: bool = True) -> str:
     """Name of an exception and its message, with its code or, for messages that contain it, without; of an error of an argument,
     the name of the exception of Python that it is.
     """
-    name = type(error).__bases__[-1].__name__ if isinstance(error, _Argument) else type(error).__name__
+    kinds = type(error).__mro__
+    name = next(each for each in kinds if each.__module__ == "builtins" or not isinstance(error, WrongArgument)).__name__
     return f"{name}: {error if code else sentence(error)}"
 
 

@@ -52,12 +52,15 @@ def classes() -> dict[str, type[BaseException]]:
 
 
 def codes() -> dict[str, tuple[type[BaseException], str]]:
-    """Exception and meaning of each code: of exceptions, and of the core's statuses of which several raise the same exception."""
+    """Exception and meaning of each code: of exceptions, of the rules that arguments must keep, and of the core's statuses of
+    which several raise the same exception.
+    """
     found = {code: (each, " ".join(inspect.cleandoc(each.__doc__ or "").split("\n\n")[0].split()))
              for code, each in classes().items()}
+    of_arguments = {code: (errors.WrongArgument, meaning) for code, meaning in errors.OF_ARGUMENTS.items()}
     of_status = {row.code: (getattr(errors, row.error), f"{row.sentence[0].upper()}{row.sentence[1:]}.")
                  for row in statuses() if row.code and row.code not in found}
-    return {code: {**found, **of_status}[code] for code in explanations()}
+    return {code: {**found, **of_arguments, **of_status}[code] for code in explanations()}
 
 
 def explain(code: str) -> str:
@@ -72,7 +75,7 @@ def explain(code: str) -> str:
     known = codes()
     if code not in known:
         near = difflib.get_close_matches(code, known, n=3, cutoff=0.4) or sorted(known)
-        raise WrongValue(f"code must be one of the package, not {code!r}; the closest are {', '.join(near)}")
+        raise WrongValue(f"code must be one of the package, not {code!r}; the closest are {', '.join(near)}", "wrong-name")
     found = explanations()[code]
     kind, meaning = known[code]
     parts = [f"{code} ({kind.__name__})", *_wrapped(meaning, "")]

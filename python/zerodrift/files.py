@@ -61,7 +61,7 @@ def load(path: str | Path) -> Any:
         description = _module("files.from_json").parsed(content.decode(errors="replace"), str(path))
         if description is not None:
             return _mechanism(description, str(path))
-    raise WrongValue(f"{path} must be a solution, an ensemble or a mechanism saved by zerodrift")
+    raise WrongValue(f"{path} must be a solution, an ensemble or a mechanism saved by zerodrift", "unreadable-file")
 
 
 def _as_written_now(path: Path) -> Path:
@@ -76,7 +76,7 @@ def _check_whole(path: str | Path, values: dict[str, Any]) -> None:
                if each.name not in values and each.default is MISSING and each.default_factory is MISSING]
     if lacking:
         raise WrongValue(f"{path} must contain a whole solution, and lacks {', '.join(lacking)}: it was not written to its end, "
-                         "or was changed")
+                         "or was changed", "unreadable-file")
 
 
 def _is_zip(path: str | Path) -> bool:

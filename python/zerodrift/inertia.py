@@ -73,7 +73,7 @@ def disc(*, radius: float, mass: float | None = None, density: float | None = No
     """
     radius, inner = _check.number("radius", radius, above=0), _check.number("inner", inner, least=0)
     if inner >= radius:
-        raise WrongValue(f"inner must be less than radius, {radius:g}, not {inner:g}")
+        raise WrongValue(f"inner must be less than radius, {radius:g}, not {inner:g}", "out-of-range")
     mass = _mass(mass, density, math.pi * (radius**2 - inner**2), "kg/m^2")
     return Inertia(mass, mass * (radius**2 + inner**2) / 2)
 
@@ -106,5 +106,6 @@ def box(*, width: float, height: float, mass: float | None = None, density: floa
 
 def _mass(mass: float | None, density: float | None, size: float, unit: str) -> float:
     if (mass is None) == (density is None):
-        raise WrongType(f"one of mass, in kg, and density, in {unit}, is needed, not {'both' if mass is not None else 'none'}")
+        raise WrongType(f"one of mass, in kg, and density, in {unit}, is needed, not {'both' if mass is not None else 'none'}",
+                        "conflicting-arguments")
     return _check.number("mass", mass, above=0) if density is None else _check.number("density", density, above=0) * size

@@ -54,7 +54,7 @@ def test_parameters_stand_in_tables():
     lengths = np.array([[1.0, 0.3, 1.0, 0.6]] * 3 + [[1.0, 0.3, 1.0, 9.0]])
     found = made(bar, 0.1, {"gravity": gravity, "lengths": lengths}, step=0.01)
     assert found.failed.tolist() == [False, True, False, True]
-    assert found.messages[1] == "ValueError: gravity must be finite, not nan [zd:wrong-value]"
+    assert found.messages[1] == "ValueError: gravity must be finite, not nan [zd:not-finite]"
     assert "cannot close the loop" in found.messages[3]
     for run in (0, 2):
         own = bar.with_parameters(gravity=gravity[run], lengths=lengths[run])

@@ -5,6 +5,7 @@ import pytest
 
 import zerodrift as zd
 from native_systems import PENDULUM, compile_library, needs_compiler, pendulum
+from support import refused
 
 
 def four_bar(**drives):
@@ -275,9 +276,8 @@ def test_reactions_read_afterwards_are_those_under_the_inputs(layout, compiled):
         for name in ("A.force", "crank.angular_acceleration", "drive.power"):
             assert np.allclose(sol[name][k], known[name], rtol=1e-10, atol=1e-10)
     assert not np.allclose(sol["A.force"][6], zd.Instant(system, sol.t[6], sol.p[6], sol.v[6])["A.force"], rtol=1e-3)
-    with pytest.raises(ValueError, match="outputs=") as caught:
+    with refused("not-available", "outputs="):
         sol.at(0.01)["A.force"]
-    assert caught.value.code == "wrong-value"
 
 
 def test_accelerations_under_a_speed_that_is_an_input_are_recorded():

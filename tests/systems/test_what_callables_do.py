@@ -139,7 +139,7 @@ def test_a_debugger_finds_no_memory_of_a_run_that_is_over():
     lambda system: zd.acceleration(system, [1.0, 0.0], [0.0, 0.0]), lambda system: zd.project(system, [1.0, 0.1], [0.0, 0.0])],
     ids=["simulate", "evaluate", "acceleration", "project"])
 def test_what_is_not_finite_is_shown_as_it_was(call):
-    with pytest.raises(ValueError, match=r"^mass is not finite at t = 0: \[\[ *7. +nan\]\n \[nan +7.\]\] \[zd:wrong-value\]$"):
+    with pytest.raises(ValueError, match=r"^mass is not finite at t = 0: \[\[ *7. +nan\]\n \[nan +7.\]\] \[zd:not-finite\]$"):
         call(bead(mass=np.array([[7.0, np.nan], [np.nan, 7.0]])))
 
 

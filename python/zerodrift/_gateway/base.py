@@ -123,9 +123,9 @@ def text(characters: Any) -> str:
 def doubles(array: np.ndarray, size: int, *, writable: bool = False) -> Any:
     """Memory of a C-contiguous float64 array of `size` entries; other arrays are refused, which CFFI would reinterpret."""
     if array.dtype != np.float64 or not array.flags.c_contiguous or array.size != size:
-        raise WrongType(f"expected {size} contiguous float64 values, got {array.dtype} of shape {array.shape}")
+        raise WrongType(f"expected {size} contiguous float64 values, got {array.dtype} of shape {array.shape}", "shape")
     if writable and not array.flags.writeable:
-        raise WrongType("expected a writable array")
+        raise WrongType("expected a writable array", "shape")
     return ffi.from_buffer("double[]", array, require_writable=writable)
 
 
@@ -133,7 +133,7 @@ def strided_doubles(array: np.ndarray, size: int) -> Any:
     """The address of a float64 array of `size` entries, each of whose rows is contiguous; the caller keeps the array."""
     is_regular = array.strides[0] > 0 and array.strides[0] % 8 == 0 and (len(array) == 0 or array[0].flags.c_contiguous)
     if array.dtype != np.float64 or not array.flags.aligned or not is_regular or array.size != size:
-        raise WrongType(f"expected {size} float64 values in contiguous rows, got {array.dtype} of shape {array.shape}")
+        raise WrongType(f"expected {size} float64 values in contiguous rows, got {array.dtype} of shape {array.shape}", "shape")
     return ffi.cast("double *", array.ctypes.data)
 
 

@@ -90,7 +90,8 @@ class Measuring:
         return arrays
 
     def _lacks(self, index: int) -> ValueError:
-        return WrongValue(f"measure {text(self.c.measures.measure[index].name)} needs accelerations and multipliers")
+        return WrongValue(f"measure {text(self.c.measures.measure[index].name)} needs accelerations and multipliers",
+                          "not-available")
 
 
 class Components(NamedTuple):

@@ -82,7 +82,7 @@ class Packing:
         packed = dense[self._places[name]]
         if np.count_nonzero(packed) != np.count_nonzero(dense):
             i, j = map(int, np.argwhere((dense != 0) & (self.expand(name, np.ones(packed.size)) == 0))[0])
-            raise WrongValue(f"[{i}, {j}] is {dense[i, j]:g}, where the structure has nothing")
+            raise WrongValue(f"[{i}, {j}] is {dense[i, j]:g}, where the structure has nothing", "declared-structure")
         return packed
 
     def times(self, name: str, packed: np.ndarray, x: np.ndarray, *, transposed: bool = False) -> np.ndarray:

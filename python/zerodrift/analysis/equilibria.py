@@ -113,9 +113,9 @@ def equilibria(system: Any, parameter: str, values: Any, *, near: Any = None, t:
 def _values(given: Any) -> np.ndarray:
     values = _check.real("values must hold", given).astype(float)
     if values.ndim != 1 or len(values) < 2 or not np.isfinite(values).all():
-        raise WrongValue(f"values must be at least two finite numbers, not {_check.shown(given)}")
+        raise WrongValue(f"values must be at least two finite numbers, not {_check.shown(given)}", "shape")
     if not ((np.diff(values) > 0).all() or (np.diff(values) < 0).all()):
-        raise WrongValue("values must increase or decrease")
+        raise WrongValue("values must increase or decrease", "not-increasing")
     return values
 
 

@@ -78,13 +78,13 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
     names = None if efforts is None else names_of(efforts, "efforts")
     if isinstance(motion, Kinematics):
         if any(each is not None for each in (p, v, vdot)):
-            raise WrongType("p, v and vdot must be left out with what zd.kinematics returned")
+            raise WrongType("p, v and vdot must be left out with what zd.kinematics returned", "conflicting-arguments")
         system, names = _in_coordinates_of(motion, given), list(motion.prescribed) if names is None else names
         samples = motion.t, motion.p, motion.v, motion.vdot
     else:
         samples = _samples(system, motion, p, v, vdot)
     if names is None:
-        raise WrongValue("efforts must be given with a motion in coordinates: where it is driven")
+        raise WrongValue("efforts must be given with a motion in coordinates: where it is driven", "conflicting-arguments")
     return _solved(system, samples, names, _weights(weights, names))
 
 
@@ -98,7 +98,8 @@ def _in_coordinates_of(motion: Kinematics, given: Any) -> BaseSystem:
     """
     system = given.system(motion.system.layout) if isinstance(given, Makes) else given
     if [each.name for each in system.coordinates] != [each.name for each in motion.system.coordinates]:
-        raise WrongValue(f"motion must be one of {system.name} in its coordinates, not of {motion.system.name} in others")
+        raise WrongValue(f"motion must be one of {system.name} in its coordinates, not of {motion.system.name} in others",
+                         "wrong-element")
     return system
 
 
@@ -108,12 +109,12 @@ def _samples(system: BaseSystem, t: Any, p: Any, v: Any, vdot: Any) -> tuple[np.
     found = []
     for name, given, size in (("p", p, system.nq), ("v", v, system.nv), ("vdot", vdot, system.nv)):
         if given is None:
-            raise WrongType(f"{name} must be given with times")
+            raise WrongType(f"{name} must be given with times", "missing-argument")
         array = np.atleast_2d(_check.real(f"{name} must hold", given).astype(float))
         if array.shape != (len(t), size):
-            raise WrongValue(f"{name} must have shape ({len(t)}, {size}), not {array.shape}")
+            raise WrongValue(f"{name} must have shape ({len(t)}, {size}), not {array.shape}", "shape")
         if not np.isfinite(array).all():
-            raise WrongValue(f"{name} must be finite, not {array[~np.isfinite(array)][0]}")
+            raise WrongValue(f"{name} must be finite, not {array[~np.isfinite(array)][0]}", "not-finite")
         found.append(array)
     return t, *found
 

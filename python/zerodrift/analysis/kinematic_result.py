@@ -43,7 +43,8 @@ class Kinematics:
     def __getitem__(self, given: Any) -> np.ndarray:
         name = getattr(given, "name", given)
         if self.system._watching.find(name) is not None and isinstance(name, str) and name.rpartition(".")[2] in FORCES:
-            raise WrongName(f"{name!r} needs forces, which kinematics does not have: zd.inverse_dynamics(system, kin) has them")
+            raise WrongName(f"{name!r} needs forces, which kinematics does not have: zd.inverse_dynamics(system, kin) has them",
+                            "not-available")
         return read(self.system, name, self.t, (self.p, self.v, self.vdot, np.zeros((len(self.t), self.system.m))))
 
     def __repr__(self) -> str:
@@ -72,4 +73,5 @@ def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray,
         for i, variable in enumerate(variables):
             if variable.name == name:
                 return values[:, i].copy()
-    raise WrongName(f"nothing in {system.name} is called {name!r}; {_check.closest(name, names_of_quantities(system))}")
+    raise WrongName(f"nothing in {system.name} is called {name!r}; {_check.closest(name, names_of_quantities(system))}",
+                    "wrong-name")

@@ -93,19 +93,19 @@ def kinematics(system: Any, motion: Mapping[Any, Any], t: Any = None, *, speed: 
 def _speed(speed: Any, given: Mapping[str, Any], times: Any) -> float:
     speed = _check.number("speed", speed)
     if times is not None or len(given) != 1:
-        raise WrongValue("speed must be given without t, and for a single prescribed quantity")
+        raise WrongValue("speed must be given without t, and for a single prescribed quantity", "conflicting-arguments")
     if speed == 0:
-        raise WrongValue("speed must not be zero: the samples then have no times")
+        raise WrongValue("speed must not be zero: the samples then have no times", "out-of-range")
     return speed
 
 
 def _times(wanted: Mapping[str, Prescribed], times: np.ndarray | None, speed: float | None) -> np.ndarray:
     """The times of the samples."""
     if not wanted:
-        raise WrongValue("motion must prescribe at least one quantity")
+        raise WrongValue("motion must prescribe at least one quantity", "missing-argument")
     counts = {len(each.value) for each in wanted.values()}
     if len(counts) > 1:
-        raise WrongValue(f"motion must have as many samples of each quantity, not {sorted(counts)}")
+        raise WrongValue(f"motion must have as many samples of each quantity, not {sorted(counts)}", "shape")
     if times is not None:
         return times
     value = next(iter(wanted.values())).value
@@ -113,7 +113,8 @@ def _times(wanted: Mapping[str, Prescribed], times: np.ndarray | None, speed: fl
         return np.zeros(len(value))
     times = (value[:, 0] - value[0, 0]) / speed
     if value.shape[1] != 1 or (np.diff(times) <= 0).any():
-        raise WrongValue("speed must be that of a scalar whose samples go its way: increasing for a positive speed")
+        raise WrongValue("speed must be that of a scalar whose samples go its way: increasing for a positive speed",
+                         "not-increasing")
     return times
 
 
@@ -122,9 +123,9 @@ def _check_quantities(system: BaseSystem, t: float, p: np.ndarray, wanted: Mappi
     for name, each in wanted.items():
         found = find(at, name, "motion")
         if found.is_velocity:
-            raise WrongValue(f"motion must prescribe quantities of positions, and {name!r} is one of velocities")
+            raise WrongValue(f"motion must prescribe quantities of positions, and {name!r} is one of velocities", "wrong-measure")
         if each.value.shape[1] != len(found.value):
-            raise WrongValue(f"motion[{name!r}] must have {len(found.value)} components, not {each.value.shape[1]}")
+            raise WrongValue(f"motion[{name!r}] must have {len(found.value)} components, not {each.value.shape[1]}", "shape")
 
 
 def _tracked(tracker: Tracker, p: np.ndarray, times: np.ndarray, wanted: Mapping[str, Prescribed]) -> np.ndarray:

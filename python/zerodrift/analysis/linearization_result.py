@@ -116,7 +116,8 @@ class Linearization:
         Q = complement(self._spectrum.removed)
         Y = np.vstack([J @ self._quasi[:nv], J @ self._quasi[nv:] + self._rates(wanted)]) @ Q
         if Y.shape[0] != Y.shape[1] or np.linalg.cond(Y) > 1e9:
-            raise WrongValue(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {_check.shown(wanted)}")
+            raise WrongValue(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {_check.shown(wanted)}",
+                             "wrong-measure")
         return Y @ (Q.T @ self.A @ Q) @ np.linalg.inv(Y)
 
     @property

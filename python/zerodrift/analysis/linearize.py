@@ -87,7 +87,7 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
 def _state(system: BaseSystem, at: Any, v: Any) -> State:
     """The terms at the state that is given."""
     if v is not None:
-        raise WrongValue("v must be left out where the state is given")
+        raise WrongValue("v must be left out where the state is given", "conflicting-arguments")
     if at is None:
         t, p, v = 0.0, *system._state_or_start(None, None, "p", "v", 0.0)
     elif hasattr(at, "p") and hasattr(at, "v"):
@@ -172,6 +172,6 @@ class _Output:
                 if variable.name == self.name:
                     return np.array([value])
         raise WrongValue(f"outputs names {self.name!r}, and nothing in {system.name} is called that; "
-                         f"{_check.closest(self.name, names_of_quantities(system))}")
+                         f"{_check.closest(self.name, names_of_quantities(system))}", "wrong-name")
 
 

@@ -41,14 +41,14 @@ def prescribed(name: str, given: Any, t: np.ndarray | None, speed: float | None)
     """
     if callable(given) or hasattr(given, "free_symbols"):
         if t is None:
-            raise WrongType(f"{name} is a function of time, and t must be given: the times of the samples")
+            raise WrongType(f"{name} is a function of time, and t must be given: the times of the samples", "missing-argument")
         return _of_function(name, given, t)
     values = _check.real(f"{name} must hold", given).astype(float)
     values = values[:, None] if values.ndim == 1 else values
     if values.ndim != 2 or not len(values) or not np.isfinite(values).all():
-        raise WrongValue(f"{name} must have shape (k,) or (k, size) and be finite, not {_check.shown(given)}")
+        raise WrongValue(f"{name} must have shape (k,) or (k, size) and be finite, not {_check.shown(given)}", "shape")
     if t is not None and len(values) != len(t):
-        raise WrongValue(f"{name} must have one value for each of {len(t)} times, not {len(values)}")
+        raise WrongValue(f"{name} must have one value for each of {len(t)} times, not {len(values)}", "shape")
     if speed is not None:
         return Prescribed(values, np.full_like(values, speed), np.zeros_like(values), 0.0)
     if t is None:
@@ -61,7 +61,7 @@ def _of_function(name: str, given: Any, t: np.ndarray) -> Prescribed:
     samples = [_jets(name, function, float(each)) for each in t]
     value, rate, second = (np.array([autodiff.part(each, part, None) for each in samples], dtype=float) for part in PARTS)
     if not (np.isfinite(value).all() and np.isfinite(rate).all() and np.isfinite(second).all()):
-        raise WrongValue(f"{name} must be finite with its derivatives at all samples")
+        raise WrongValue(f"{name} must be finite with its derivatives at all samples", "not-finite")
     return Prescribed(value, rate, second, 0.0)
 
 
@@ -84,7 +84,7 @@ def _of_expression(name: str, given: Any) -> Callable[[Any], Any]:
 
     symbols = sorted(given.free_symbols, key=str)
     if len(symbols) > 1:
-        raise WrongValue(f"{name} must be an expression in t alone, not in {', '.join(map(str, symbols))}")
+        raise WrongValue(f"{name} must be an expression in t alone, not in {', '.join(map(str, symbols))}", "expression")
     symbol = symbols[0] if symbols else sympy.Symbol("t")
     entries = list(given) if isinstance(given, sympy.MatrixBase) else [given]
     parts = [sympy.lambdify(symbol, [each.diff(symbol, order) for each in entries], "numpy") for order in range(3)]

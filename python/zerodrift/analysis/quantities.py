@@ -71,7 +71,7 @@ def find(at: State, name: str, what: str) -> Found:
     if place is not None:
         if watching.core.measure_depends(place.number) == "accelerations":
             raise WrongValue(f"{what} must be a quantity of positions or velocities, and {name!r} depends on accelerations or "
-                             "reactions")
+                             "reactions", "wrong-measure")
         found = watching.core.measure_at(place.number, at.t, np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
         part = slice(None) if place.component is None else slice(place.component, place.component + 1)
         is_velocity = watching.core.measure_depends(place.number) == "velocities"
@@ -83,7 +83,7 @@ def find(at: State, name: str, what: str) -> Found:
         row = np.eye(system.nv)[[velocities.index(name)]]
         return Found(row @ at.v, np.zeros(1), row, np.zeros(1), True)
     raise WrongValue(f"{what} names {name!r}, and nothing in {system.name} is called that; "
-                     f"{_check.closest(name, names_of_quantities(system))}")
+                     f"{_check.closest(name, names_of_quantities(system))}", "wrong-name")
 
 
 def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarray, p: np.ndarray,

@@ -141,7 +141,7 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     chunk = None if chunk is None else _check.count("chunk", chunk)
     if store is not None and keeps:
         raise WrongValue('keep must be left out with a store, which has outputs only; ens[i] repeats run i, with bitwise the '
-                         "same result")
+                         "same result", "conflicting-arguments")
     if store is not None:
         options["vector"] = options.get("vector") or stores.vector_of(store)
     plan = checked(runs, t_span, options, outputs, reduce, keeps=keeps)

@@ -19,6 +19,6 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> E
         found = saving.read(path, rebuilt)
         return None if found is None else Ensemble(*found, 0.0, f"as {Path(path).name} has it")
     if not store.is_one(path):
-        raise WrongValue(f"{path} is a folder, and no store of an ensemble")
+        raise WrongValue(f"{path} is a folder, and no store of an ensemble", "unreadable-file")
     plan, parts = store.load(path, rebuilt)
     return Ensemble(plan, filled(parts, plan.runs.count), 0.0, f"as {Path(path).name} has it")

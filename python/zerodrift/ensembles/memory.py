@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import CostWarning, NoMemory, WrongName
+from ..errors import CostWarning, NoMemory, NoSpace, WrongName
 from ..runs import memory as free_space
 from ..runs.recording import UNCHECKED_BYTES
 from ..runs.saving import read_arrays
@@ -29,7 +29,7 @@ def check(sizes: Sequence[int] | None, runs: int, store: Path | None, stacklevel
     takes = f"the outputs of {runs} runs take {free_space.in_words(size)}"
     if store is not None:
         if size > (free := free_space.free_disk(store)):
-            raise OSError(f"{takes}, and {free_space.in_words(free)} are free in {store}: {LESS}")
+            raise NoSpace(f"{takes}, and {free_space.in_words(free)} are free in {store}: {LESS}")
         return
     if (free := free_space.free_memory()) is None:
         return
@@ -105,7 +105,7 @@ class Joined(Mapping):
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._names:
-            raise WrongName(f"no output is called {name!r}; there are {', '.join(self._names)}")
+            raise WrongName(f"no output is called {name!r}; there are {', '.join(self._names)}", "wrong-name")
         found, begin = None, 0
         for part in self._parts:
             array = part[name]

@@ -91,7 +91,8 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
     """Plan whose arguments are checked, with the first system that can be built; nothing is simulated."""
     for name in options:
         if name not in OPTIONS:
-            raise WrongType(f"ensemble has no argument {name!r}; simulate, which has the options, takes {', '.join(OPTIONS)}")
+            raise WrongType(f"ensemble has no argument {name!r}; simulate, which has the options, takes {', '.join(OPTIONS)}",
+                            "wrong-name")
     options = options | {"vector": settings.vector_unit(options.get("vector"))}
     if reduce is not None and not callable(reduce):
         raise WrongType(f"reduce must be a function of a solution, not {_check.shown(reduce)}")
@@ -150,7 +151,7 @@ def _check_signature(runs: Runs) -> None:
         signature.bind(**runs.parameters_of(0))
     except TypeError as error:
         raise WrongType(f"{named(runs.made)}{signature} does not take the parameters {', '.join(runs.parameters) or '()'}: "
-                        f"{error}") from None
+                        f"{error}", "user-function") from None
 
 
 def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[str, Any]) -> int | None:
@@ -175,7 +176,7 @@ def _check_names(system: BaseSystem, names: list[str]) -> None:
     for name in names:
         if name not in known and system._watching.find(name) is None:
             raise WrongValue(f"no output is called {name!r} in {system.name}; "
-                             f"{_check.closest(name, [*system._names_of_measures(), *known])}")
+                             f"{_check.closest(name, [*system._names_of_measures(), *known])}", "wrong-name")
 
 
 def _units(system: BaseSystem, names: list[str]) -> dict[str, str]:
@@ -190,7 +191,7 @@ def _check_starts(runs: Runs, first: int, system: BaseSystem, t0: float) -> None
     for name, size in (("p0", system.nq), ("v0", system.nv)):
         array = runs.states.get(name)
         if array is not None and array.shape[-1] != size:
-            raise WrongValue(f"{name} must have {size} entries for each run of {system.name}, not shape {array.shape}")
+            raise WrongValue(f"{name} must have {size} entries for each run of {system.name}, not shape {array.shape}", "shape")
     errors = []
     for run in range(first, runs.count):
         try:

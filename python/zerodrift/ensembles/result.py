@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from ..errors import WrongName, WrongType
+from ..errors import WrongIndex, WrongName, WrongType
 from ..systems.measure_values import AXES
 from . import exporting, saving
 from .batch import made_again
@@ -87,12 +87,13 @@ class Ensemble:
             if (component := self._component(name)) is not None:
                 return component
             if name not in self._names:
-                raise WrongName(f"no output is called {name!r}; {_check.closest(name, self._names) if self._names else 'none'}")
+                raise WrongName(f"no output is called {name!r}; {_check.closest(name, self._names) if self._names else 'none'}",
+                                "wrong-name")
             return self._stacked(name)
         if isinstance(key, bool | np.bool_) or not isinstance(key, int | np.integer):
             raise WrongType(f"the key of an ensemble must be an output's name or a run's index, not {_check.shown(key)}")
         if not -len(self) <= key < len(self):
-            raise IndexError(f"the index of a run must be below {len(self)}, not {key}")
+            raise WrongIndex(f"the index of a run must be below {len(self)}, not {key}")
         run = int(key) % len(self)
         return self._part.solutions[run] or made_again(self._plan.to_run(run), run)
 

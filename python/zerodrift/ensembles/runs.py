@@ -74,10 +74,10 @@ def grid(values: Mapping[str, Any] | None = None, /, **named: Any) -> Grid:
         raise WrongType(f"values must be a dict of values by name, not {_check.shown(values)}")
     for name in named:
         if name in (values or {}):
-            raise WrongType(f"{name!r} is given twice")
+            raise WrongType(f"{name!r} is given twice", "duplicate-name")
     columns = {name: _column(name, each) for name, each in {**(values or {}), **named}.items()}
     if not columns or any(each.ndim == 0 or not len(each) for each in columns.values()):
-        raise WrongValue("a grid needs parameters, and at least one value of each, in an array or a list")
+        raise WrongValue("a grid needs parameters, and at least one value of each, in an array or a list", "missing-argument")
     return Grid(columns)
 
 
@@ -85,8 +85,10 @@ def _column(name: str, value: Any) -> np.ndarray:
     return _check.real(f"parameter {name!r} must hold", value)
 
 
-class NoSystem(TypeError):
+class NoSystem(WrongType):
     """Raised if a function that must return a system returned something else."""
+
+    code = "user-function"
 
 
 def named(function: Any) -> str:
@@ -250,10 +252,11 @@ def _rows(what: str, given: Sequence) -> tuple[dict[str, tuple[np.ndarray, bool]
     """Values by name from a list of dicts, one for each run; likewise."""
     rows = [_dict(f"{what}[{i}]", each) for i, each in enumerate(given)]
     if not rows:
-        raise WrongValue(f"{what} must have at least one run")
+        raise WrongValue(f"{what} must have at least one run", "shape")
     for i, row in enumerate(rows):
         if differing := set(row) ^ set(rows[0]):
-            raise WrongValue(f"{what}[{i}] and {what}[0] must have the same names, and differ by {', '.join(sorted(differing))}")
+            raise WrongValue(f"{what}[{i}] and {what}[0] must have the same names, and differ by {', '.join(sorted(differing))}",
+                             "wrong-name")
     columns = {name: (_check.real(f"{what} {name!r} must hold", [row[name] for row in rows]), True) for name in rows[0]}
     return columns, {what: len(rows)}
 
@@ -261,7 +264,8 @@ def _rows(what: str, given: Sequence) -> tuple[dict[str, tuple[np.ndarray, bool]
 def _state(name: str, given: Any) -> np.ndarray:
     array = np.array(_check.real(f"{name} must hold", given), dtype=float)
     if array.ndim not in (1, 2):
-        raise WrongValue(f"{name} must have one axis, or a first axis for the runs and one more, not shape {array.shape}")
+        raise WrongValue(f"{name} must have one axis, or a first axis for the runs and one more, not shape {array.shape}",
+                         "shape")
     return array
 
 
@@ -273,7 +277,7 @@ def _common(counts: dict[str, int]) -> int:
     for name, count in itertools.islice(counts.items(), 1, None):
         if count != counts[first]:
             raise WrongValue(f"{first} has {counts[first]} values and {name} has {count}: there must be one for each run, or one "
-                             "for all; zd.grid(...) takes the product")
+                             "for all; zd.grid(...) takes the product", "shape")
     if not counts[first]:
-        raise WrongValue(f"{first} has no values, so there are no runs")
+        raise WrongValue(f"{first} has no values, so there are no runs", "shape")
     return counts[first]

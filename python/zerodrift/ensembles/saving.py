@@ -92,7 +92,7 @@ def value_as_json(value: Any) -> Any:
     if isinstance(value, dict) and all(isinstance(key, str) for key in value):
         return {"dict": {key: value_as_json(each) for key, each in value.items()}}
     raise WrongType(f"reduce must return what a file keeps: numbers, strings, arrays of numbers, and lists, tuples and dicts of "
-                    f"these, not {_check.shown(value)}")
+                    f"these, not {_check.shown(value)}", "not-portable")
 
 
 def value_from_json(value: Any) -> Any:

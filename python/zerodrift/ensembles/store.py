@@ -49,7 +49,7 @@ def vector_of(folder: str | Path) -> str | None:
     if unit not in units:
         raise WrongValue(f"store {str(folder)!r} was begun with {unit}, and the processor of {platform.node()} has "
                          f'{" and ".join(units)}: it goes on where that is, or elsewhere from the beginning with vector="avx2" | '
-                         '"baseline"')
+                         '"baseline"', "other-study")
     return unit
 
 
@@ -100,7 +100,7 @@ class Store:
             return True
         if not is_new:
             raise WrongValue(f"store {str(self.folder)!r} must be a new or an empty folder, or that of an ensemble, and it is "
-                             "neither")
+                             "neither", "other-study")
         return False
 
     def _begin(self) -> None:
@@ -187,13 +187,14 @@ def _check_same(folder: Path, now: dict[str, Any], plan: Plan) -> None:
     """Check that a store belongs to this study."""
     then = _manifest(folder)
     if then.get("format") != FORMAT:
-        raise WrongValue(f"store {str(folder)!r} has format {then.get('format')!r}, and format {FORMAT} is known here")
+        raise WrongValue(f"store {str(folder)!r} has format {then.get('format')!r}, and format {FORMAT} is known here",
+                         "unreadable-file")
     numbers = _other_runs(folder, plan) if then["numbers"] != now["numbers"] and then["runs"] == now["runs"] else []
     others = {name: value for name, value in now.items() if name != "numbers"}
     found = differences("", {name: value for name, value in then.items() if name != "numbers"}, others) + numbers
     if found or then["numbers"] != now["numbers"]:
         raise WrongValue(f"store {str(folder)!r} belongs to another study: {'; '.join(found) or 'its numbers differ'}. Take "
-                         "another folder, or call as it was called")
+                         "another folder, or call as it was called", "other-study")
 
 
 def _other_runs(folder: Path, plan: Plan) -> list[str]:
@@ -226,9 +227,9 @@ def _manifest(folder: Path) -> dict[str, Any]:
     try:
         found = json.loads((folder / MANIFEST).read_bytes())
     except (OSError, ValueError) as error:
-        raise WrongValue(f"{folder / MANIFEST} cannot be read: {error}") from None
+        raise WrongValue(f"{folder / MANIFEST} cannot be read: {error}", "unreadable-file") from None
     if not isinstance(found, dict) or found.get("what") != WHAT:
-        raise WrongValue(f"{folder / MANIFEST} is that of no {WHAT}")
+        raise WrongValue(f"{folder / MANIFEST} is that of no {WHAT}", "unreadable-file")
     return found
 
 

@@ -9,7 +9,7 @@ import sys
 from types import FunctionType, ModuleType
 from typing import Any
 
-from ..errors import WrongType, described
+from ..errors import MissingPackage, WrongType, described
 from .runs import named
 from .unpicklable import unpicklable
 
@@ -32,10 +32,11 @@ def packed(what: Any, name: str = "this", *, shares_main: bool = False) -> bytes
     try:
         return _dumped(what, shares_main)
     except _Stuck as error:
-        raise WrongType(f"{name} cannot travel to another process: {error}") from None
+        raise WrongType(f"{name} cannot travel to another process: {error}", "not-portable") from None
     except Exception as error:
         holder = unpicklable(what, lambda part: _fits(part, shares_main))
-        raise WrongType(f"{name} cannot travel to another process: {holder}{described(error, code=False)}") from error
+        raise WrongType(f"{name} cannot travel to another process: {holder}{described(error, code=False)}",
+                        "not-portable") from error
 
 
 def _dumped(what: Any, shares_main: bool) -> bytes:
@@ -65,12 +66,14 @@ def unpacked(data: bytes) -> Any:
     try:
         return pickle.loads(data)
     except (ImportError, AttributeError) as error:
-        raise ImportError(f"{error}; what is defined in a module travels by its name, so that workers need that module, the same "
-                          "as here; cloudpickle.register_pickle_by_value(module) sends what it is instead") from None
+        raise MissingPackage(f"{error}; what is defined in a module travels by its name, so that workers need that module, "
+                             "the same as here; cloudpickle.register_pickle_by_value(module) sends what it is instead") from None
 
 
-class _Stuck(TypeError):
+class _Stuck(WrongType):
     """Raised for a function that cannot be pickled."""
+
+    code = "not-portable"
 
 
 class _Packer(pickle.Pickler):

@@ -101,7 +101,7 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
                                                  "correction")}
     unknown = set(chosen) - {*given, "formulation", "stabilization", "on_singular", "max_steps"}
     if unknown:
-        raise WrongType(f"block() has no argument {sorted(unknown)[0]!r}")
+        raise WrongType(f"block() has no argument {sorted(unknown)[0]!r}", "wrong-name")
     core_settings = settings.plan(
         system, (t0, t0 + 1), None, 1, step, formulation=chosen.get("formulation", settings.FORMULATION),
         stabilization=chosen.get("stabilization", settings.STABILIZATION), on_singular=chosen.get("on_singular", "stop"),
@@ -117,7 +117,7 @@ def _measures(names: Sequence[str], system: MechanismSystem) -> tuple[str, ...]:
     for name in names:
         place = system._watching.find(name)
         if place is None:
-            raise WrongValue(f"outputs of a block must be measures of the mechanism, not {name!r}")
+            raise WrongValue(f"outputs of a block must be measures of the mechanism, not {name!r}", "wrong-name")
         found.append(known[place.number])
     return tuple(dict.fromkeys(found))
 
@@ -154,7 +154,7 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
     measures = [row.name for row in packed.measures]
     if len(measures) > MOST_MEASURES:
         raise WrongValue(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, "
-                         f"as {chosen.system.name} has")
+                         f"as {chosen.system.name} has", "missing-argument")
     packed, inputs, programs = _with_inputs(chosen, tables, packed, texts)
     inputs += grip.inputs(texts) if grip else []
     sections = {**blocks.tables(packed, texts), **vars(programs), "inputs": inputs}
@@ -231,4 +231,4 @@ def _target(name: str, tables: Any) -> tuple[str, int]:
         if relation.law < 0 and len(relation.quantities) == 1 and tables.drawing.elements[owner].drives == "speed":
             return "speed", index
     raise WrongValue("inputs must name forces, torques and speeds that are given as numbers, such as 'motor.torque', "
-                     f"not {name!r}")
+                     f"not {name!r}", "wrong-name")

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import _check
 from .._gateway.mechanisms import blocks
+from ..errors import ExistingFile
 from .block import Chosen, choose, written
 from .core_files import ENTRIES, CoreFiles, entry
 
@@ -61,11 +62,11 @@ def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[
     ...     sorted(path.name for path in made.iterdir() if path.suffix in (".c", ".h"))[:3]
     ['data.h', 'main.c', 'methods.h']
     """
-    step = _check.number("step", step, above=0)
+    step = _check.number("step", step, above=0, code="step-size")
     made = choose(system, p0, v0, t0, step, outputs, inputs, chosen)
     folder = Path(folder)
     if folder.exists() and any(folder.iterdir()):
-        raise FileExistsError(f"the folder must be empty or not exist, and {folder} has files")
+        raise ExistingFile(f"the folder must be empty or not exist, and {folder} has files")
     write_core(made, folder)
     for name in ("main.c", "sample.h"):
         (folder / name).write_text(resources.files(__package__).joinpath(name).read_text(encoding="utf-8"), encoding="utf-8")

@@ -7,6 +7,8 @@ import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePosixPath
 
+from ..errors import MissingFile
+
 METHODS = "methods.h"       # the lists of the core's tables
 ENTRIES = ("block/create.c", "block/settings.c", "block/inputs.c", "simulate.c", "run/create.c", "operations.c")
 NAME = re.compile(r"\bzd_\w+")
@@ -23,7 +25,7 @@ def folder() -> Path:
     in_source_tree = here.parents[3] / "csrc"
     found = in_source_tree if in_source_tree.is_dir() else here.parents[1] / "csrc"
     if not (found / METHODS).is_file():
-        raise FileNotFoundError(f"the sources of the core must be in {found}: install zerodrift again")
+        raise MissingFile(f"the sources of the core must be in {found}: install zerodrift again")
     return found
 
 

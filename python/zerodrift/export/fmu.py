@@ -97,7 +97,7 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
     'bar.fmu'
     """
     _check.choice("version", version, VERSIONS)
-    made = choose(system, p0, v0, t0, _check.number("step", step, above=0), list(outputs), inputs, chosen)
+    made = choose(system, p0, v0, t0, _check.number("step", step, above=0, code="step-size"), list(outputs), inputs, chosen)
     path = Path(path)
     path = path if path.suffix == ".fmu" else path.with_name(path.name + ".fmu")
     identifier = re.sub(r"\W", "_", path.stem, flags=re.ASCII)

@@ -73,7 +73,8 @@ class Programs:
             slope = program.add("*", first, rate)
             results = [zero, one, *[zero] * (k - 1), program.add("negative", value), program.add("negative", slope)]
         else:
-            raise WrongValue(f"{row.law.what} is a table in a constraint, which a block cannot hold: give an expression of SymPy")
+            raise WrongValue(f"{row.law.what} is a table in a constraint, which a block cannot hold: give an expression of SymPy",
+                             "not-portable")
         return program.with_results(results)
 
     def _spline(self, table: Table) -> int:
@@ -136,7 +137,7 @@ class _Program:
         found = FUNCTIONS.get(function.__name__)
         if found is None:
             raise WrongValue(f"{self._what} has the function {function.__name__}, which a block does not know; there are "
-                             f"{', '.join(FUNCTIONS)}")
+                             f"{', '.join(FUNCTIONS)}", "not-portable")
         return found
 
     def _chained(self, word: str, operands: list[int]) -> int:
@@ -170,7 +171,7 @@ def _nodes(row: function_calls.Call, k: int) -> tuple[str, Any, Any, Any]:
         return law.what, *function_code.nodes_of(row, k)
     if law.constant is None and not hasattr(law._function, "written"):
         raise WrongValue(f"{law.what} is a callable, which a block cannot hold: give a number, an expression of SymPy "
-                         "or zd.table(x, y)")
+                         "or zd.table(x, y)", "not-portable")
     equations = _Equations(row.parameters, k)
     nodes = row.said(equations.leaves, row.written(equations, equations.leaves.x, equations.leaves.xdot))
     return law.what, equations.graph, nodes, list(row.parameters.values())

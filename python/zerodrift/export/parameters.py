@@ -29,10 +29,12 @@ def ranges(given: Any, known: Mapping[str, float]) -> dict[str, tuple[float, flo
     found = {}
     for name, limits in given.items():
         if name not in known:
-            raise WrongValue(f"parameters must name numbers of the mechanism, not {name!r}; {_check.closest(name, list(known))}")
+            raise WrongValue(f"parameters must name numbers of the mechanism, not {name!r}; {_check.closest(name, list(known))}",
+                             "wrong-name")
         least, most = (_check.number(f"range of {name!r}", each) for each in limits)
         if not least <= known[name] <= most or least == most:
-            raise WrongValue(f"the range of {name!r} must contain its value {known[name]:g}, and not be ({least:g}, {most:g})")
+            raise WrongValue(f"the range of {name!r} must contain its value {known[name]:g}, and not be ({least:g}, {most:g})",
+                             "out-of-range")
         found[name] = (least, most)
     return found
 
@@ -54,7 +56,8 @@ def effects(words: Words, limits: Mapping[str, tuple[float, float]]) -> tuple[li
     products: list[float] = []
     for group, places in groups.items():
         if len(group) > max(DEGREES):
-            raise WrongValue(f"at most {max(DEGREES)} parameters may change one number of the tables, and {', '.join(group)} do")
+            raise WrongValue(f"at most {max(DEGREES)} parameters may change one number of the tables, and {', '.join(group)} do",
+                             "not-portable")
         powers, coefficients = _fitted(words, group, limits, places)
         for place, column in zip(places, coefficients.T, strict=True):
             kept = [(factor, power) for factor, power in zip(column, powers, strict=True) if factor != 0]
@@ -71,7 +74,7 @@ def _changed(words: Words, base: np.ndarray, name: str, limits: tuple[float, flo
     for value in limits:
         found = words({name: value})
         if found.shape != base.shape:
-            raise WrongValue(f"{name} must not change how many entries the tables have")
+            raise WrongValue(f"{name} must not change how many entries the tables have", "not-portable")
         changed |= found != base
     return changed
 
@@ -93,7 +96,7 @@ def _fitted(words: Words, group: Sequence[str], limits: Mapping[str, tuple[float
     points = [tuple(random.uniform(*limits[name]) for name in group) for _ in range(CHECKS)]
     true = np.array([words(dict(zip(group, point, strict=True)))[places] for point in points])
     if (np.abs(_terms(points, powers, scales) @ coefficients - true) > 10 * EXACT * np.maximum(size, 1e-300)).any():
-        raise WrongValue(f"numbers of the tables must be polynomials of {' and '.join(group)}, and are not")
+        raise WrongValue(f"numbers of the tables must be polynomials of {' and '.join(group)}, and are not", "not-portable")
     factors = np.array([np.prod([scale ** -exponent for scale, exponent in zip(scales, power, strict=True)])
                         for power in powers])
     return powers, coefficients * factors[:, None]

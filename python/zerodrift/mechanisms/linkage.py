@@ -143,15 +143,17 @@ def _read_links(links: Any, points: Mapping[str, Any]) -> dict[str, tuple[str, .
     """Points of each link, the ground's first."""
     _check.instance("links", links, Mapping, "a dict of points by link")
     if GROUND not in links:
-        raise WrongValue(f"links must have {GROUND!r}, the points that do not move; there are {', '.join(map(repr, links))}")
+        raise WrongValue(f"links must have {GROUND!r}, the points that do not move; there are {', '.join(map(repr, links))}",
+                         "missing-argument")
     read = {link: _names(f"links[{link!r}]", names, points) for link, names in links.items()}
     for link, names in read.items():
         if len(names) < 2 - (link == GROUND):
-            raise WrongValue(f"links[{link!r}] must have two points or more, not {_check.shown(links[link])}")
+            raise WrongValue(f"links[{link!r}] must have two points or more, not {_check.shown(links[link])}", "shape")
         if len(set(names)) < len(names):
-            raise WrongValue(f"links[{link!r}] must have each of its points once, not {_check.shown(links[link])}")
+            raise WrongValue(f"links[{link!r}] must have each of its points once, not {_check.shown(links[link])}",
+                             "duplicate-name")
         if link in points:
-            raise WrongValue(f"{link!r} is a link and a point: each needs a name of its own")
+            raise WrongValue(f"{link!r} is a link and a point: each needs a name of its own", "duplicate-name")
     used = {name for names in read.values() for name in names}
     for name in points:
         if name not in used:
@@ -165,7 +167,8 @@ def _names(argument: str, given: Any, points: Mapping[str, Any]) -> tuple[str, .
         raise WrongType(f"{argument} must be a string of one-letter points or a sequence of names, not {_check.shown(given)}")
     for name in given:
         if name not in points:
-            raise WrongValue(f"{argument} names {name!r}, which is none of the points; {_check.closest(name, points)}")
+            raise WrongValue(f"{argument} names {name!r}, which is none of the points; {_check.closest(name, points)}",
+                             "wrong-name")
     return tuple(given)
 
 
@@ -176,7 +179,7 @@ def _read_lengths(lengths: Any, links: Mapping[str, tuple[str, ...]], scale: flo
     for given, length in (lengths or {}).items():
         pair = _pair(given, links)
         if pair in read:
-            raise WrongValue(f"lengths has {' and '.join(map(repr, sorted(pair)))} twice")
+            raise WrongValue(f"lengths has {' and '.join(map(repr, sorted(pair)))} twice", "duplicate-name")
         read[pair] = scale * _check.number(f"lengths[{given!r}]", length, above=0)
     return read
 
@@ -185,12 +188,13 @@ def _pair(given: Any, links: Mapping[str, tuple[str, ...]]) -> frozenset[str]:
     """Pair of points of a length."""
     points = dict.fromkeys(name for names in links.values() for name in names)
     if given in links and not set(given) <= set(points):
-        raise WrongValue(f"lengths are between two points, and {given!r} is a link: it has {', '.join(links[given])}")
+        raise WrongValue(f"lengths are between two points, and {given!r} is a link: it has {', '.join(links[given])}",
+                         "wrong-name")
     pair = frozenset(_names("lengths", given, points))
     if len(pair) != 2 or len(given) != 2:
         raise WrongValue(f"lengths must be between two points, such as {''.join(list(points)[:2])!r}, not {_check.shown(given)}")
     if not any(pair <= set(names) for names in links.values()):
-        raise WrongValue(f"lengths[{given!r}] must name two points of one link, and no link has both")
+        raise WrongValue(f"lengths[{given!r}] must name two points of one link, and no link has both", "wrong-name")
     return pair
 
 
@@ -202,5 +206,5 @@ def _read_masses(mass: Any, links: Mapping[str, Any]) -> dict[str, float]:
     for link in mass:
         if link not in links or link == GROUND:
             raise WrongValue(f"mass names {link!r}, which is not a link that moves; "
-                             f"{_check.closest(link, [each for each in links if each != GROUND])}")
+                             f"{_check.closest(link, [each for each in links if each != GROUND])}", "wrong-name")
     return {link: _check.number(f"mass[{link!r}]", mass.get(link, 0.0), least=0) for link in links}

@@ -77,7 +77,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         if not isinstance(name, str) or not name:
             raise WrongType(f"name must be a string that is not empty, not {_check.shown(name)}")
         if dimension not in (2, 3) or isinstance(dimension, bool):
-            raise WrongValue(f"dimension must be 2, the plane, or 3, space, not {_check.shown(dimension)}")
+            raise WrongValue(f"dimension must be 2, the plane, or 3, space, not {_check.shown(dimension)}", "wrong-dimension")
         self.name, self.dimension = name, int(dimension)
         self.gravity = np.zeros(self.dimension) if gravity is None else _check.vector("gravity", gravity, self.dimension)
         super().__init__(parameters)
@@ -191,7 +191,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         (11, 3)
         """
         if self.dimension == 3:
-            raise WrongValue(f"{self.name!r} is in space already: lifted() is for mechanisms in the plane")
+            raise WrongValue(f"{self.name!r} is in space already: lifted() is for mechanisms in the plane", "wrong-dimension")
         made = Mechanism(self.name, dimension=3, gravity=(*self.gravity, 0.0), parameters=self.parameters)
         lift(self._drawing(), made)
         return made

@@ -66,7 +66,8 @@ def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.p
     rise, dwell, fall = (_check.number(name, value, above=0) for name, value in
                          (("rise", rise), ("dwell", dwell), ("fall", fall)))
     if not rise + dwell + fall < 2 * np.pi:
-        raise WrongValue(f"rise, dwell and fall must be less than a turn together, {2 * np.pi:g}, not {rise + dwell + fall:g}")
+        raise WrongValue(f"rise, dwell and fall must be less than a turn together, {2 * np.pi:g}, not {rise + dwell + fall:g}",
+                         "out-of-range")
     m = Mechanism("cam_follower", gravity=(0.0, -_check.number("gravity", gravity)))
     cam = m.body("cam", *inertia.disc(mass=_check.number("cam_mass", cam_mass, above=0), radius=base))
     follower = m.body("follower", follower_mass, at=(0, base))

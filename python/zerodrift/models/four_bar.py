@@ -59,7 +59,8 @@ def four_bar(*, lengths: Any = (1.0, 0.3, 1.0, 0.6), masses: Any = (1.5, 5.0, 3.
     apart = np.hypot(*(at - (ground, 0)))
     if not abs(coupler - rocker) < apart < coupler + rocker:
         raise WrongValue(f"coupler and rocker, of {coupler:g} and {rocker:g} m, do not meet: with the crank at {crank_angle:g} "
-                         f"rad they begin {apart:g} m apart; lengths are {ground:g}, {crank:g}, {coupler:g}, {rocker:g} m")
+                         f"rad they begin {apart:g} m apart; lengths are {ground:g}, {crank:g}, {coupler:g}, {rocker:g} m",
+                         "geometry")
     high = np.array([ground - 0.1 * rocker, rocker])        # roughly: lengths count
     m = Mechanism("four_bar", gravity=(0.0, -_check.number("gravity", gravity)))
     links = [m.link("crank", (0, 0), at, masses[0]), m.link("coupler", at, high, masses[1], length=coupler),

@@ -64,7 +64,7 @@ def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, s
     g, c = _check.number("ground", ground, above=1), _check.number("coupler", coupler, above=0)
     if not c > (g + 1) / 2:
         raise WrongValue(f"coupler must be more than half of ground and crank, {(g + 1) / 2:g}, so that the crank can turn "
-                         f"round, not {c:g}")
+                         f"round, not {c:g}", "geometry")
     x = (g + 1) / 2
     y = np.sqrt(c**2 - (g - x)**2)
     m = linkage({"A": (0, 0), "B": (1, 0), "C": (x, y), "D": (g, 0), "P": (2 * x - 1, 2 * y)},

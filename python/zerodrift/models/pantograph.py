@@ -56,7 +56,7 @@ def pantograph(*, arm: float = 0.2, ratio: float = 2.0, size: float = 0.05, rate
     """
     a, k = _check.number("arm", arm, above=0), _check.number("ratio", ratio, above=1)
     if not 0 <= _check.number("size", size) < a / 3:
-        raise WrongValue(f"size must be from 0 to less than a third of the arm, {a / 3:g}, not {size:g}")
+        raise WrongValue(f"size must be from 0 to less than a third of the arm, {a / 3:g}, not {size:g}", "geometry")
     Q = a * MIDDLE
     A = Q / 2 + np.sqrt(a**2 / (Q @ Q) - 1 / 4) * np.array([-Q[1], Q[0]])
     m = linkage({"O": (0, 0), "A": A, "B": k * A, "C": k * A + Q - A, "P": k * Q, "Q": Q},

@@ -62,7 +62,7 @@ def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, am
     near, far = 2 * crank * np.cos(min(amplitude, np.pi) / 2), 2 * crank
     if not (abs(arm - side) < near and far < arm + side):
         raise WrongValue(f"amplitude {amplitude:g} leads Q from {far:g} to {near:g} m from O, and arms of {arm:g} m with sides "
-                         f"of {side:g} m reach from {abs(arm - side):g} to {arm + side:g} m")
+                         f"of {side:g} m reach from {abs(arm - side):g} to {arm + side:g} m", "geometry")
     x = (far**2 + arm**2 - side**2) / (2 * far)
     y = np.sqrt(arm**2 - x**2)
     m = linkage({"O": (0, 0), "A": (crank, 0), "Q": (far, 0), "S": (x, y), "R": (x, -y), "P": (2 * x - far, 0)},

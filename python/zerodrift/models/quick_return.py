@@ -63,7 +63,8 @@ def quick_return(*, ground: float = 0.025, crank: float = 0.010, lever: float = 
     reach = max(abs(b - height), abs(lowest - height))
     if a == g or not reach < c:
         raise WrongValue(f"rod must be longer than {reach:g} m, by which the lever's end goes aside from the ram's line at a "
-                         f"height of {height:g} m, and crank other than ground, {g:g} m; rod is {c:g} m, and crank {a:g} m")
+                         f"height of {height:g} m, and crank other than ground, {g:g} m; rod is {c:g} m, and crank {a:g} m",
+                         "geometry")
     m = Mechanism("quick_return", gravity=(0.0, -_check.number("gravity", gravity)))
     pin = np.array([a, g])
     end = b * pin / np.hypot(*pin)

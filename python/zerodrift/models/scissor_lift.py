@@ -65,7 +65,7 @@ def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, ampli
     w, h = L * np.cos(angle), L * np.sin(angle)
     if not (0 < angle < np.pi / 2 and abs(amplitude) < min(w, L - w)):
         raise WrongValue(f"amplitude must be less than {max(0.0, min(w, L - w)):g} m with arms of {L:g} m at an angle of "
-                         f"{angle:g}, which must be between 0 and a right angle, not {amplitude:g}")
+                         f"{angle:g}, which must be between 0 and a right angle, not {amplitude:g}", "geometry")
     m = Mechanism("scissor_lift", gravity=(0.0, -_check.number("gravity", gravity)))
     rises = [m.link(f"rise{i}", (0, i * h), (w, (i + 1) * h), mass) for i in range(n)]
     falls = [m.link(f"fall{i}", (0, (i + 1) * h), (w, i * h), mass) for i in range(n)]

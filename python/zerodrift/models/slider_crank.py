@@ -55,7 +55,7 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
     """
     a, b = _check.number("crank", crank, above=0), _check.number("rod", rod, above=0)
     if not b > a:
-        raise WrongValue(f"rod must be longer than the crank of {a:g} m, not {b:g}")
+        raise WrongValue(f"rod must be longer than the crank of {a:g} m, not {b:g}", "geometry")
     rest_length = _check.number("rest_length", rest_length, least=0)
     m = Mechanism("slider_crank")
     crank_body = m.body("crank", 0.0, crank_inertia, angle=angle)

@@ -55,7 +55,8 @@ def snakeboard(*, mass: float = 6.0, inertia: float = 0.016, rotor_inertia: floa
     """
     half, wheel_swing = _check.number("half", half, above=0), _check.number("wheel_swing", wheel_swing)
     if not abs(wheel_swing) < 1.5:
-        raise WrongValue(f"wheel_swing must be between -1.5 and 1.5, as axles across the board block it, not {wheel_swing:g}")
+        raise WrongValue(f"wheel_swing must be between -1.5 and 1.5, as axles across the board block it, not {wheel_swing:g}",
+                         "out-of-range")
     m = Mechanism("snakeboard")
     board = m.body("board", mass, inertia)
     rotor = m.body("rotor", 0.0, rotor_inertia)

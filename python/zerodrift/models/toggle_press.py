@@ -58,7 +58,8 @@ def toggle_press(*, link: float = 0.3, crank: float = 0.05, rod: float = 0.3, di
     d = _check.number("distance", distance)
     if not (r + c < d and np.hypot(d, a) + r < a + c):
         raise WrongValue(f"distance must be above crank and rod together, {r + c:g} m, so that the knee is not pushed "
-                         f"through, and below {np.sqrt(max(0.0, (a + c - r)**2 - a**2)):g} m, so that the rod reaches, not {d:g}")
+                         f"through, and below {np.sqrt(max(0.0, (a + c - r)**2 - a**2)):g} m, so that the rod reaches, not {d:g}",
+                         "geometry")
     head, B = np.array([0.0, 2 * a]), np.array([d + r, a])
     apart = np.hypot(*(B - head))
     along = (apart**2 + a**2 - c**2) / (2 * apart)

@@ -65,7 +65,7 @@ def watt(*, rocker: float = 0.5, coupler: float = 0.2, amplitude: float = 0.35, 
     apart = np.hypot(2 * b - b * np.cos(up), c + b * np.sin(up))
     if not apart < b + c:
         raise WrongValue(f"amplitude {amplitude:g} leads the left rocker's end {apart:g} m from the right rocker's hinge, and "
-                         f"coupler and rocker together reach {b + c:g} m")
+                         f"coupler and rocker together reach {b + c:g} m", "geometry")
     m = linkage({"A": (0, 0), "B": (b, 0), "C": (b, -c), "D": (2 * b, -c), "P": (b, -c / 2)},
                 {"ground": "AD", "left": "AB", "coupler": "BPC", "right": "DC"}, mass=mass, gravity=gravity, name="watt")
     m.motor("drive", "A", angle=swing(amplitude, rate))

@@ -141,7 +141,7 @@ def four_bar_energies(t: float) -> tuple[float, float]:
 def _row(t: float) -> int:
     row = round(t / SPACING)
     if not 0 <= row < len(stored()) or abs(row * SPACING - t) > 1e-9:
-        raise WrongValue(f"t must be a multiple of {SPACING:g} s between 0 and {FOUR_BAR.end:g} s, not {t:g}")
+        raise WrongValue(f"t must be a multiple of {SPACING:g} s between 0 and {FOUR_BAR.end:g} s, not {t:g}", "out-of-range")
     return row
 
 

@@ -69,7 +69,8 @@ class Exploration:
         """
         for name, value in {**(values or {}), **named}.items():
             if name not in self.values:
-                raise WrongValue(f"values must name parameters of this exploration, {', '.join(self.values)}, not {name!r}")
+                raise WrongValue(f"values must name parameters of this exploration, {', '.join(self.values)}, not {name!r}",
+                                 "wrong-name")
             self.values[name] = _check.number(name, value)
         self._run()
         return self
@@ -171,7 +172,8 @@ def explore(system: Any, parameters: Mapping[str, tuple[float, float]], t_span: 
     whole = system.system() if hasattr(system, "system") else system
     unknown = [name for name in ranges if name not in whole.parameters]
     if unknown:
-        raise WrongValue(f"parameters must be those of {whole.name}, {', '.join(whole.parameters)}, not {unknown[0]!r}")
+        raise WrongValue(f"parameters must be those of {whole.name}, {', '.join(whole.parameters)}, not {unknown[0]!r}",
+                         "wrong-name")
     return Exploration(system.with_parameters, t_span, ranges, _first(ranges, whole.parameters), options)
 
 
@@ -187,7 +189,7 @@ def _ranges(parameters: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
         except (TypeError, ValueError):
             raise WrongType(f"the range of {name!r} must be two numbers, not {_check.shown(given)}") from None
         if not low < high < float("inf") or low == float("-inf"):
-            raise WrongValue(f"the range of {name!r} must increase and be finite, not {_check.shown(given)}")
+            raise WrongValue(f"the range of {name!r} must increase and be finite, not {_check.shown(given)}", "not-increasing")
         found[name] = low, high
     return found
 

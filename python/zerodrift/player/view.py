@@ -194,16 +194,16 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
         from .live import live_view
 
         if len(solutions) != 1:
-            raise WrongType(f"a live view must be of one mechanism, not of {len(solutions)} arguments")
+            raise WrongType(f"a live view must be of one mechanism, not of {len(solutions)} arguments", "conflicting-arguments")
         return live_view(solutions[0], sliders, speed=speed)
     if not solutions:
-        raise WrongType("view needs at least one solution, as zd.simulate returns")
+        raise WrongType("view needs at least one solution, as zd.simulate returns", "missing-argument")
     for sol in solutions:
         _check.instance("each of solutions", sol, Solution, A_SOLUTION)
     if labels is None:
         labels = [sol.system.name if len(solutions) == 1 else f"{sol.system.name} {i}" for i, sol in enumerate(solutions, 1)]
     if len(labels) != len(solutions):
-        raise WrongValue(f"labels must name {len(solutions)} solutions, not {len(labels)}")
+        raise WrongValue(f"labels must name {len(solutions)} solutions, not {len(labels)}", "shape")
     return View(solutions, list(labels), Wanted(forces, path, graphs, names, speed))
 
 

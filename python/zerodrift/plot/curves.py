@@ -146,7 +146,7 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     if velocities and constraints:
         lines.append((sol.velocity_violation, _style.with_unit("velocity violation |Ψ|", rates)))
     if not lines:
-        raise WrongValue(f"{sol.system.name} has no such constraints, so there is no violation to draw")
+        raise WrongValue(f"{sol.system.name} has no such constraints, so there is no violation to draw", "not-available")
     ax = _style.axes(ax)
     for values, label in lines:
         _style.log_line(ax, sol.t, np.abs(values).max(axis=1), **{"label": label} | style)
@@ -274,4 +274,4 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
 
 def _require_energy(sol: Solution) -> None:
     if _check.instance("sol", sol, Solution, A_SOLUTION).potential_energy is None:
-        raise WrongValue(f"{sol.system.name} must declare a potential energy for its energy balance to be drawn")
+        raise WrongValue(f"{sol.system.name} must declare a potential energy for its energy balance to be drawn", "not-available")

@@ -219,9 +219,11 @@ def _check_asked(sol: Solution | None, p: Any, **asked: Any) -> None:
     wanted = [name for name, value in asked.items() if value is not None and value is not False and not _is_nothing(value)]
     for name in wanted:
         if sol is None:
-            raise WrongValue(f"{name} must be left out for a system in one position: it needs a solution, as zd.simulate returns")
+            raise WrongValue(f"{name} must be left out for a system in one position: it needs a solution, as zd.simulate returns",
+                             "conflicting-arguments")
         if p is not None and name in ("t", "forces"):
-            raise WrongValue(f"{name} must be left out where p is given: it needs a sample of the solution, see t")
+            raise WrongValue(f"{name} must be left out where p is given: it needs a sample of the solution, see t",
+                             "conflicting-arguments")
 
 
 def _is_nothing(value: Any) -> bool:
@@ -267,7 +269,7 @@ def paths_of(sol: Solution | None, points: Any) -> list[np.ndarray]:
             raise WrongType(f"each of path must be a point or its name, such as 'F' or rod.end, not {_check.shown(point)}")
         places = np.asarray(sol[name if name.endswith(".position") else f"{name}.position"])
         if places.ndim != 2:
-            raise WrongValue(f"path {name!r} must be of a point, not of the scalar {name}.position")
+            raise WrongValue(f"path {name!r} must be of a point, not of the scalar {name}.position", "wrong-measure")
         found.append(places)
     return found
 
@@ -299,7 +301,8 @@ def _moments(system: BaseSystem, positions: Any, sol: Solution | None,
             return known, None
     for name, value in asked.items():
         if value is not False and not _is_nothing(value):
-            raise WrongValue(f"{name} must be left out for {system.name}, which is drawn from its points: it needs a Mechanism")
+            raise WrongValue(f"{name} must be left out for {system.name}, which is drawn from its points: it needs a Mechanism",
+                             "not-available")
     points = points_at(system, positions)
     if points.shape[2] == 3:
         return None, points
@@ -331,7 +334,7 @@ def drawing_axes(ax: Axes | None, dimension: int) -> Axes:
     if ax is None:
         ax = plt.figure(layout="constrained").add_subplot(projection="3d" if dimension == 3 else None)
     elif dimension == 3 and ax.name != "3d":
-        raise WrongValue("ax must be 3D axes for this system: fig.add_subplot(projection='3d')")
+        raise WrongValue("ax must be 3D axes for this system: fig.add_subplot(projection='3d')", "wrong-dimension")
     for axis in "xyz"[:dimension]:
         getattr(ax, f"set_{axis}label")(f"{axis} [m]")
     if dimension == 2:

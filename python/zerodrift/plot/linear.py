@@ -53,10 +53,11 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     _check.instance("lin", lin, Linearization, "what zd.linearize returns")
     count = len(lin.eigenvalues)
     if isinstance(index, bool) or not isinstance(index, int | np.integer) or not 0 <= index < count:
-        raise WrongValue(f"index must be that of one of {count} eigenvalues, 0 to {count - 1}, not {_check.shown(index)}")
+        raise WrongValue(f"index must be that of one of {count} eigenvalues, 0 to {count - 1}, not {_check.shown(index)}",
+                         "out-of-range")
     reference = lin.system.points(lin.p)
     if reference is None:
-        raise WrongValue(f"{lin.system.name} must have a drawing for its modes to be drawn, and has none")
+        raise WrongValue(f"{lin.system.name} must have a drawing for its modes to be drawn, and has none", "not-available")
     amplitude = _check.number("amplitude", amplitude, above=0)
     positions = [p for p in mode_positions(lin, int(index), amplitude, PHASES) if np.abs(p - lin.p).max() > STILL * amplitude]
     ax = still_picture(lin.system, [lin.p, *positions], ax)

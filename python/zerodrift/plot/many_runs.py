@@ -58,10 +58,11 @@ def bands(ens: Ensemble, name: Any, quantiles: Sequence[float] = QUANTILES, ax: 
     """
     values, variable = _output(ens, name)
     if ens.t is None:
-        raise WrongValue("bands are over times that all runs have, and these have their own: t_eval gives them the same")
+        raise WrongValue("bands are over times that all runs have, and these have their own: t_eval gives them the same",
+                         "not-available")
     levels = np.array([_check.number("quantiles", level, least=0) for level in quantiles])
     if not len(levels) or levels[-1] > 1 or (np.diff(levels) <= 0).any():
-        raise WrongValue(f"quantiles must increase, between 0 and 1, not {_check.shown(quantiles)}")
+        raise WrongValue(f"quantiles must increase, between 0 and 1, not {_check.shown(quantiles)}", "not-increasing")
     some = np.isfinite(values).any(axis=0)
     found = np.full((len(levels), len(ens.t)), np.nan)
     found[:, some] = np.nanquantile(values[:, some], levels, axis=0)
@@ -164,7 +165,7 @@ def heat_map(ens: Ensemble, of: Any = None, ax: Axes | None = None, *, at: float
     values, label = _numbers(ens, of, at, style)
     if len(ens.shape) != 2 or len(ens.parameters) != 2:
         raise WrongValue("a heat map is over zd.grid(...) of two parameters, and this ensemble is over "
-                         f"{' x '.join(map(str, ens.shape))} runs of {len(ens.parameters)}: against() draws it")
+                         f"{' x '.join(map(str, ens.shape))} runs of {len(ens.parameters)}: against() draws it", "not-available")
     names = list(ens.parameters)
     x, y = _parameter(ens, names[0]).reshape(ens.shape)[:, 0], _parameter(ens, names[1]).reshape(ens.shape)[0]
     columns, rows = np.argsort(x), np.argsort(y)
@@ -189,7 +190,7 @@ def _output(ens: Any, name: Any) -> tuple[Any, Variable]:
     _check.instance("ens", ens, Ensemble, AN_ENSEMBLE)
     values, name = ens[name], getattr(name, "name", name)
     if (values.ndim if ens.t is not None else values[0].ndim + 1) != 2:
-        raise WrongValue(f"{name} is a vector, and only one of its components can be drawn: {name + '.x'!r}")
+        raise WrongValue(f"{name} is a vector, and only one of its components can be drawn: {name + '.x'!r}", "wrong-measure")
     return values, Variable(name, ens.units.get(name) or ens.units.get(name.rpartition(".")[0], ""))
 
 
@@ -204,7 +205,7 @@ def _numbers(ens: Any, of: Any, at: float | None, style: dict[str, Any]) -> tupl
     found = ens.values if of is None else _check.real("of must hold", of)
     if not isinstance(found, np.ndarray) or found.shape != (len(ens),):
         given = f"what reduce returned, {_check.shown(ens.values)}," if of is None else f"of, {_check.shown(of)},"
-        raise WrongValue(f"{given} must be a number for each of {len(ens)} runs; or name an output")
+        raise WrongValue(f"{given} must be a number for each of {len(ens)} runs; or name an output", "shape")
     return found.astype(float), label
 
 
@@ -212,7 +213,7 @@ def _at(ens: Any, values: Any, at: float | None) -> np.ndarray:
     """Output at a time common to all runs, or in the last sample of each completed run."""
     if at is not None:
         if ens.t is None or not (here := np.flatnonzero(np.isclose(ens.t, at, rtol=1e-9, atol=0))).size:
-            raise WrongValue(f"at must be one of the times that all runs have, not {_check.number('at', at):g}")
+            raise WrongValue(f"at must be one of the times that all runs have, not {_check.number('at', at):g}", "out-of-range")
         return values[:, here[0]]
     last = [each[np.isfinite(each)][-1:] for each in values]
     return np.array([each[0] if each.size and not failed else np.nan for each, failed in zip(last, ens.failed, strict=True)])
@@ -221,7 +222,7 @@ def _at(ens: Any, values: Any, at: float | None) -> np.ndarray:
 def _parameter(ens: Any, name: str) -> np.ndarray:
     values = ens.parameters[_check.choice("parameter", name, ens.parameters)]
     if values.ndim != 1:
-        raise WrongValue(f"parameter {name!r} has several entries in each run, and only scalars can be drawn")
+        raise WrongValue(f"parameter {name!r} has several entries in each run, and only scalars can be drawn", "wrong-measure")
     return values
 
 

@@ -23,7 +23,7 @@ def points_at(system: BaseSystem, positions: Any) -> np.ndarray:
     """The points of each position, (positions, points, dimension)."""
     drawings = [system.points(p) for p in positions]
     if not drawings or drawings[0] is None:
-        raise WrongValue(f"{system.name} has no drawing: it gives no points")
+        raise WrongValue(f"{system.name} has no drawing: it gives no points", "not-available")
     return np.array(drawings)
 
 

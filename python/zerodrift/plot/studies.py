@@ -101,7 +101,7 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
         axes = plt.subplots(1, count, figsize=(2.7 * count + 1, 3.4), sharey=True, layout="constrained")[1]
     axes = np.atleast_1d(axes)
     if len(axes) != len(result.rows):
-        raise WrongValue(f"axes must be {len(result.rows)}, one for each way, not {len(axes)}")
+        raise WrongValue(f"axes must be {len(result.rows)}, one for each way, not {len(axes)}", "shape")
     for ax in axes:
         _style.given_axes(ax, "each of axes")
     scale = LogNorm(max(result.reference_error, 1e-12), 1, clip=True)

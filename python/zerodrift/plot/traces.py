@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from .. import _check
 from .._gateway import Variable
-from ..errors import WrongType, WrongValue
+from ..errors import WrongIndex, WrongType, WrongValue
 from ..mechanisms.elements.measures import name_of
 from ..tracing.trace_result import Trace
 from . import style as _style
@@ -65,7 +65,8 @@ def trace(traced: Trace, names: Any, ax: Axes | None = None, *, degrees: bool = 
         variable = Variable(name_of(name, "each of names"), traced.unit_of(name))
         values = traced[name]
         if values.ndim != 1:
-            raise WrongValue(f"each of names must be a scalar, and {variable.name!r} has components; plot.positions draws paths")
+            raise WrongValue(f"each of names must be a scalar, and {variable.name!r} has components; plot.positions draws paths",
+                             "wrong-measure")
         (line,) = ax.plot(_shown(traced.values, traced.unit, degrees), _shown(values, variable.unit, degrees),
                           **{"label": variable.name} | style)
         dead = [point.before for point in traced.dead_points]
@@ -126,7 +127,7 @@ def _places(at: Any, count: int) -> np.ndarray:
     if places.dtype.kind not in "iu" or places.ndim != 1 or not places.size:
         raise WrongType(f"at must be numbers of positions, not {_check.shown(at)}")
     if places.min() < -count or places.max() >= count:
-        raise IndexError(f"at must be numbers of {count} positions, not {_check.shown(at)}")
+        raise WrongIndex(f"at must be numbers of {count} positions, not {_check.shown(at)}")
     return places
 
 

@@ -155,5 +155,5 @@ def _steps_of(period: float, step: float) -> int:
     steps = max(1, round(period / step))
     if abs(period / step - steps) > WHOLE * steps:
         raise WrongValue(f"step must divide the period {period:g} s of control, and {step:g} s does not: the nearest that does "
-                         f"is {period / steps:.17g} s")
+                         f"is {period / steps:.17g} s", "step-size")
     return steps

@@ -164,7 +164,7 @@ def _event(name: str, given: Any, system: BaseSystem) -> Watched:
 def _watched(name: str, function: Any, direction: Any, terminal: Any, known: _gateway.KnownEvent | None = None) -> Watched:
     """An event, checked."""
     if _check.number(f"{name}.direction", direction) not in (-1, 0, 1):
-        raise WrongValue(f"{name}.direction must be -1, 0 or 1, not {direction!r}")
+        raise WrongValue(f"{name}.direction must be -1, 0 or 1, not {direction!r}", "unknown-choice")
     if not isinstance(terminal, bool | np.bool_):
         _check.count(f"{name}.terminal, where it is not True or False,", terminal, least=0)
     return Watched(name, function, int(direction), int(terminal), known)

@@ -62,7 +62,7 @@ def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
     has_rates = core_of(system).provides & _gateway.TERMS["A"].bit
     if has_rates or derivative.derivative_count != 1 or name not in coordinates:
         raise WrongValue(f"{what} has {derivative}, which must be a velocity of {system.name}: "
-                         f"{', '.join(variable.name for variable in system.velocities)}")
+                         f"{', '.join(variable.name for variable in system.velocities)}", "expression")
     return Reading(VELOCITY, coordinates.index(name))
 
 

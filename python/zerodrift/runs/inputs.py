@@ -42,7 +42,7 @@ def declared(given: Any, system: BaseSystem) -> Declared | None:
     limits = {} if given is None else given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
     names = tuple(map(_name, limits))
     if not names and given is not None:
-        raise WrongValue("inputs must name at least one input")
+        raise WrongValue("inputs must name at least one input", "missing-argument")
     bounds = np.array([_limits(name, each) for name, each in zip(names, limits.values(), strict=True)]).reshape(-1, 2)
     lower, upper = (np.ascontiguousarray(column) for column in bounds.T)
     return Declared(names, lower, upper, system._with_inputs(names))
@@ -55,7 +55,7 @@ def _names(given: Any) -> Sequence[Any]:
     listed = list(map(_name, names))
     for name in listed:
         if listed.count(name) > 1:
-            raise WrongValue(f"each input must be named once, and {name!r} is named more often")
+            raise WrongValue(f"each input must be named once, and {name!r} is named more often", "duplicate-name")
     return listed
 
 
@@ -71,7 +71,7 @@ def _limits(name: str, given: Any) -> tuple[float, float]:
         return -math.inf, math.inf
     bounds = _check.real(f"limits of input {name!r} must be (lower, upper)", given)
     if bounds.shape != (2,) or not bounds[0] <= bounds[1]:
-        raise WrongValue(f"limits of input {name!r} must be (lower, upper), not {_check.shown(given)}")
+        raise WrongValue(f"limits of input {name!r} must be (lower, upper), not {_check.shown(given)}", "shape")
     return float(bounds[0]), float(bounds[1])
 
 

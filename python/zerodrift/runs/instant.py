@@ -40,7 +40,7 @@ class Reading:
             for i, variable in enumerate(variables):
                 if variable.name == name:
                     return float(getattr(self, values)[i])
-        raise WrongName(f"nothing in {of.name} is called {name!r}; {_check.closest(name, names_of_quantities(of))}")
+        raise WrongName(f"nothing in {of.name} is called {name!r}; {_check.closest(name, names_of_quantities(of))}", "wrong-name")
 
     def _state_for(self, number: int) -> tuple[np.ndarray, ...]:
         """The arguments of a measure: accelerations and multipliers for one that depends on them."""
@@ -106,7 +106,7 @@ class Instant(Reading):
     def _moving(self) -> tuple[np.ndarray, np.ndarray]:
         if self._inputs:
             raise WrongValue(f"accelerations and multipliers must be read at a sample, by sol[name], or be recorded by outputs=: "
-                             f"they depend on {', '.join(self._inputs)}, which may change between samples")
+                             f"they depend on {', '.join(self._inputs)}, which may change between samples", "not-available")
         return acceleration(self.system, self.p, self.v, self.t, "augmented")
 
     @property

@@ -181,7 +181,8 @@ class ManyRuns:
         name = getattr(name, "name", name)
         if name not in self._places:
             raise WrongName(f"nothing but inputs can be set, and {name!r} is none; {_check.closest(name, self._places)}"
-                           if self._places else f"nothing but inputs can be set, and there are none: Run(..., inputs=[{name!r}])")
+                           if self._places else f"nothing but inputs can be set, and there are none: Run(..., inputs=[{name!r}])",
+                            "wrong-name")
         self.inputs[:, self._places[name]] = values
 
     def __repr__(self) -> str:
@@ -213,7 +214,7 @@ class ManyRuns:
         places = np.flatnonzero(_mask(where, len(self))).tolist()
         each = [states] * len(places) if isinstance(states, bytes) else list(states)
         if len(each) != len(places):
-            raise WrongValue(f"states must be {len(places)}, one for each run, not {len(each)}")
+            raise WrongValue(f"states must be {len(places)}, one for each run, not {len(each)}", "shape")
         for i, state in zip(places, each, strict=True):
             found, ready = unpacked(state), self._renewed(i)
             run = restored(ready, found.core)
@@ -268,7 +269,7 @@ def _first(name: str, given: Any, count: int) -> Any:
     if given is None or not isinstance(given, np.ndarray | list | tuple) or np.ndim(given) != 2:
         return given
     if len(given) != count:
-        raise WrongValue(f"{name} must have {count} rows, one for each run, not {len(given)}")
+        raise WrongValue(f"{name} must have {count} rows, one for each run, not {len(given)}", "shape")
     return given[0]
 
 
@@ -281,7 +282,7 @@ def _check_states(ready: Prepared, p0: Any, v0: Any, count: int) -> list[tuple[A
             continue
         array = _check.real(f"{name} must hold", given).astype(float)
         if array.shape not in ((size,), (count, size)):
-            raise WrongValue(f"{name} must have shape ({size},) or ({count}, {size}), not {array.shape}")
+            raise WrongValue(f"{name} must have shape ({size},) or ({count}, {size}), not {array.shape}", "shape")
         columns.append(list(np.broadcast_to(array, (count, size)).copy()))
     return list(zip(*columns, strict=True))
 
@@ -291,7 +292,8 @@ def _tables(parameters: Any, count: int) -> list[dict[str, Any]]:
     given = _check.parameters(parameters)
     for name, values in given.items():
         if np.ndim(values) and len(values) != count:
-            raise WrongValue(f"parameter {name!r} must be a number or have {count} values, one for each run, not {len(values)}")
+            raise WrongValue(f"parameter {name!r} must be a number or have {count} values, one for each run, not {len(values)}",
+                             "shape")
     return [{name: values[i] if np.ndim(values) else values for name, values in given.items()} for i in range(count)]
 
 
@@ -300,7 +302,7 @@ def _mask(where: Any, count: int) -> np.ndarray:
         return np.ones(count, dtype=bool)
     mask = np.asarray(where)
     if mask.shape != (count,) or mask.dtype != bool:
-        raise WrongValue(f"where must be {count} values True or False, not {_check.shown(where)}")
+        raise WrongValue(f"where must be {count} values True or False, not {_check.shown(where)}", "shape")
     return mask
 
 

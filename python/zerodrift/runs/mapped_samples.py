@@ -73,7 +73,7 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
     with path.open("rb") as file:
         begin, rows, layout = (_earlier_header if _beginning(path) == EARLIER else _header)(path, file)
         if layout["byte order"] != sys.byteorder:
-            raise WrongValue(f"{path} was written by a machine of another byte order, {layout['byte order']}")
+            raise WrongValue(f"{path} was written by a machine of another byte order, {layout['byte order']}", "unreadable-file")
         row = layout["row bytes"]
         rows = min(rows, (path.stat().st_size - begin) // row)
         file.seek(begin + rows * row)
@@ -95,9 +95,10 @@ def _header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any]]:
         (rows,), _, sample = np.lib.format.read_array_header_1_0(file) if version == (1, 0) else ((0,), False, np.dtype(float))
         layout = json.loads(beside.read_bytes())
         if sample.itemsize != layout["row bytes"]:
-            raise WrongValue(f"{beside.name} must describe samples of {sample.itemsize} bytes, not {layout['row bytes']}")
+            raise WrongValue(f"{beside.name} must describe samples of {sample.itemsize} bytes, not {layout['row bytes']}",
+                             "unreadable-file")
     except (ValueError, KeyError) as error:
-        raise WrongValue(f"{path} cannot be read: its header must be whole ({sentence(error)})") from None
+        raise WrongValue(f"{path} cannot be read: its header must be whole ({sentence(error)})", "unreadable-file") from None
     return file.tell(), rows, layout
 
 
@@ -107,7 +108,7 @@ def _earlier_header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any
         _, rows, length = EARLIER_HEADER.unpack(file.read(EARLIER_HEADER.size))
         layout = json.loads(file.read(length))
     except (struct.error, ValueError) as error:
-        raise WrongValue(f"{path} cannot be read: its header must be whole ({error})") from None
+        raise WrongValue(f"{path} cannot be read: its header must be whole ({error})", "unreadable-file") from None
     begin = EARLIER_HEADER.size + length
     return begin, rows if rows >= 0 else (path.stat().st_size - begin) // layout["row bytes"], layout
 

@@ -10,7 +10,7 @@ import sys
 import warnings
 from pathlib import Path
 
-from ..errors import CostWarning, NoMemory
+from ..errors import CostWarning, NoMemory, NoSpace
 
 CONTROL = Path("/sys/fs/cgroup")        # where Linux limits the memory of containers
 
@@ -31,7 +31,7 @@ def check_disk(rows: int | None, row: int, folder: Path) -> None:
     """Raise OSError if `rows` samples of `row` bytes exceed the free disk space; None: their number is not known in advance."""
     free = free_disk(folder)
     if rows is not None and rows * row > free:
-        raise OSError(f"{rows} samples take {in_words(rows * row)}, and {in_words(free)} are free in {folder}: save fewer "
+        raise NoSpace(f"{rows} samples take {in_words(rows * row)}, and {in_words(free)} are free in {folder}: save fewer "
                       "with save_every or t_eval")
 
 

@@ -33,7 +33,7 @@ class RowSettings:
         for parameter in self.card.parameters:      # as Python's own numbers, so that equal settings are saved alike
             object.__setattr__(self, parameter.name, _checked(parameter, getattr(self, parameter.name)))
         if clash := _gateway.clash(self.table, self.card.name, self._values()):
-            raise WrongValue(clash)
+            raise WrongValue(clash, "conflicting-arguments")
 
     def _values(self) -> list[float]:
         """Parameters as a flat list of numbers for the core."""

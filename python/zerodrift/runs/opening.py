@@ -112,17 +112,17 @@ def _check_speeds(declared: Declared, step: float | None) -> None:
     """Check that speeds are inputs with fixed steps only, over one of which they are followed."""
     for name in declared.names:
         if step is None and name.endswith(".speed"):
-            raise WrongValue(f"input {name!r} needs fixed steps, over one of which it is followed: give step=")
+            raise WrongValue(f"input {name!r} needs fixed steps, over one of which it is followed: give step=", "step-size")
 
 
 def nominal_span(t0: float, step: Any) -> tuple[float, float]:
     """Time span of a run without an end, which serves the checks of its start."""
-    return t0, t0 + (NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0))
+    return t0, t0 + (NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0, code="step-size"))
 
 
 def known_settings(settings: dict[str, Any]) -> dict[str, Any]:
     """All settings of `simulate` besides the step: given ones, and the defaults."""
     for name in settings:
         if name not in ARGUMENTS_OF_PLAN:
-            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}")
+            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}", "wrong-name")
     return {"t_eval": None, **ARGUMENTS_OF_PLAN, **settings}

@@ -76,9 +76,9 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
         return _assembled(system_of(system), p, v, hold, wish, _far(nudge), _check.number("t", t))
     core_of(system)
     if wish is not None or nudge:
-        raise WrongType(f"wish and nudge must be left out, as {system.name} is not a mechanism")
+        raise WrongType(f"wish and nudge must be left out, as {system.name} is not a mechanism", "conflicting-arguments")
     if p is None:
-        raise WrongType(f"p must be given, a guess of the coordinates of {system.name}")
+        raise WrongType(f"p must be given, a guess of the coordinates of {system.name}", "missing-argument")
     holds = _holds(system, hold)
     v = np.zeros(system.nv) if v is None else v
     return _corrected(system, p, v, t, settings.Projection(tol=tol, max_iterations=max_iterations), "augmented", holds)
@@ -114,7 +114,7 @@ def _holds(system: BaseSystem, hold: Any) -> list[list[int]]:
     following = [variable.name for variable in system.coordinates[core.nq - core.c.followers:] if variable.name in held]
     if following:
         raise WrongValue(f"hold names {following[0]!r}, which follows other coordinates: of a mechanism m, "
-                         f"zd.assemble(m, {{{following[0]!r}: ...}}) holds it")
+                         f"zd.assemble(m, {{{following[0]!r}: ...}}) holds it", "wrong-measure")
     return [[int(variable.name in held) for variable in group] for group in (system.coordinates, system.velocities)]
 
 

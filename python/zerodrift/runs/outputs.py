@@ -43,5 +43,5 @@ def _name(what: str, given: Any, system: BaseSystem) -> str:
     variables = [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
     if system._watching.find(name) is None and name not in variables:
         raise WrongValue(f"{what} must name a measure or a variable of {system.name}, not {name!r}; "
-                         f"{_check.closest(name, [*system._names_of_measures(), *variables])}")
+                         f"{_check.closest(name, [*system._names_of_measures(), *variables])}", "wrong-name")
     return name

@@ -49,10 +49,10 @@ class Reading:
             return self._entry(*found[0])
         if found:
             raise WrongName(f"a name must be unique in {self._system.name}, but {name!r} names {len(found)} variables: take the "
-                           "entry of p, v or multipliers")
+                           "entry of p, v or multipliers", "duplicate-name")
         if why := self._system._why_unknown(name):
-            raise WrongName(why)
-        raise WrongName(f"nothing in {self._system.name} is called {name!r}; {_check.closest(name, self.names())}")
+            raise WrongName(why, "not-available")
+        raise WrongName(f"nothing in {self._system.name} is called {name!r}; {_check.closest(name, self.names())}", "wrong-name")
 
     def names(self) -> list[str]:
         """All names that can be read."""

@@ -63,7 +63,7 @@ def record_size(system: Any, t_span: float | tuple[float, float], *, step: float
     core, recorded = core_of(system), None
     if outputs is not None:
         recorded = _outputs.Recorded(_outputs.names(outputs, system), system, core).core
-    chosen = {"step": None if step is None else _check.number("step", step, above=0),
+    chosen = {"step": None if step is None else _check.number("step", step, above=0, code="step-size"),
               "save_every": _check.count("save_every", save_every)}
     rows = settings.saved_rows(span, chosen)
     if t_eval is not None:

@@ -117,7 +117,8 @@ class Run:
         """One run, or with `runs` many of them."""
         if runs is None:
             if "parameters" in named:
-                raise WrongType("parameters are for Run(..., runs=k); one run takes system.with_parameters(...)")
+                raise WrongType("parameters are for Run(..., runs=k); one run takes system.with_parameters(...)",
+                                "conflicting-arguments")
             return object.__new__(cls)
         from .many_runs import ManyRuns
 
@@ -287,7 +288,7 @@ class Run:
         """Raise the error of a failed step; the core has returned to its start."""
         core = self._core
         if status == _gateway.BAD_ARGUMENT:
-            raise WrongValue("steps must be at least 0")
+            raise WrongValue("steps must be at least 0", "out-of-range")
         error = core.error(status)
         core.forget_errors()
         note = core.message if status == _gateway.CALLBACK else None
@@ -378,9 +379,9 @@ class Run:
         if name in self._places:
             return self._places[name]
         if name in self.system._names_of_inputs():
-            raise WrongName(f"{name!r} must be declared to be set: Run(..., inputs=[{name!r}])")
+            raise WrongName(f"{name!r} must be declared to be set: Run(..., inputs=[{name!r}])", "wrong-name")
         known = f"; {_check.closest(name, self._places)}" if self._places else ""
-        raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}")
+        raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}", "wrong-name")
 
     def _ipython_key_completions_(self) -> list[str]:
         return [*self._places, *self._reading.names()]
@@ -534,7 +535,8 @@ class Run:
         (21, 3)
         """
         if self._record is None:
-            raise WrongValue("a solution needs samples: Run(..., record=True) keeps them, and save_to= writes them to a file")
+            raise WrongValue("a solution needs samples: Run(..., record=True) keeps them, and save_to= writes them to a file",
+                             "not-available")
         outcome = Outcome(_gateway.DONE if self.event is None else _gateway.EVENT, self._seconds, None)
         solution = self._solution(outcome)
         if self._ready.path:

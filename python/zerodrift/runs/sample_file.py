@@ -22,7 +22,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._locking import Lock
 from .._writing import temporary_beside
-from ..errors import WrongValue
+from ..errors import ExistingFile, FileInUse, MissingFile, WrongValue
 from . import mapped_samples, memory
 from .saving import EVENTS, described, packed
 from .solution import FIELDS, Solution
@@ -51,11 +51,11 @@ def checked(save_to: Any) -> Path | None:
         path = path.with_suffix(SUFFIX)
     path = path if path.suffix == SUFFIX else path.with_name(path.name + SUFFIX)
     if not path.parent.is_dir():
-        raise FileNotFoundError(f"save_to must be in a folder that is there, and {str(path.parent)!r} is not")
+        raise MissingFile(f"save_to must be in a folder that is there, and {str(path.parent)!r} is not")
     beside = mapped_samples.description_of(path)
     for each, is_ours in ((path, mapped_samples.is_one), (beside, mapped_samples.is_description)):
         if each.exists() and not is_ours(each):
-            raise FileExistsError(f"save_to must be a new file, or one that a run has written before, which {str(each)!r} is not")
+            raise ExistingFile(f"save_to must be a new file, or one that a run has written before, which {str(each)!r} is not")
     return path
 
 
@@ -182,5 +182,5 @@ def _remove(path: Path) -> None:
     try:
         path.unlink(missing_ok=True)
     except PermissionError as error:
-        raise PermissionError(f"save_to cannot replace {str(path)!r} while its samples are in use: a solution that "
+        raise FileInUse(f"save_to cannot replace {str(path)!r} while its samples are in use: a solution that "
                               "reads them, here or in another process, has to go first; or take another name") from error

@@ -84,7 +84,7 @@ class Arrays(dict):
 
     def __missing__(self, name: str) -> np.ndarray:
         raise WrongValue(f"{self._path} must contain the array {name!r}, and does not: it was not written to its end, or was "
-                         "changed")
+                         "changed", "unreadable-file")
 
 
 def read_arrays(path: str | Path, names: Sequence[str] | None = None) -> Arrays:
@@ -96,7 +96,7 @@ def read_arrays(path: str | Path, names: Sequence[str] | None = None) -> Arrays:
         with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
             return Arrays(path, file if names is None else {name: file[name] for name in names if name in file})
     except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
-        raise WrongValue(f"{path} cannot be read: {error}") from None
+        raise WrongValue(f"{path} cannot be read: {error}", "unreadable-file") from None
 
 
 def _is_zip(path: str | Path) -> bool:

@@ -199,7 +199,8 @@ def vector_unit(given: str | None) -> str:
 
 def times_to_save(t_eval: Any, save_every: int, span: tuple[float, float]) -> np.ndarray:
     if save_every != 1:
-        raise WrongValue("save_every must be 1 where t_eval is given: one counts steps, the other lists times")
+        raise WrongValue("save_every must be 1 where t_eval is given: one counts steps, the other lists times",
+                         "conflicting-arguments")
     times = _check.increasing("t_eval", t_eval, *span)
     times.flags.writeable = False
     return times
@@ -212,9 +213,9 @@ def _check_resolved(settings: dict[str, Any], span: tuple[float, float]) -> None
     if step is None:
         for name in ("first_step", "max_step"):
             if settings[name] is not None:
-                _check.number(name, settings[name], least=smallest)
+                _check.number(name, settings[name], least=smallest, code="step-size")
     elif step < smallest:
-        raise WrongValue(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}")
+        raise WrongValue(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}", "step-size")
 
 
 def _steps(step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
@@ -225,8 +226,8 @@ def _steps(step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any
         return {"step": None, **_tolerances(integrator, tolerances), "max_steps": max_steps}
     for name, value in tolerances.items():
         if value is not None:
-            raise WrongValue(f"{name} is for adaptive steps: step must be left out with it")
-    return {"step": _check.number("step", step, above=0)}
+            raise WrongValue(f"{name} is for adaptive steps: step must be left out with it", "conflicting-arguments")
+    return {"step": _check.number("step", step, above=0, code="step-size")}
 
 
 def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
@@ -235,15 +236,16 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     if name not in able:
         asked = "".join(f", and {word} is for adaptive steps" for word, value in given.items() if value is not None)
         raise WrongValue(f"step must be given: {name!r} takes fixed steps{asked}; give step=, or "
-                         f"{' or '.join(f'integrator={each!r}' for each in able)}, which can take adaptive steps")
+                         f"{' or '.join(f'integrator={each!r}' for each in able)}, which can take adaptive steps", "step-size")
     given = {name: None if name.startswith("max_") and value == math.inf else value for name, value in given.items()}
     values = TOLERANCES | {name: value for name, value in given.items() if value is not None}
     least = {"rtol": FINEST_RTOL, "atol": 0.0}
-    found = {name: None if value is None else _check.number(name, value, least=least.get(name)) for name, value in values.items()}
+    found = {name: None if value is None else _check.number(
+        name, value, least=least.get(name), code="tolerance" if name in least else "step-size") for name, value in values.items()}
     if found["max_move"] is not None:
-        _check.number("max_move", found["max_move"], above=0)
+        _check.number("max_move", found["max_move"], above=0, code="step-size")
     if found["atol"] == 0:
-        raise WrongValue("atol must be greater than 0: parts of the state pass through zero")
+        raise WrongValue("atol must be greater than 0: parts of the state pass through zero", "tolerance")
     return found
 
 
@@ -260,7 +262,8 @@ def _methods(formulation: Any, integrator: Any, given_stabilization: Any, given_
     for name in names:
         if names.count(name) > 1:
             others = f"{ARGUMENTS[name]} and " if name in ARGUMENTS else ""
-            raise WrongValue(f"each correction must be given once, but {name} is given more often, by {others}correction")
+            raise WrongValue(f"each correction must be given once, but {name} is given more often, by {others}correction",
+                             "duplicate-name")
     return found, corrections, functools.reduce(operator.or_, map(_gateway.required, names), 0)
 
 
@@ -268,7 +271,7 @@ def _refuse_corrections(system: BaseSystem, corrections: Sequence[RowSettings]) 
     for name in (each.card.name for each in corrections):
         for term, row in _gateway.TERMS.items():
             if row.bit & _gateway.required(name) & ~core_of(system).provides:
-                raise WrongValue(f"{name} correction needs {term} ({row.text}), and {system.name} declares none")
+                raise WrongValue(f"{name} correction needs {term} ({row.text}), and {system.name} declares none", "not-available")
 
 
 def saved_rows(span: tuple[float, float], settings: dict[str, Any]) -> int | None:

@@ -200,18 +200,19 @@ class Solution:
             return columns[0]
         if columns:
             raise WrongName(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
-                           "take the column of p, v or multipliers")
+                           "take the column of p, v or multipliers", "duplicate-name")
         if why := self.system._why_unknown(getattr(name, "name", name)):
-            raise WrongName(why)
+            raise WrongName(why, "not-available")
         known = self._ipython_key_completions_()
-        raise WrongName(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}")
+        raise WrongName(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}",
+                        "wrong-name")
 
     def _check_sign(self, name: str) -> None:
         """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
         if measure := self._force_of(name):
             quantity = measure.rpartition(".")[2]
             raise WrongName(f"{name!r} names an element, whose {quantity} is sol[{measure!r}], and a constraint, whose "
-                            "multiplier is in sol.multipliers and has the opposite sign, by (7)")
+                            "multiplier is in sol.multipliers and has the opposite sign, by (7)", "duplicate-name")
 
     def _force_of(self, name: str) -> str | None:
         """Name of the scalar force or torque of a drive or coupling of that name; None if there is none."""
@@ -319,9 +320,10 @@ class Solution:
         (2, 1)
         """
         if self.settings["save_every"] != 1 or "t_eval" in self.settings:
-            raise WrongValue("values between samples need every step saved: save_every must be 1, and t_eval left out")
+            raise WrongValue("values between samples need every step saved: save_every must be 1, and t_eval left out",
+                             "not-available")
         if not len(self.t):
-            raise WrongValue("a solution must have samples to be evaluated between them, and this one has none")
+            raise WrongValue("a solution must have samples to be evaluated between them, and this one has none", "not-available")
         times = _check.times("t", t, self.t[0], self.t[-1])
         each, places = np.unique(times, return_inverse=True)
         p, v = self._states_at(each)

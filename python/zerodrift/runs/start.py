@@ -27,11 +27,12 @@ def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any,
     if not isinstance(p0, Reading):
         return system_of(system, p0, v0), p0, v0
     if v0 is not None:
-        raise WrongType("v0 must be left out where p0 is an equilibrium or an instant, which has its velocities")
+        raise WrongType("v0 must be left out where p0 is an equilibrium or an instant, which has its velocities",
+                        "conflicting-arguments")
     system = system.system(p0.system.layout) if isinstance(system, Makes) else system
     if [each.name for each in system.coordinates] != [each.name for each in p0.system.coordinates]:
         raise WrongValue(f"p0 must be an equilibrium or an instant of {system.name} in its coordinates, not of {p0.system.name} "
-                         "in others")
+                         "in others", "wrong-element")
     terms = p0.system.evaluate(p0.p, p0.v, t0)
     if terms.Phi_t is None or not np.any(terms.Phi_t):
         return system, p0.p, p0.v

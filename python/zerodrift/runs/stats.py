@@ -19,7 +19,7 @@ class Stats(dict):
     def __missing__(self, name: str) -> Any:
         if name in RENAMED:
             return self[RENAMED[name]]
-        raise WrongName(f"nothing in stats is called {name!r}; there are {', '.join(self)}")
+        raise WrongName(f"nothing in stats is called {name!r}; there are {', '.join(self)}", "wrong-name")
 
     def __contains__(self, name: object) -> bool:
         return super().__contains__(RENAMED.get(name, name) if isinstance(name, str) else name)

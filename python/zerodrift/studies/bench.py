@@ -248,5 +248,5 @@ def _times(reference: Any, span: tuple[float, float]) -> np.ndarray:
         return np.linspace(*span, TIMES)
     times = solution.t[(solution.t >= span[0]) & (solution.t <= span[1])]
     if not len(times):
-        raise WrongValue(f"the reference has no row from t = {span[0]:g} to {span[1]:g} s")
+        raise WrongValue(f"the reference has no row from t = {span[0]:g} to {span[1]:g} s", "not-available")
     return times[np.unique(np.linspace(0, len(times) - 1, TIMES).round().astype(int))]

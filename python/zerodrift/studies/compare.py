@@ -88,7 +88,7 @@ def difference(solution: Solution, reference: Solution | Reference | Callable[[f
     columns = [known.index(variable) for variable in variables]
     if max(columns, default=0) >= exact.shape[1]:
         raise WrongValue("a callable reference gives coordinates only; names must be among "
-                         + ", ".join(repr(coordinate.name) for coordinate in solution.system.coordinates))
+                         + ", ".join(repr(coordinate.name) for coordinate in solution.system.coordinates), "wrong-measure")
     return values - exact[:, columns]
 
 
@@ -125,7 +125,7 @@ def _evaluated(reference: Callable[[float], Any], times: np.ndarray, size: int) 
         value = _say_where(reference, float(t))
         value = np.ravel(_check.real("reference(t) must return", value, f" (at t = {t:g})", objects=True))
         if value.shape != (size,):
-            raise WrongValue(f"reference(t) must return p of shape ({size},), not {value.shape}")
+            raise WrongValue(f"reference(t) must return p of shape ({size},), not {value.shape}", "shape")
         row[:] = value
     return exact
 
@@ -149,11 +149,11 @@ def nearest(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 def _rows_at(times: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Indices of the wanted times in `times`; ValueError if one is missing."""
     if not len(times):
-        raise WrongValue("the reference solution must have samples")
+        raise WrongValue("the reference solution must have samples", "not-available")
     missing = _have_no_row(times, wanted)
     if missing.any():
         raise WrongValue(f"the reference has no sample at t = {wanted[missing][0]:g} s; "
-                         "its times must contain the solution's")
+                         "its times must contain the solution's", "not-available")
     return nearest(times, wanted)
 
 

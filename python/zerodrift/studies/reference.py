@@ -147,7 +147,7 @@ def _functions(system: BaseSystem, precision: str | None) -> Precise | None:
     functions = functions_of(system, precision)
     if functions is None and precision == PRECISIONS[1]:
         raise WrongValue(f"precision must be 'double', as {system.name} has no functions in double-double arithmetic: built-in "
-                         "systems have some, and compiled ones of expressions without cases")
+                         "systems have some, and compiled ones of expressions without cases", "not-available")
     return functions
 
 

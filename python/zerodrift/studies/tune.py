@@ -169,12 +169,12 @@ class _KeepBudget:
     def refusal(self, rows: list[Row]) -> Exception:
         least = min((row.seconds for row in rows if row.success), default=math.nan)
         return WrongValue(f"budget = {self.budget:g} s is kept by none of {len(rows)} runs; the fastest of them "
-                          f"takes {least:.2g} s")
+                          f"takes {least:.2g} s", "out-of-range")
 
 
 def _goal(error: float | None, budget: float | None) -> _ReachError | _KeepBudget:
     if (error is None) == (budget is None):
-        raise WrongValue("either error or budget must be given, and not both")
+        raise WrongValue("either error or budget must be given, and not both", "conflicting-arguments")
     if budget is None:
         return _ReachError(_check.number("error", error, above=0))
     return _KeepBudget(_check.number("budget", budget, above=0))

@@ -205,8 +205,10 @@ def work_precision(
     formulations = _names("formulations", settings.formulations(), able)
     integrators = _names("integrators", settings.integrators(), taken if integrators is None else integrators)
     stabilizations, energy = map(settings.stabilization, stabilizations), map(settings.energy, energy)
-    steps = default_steps(system, span, p0, v0) if steps is None else [_check.number("steps", h, above=0) for h in steps]
-    tolerances = TOLERANCES if tolerances is None else [_check.number("tolerances", tol, above=0) for tol in tolerances]
+    steps = default_steps(system, span, p0, v0) if steps is None else [
+        _check.number("steps", each, above=0, code="step-size") for each in steps]
+    tolerances = TOLERANCES if tolerances is None else [
+        _check.number("tolerances", each, above=0, code="tolerance") for each in tolerances]
     combinations = [
         Setting(formulation, integrator, *fineness, stabilization, corrected)
         for formulation, integrator, stabilization, corrected in itertools.product(

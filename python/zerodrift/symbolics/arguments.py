@@ -37,9 +37,9 @@ class Definition:
         self.rates = [q.diff(self.time) if isinstance(q, AppliedUndef) else None for q in self.coordinates]
         self._check_times()
         if (kinetic is None) == (mass is None):
-            raise WrongType("either kinetic or mass is needed")
+            raise WrongType("either kinetic or mass is needed", "conflicting-arguments")
         if mass is None and bias is not None:
-            raise WrongType("bias goes with mass; from kinetic it is derived")
+            raise WrongType("bias goes with mass; from kinetic it is derived", "conflicting-arguments")
         self.speed_definitions = dict(speeds) if isinstance(speeds, Mapping) else {}
         self.speeds = self._speeds(speeds, kinematics)
         holonomic, names = _named("constraints", constraints, "constraint")
@@ -57,7 +57,7 @@ class Definition:
         self.velocity_names = tuple(f"{_name(u.expr)}_dot" if isinstance(u, sympy.Derivative) else _name(u) for u in self.speeds)
         for name in self.values:
             if name in (*self.coordinate_names, *self.velocity_names, self.time.name):
-                raise WrongValue(f"parameter {name} is a coordinate, a velocity or time")
+                raise WrongValue(f"parameter {name} is a coordinate, a velocity or time", "duplicate-name")
 
     def named(self, given: Any) -> Any:
         """Coordinates and speeds given by name, as symbols."""
@@ -67,21 +67,21 @@ class Definition:
     def _check_times(self) -> None:
         for q in self.coordinates:
             if isinstance(q, AppliedUndef) and q.args != (self.time,):
-                raise WrongValue(f"coordinate {q} must be a function of {self.time} alone")
+                raise WrongValue(f"coordinate {q} must be a function of {self.time} alone", "expression")
 
     def _speeds(self, speeds: Any, kinematics: Any) -> list[Any]:
         if speeds is not None:
             found = _variables("speeds", list(speeds) if isinstance(speeds, Mapping) else speeds)
             if kinematics is None and len(found) != len(self.coordinates):
                 raise WrongValue(f"there are {len(found)} speeds for {len(self.coordinates)} coordinates: "
-                                 "then kinematics is needed")
+                                 "then kinematics is needed", "missing-argument")
             return found
         if kinematics is not None:
-            raise WrongType("kinematics goes with speeds: name these")
+            raise WrongType("kinematics goes with speeds: name these", "conflicting-arguments")
         plain = [q for q, rate in zip(self.coordinates, self.rates, strict=True) if rate is None]
         if plain:
             raise WrongType(f"speeds are needed: coordinate {plain[0]} is a symbol, which has no derivative by time "
-                            "(dynamicsymbols have)")
+                            "(dynamicsymbols have)", "missing-argument")
         return list(self.rates)
 
     def _kinematics(self, given: Any) -> list[Any] | None:
@@ -91,7 +91,8 @@ class Definition:
         if isinstance(given, Mapping):
             missing = [rate for rate in self.rates if rate not in given]
             if missing:
-                raise WrongValue(f"kinematics has nothing for {missing[0] if missing[0] is not None else self.coordinates}")
+                raise WrongValue(f"kinematics has nothing for {missing[0] if missing[0] is not None else self.coordinates}",
+                                 "missing-argument")
             return [given[rate] for rate in self.rates]
         matrix = sympy.Matrix(_matrix("kinematics", given))
         if matrix.shape == (len(self.coordinates), len(self.speeds)) and matrix.shape[1] > 1:
@@ -100,7 +101,7 @@ class Definition:
             return list(matrix)
         shape = len(self.coordinates), len(self.speeds)
         raise WrongValue(f"kinematics must have one expression for each of {shape[0]} coordinates, or be a matrix of "
-                         f"shape {shape}, not {matrix.shape}")
+                         f"shape {shape}, not {matrix.shape}", "shape")
 
     def _force(self, given: Any, kinematics: Any) -> list[Any] | None:
         if given is None:
@@ -112,12 +113,12 @@ class Definition:
                           for i, name in enumerate(names) if name == key]
                 if not places:
                     raise WrongValue(f"force must be given for velocities: {key} is not one"
-                                     f"{namesake(key, [*self.speeds, *self.coordinates])}")
+                                     f"{namesake(key, [*self.speeds, *self.coordinates])}", "wrong-name")
                 force[places[0]] = value
             return force
         force = _listed("force", given)
         if len(force) != len(self.speeds):
-            raise WrongValue(f"force must have {len(self.speeds)} entries, one for each velocity, not {len(force)}")
+            raise WrongValue(f"force must have {len(self.speeds)} entries, one for each velocity, not {len(force)}", "shape")
         return force
 
     # ---- nodes ----
@@ -162,7 +163,8 @@ class Definition:
             if symbol.name not in self.values:
                 continue
             if by_name.setdefault(symbol.name, symbol) != symbol:
-                raise WrongValue(f"there are two different symbols named {symbol.name!r} (their assumptions differ)")
+                raise WrongValue(f"there are two different symbols named {symbol.name!r} (their assumptions differ)",
+                                 "duplicate-name")
             known[symbol] = graph.leaf("parameter", list(self.values).index(symbol.name))
         return known
 
@@ -176,7 +178,7 @@ class Definition:
         used = {u for u in self.speeds if u not in speed_definitions and sympy.sympify(self.expressions["kinetic"]).has(u)}
         if used:
             raise WrongValue(f"kinetic has speed {min(used, key=str)}, and there are kinematics: write it with derivatives of "
-                             "coordinates, or say in the dict speeds what this speed is in terms of these")
+                             "coordinates, or say in the dict speeds what this speed is in terms of these", "expression")
         return known | speed_definitions
 
     @staticmethod
@@ -184,33 +186,35 @@ class Definition:
         at_rest = graph.substitution(dict.fromkeys(v, graph.zero))
         for i, row in enumerate(A):
             if any(entry.stage >= MOVING for entry in row) or at_rest(pdot[i]) is not graph.zero:
-                raise WrongValue(f"kinematics {i} must be linear in the speeds, pdot = A v, with nothing added")
+                raise WrongValue(f"kinematics {i} must be linear in the speeds, pdot = A v, with nothing added", "expression")
 
     def _check_stages(self, given: Given) -> None:
         for i, row in enumerate(given.holonomic):
             if row.stage >= MOVING:
-                raise WrongValue(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic")
+                raise WrongValue(f"constraint {self.constraint_names[i]!r} depends on velocities: such belong to nonholonomic",
+                                 "expression")
         if given.mass is not None:
             if any(len(rows) != given.nv for rows in (given.mass, *given.mass)):
-                raise WrongValue(f"mass must have shape {(given.nv, given.nv)}")
+                raise WrongValue(f"mass must have shape {(given.nv, given.nv)}", "shape")
             if any(entry.stage >= MOVING for row in given.mass for entry in row):
-                raise WrongValue("mass must not depend on velocities")
+                raise WrongValue("mass must not depend on velocities", "expression")
             if given.bias is not None and len(given.bias) != given.nv:
-                raise WrongValue(f"bias must have {given.nv} entries, not {len(given.bias)}")
+                raise WrongValue(f"bias must have {given.nv} entries, not {len(given.bias)}", "shape")
 
     def check_linearity(self, terms: Mapping[str, list[Node]]) -> None:
         """Refuses nonholonomic constraints that are not linear."""
         nv = len(self.speeds)
         for place, node in enumerate(terms.get("C", ())):
             if node.stage >= MOVING:
-                raise WrongValue(f"constraint {self.constraint_names[place // nv]!r} is not linear in the velocities")
+                raise WrongValue(f"constraint {self.constraint_names[place // nv]!r} is not linear in the velocities",
+                                 "expression")
 
     def drawing(self, reader: Reader) -> list[list[Node]]:
         """Points of the drawing, converted to nodes."""
         given = self.expressions["points"]
         points = [[reader.read(f"point {i}", x, self.placed) for x in point] for i, point in enumerate(given)]
         if points and (len(points[0]) not in (2, 3) or any(len(point) != len(points[0]) for point in points)):
-            raise WrongValue("points must all have two or three coordinates")
+            raise WrongValue("points must all have two or three coordinates", "shape")
         return points
 
     def heading(self) -> list[str]:
@@ -231,7 +235,7 @@ def _variables(what: str, given: Any) -> list[Any]:
         if not isinstance(each, sympy.Symbol | AppliedUndef | sympy.Derivative):
             raise WrongType(f"{what} must be symbols or functions of time, not {each!r}")
     if not found or len(set(found)) != len(found):
-        raise WrongValue(f"{what} must be different symbols, at least one, not {given!r}")
+        raise WrongValue(f"{what} must be different symbols, at least one, not {given!r}", "duplicate-name")
     return found
 
 
@@ -259,7 +263,7 @@ def _parameters(given: Mapping[Any, float]) -> tuple[dict[str, float], list[Any]
             raise WrongType(f"parameters must be symbols or names, not {key!r}")
         name = key if isinstance(key, str) else key.name
         if name in values:
-            raise WrongValue(f"there are two parameters named {name!r}")
+            raise WrongValue(f"there are two parameters named {name!r}", "duplicate-name")
         values[name] = _check.number(f"parameter {name!r}", value)
     return values, [key for key in given if isinstance(key, sympy.Symbol)]
 
@@ -268,7 +272,8 @@ def _matrix(what: str, given: Any) -> list[list[Any]] | None:
     try:
         return None if given is None else sympy.Matrix(given).tolist()
     except (TypeError, ValueError):
-        raise WrongType(f"{what} must be a matrix, or a sequence of rows that are as long as each other, not {given!r}") from None
+        raise WrongType(f"{what} must be a matrix, or a sequence of rows that are as long as each other, not {given!r}",
+                        "shape") from None
 
 
 def _symbols(what: Any) -> set[Any]:

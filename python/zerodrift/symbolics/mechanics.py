@@ -93,7 +93,7 @@ def _generalized_forces(method: LagrangesMethod, rates: list[Any]) -> list[Any] 
     if not method.forcelist:
         return None
     if method.inertial is None:
-        raise WrongValue("the LagrangesMethod has a forcelist, but no frame that its velocities refer to")
+        raise WrongValue("the LagrangesMethod has a forcelist, but no frame that its velocities refer to", "missing-argument")
     force = [sympy.S.Zero] * len(rates)
     for place, load in method.forcelist:
         frame = method.inertial
@@ -108,9 +108,10 @@ def _generalized_forces(method: LagrangesMethod, rates: list[Any]) -> list[Any] 
 
 def _of_kane(method: KanesMethod, potential: Any) -> dict[str, Any]:
     if method.bodylist is None:
-        raise WrongValue("the KanesMethod has no bodies yet: give it bodies=, or call kanes_equations")
+        raise WrongValue("the KanesMethod has no bodies yet: give it bodies=, or call kanes_equations", "missing-argument")
     if len(method._uaux):
-        raise WrongValue(f"auxiliary speeds such as {method._uaux[0]} are not for integration: leave u_auxiliary out")
+        raise WrongValue(f"auxiliary speeds such as {method._uaux[0]} are not for integration: leave u_auxiliary out",
+                         "expression")
     velocity = list(method._k_nh * method.u + method._f_nh) if len(method._k_nh) else []
     pdot = [method._qdot_u_map[rate] for rate in method.q.diff(dynamicsymbols._t)]
     nonholonomic = _not_from_positions(list(method._f_h), velocity, method.q, method.u, pdot)
@@ -120,7 +121,7 @@ def _of_kane(method: KanesMethod, potential: Any) -> dict[str, Any]:
 
 def _of_system(method: Any, potential: Any) -> dict[str, Any]:
     if len(method.u_aux):
-        raise WrongValue(f"auxiliary speeds such as {method.u_aux[0]} are not for integration: leave them out")
+        raise WrongValue(f"auxiliary speeds such as {method.u_aux[0]} are not for integration: leave them out", "expression")
     loads = [*method.loads, *(load for actuator in method.actuators for load in actuator.to_loads())]
     free = KanesMethod(method.frame, list(method.q), list(method.u), kd_eqs=list(method.kdes))
     pdot = [free._qdot_u_map[rate] for rate in free.q.diff(dynamicsymbols._t)]

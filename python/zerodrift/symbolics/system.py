@@ -16,7 +16,7 @@ from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from .._gateway.compiled.precise import Precise
 from .._gateway.inputs import Bound, Place
-from ..errors import NoCompilerWarning, UnsuitedIntegrator, WrongValue
+from ..errors import NeedsCompiler, NoCompilerWarning, UnsuitedIntegrator, WrongValue
 from ..systems.base import BaseSystem, WithInputs
 from ..systems.parameter_tables import NumberTables, not_finite, refusals
 from ..systems.structure import Structure, checked
@@ -176,9 +176,9 @@ class SymbolicSystem(BaseSystem):
             if name not in self._inputs:
                 known = f"; {_check.closest(name, self._inputs)}" if self._inputs else ""
                 raise WrongValue(f"inputs of {self.name} must be declared, zd.symbolic(..., inputs=[...]), and {name!r} is not"
-                                 f"{known}")
+                                 f"{known}", "wrong-name")
         if not self.compiled:
-            raise WrongValue(f"inputs of {self.name} need a C compiler")
+            raise WrongValue(f"inputs of {self.name} need a C compiler", "not-available")
         return WithInputs(self, [self.parameters[name] for name in names], [""] * len(names), self._bound)
 
     def _names_of_inputs(self) -> list[str]:
@@ -305,7 +305,7 @@ class _InPython:
 
     @staticmethod
     def not_finite(name: str, t: float, value: np.ndarray) -> Exception:
-        return WrongValue(f"{name} is not finite at t = {t:g}: {value}")
+        return WrongValue(f"{name} is not finite at t = {t:g}: {value}", "not-finite")
 
 
 @cache
@@ -356,4 +356,4 @@ def _divide(a: float, b: float) -> float:
 
 
 def _missing(name: str) -> float:
-    raise NotImplementedError(f"Python has no {name}; with a C compiler it can be evaluated")
+    raise NeedsCompiler(f"Python has no {name}; with a C compiler it can be evaluated")

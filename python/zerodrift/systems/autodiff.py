@@ -111,7 +111,8 @@ class Jet:
 
     def __float__(self) -> float:
         raise WrongType("here a number is expected, but derivatives are being taken: build arrays with np.array or np.stack "
-                        "instead of filling one, use NumPy's functions instead of math's; or supply jacobian and xi")
+                        "instead of filling one, use NumPy's functions instead of math's; or supply jacobian and xi",
+                        "user-function")
 
     # Comparisons look at the value, so that branches work.
     def __lt__(self, other: Any) -> bool:

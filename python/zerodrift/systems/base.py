@@ -136,7 +136,7 @@ class BaseSystem:
                         t: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
         """The given state; missing parts are those of the system's start at t."""
         if p is None and self.p0 is None:
-            raise WrongValue(f"{p_name} is needed: {self.name} has no start of its own")
+            raise WrongValue(f"{p_name} is needed: {self.name} has no start of its own", "missing-argument")
         p = self.p0 if p is None else _check.vector(p_name, p, self.nq)
         if v is None:       # what is the system's own was checked when it was made
             return p, np.zeros(self.nv) if self.v0 is None else self.v0
@@ -171,7 +171,8 @@ class BaseSystem:
             raise WrongType(f"changes must be a dict of values by the parameters' names, not {changes!r}")
         for key in changes or ():
             if key in changed:
-                raise WrongType(f"parameter {key!r} is changed twice: to {changes[key]!r} and to {changed[key]!r}")
+                raise WrongType(f"parameter {key!r} is changed twice: to {changes[key]!r} and to {changed[key]!r}",
+                                "duplicate-name")
         changed = {**(changes or {}), **changed}
         for key in changed:
             _check.choice("parameter", key, self.parameters)
@@ -273,7 +274,8 @@ class BaseSystem:
         if place is not None:
             is_scalar = place.component is not None or core.measure_size(place.number) == 1
             if not is_scalar or core.measure_depends(place.number) == "accelerations":
-                raise WrongValue(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none")
+                raise WrongValue(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none",
+                                 "wrong-measure")
             return Reading(known_events.MEASURE, place.number, place.component or 0)
         coordinates, velocities = ([variable.name for variable in group] for group in (self.coordinates, self.velocities))
         if name in coordinates:
@@ -325,7 +327,7 @@ class BaseSystem:
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         """The system whose numbers of these names are inputs."""
         raise WrongValue("inputs must be forces and speeds of a mechanism, symbols declared by zd.symbolic(inputs=), or "
-                         f"parameters of a zd.System or zd.native system, and {self.name} has none")
+                         f"parameters of a zd.System or zd.native system, and {self.name} has none", "not-available")
 
     def _held_reactions(self) -> Mapping[str, Place]:
         """Measures of the last accepted state that its user functions read, by name."""
@@ -341,7 +343,7 @@ class BaseSystem:
     def _unique(self, name: Any, solution: Any) -> Any:
         """Flags of the components of a measure that are equal for all admissible multipliers of redundant constraints."""
         if not self._watching.number:
-            raise WrongName(f"measures need a mechanism, and {self.name} is not one")
+            raise WrongName(f"measures need a mechanism, and {self.name} is not one", "not-available")
         return self._watching.unique(getattr(name, "name", name), solution)
 
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
@@ -424,7 +426,7 @@ def system_of(given: Any, *state: Any) -> Any:
         return given
     if any(part is not None for part in state):
         raise WrongType(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where "
-                        'it starts by its start(), or take its system("joint")')
+                        'it starts by its start(), or take its system("joint")', "conflicting-arguments")
     return given.system()
 
 

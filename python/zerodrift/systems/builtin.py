@@ -27,7 +27,7 @@ class SystemOfKind(BaseSystem):
         unknown = set(parameters) - {parameter.name for parameter in kind.parameters}
         if unknown:
             known = ", ".join(parameter.name for parameter in kind.parameters)
-            raise WrongType(f"{name} has no parameter {sorted(unknown)[0]!r}; it has {known}")
+            raise WrongType(f"{name} has no parameter {sorted(unknown)[0]!r}; it has {known}", "wrong-name")
         self._kind = kind
         values = [_as_numbers(parameter, parameters.get(parameter.name)) for parameter in kind.parameters]
         self._core, self.p0, self.v0 = kind.make(np.concatenate([*values, []]))
@@ -104,7 +104,7 @@ def _as_numbers(parameter: _gateway.Parameter, given: Any) -> np.ndarray:
     values = np.array([_check.number(parameter.name, given)]) if parameter.size == 1 else _check.vector(
         parameter.name, given, parameter.size)
     if _is_too_small(parameter, values).any():
-        raise WrongValue(f"{parameter.name} must be {parameter.rule}, not {given!r}")
+        raise WrongValue(f"{parameter.name} must be {parameter.rule}, not {given!r}", "out-of-range")
     return values
 
 

@@ -118,7 +118,7 @@ class System(BaseSystem):
         self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, len(names)))
         functions = {key: _Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
         if "jacobian" in functions and "constraints" not in functions:
-            raise WrongValue("jacobian is given without constraints")
+            raise WrongValue("jacobian is given without constraints", "missing-argument")
         places = quaternion_places(quaternions, names, kinematics is not None)
         sizes = _sizes(functions, _anywhere(len(names), places) if self.p0 is None else self.p0)
         packing = checked(structure, sizes, kinematics is not None)
@@ -142,7 +142,7 @@ class System(BaseSystem):
         for name in names:
             if name not in known:
                 raise WrongValue(f"inputs must name numbers among the parameters of {self.name}, not {name!r}; "
-                                 f"{_check.closest(name, known) if known else 'it has none'}")
+                                 f"{_check.closest(name, known) if known else 'it has none'}", "wrong-name")
         return WithInputs(self, [known[name] for name in names], [""] * len(names), self._bound)
 
     def _bound(self, core: _gateway.CoreSystem, names: Sequence[str]) -> Bound:
@@ -194,7 +194,7 @@ def _parameter(name: str, value: Any) -> Any:
     if isinstance(value, str | bytes) or (isinstance(value, np.ndarray) and value.dtype.kind not in "biufcO"):
         raise WrongType(f"parameter {name!r} must be a number, an array of numbers or an object except a string, not {value!r}")
     if _check.is_masked(value):
-        raise WrongValue(f"parameter {name!r} must have no masked entries, not {value!r}")
+        raise WrongValue(f"parameter {name!r} must have no masked entries, not {value!r}", "not-finite")
     if isinstance(value, Live):
         value.flags.writeable = False
         return value
@@ -256,7 +256,7 @@ class _Function:
         """Write the checked value to an array of the core."""
         value = self.value(t, p, v)
         if value.shape != out.shape:
-            raise WrongValue(f"{self.name} must return shape {out.shape}, not {value.shape} (at t = {t:g})")
+            raise WrongValue(f"{self.name} must return shape {out.shape}, not {value.shape} (at t = {t:g})", "shape")
         out[...] = value
 
     def evaluate_jets(self, shape: tuple[int, ...], t: Any, p: np.ndarray, v: np.ndarray) -> np.ndarray:
@@ -269,7 +269,7 @@ class _Function:
         result = np.asarray(returned, dtype=object)
         numbers = returned if _check.is_masked(returned) else autodiff.numbers(result)
         if _check.real(f"{self.name} must return", numbers, where, objects=True).shape != shape:
-            raise WrongValue(f"{self.name} must return shape {shape}, not {result.shape}{where}")
+            raise WrongValue(f"{self.name} must return shape {shape}, not {result.shape}{where}", "shape")
         return result
 
 
@@ -282,13 +282,14 @@ def arguments(name: str, given: Callable[..., Any], allowed: list[str]) -> list[
     wants, there_is = [], f"there is {', '.join(allowed)}"
     for argument in _signature(name, given, there_is):
         if argument.kind in (argument.VAR_POSITIONAL, argument.VAR_KEYWORD):
-            raise WrongType(f"{name} has {str(argument)!r}, and must name what it asks for; {there_is}")
+            raise WrongType(f"{name} has {str(argument)!r}, and must name what it asks for; {there_is}", "user-function")
         if argument.name in allowed:
             if argument.kind is argument.POSITIONAL_ONLY:
-                raise WrongType(f"{name} takes {argument.name!r} by position only, and is handed it by name: leave out the '/'")
+                raise WrongType(f"{name} takes {argument.name!r} by position only, and is handed it by name: leave out the '/'",
+                                "user-function")
             wants.append(argument.name)
         elif argument.default is argument.empty:
-            raise WrongType(f"{name} asks for {argument.name!r}; {there_is}")
+            raise WrongType(f"{name} asks for {argument.name!r}; {there_is}", "user-function")
     return wants
 
 
@@ -296,7 +297,8 @@ def _signature(name: str, given: Callable[..., Any], there_is: str) -> Iterable[
     try:
         return inspect.signature(given).parameters.values()
     except (TypeError, ValueError) as error:
-        raise WrongType(f"{name} must be a function that names what it asks for, and {given!r} does not; {there_is}") from error
+        raise WrongType(f"{name} must be a function that names what it asks for, and {given!r} does not; {there_is}",
+                        "user-function") from error
 
 
 def _anywhere(nq: int, quaternions: tuple[int, ...]) -> np.ndarray:
@@ -316,16 +318,17 @@ def _sizes(functions: dict[str, _Function], p: np.ndarray) -> tuple[int, int, in
         with np.errstate(all="ignore"):
             found = functions[name].value(0.0, p, _check.frozen(np.zeros(nv))).shape
         if len(found) != dimensions:
-            raise WrongValue(f"{name} must return shape ({', '.join(SHAPES[name])}), not {found}")
+            raise WrongValue(f"{name} must return shape ({', '.join(SHAPES[name])}), not {found}", "shape")
         return found
 
     nv = nq     # for a mass that asks for v
     nv = shape("mass", 2)[0]
     if "kinematics" not in functions and nv != nq:
-        raise WrongValue(f"mass is for {nv} velocities and there are {nq} coordinates: then kinematics is needed")
+        raise WrongValue(f"mass is for {nv} velocities and there are {nq} coordinates: then kinematics is needed",
+                         "missing-argument")
     mh, mn = shape("constraints", 1)[0], shape("nonholonomic", 2)[0]
     if "power" in functions and "potential" not in functions:
-        raise WrongValue("power must be given together with potential, which the energy balance needs")
+        raise WrongValue("power must be given together with potential, which the energy balance needs", "missing-argument")
     _check_shapes(functions, {"nq": nq, "nv": nv, "mh": mh, "mn": mn, "m": mh + mn}, p)
     return nq, nv, mh, mn
 
@@ -336,7 +339,7 @@ def _check_shapes(functions: dict[str, _Function], sizes: dict[str, int], p: np.
         with np.errstate(all="ignore"):
             found = function.value(0.0, p, _check.frozen(np.zeros(sizes["nv"]))).shape
         if found != expected:
-            raise WrongValue(f"{name} must return shape {expected}, not {found}")
+            raise WrongValue(f"{name} must return shape {expected}, not {found}", "shape")
 
 
 # The callable that gives a term without any derivation.
@@ -387,10 +390,10 @@ class _Writer:
         asked = ("jacobian", "nonholonomic", "kinematics") if name == "C" else (_CALLABLE_OF.get(name),)
         sources = [source for source in asked if source in self.functions]
         if sources not in ([], ["kinematics"]):
-            return WrongValue(f"{' or '.join(sources)} is not finite at t = {t:g}: {value}")
+            return WrongValue(f"{' or '.join(sources)} is not finite at t = {t:g}: {value}", "not-finite")
         source = " and ".join(["constraints" if self.mh else "nonholonomic", *["kinematics"] * ("kinematics" in self.functions)])
         return WrongValue(f"{name}, derived from {source}, is not finite at t = {t:g}: {value}; where there are no "
-                          "derivatives, supply jacobian and xi")
+                          "derivatives, supply jacobian and xi", "not-finite")
 
     def _derive(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
         p, v, mh = arrays["p"], arrays["v"], self.mh

@@ -29,7 +29,7 @@ class PackedWriter:
                 try:
                     arrays[name][...] = self._packing.pack(name, dense[name])
                 except ValueError as error:
-                    raise WrongValue(f"{SAID[name]}{sentence(error)} (at t = {t:g})") from None
+                    raise WrongValue(f"{SAID[name]}{sentence(error)} (at t = {t:g})", "declared-structure") from None
 
     def not_finite(self, name: str, t: float, value: np.ndarray) -> Exception:
         """The error for a term that is not finite."""

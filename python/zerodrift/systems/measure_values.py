@@ -98,7 +98,7 @@ class Watching:
         bound = of.bound(of.system._watching.core, names)
         if dynamic and any(place.is_speed for place in bound.places):
             raise WrongValue(f"{dynamic!r} depends on accelerations, and a speed is an input: it must be recorded by the run, by "
-                             f"outputs=[{dynamic!r}]")
+                             f"outputs=[{dynamic!r}]", "not-available")
         given = np.column_stack([solution[name] for name in names])
         inputs = _gateway.Inputs(names, given[0].copy(), given[0], given[0], [bound])
         ends = [*(np.flatnonzero((given[1:] != given[:-1]).any(axis=1)) + 1), len(given)]
@@ -110,7 +110,7 @@ class Watching:
         """Which components of a measure are the same for all admissible multipliers at every row; a bool of a scalar."""
         found = self.find(name)
         if found is None:
-            raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}")
+            raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}", "wrong-name")
         number, component = found
         values = self._evaluate(number, solution, solution.multipliers)
         same = np.ones(values.shape[1], dtype=bool)

@@ -133,7 +133,7 @@ def native(
                  "units": units, "v0": v0, "scratch": scratch or None, "name": name}
         return _described_by_library(function, symbol, parameters, [key for key, value in given.items() if value is not None])
     if terms is None:
-        raise WrongType("terms is needed with coordinates: the names of the terms that the function writes")
+        raise WrongType("terms is needed with coordinates: the names of the terms that the function writes", "compiled-function")
     return Native(_gateway.find(function, symbol, version), coordinates=coordinates, terms=terms, velocities=velocities,
                   constraints=constraints, nonholonomic=nonholonomic, parameters=parameters, quaternions=quaternions,
                   structure=structure, units=units, p0=p0, v0=v0, scratch=scratch, name=name)
@@ -159,7 +159,7 @@ class Native(BaseSystem):
         self.constraints = tuple(Variable(row, "") for row in rows)
         packing = checked(structure, sizes, "A" in terms)
         if packing and "D" in terms:
-            raise WrongValue("terms cannot have D where the structure is declared")
+            raise WrongValue("terms cannot have D where the structure is declared", "compiled-function")
         self._core = _gateway.NativeCore(sizes, terms, found.address, data, (*self.coordinates, *self.velocities),
                                          keep=found.keep, scratch=_check.count("scratch", scratch, least=0), quaternions=places,
                                          packing=packing)
@@ -179,7 +179,7 @@ class Native(BaseSystem):
         for name in names:
             if name not in self.parameters:
                 known = _check.closest(name, self.parameters) if self.parameters else "it has none"
-                raise WrongValue(f"inputs must be parameters of {self.name}, not {name!r}; {known}")
+                raise WrongValue(f"inputs must be parameters of {self.name}, not {name!r}; {known}", "wrong-name")
         return WithInputs(self, [self.parameters[name] for name in names], [""] * len(names), self._bound)
 
     def _bound(self, core: _gateway.NativeCore, names: Sequence[str]) -> Bound:
@@ -196,7 +196,7 @@ class Native(BaseSystem):
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self._found.origin is None:
-            raise WrongType(f"{self.name} cannot be pickled: {self._found.why_no_origin}")
+            raise WrongType(f"{self.name} cannot be pickled: {self._found.why_no_origin}", "not-portable")
         return _restored, (self._found.origin, self._given | {"parameters": self.parameters})
 
 
@@ -225,9 +225,11 @@ class NativeKind(SystemOfKind):
 
 def _described_by_library(library: Any, symbol: Any, parameters: Any, others: list[str]) -> NativeKind:
     if not isinstance(library, str | Path):
-        raise WrongType(f"coordinates are needed: only a shared library can describe a system itself, not {library!r}")
+        raise WrongType(f"coordinates are needed: only a shared library can describe a system itself, not {library!r}",
+                        "compiled-function")
     if others:
-        raise WrongType(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself")
+        raise WrongType(f"{others[0]} is for a function, with its coordinates: {KIND}{symbol} says it itself",
+                        "compiled-function")
     found = _gateway.in_library(library, KIND + symbol if isinstance(symbol, str) and symbol else symbol)
     return _from_library(found, _check.parameters(parameters))
 
@@ -239,7 +241,7 @@ def _from_library(found: _gateway.Function, parameters: dict[str, Any]) -> Nativ
         _check.parameters({parameter.name: None for parameter in kind.parameters})
         _checked_terms(_gateway.terms_of(kind.c.system), kind.c.system.mh, kind.c.system.mh + kind.c.system.mn)
     except ValueError as error:
-        raise WrongValue(f"{where}: {sentence(error)}") from None
+        raise WrongValue(f"{where}: {sentence(error)}", "compiled-function") from None
     return NativeKind(found, kind, parameters)
 
 
@@ -257,12 +259,12 @@ def _checked_terms(given: Any, mh: int, m: int) -> list[str]:
     missing = [term for term in needed if term not in terms]
     if missing:
         raise WrongValue(f"terms must have {', '.join(missing)}, with {mh} holonomic of {m} constraints, not only "
-                         f"{', '.join(terms) or 'none'}")
+                         f"{', '.join(terms) or 'none'}", "compiled-function")
     superfluous = [term for term in terms if (term == "Phi" and not mh) or (term in ("C", "Phi_t", "xi", "D", "gamma") and not m)]
     if superfluous:
-        raise WrongValue(f"terms cannot have {superfluous[0]}, with {mh} holonomic of {m} constraints")
+        raise WrongValue(f"terms cannot have {superfluous[0]}, with {mh} holonomic of {m} constraints", "compiled-function")
     if ("D" in terms) != ("gamma" in terms):
-        raise WrongValue("terms must have both D and gamma, or neither")
+        raise WrongValue("terms must have both D and gamma, or neither", "compiled-function")
     return terms
 
 
@@ -271,7 +273,8 @@ def _velocity_names(velocities: Any, coordinates: list[str], kinematics: bool) -
         return [f"v{i}" for i in range(len(coordinates))] if kinematics else [f"{name}_dot" for name in coordinates]
     rates = _check.names("velocities", velocities, "v")
     if len(rates) != len(coordinates) and not kinematics:
-        raise WrongValue(f"velocities must be as many as coordinates, {len(coordinates)}, unless terms have A, not {len(rates)}")
+        raise WrongValue(f"velocities must be as many as coordinates, {len(coordinates)}, unless terms have A, not {len(rates)}",
+                         "compiled-function")
     return rates
 
 
@@ -281,5 +284,5 @@ def _check_at_start(system: BaseSystem) -> None:
         return
     wrong = _gateway.probe(system._core, *system._state_or_start(None, None))
     if wrong:
-        error = ZerodriftError if wrong.startswith("it reports") else ValueError
-        raise error(f"the function of {system.name} does not do what it is said to: {wrong}")
+        said = f"the function of {system.name} does not do what it is said to: {wrong}"
+        raise ZerodriftError(said) if wrong.startswith("it reports") else WrongValue(said, "compiled-function")

@@ -100,11 +100,11 @@ class Structure:
         self.size(term)
         given = _check.real("dense must be", dense).astype(float)
         if given.shape != self._packing.shapes[term]:
-            raise WrongValue(f"dense must be of shape {self._packing.shapes[term]}, not {given.shape}")
+            raise WrongValue(f"dense must be of shape {self._packing.shapes[term]}, not {given.shape}", "declared-structure")
         try:
             return self._packing.pack(term, given)
         except ValueError as error:
-            raise WrongValue(f"{term}{sentence(error)}") from None
+            raise WrongValue(f"{term}{sentence(error)}", "declared-structure") from None
 
 
 def of_core(core: _gateway.CoreSystem) -> Structure | None:
@@ -126,21 +126,22 @@ def checked(structure: Any, sizes: tuple[int, int, int, int], has_A: bool) -> _g
                              ("constraints", structure.m, mh + mn)):
         if there != has:
             raise WrongValue(f"structure has {there} {what} in its {'groups' if what == 'constraints' else 'blocks'}, and the "
-                             f"system has {has}")
+                             f"system has {has}", "declared-structure")
     for b, (p, v) in enumerate(structure.blocks):
         if p != v and not has_A:
-            raise WrongValue(f"structure: block {b} has {p} coordinates and {v} velocities: then a kinematic matrix is needed")
+            raise WrongValue(f"structure: block {b} has {p} coordinates and {v} velocities: then a kinematic matrix is needed",
+                             "declared-structure")
     ends = np.cumsum([0, *(rows for rows, _ in structure.groups)])
     if mh not in ends:
         g = int(np.searchsorted(ends, mh)) - 1
         raise WrongValue(f"structure: group {g} has rows {ends[g]} to {ends[g + 1] - 1}, of which the first {mh} are holonomic; "
-                         "it has to be of one kind")
+                         "it has to be of one kind", "declared-structure")
     return structure._packing
 
 
 def _sequence(name: str, given: Any, of: str) -> Sequence[Any]:
     if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
-        raise WrongType(f"{name} must be a sequence {of}, not {_check.shown(given)}")
+        raise WrongType(f"{name} must be a sequence {of}, not {_check.shown(given)}", "declared-structure")
     return given
 
 
@@ -148,10 +149,11 @@ def _blocks(given: Any) -> tuple[tuple[int, int], ...]:
     listed = _sequence("blocks", given, "of counts, or of (coordinates, velocities)")
     pairs = [each if isinstance(each, Sequence | np.ndarray) and not isinstance(each, str) else (each, each) for each in listed]
     if not pairs:
-        raise WrongValue("blocks must be at least one")
+        raise WrongValue("blocks must be at least one", "declared-structure")
     for b, pair in enumerate(pairs):
         if len(pair) != 2:
-            raise WrongValue(f"blocks[{b}] must be a count or (coordinates, velocities), not {_check.shown(listed[b])}")
+            raise WrongValue(f"blocks[{b}] must be a count or (coordinates, velocities), not {_check.shown(listed[b])}",
+                             "declared-structure")
     return tuple((_check.count(f"blocks[{b}]", p), _check.count(f"blocks[{b}]", v)) for b, (p, v) in enumerate(pairs))
 
 
@@ -159,19 +161,20 @@ def _group(g: int, given: Any, blocks: int) -> tuple[int, tuple[int, ...]]:
     name = f"groups[{g}]"
     pair = _sequence(name, given, "(rows, blocks)")
     if len(pair) != 2:
-        raise WrongValue(f"{name} must be (rows, blocks), not {_check.shown(given)}")
+        raise WrongValue(f"{name} must be (rows, blocks), not {_check.shown(given)}", "declared-structure")
     listed = _sequence(f"the blocks of {name}", pair[1], "of indices")
     touched = tuple(_check.count(f"a block of {name}", b, least=0) for b in listed)
     for b in touched:
         if b >= blocks:
-            raise WrongValue(f"{name} touches block {b}, and there are blocks 0 to {blocks - 1}")
+            raise WrongValue(f"{name} touches block {b}, and there are blocks 0 to {blocks - 1}", "declared-structure")
     if not touched or list(touched) != sorted(set(touched)):
-        raise WrongValue(f"{name} must touch at least one block, in increasing order, not {_check.shown(pair[1])}")
+        raise WrongValue(f"{name} must touch at least one block, in increasing order, not {_check.shown(pair[1])}",
+                         "declared-structure")
     return _check.count(f"the rows of {name}", pair[0]), touched
 
 
 def _words(given: Any, blocks: int) -> tuple[str, ...]:
     words = (given,) * blocks if isinstance(given, str) else tuple(_sequence("mass", given, "of words"))
     if len(words) != blocks:
-        raise WrongValue(f"mass must be one word, or {blocks}, one for each block, not {len(words)}")
+        raise WrongValue(f"mass must be one word, or {blocks}, one for each block, not {len(words)}", "declared-structure")
     return tuple(_check.choice("mass", word, WORDS) for word in words)

@@ -16,7 +16,7 @@ def quaternion_places(given: Any, names: Sequence[str], has_kinematics: bool) ->
     places = sorted(list(names).index(_check.choice("quaternions", first, names)) if isinstance(first, str) else
                     _check.count("quaternions", first, least=0) for first in listed)
     if places and not has_kinematics:
-        raise WrongValue("quaternions need kinematics, as their rates are not velocities")
+        raise WrongValue("quaternions need kinematics, as their rates are not velocities", "missing-argument")
     for k, place in enumerate(places):
         if place + 4 > min([*places[k + 1:k + 2], len(names)]):
             raise WrongValue(f"quaternions must begin with four of the {len(names)} coordinates each, not shared; not {given!r}")
@@ -31,7 +31,7 @@ def with_units(names: Sequence[str], rates: Sequence[str], units: Any,
     listed = isinstance(all_units, Sequence) and not isinstance(all_units, str)
     if not listed or len(all_units) != size or not all(isinstance(unit, str) for unit in all_units):
         raise WrongValue(f"units must be {size} strings, one for each coordinate"
-                         f"{'' if are_rates else ' and each velocity'}, not {units!r}")
+                         f"{'' if are_rates else ' and each velocity'}, not {units!r}", "shape")
     coordinates = tuple(map(Variable, names, all_units))
     for variable in (coordinates[first + i] for first in quaternions for i in range(4)):
         if _gateway.is_length(variable):

@@ -81,9 +81,9 @@ class Motion:
     def _check_scalar(self, what: str, name: str) -> None:
         read = checked_reading(what, name, None, self._drawing.elements)
         if read.is_rate:
-            raise WrongValue(f"{what} must be a measure of positions, and {name!r} is one of velocities")
+            raise WrongValue(f"{what} must be a measure of positions, and {name!r} is one of velocities", "wrong-measure")
         if len(read.quantities) != 1:
-            raise WrongValue(f"{what} must be a scalar, and {name!r} has components: {name}.x and {name}.y")
+            raise WrongValue(f"{what} must be a scalar, and {name!r} has components: {name}.x and {name}.y", "wrong-measure")
 
     def _held(self, hold: Any) -> dict[str, float | None]:
         """Held measures and their values by name; None: the value at the start."""

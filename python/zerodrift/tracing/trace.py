@@ -126,14 +126,15 @@ def _mechanism(system: Any) -> MechanismSystem:
     if not isinstance(system, MechanismSystem):
         raise WrongType(f"system must be a mechanism of bodies and joints, or its system, not {_check.shown(system)}")
     if system._drawing.dimension == 3:
-        raise WrongValue(f"{system.name!r} is in space, and curves of positions are traced in the plane, not yet in space")
+        raise WrongValue(f"{system.name!r} is in space, and curves of positions are traced in the plane, not yet in space",
+                         "wrong-dimension")
     return system
 
 
 def _values(given: Any) -> np.ndarray:
     array = _check.real("values must hold", given, ragged="values must be a regular array, not be")
     if array.ndim != 1 or not array.size:
-        raise WrongValue(f"values must have shape (k,) and at least one entry, not shape {array.shape}")
+        raise WrongValue(f"values must have shape (k,) and at least one entry, not shape {array.shape}", "shape")
     return _check.vector("values", array, array.size)
 
 

@@ -133,11 +133,12 @@ class Trace:
         name, watching = name_of(name, "name"), self.system._watching
         place = watching.find(name)
         if place is None:
-            raise WrongName(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.number)}")
+            raise WrongName(f"nothing in {self.system.name} is called {name!r}; {_check.closest(name, watching.number)}",
+                            "wrong-name")
         depends = self.system._measuring.measure_depends(place.number)
         if depends != "positions":
             hint = "; derivative() of a position has its ratio to that of the traced measure" if depends == "velocities" else ""
-            raise WrongName(f"{name!r} depends on {depends}, and a trace has positions alone{hint}")
+            raise WrongName(f"{name!r} depends on {depends}, and a trace has positions alone{hint}", "not-available")
         return place
 
     def _ipython_key_completions_(self) -> list[str]:

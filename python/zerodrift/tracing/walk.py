@@ -55,7 +55,7 @@ def _as_far_as(motion: Motion, knot: Knot, last: float, values: np.ndarray) -> l
             return pieces
     else:
         raise WrongValue(f"values go too far from {_shown(knot.value)}, where {motion.measure!r} starts, to be followed: to "
-                         f"{_shown(last)} {motion.unit}")
+                         f"{_shown(last)} {motion.unit}", "out-of-range")
     dead = pieces[-1].last.value
     if touches(dead, last):
         return pieces
@@ -66,7 +66,7 @@ def _beyond(motion: Motion, dead: float, value: float, values: np.ndarray) -> Va
     """Error that names the value that cannot be reached and the dead point."""
     place, side = int(np.flatnonzero(values == value)[0]), "least" if value < dead else "largest"
     return WrongValue(f"values[{place}] = {_shown(value)} is out of reach: the {side} value of {motion.measure!r}, at a dead "
-                      f"point, is {_shown(dead)} {motion.unit}")
+                      f"point, is {_shown(dead)} {motion.unit}", "out-of-range")
 
 
 def through(motion: Motion, values: np.ndarray) -> Met:
@@ -113,7 +113,8 @@ def _after_dead_point(motion: Motion, segment: Segment, pieces: Iterator[Segment
         if motion.is_angle and abs(following.last.value - values[place - 1]) > 2 * np.pi:
             break
     raise WrongValue(f"values turn back at values[{place}] = {_shown(values[place])}, and the branch does not, as "
-                     f"{motion.measure!r} goes on without a dead point; without through=True, values may come in any order")
+                     f"{motion.measure!r} goes on without a dead point; without through=True, values may come in any order",
+                     "not-increasing")
 
 
 def whole(motion: Motion) -> tuple[list[Segment], bool]:
@@ -128,7 +129,7 @@ def whole(motion: Motion) -> tuple[list[Segment], bool]:
             pieces[-1] = Segment(segment.first, closing, float(np.linalg.norm(closing.x - segment.first.x)) or segment.arc)
             return pieces, False
     raise WrongValue(f"{motion.measure!r} has no end that was found: it neither turns fully, nor do the positions come back to "
-                     "their start; give values")
+                     "their start; give values", "missing-argument")
 
 
 def _closing(curve: Curve, segment: Segment, start: Knot, angles: np.ndarray) -> Knot | None:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from ..._core import ffi, lib
 from ..._fingerprint import fingerprint
-from ...errors import MissingPackage, WrongType, WrongValue, sentence
+from ...errors import MissingFile, MissingPackage, WrongType, WrongValue, sentence
 from .native import VERSION
 
 SIGNATURE = "int (const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)"
@@ -56,10 +56,12 @@ def find(function: Any, symbol: str | None, version: int | None) -> Function:
     """The compiled function that an argument refers to, checked."""
     if isinstance(function, str | Path):
         if version is not None:
-            raise WrongType(f"version is for functions in memory: a library says its own, zd_interface_version, not {version!r}")
+            raise WrongType(f"version is for functions in memory: a library says its own, zd_interface_version, not {version!r}",
+                            "compiled-function")
         return in_library(function, symbol)
     if symbol is not None:
-        raise WrongType(f"symbol names a function of a library: with it, function must be the library's path, not {function!r}")
+        raise WrongType(f"symbol names a function of a library: with it, function must be the library's path, not {function!r}",
+                        "compiled-function")
     if isinstance(function, InLibrary):
         return _find_unchanged(function)
     if isinstance(function, InModule):
@@ -73,17 +75,17 @@ def find(function: Any, symbol: str | None, version: int | None) -> Function:
             check_version(version, "version", required=found is _address)
             return found(function)
     raise WrongType("function must be the path of a shared library, an address with its version, a function pointer of ctypes or "
-                    f"cffi, a numba.cfunc, or a scipy.LowLevelCallable, not {function!r}")
+                    f"cffi, a numba.cfunc, or a scipy.LowLevelCallable, not {function!r}", "compiled-function")
 
 
 def check_version(version: Any, what: str, *, required: bool = False) -> None:
     """Refuse a library made for another version of the core's interface."""
     if version is None and required:
         raise WrongType("version is needed with an address: the ZD_INTERFACE_VERSION it was compiled with; "
-                        f"this core has {VERSION}")
+                        f"this core has {VERSION}", "compiled-function")
     if version is not None and (isinstance(version, bool) or version != VERSION):
         raise WrongValue(f"{what} is {version!r}, and this core has version {VERSION} of the interface: compile it again, "
-                         "against the header in zerodrift.get_include()")
+                         "against the header in zerodrift.get_include()", "compiled-function")
 
 
 # ---- libraries ----
@@ -144,7 +146,7 @@ def _remove_old_copies(temporary: Path) -> None:
 
 def _content(path: Path) -> bytes:
     if not path.is_file():
-        raise FileNotFoundError(f"there is no shared library {path}")
+        raise MissingFile(f"there is no shared library {path}")
     return path.read_bytes()
 
 
@@ -170,30 +172,31 @@ def set_sines_of_large(library: ctypes.CDLL) -> None:
 def in_library(path: str | Path, symbol: Any) -> Function:
     """Function of a shared library; its interface version must be the core's."""
     if not isinstance(symbol, str) or not symbol:
-        raise WrongType(f"symbol is needed, the name of what is meant in {path}, not {symbol!r}")
+        raise WrongType(f"symbol is needed, the name of what is meant in {path}, not {symbol!r}", "compiled-function")
     path = Path(path).resolve()
     digest = digest_of(path)
     try:
         library = load_library(path)
     except OSError as error:
-        raise WrongValue(f"{path} must be a shared library that can be loaded here: {error}") from None
+        raise WrongValue(f"{path} must be a shared library that can be loaded here: {error}", "compiled-function") from None
     try:
         version = ctypes.c_int.in_dll(library, "zd_interface_version").value
     except ValueError:
         raise WrongValue(f"{path} does not say its version of the interface: it needs the line "
-                         "`const int zd_interface_version = ZD_INTERFACE_VERSION;`") from None
+                         "`const int zd_interface_version = ZD_INTERFACE_VERSION;`", "compiled-function") from None
     check_version(version, f"zd_interface_version of {path}")
     try:
         address = address_of(library, symbol)
     except ValueError:
-        raise WrongValue(f"{path} has no symbol {symbol!r}") from None
+        raise WrongValue(f"{path} has no symbol {symbol!r}", "compiled-function") from None
     return Function(address, library, InLibrary(str(path), symbol, digest))
 
 
 def _find_unchanged(origin: InLibrary) -> Function:
     found = in_library(origin.path, origin.symbol)
     if found.origin.digest != origin.digest:
-        raise WrongValue(f"{origin.path} is not what it was when this system was made: its content has changed")
+        raise WrongValue(f"{origin.path} is not what it was when this system was made: its content has changed",
+                         "compiled-function")
     return found
 
 
@@ -205,7 +208,7 @@ def _check_signature(types: list[str], what: str) -> None:
     result, *arguments = [re.sub(r"\bconst\b|\s", "", name) for name in types]
     fits = len(arguments) == len(ARGUMENTS) and all(name in allowed for name, allowed in zip(arguments, ARGUMENTS, strict=True))
     if result != RESULT or not fits:
-        raise WrongType(f"{what} is {types[0]} ({', '.join(types[1:])}), and must be {SIGNATURE}")
+        raise WrongType(f"{what} is {types[0]} ({', '.join(types[1:])}), and must be {SIGNATURE}", "compiled-function")
 
 
 def _is_ctypes(function: Any) -> bool:
@@ -230,7 +233,7 @@ def _is_address(function: Any) -> bool:
 
 def _address(function: int) -> Function:
     if function <= 0:
-        raise WrongValue(f"function must be the address of a function, not {function}")
+        raise WrongValue(f"function must be the address of a function, not {function}", "compiled-function")
     return Function(function, None)
 
 
@@ -249,21 +252,22 @@ def _c_name(kind: Any) -> str:
 
 def _from_ctypes(function: Any) -> Function:
     if function.argtypes is None:
-        raise WrongType(f"set argtypes and restype of {function!r}, as of a {SIGNATURE}")
+        raise WrongType(f"set argtypes and restype of {function!r}, as of a {SIGNATURE}", "compiled-function")
     _check_signature([_c_name(kind) for kind in (function.restype, *function.argtypes)], "the ctypes function")
     address = ctypes.cast(function, ctypes.c_void_p).value
     if not address:
-        raise WrongValue("the ctypes function is a null pointer")
+        raise WrongValue("the ctypes function is a null pointer", "compiled-function")
     return Function(address, function)
 
 
 def _from_cffi(function: Any) -> Function:
     kind = ffi.typeof(function)
     if kind.kind != "function":
-        raise WrongType(f"the cffi object is a {kind.cname}, and must be a pointer to a function {SIGNATURE}")
+        raise WrongType(f"the cffi object is a {kind.cname}, and must be a pointer to a function {SIGNATURE}",
+                        "compiled-function")
     _check_signature([part.cname for part in (kind.result, *kind.args)], "the cffi function")
     if not function:
-        raise WrongValue("the cffi function is a null pointer")
+        raise WrongValue("the cffi function is a null pointer", "compiled-function")
     return Function(int(ffi.cast("intptr_t", function)), function)
 
 
@@ -273,7 +277,7 @@ def _from_numba(function: Any) -> Function:
     try:
         _check_signature(names, "the numba.cfunc")
     except TypeError as error:
-        raise WrongType(f"{sentence(error)}; zerodrift.numba_signature() is that for numba") from None
+        raise WrongType(f"{sentence(error)}; zerodrift.numba_signature() is that for numba", "compiled-function") from None
     origin = _numba_origin(function)
     why_no_origin = "numba would have to find its Python function at the top of a module"
     return Function(function.address, function, origin, why_no_origin)
@@ -320,7 +324,8 @@ def _from_scipy(function: Any) -> Function:
     types = re.fullmatch(r"\s*(.*?)\s*\((.*)\)\s*", function.signature)
     _check_signature([types[1], *map(str.strip, types[2].split(","))], "the LowLevelCallable")
     if function.user_data is not None:
-        raise WrongValue("the LowLevelCallable must have no user_data: the argument of that place passes the parameters")
+        raise WrongValue("the LowLevelCallable must have no user_data: the argument of that place passes the parameters",
+                         "compiled-function")
     if _is_ctypes(function.function) or _is_cffi(function.function):
         return find(function.function, None, None)
     api = ctypes.pythonapi

@@ -117,18 +117,18 @@ def kind_at(address: int) -> Kind:
     system = c.system
     sizes = (system.nq, system.nv, system.mh, system.mn)
     if min(sizes) < 0 or not system.nq or not system.nv:
-        raise WrongValue(f"its sizes nq, nv, mh, mn cannot be {sizes}")
+        raise WrongValue(f"its sizes nq, nv, mh, mn cannot be {sizes}", "compiled-function")
     counts = {"parameter": c.parameters, "coordinate": system.nq, "velocity": system.nv, "constraint": system.mh + system.mn,
               "prepare": 1, "start": 1, "draw": c.points}
     for name in (name for name, count in counts.items() if count and not getattr(c, name)):
-        raise WrongValue(f"its {name} is missing")
+        raise WrongValue(f"its {name} is missing", "compiled-function")
     if not c.card.name or not system.evaluate:
-        raise WrongValue(f"its {'evaluate' if c.card.name else 'name'} is missing")
+        raise WrongValue(f"its {'evaluate' if c.card.name else 'name'} is missing", "compiled-function")
     if system.data:
-        raise WrongValue("its system.data is to be left out: the constants take its place")
+        raise WrongValue("its system.data is to be left out: the constants take its place", "compiled-function")
     message = ffi.new("char[]", MESSAGE_SIZE)
     if lib.zd_check_system(ffi.addressof(c, "system"), message, MESSAGE_SIZE):
-        raise WrongValue(text(message))
+        raise WrongValue(text(message), "compiled-function")
     return Kind(c)
 
 

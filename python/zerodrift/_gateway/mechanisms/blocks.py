@@ -174,7 +174,7 @@ class BlockCore(CoreSystem):
     def set_input(self, name: str, value: float) -> None:
         """Sets an input from the next advance on."""
         if lib.zd_block_set_input(self._block, list(self.inputs).index(name), value):
-            raise WrongValue(f"input {name!r} must be a finite number, not {value!r}")
+            raise WrongValue(f"input {name!r} must be a finite number, not {value!r}", "not-finite")
 
     def set_parameter(self, index: int, value: float) -> bool:
         """Changes the words that depend on a parameter; False: the value is outside its range."""

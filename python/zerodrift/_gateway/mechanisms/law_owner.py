@@ -27,7 +27,7 @@ class LawOwner:
             k, size = self._sizes[law]
             values = np.asarray(self._law(law, t, np.array(ffi.unpack(x, k)), np.array(ffi.unpack(xdot, k))), dtype=float)
             if values.shape != (size,):
-                raise WrongValue(f"law {law} must give {size} numbers, not an array of shape {values.shape}")
+                raise WrongValue(f"law {law} must give {size} numbers, not an array of shape {values.shape}", "shape")
             for i, value in enumerate(values):
                 out[i] = value
         except BaseException as error:      # raised again where the run was started

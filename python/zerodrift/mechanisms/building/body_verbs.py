@@ -64,11 +64,11 @@ class BodyVerbs(Elements):
         mass = _amount("mass", name, mass)
         if self.dimension == 3:
             if angle:
-                raise WrongValue(f"angle of {name!r} is for the plane: in space take rotation=")
+                raise WrongValue(f"angle of {name!r} is for the plane: in space take rotation=", "wrong-dimension")
             pose = Pose3(at, given_rotation(f"rotation of {name!r}", rotation))
             return self._add(SpaceBody(name, pose, mass, tensor(f"inertia of {name!r}", inertia), com))
         if rotation is not None:
-            raise WrongValue(f"rotation of {name!r} is for mechanisms in space: in the plane take angle=")
+            raise WrongValue(f"rotation of {name!r} is for mechanisms in space: in the plane take angle=", "wrong-dimension")
         pose = Pose(at, _check.number(f"angle of {name!r}", angle))
         return self._add(Body(name, pose, mass, _amount("inertia", name, inertia), com))
 
@@ -114,13 +114,14 @@ class BodyVerbs(Elements):
         name = self._new_name(name, "link")
         start, end = self._drawn(f"start of {name!r}", start), self._drawn(f"end of {name!r}", end)
         if not np.linalg.norm(end - start) > 0:
-            raise WrongValue(f"start and end of {name!r} must be two places in the drawing, not both {tuple(map(float, start))}")
+            raise WrongValue(f"start and end of {name!r} must be two places in the drawing, not both {tuple(map(float, start))}",
+                             "geometry")
         if length is not None:
             length = _check.number(f"length of {name!r}", length, above=0)
         if self.dimension == 3:
             return self._space_link(name, start, end, _amount("mass", name, mass), length, inertia, thickness, normal)
         if thickness is not None or normal is not None:
-            raise WrongValue(f"thickness and normal of {name!r} are for mechanisms in space")
+            raise WrongValue(f"thickness and normal of {name!r} are for mechanisms in space", "wrong-dimension")
         if inertia is not None:
             inertia = _amount("inertia", name, inertia)
         return self._add(Link(name, start, end, _amount("mass", name, mass), length, inertia))
@@ -131,7 +132,7 @@ class BodyVerbs(Elements):
         wished = np.array([0.0, 0.0, 1.0]) if normal is None else self._direction(f"normal of {name!r}", normal)
         if np.linalg.norm(np.cross(wished, along)) < PARALLEL:
             if normal is not None:
-                raise WrongValue(f"normal of {name!r} must not be parallel to the link")
+                raise WrongValue(f"normal of {name!r} must not be parallel to the link", "geometry")
             wished = np.array([0.0, 1.0, 0.0])
         z = perpendicular(along, wished)
         rotation = np.stack([along, np.cross(z, along), z], axis=1)

@@ -88,10 +88,11 @@ class CouplingVerbs(Elements):
         name = self._new_name(name, kind)
         joints = [self._joint(f"{side} of {name!r}", *given) for side, given in (("first", first), ("second", second))]
         if joints[0] is joints[1]:
-            raise WrongValue(f"{name!r} couples {joints[0].name!r} to itself: first and second must be two joints")
+            raise WrongValue(f"{name!r} couples {joints[0].name!r} to itself: first and second must be two joints",
+                             "wrong-element")
         ratio = _check.number(f"ratio of {name!r}", ratio)
         if not ratio:
-            raise WrongValue(f"ratio of {name!r} must not be 0")
+            raise WrongValue(f"ratio of {name!r} must not be 0", "out-of-range")
         return self._add(Coupling(name, kind, tuple(
             f"{joint.name}.{joint.coordinate or given[1][0]}" for joint, given in zip(joints, (first, second), strict=True)),
             ratio=ratio))
@@ -181,7 +182,7 @@ class CouplingVerbs(Elements):
             follower = f"{follower.name}.{follower.coordinate}"
         if isinstance(profile, tuple):
             if len(profile) != 2:
-                raise WrongValue(f"profile of {name!r} must be (angles, values), not {len(profile)} things")
+                raise WrongValue(f"profile of {name!r} must be (angles, values), not {len(profile)} things", "shape")
             profile = PeriodicSpline(f"profile of {name!r}", *profile)
         elif hasattr(profile, "free_symbols"):
             profile = _Expression(name, profile)
@@ -246,7 +247,7 @@ class CouplingVerbs(Elements):
     def _by_law(self, name: str, kind: str, value: Any, of: Any) -> Coupling:
         law = self._law(f"{kind} {name!r}", value, of, positions=kind != "nonholonomic")
         if not law.measures:
-            raise WrongValue(f"{kind} {name!r} depends on no measure: bind some, of={{'x': body.position.x}}")
+            raise WrongValue(f"{kind} {name!r} depends on no measure: bind some, of={{'x': body.position.x}}", "missing-argument")
         return self._add(Coupling(name, kind, law.measures, law=law))
 
 
@@ -291,7 +292,7 @@ class _Expression:
     def __init__(self, name: str, expression: Any) -> None:
         if len(expression.free_symbols) != 1:
             raise WrongValue(f"profile of {name!r} must be an expression of one symbol, the angle, not of "
-                             f"{', '.join(sorted(map(str, expression.free_symbols))) or 'none'}")
+                             f"{', '.join(sorted(map(str, expression.free_symbols))) or 'none'}", "expression")
         self._law = Law(f"profile of {name!r}", expression.subs(next(iter(expression.free_symbols)), _time()))
 
     @property

@@ -67,20 +67,24 @@ class ForceVerbs(Elements):
         given = {"angle": angle, "displacement": displacement, "speed": speed, "torque": torque, "force": force}
         words = [word for word, value in given.items() if value is not None]
         if len(words) != 1:
-            raise WrongType(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}")
+            raise WrongType(f"motor {name!r} needs one of {', '.join(given)}, not {' and '.join(words) or 'none'}",
+                            "conflicting-arguments")
         drives = words[0]
         joint = self._joint(f"joint of motor {name!r}", joint, DRIVES[drives])
         if joint.coordinate is None and drives == "speed":
-            raise WrongValue(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed")
+            raise WrongValue(f"{joint.name!r} has {' and '.join(joint.coordinates)}: motor {name!r} must say which, not speed",
+                             "missing-argument")
         law = self._law(f"{drives} of motor {name!r}", given[drives], of, positions=drives not in ("torque", "force"),
                         reactions=drives in ("torque", "force"))
         if drives in ("angle", "displacement") and law.measures:
-            raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
+            raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()",
+                             "user-function")
         motor = Motor(name, joint, drives, law)
         rival = next((other for other in self.motors if other.joint is joint and other.prescribes
                       and other.coordinate == motor.coordinate), None)
         if motor.prescribes and rival is not None:
-            raise WrongValue(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor")
+            raise WrongValue(f"motors {rival.name!r} and {name!r} both prescribe {joint.name!r}: one freedom takes one motor",
+                             "prescribed-twice")
         return self._add(motor)
 
     def actuator(self, name: str, first: Point | Particle | str, second: Point | Particle | str, *, length: Any = None,
@@ -120,11 +124,13 @@ class ForceVerbs(Elements):
         name = self._new_name(name, "actuator")
         first, second = self._different(name, self._point("first", first), self._point("second", second))
         if (length is None) == (force is None):
-            raise WrongType(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}")
+            raise WrongType(f"actuator {name!r} needs one of length and force, not {'none' if length is None else 'both'}",
+                            "conflicting-arguments")
         drives, given = ("length", length) if force is None else ("force", force)
         law = self._law(f"{drives} of actuator {name!r}", given, of, reactions=drives == "force")
         if drives == "length" and law.measures:
-            raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()")
+            raise WrongValue(f"{law.what} must be a function of t, and asks for {', '.join(law.measures)}: take constraint()",
+                             "user-function")
         if drives == "length" and law.constant is not None:
             _check.number(law.what, law.constant, above=0)
         return self._add(Actuator(name, first, second, drives, law))
@@ -177,7 +183,8 @@ class ForceVerbs(Elements):
         frame = self.ground if frame is None else self._body("frame", frame)
         self._turning(name, "the frame of", frame)
         if point.body is self.ground:
-            raise WrongValue(f"force {name!r} acts on the ground, which does not move: point must be of another body")
+            raise WrongValue(f"force {name!r} acts on the ground, which does not move: point must be of another body",
+                             "wrong-element")
         law = self._law(f"value of force {name!r}", value, of, reactions=True)
         return self._add(Force(name, point, frame.pose.local_direction(along), frame, law))
 
@@ -186,14 +193,15 @@ class ForceVerbs(Elements):
         is_vector = isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1
         if value is None:
             raise WrongType(f"force {name!r} needs value=, its magnitude in N, whose direction is along=; or value= as a vector, "
-                            f"such as {VECTORS[self.dimension]}")
+                            f"such as {VECTORS[self.dimension]}", "missing-argument")
         if is_vector and along is not None:
-            raise WrongValue(f"value of force {name!r} must be a number or a function, not a vector, where along= is given")
+            raise WrongValue(f"value of force {name!r} must be a number or a function, not a vector, where along= is given",
+                             "conflicting-arguments")
         if is_vector:
             return self._direction(f"value of force {name!r}", value), float(np.linalg.norm(value))
         if along is None:
             raise WrongType(f"force {name!r} needs along=, its direction in the drawing, such as {VECTORS[self.dimension]}, "
-                            "as value= is its magnitude")
+                            "as value= is its magnitude", "missing-argument")
         return self._direction(f"along of {name!r}", along), value
 
     def torque(self, name: str, body: Body | str, *, value: Any, of: Mapping[str, Any] | None = None,
@@ -232,21 +240,24 @@ class ForceVerbs(Elements):
         against = self.ground if against is None else self._body("against", against)
         self._turning(name, "torque", body, against)
         if body is against:
-            raise WrongValue(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed")
+            raise WrongValue(f"torque {name!r} acts on {body.name!r} and against it: two different bodies are needed",
+                             "wrong-element")
         law = self._law(f"value of torque {name!r}", value, of, reactions=True)
         if self.dimension == 3:
             return self._space_torque(name, body, against, law, axis, frame)
         if axis is not None or frame is not None:
-            raise WrongValue(f"axis and frame of {name!r} are for mechanisms in space: in the plane it is about its normal")
+            raise WrongValue(f"axis and frame of {name!r} are for mechanisms in space: in the plane it is about its normal",
+                             "wrong-dimension")
         return self._add(Torque(name, body, against, law))
 
     def _space_torque(self, name: str, body: Body, against: Body, law: Any, axis: Any, frame: Any) -> Torque:
         if axis is None:
-            raise WrongType(f"torque {name!r} needs axis=, the direction in the drawing about which it acts")
+            raise WrongType(f"torque {name!r} needs axis=, the direction in the drawing about which it acts", "missing-argument")
         frame = self.ground if frame is None else self._body("frame", frame)
         self._turning(name, "the frame of", frame)
         if against is not self.ground and frame is not self.ground:
-            raise WrongValue(f"torque {name!r} acts against {against.name!r}, with which its axis turns: leave frame out")
+            raise WrongValue(f"torque {name!r} acts against {against.name!r}, with which its axis turns: leave frame out",
+                             "conflicting-arguments")
         turns_with = frame if against is self.ground else against
         axis = turns_with.pose.local_direction(self._direction(f"axis of {name!r}", axis))
         return self._add(Torque(name, body, against, law, axis=axis, frame=frame))

@@ -68,7 +68,7 @@ class JointVerbs(TableVerbs, SpaceJointVerbs):
         if self.dimension == 3:
             return self._space_rolling(name, first, second, radius, at, normal, axle, semiaxes)
         if axle is not None or semiaxes is not None:
-            raise WrongValue(f"axle and semiaxes of {name!r} are for mechanisms in space")
+            raise WrongValue(f"axle and semiaxes of {name!r} are for mechanisms in space", "wrong-dimension")
         name = self._new_name(name, "joint")
         at = (0.0, 0.0) if at is None else at
         radius = _check.number(f"radius of {name!r}", radius, above=0)

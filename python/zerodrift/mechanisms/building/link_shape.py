@@ -52,7 +52,7 @@ class Shape:
         along = drawn[names[1]] - drawn[first] if len(names) > 1 else np.array([1.0, 0.0])
         if not np.hypot(*along) > 0:
             raise WrongValue(f"points {first!r} and {names[1]!r} of link {link!r} must be two places in the sketch, "
-                             f"not both {tuple(map(float, drawn[first]))}")
+                             f"not both {tuple(map(float, drawn[first]))}", "geometry")
         self.pose = Pose(drawn[first], float(np.arctan2(along[1], along[0])))
         self.sketched = {name: self.pose.local(drawn[name]) for name in names}
         found = {first: np.zeros(2)}
@@ -76,14 +76,15 @@ class Shape:
         if len(known) == 1:
             along = sketched[name] - sketched[known[0]]
             if not np.hypot(*along) > 0:
-                raise WrongValue(f"points {known[0]!r} and {name!r} of link {self.link!r} must be two places in the sketch")
+                raise WrongValue(f"points {known[0]!r} and {name!r} of link {self.link!r} must be two places in the sketch",
+                                 "geometry")
             return found[known[0]] + self.lengths[frozenset((name, known[0]))] * along / np.hypot(*along)
         place = self._on_two_circles(name, known[0], known[1], found)
         for other in known[2:]:
             wanted, has = self.lengths[frozenset((name, other))], float(np.hypot(*(place - found[other])))
             if abs(has - wanted) > AGREED * wanted:
                 raise WrongValue(f"lengths of link {self.link!r} contradict each other: by the others, {other!r} and {name!r} "
-                                 f"are {has:.12g} apart, not {wanted:.12g}")
+                                 f"are {has:.12g} apart, not {wanted:.12g}", "geometry")
         return place
 
     def _on_two_circles(self, name: str, one: str, two: str, found: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -94,7 +95,7 @@ class Shape:
         lacks = np.array([b + c - a, c + a - b, a + b - c])      # each is negative where one side is longer than the others
         if lacks.min() < -IN_LINE * max(a, b, c) or not c > 0:
             raise WrongValue(f"lengths of link {self.link!r} make no triangle: {one}{name} {a:.12g}, {two}{name} {b:.12g}, "
-                             f"{one}{two} {c:.12g}")
+                             f"{one}{two} {c:.12g}", "geometry")
         along = along / np.hypot(*along)
         if lacks.min() <= IN_LINE * max(a, b, c):
             return found[one] + (-a if lacks.argmin() == 1 else a) * along
@@ -108,7 +109,7 @@ class Shape:
         cross = first[0] * second[1] - first[1] * second[0]
         if not abs(cross) > IN_LINE * np.hypot(*first) * np.hypot(*second):
             raise WrongValue(f"point {name!r} of link {self.link!r} is drawn in line with {one!r} and {two!r}, and by its "
-                             "lengths it is not: draw it on its side")
+                             "lengths it is not: draw it on its side", "geometry")
         return float(np.sign(cross))
 
 

@@ -36,14 +36,14 @@ class PeriodicSpline:
         self.angles = np.asarray(_check.real(f"angles of {what} must hold", angles), dtype=float)
         n = self.angles.size
         if self.angles.ndim != 1 or n < 3:
-            raise WrongValue(f"angles of {what} must have shape (n,) with n at least 3, not {self.angles.shape}")
+            raise WrongValue(f"angles of {what} must have shape (n,) with n at least 3, not {self.angles.shape}", "shape")
         self.values = _check.vector(f"values of {what}", values, n)
         self._drop_closing_point()
         n = self.angles.size
         self._widths = np.diff(self.angles, append=self.angles[0] + PERIOD)
         if not (self._widths > 0).all():
             raise WrongValue(f"angles of {what} must increase and lie within one turn (a point at its end has the value of the "
-                             f"first), not {_check.shown(angles)}")
+                             f"first), not {_check.shown(angles)}", "not-increasing")
         self._coefficients = self._solve(n)
 
     def _drop_closing_point(self) -> None:

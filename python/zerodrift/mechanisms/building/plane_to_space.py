@@ -29,7 +29,7 @@ def lift(drawing: Drawing, m: Any) -> None:
         if element is not drawing.ground:
             kind = _kind(element)
             if kind not in LIFTED:
-                raise WrongValue(f"{element.name!r} cannot be lifted: a {kind} has no counterpart in space")
+                raise WrongValue(f"{element.name!r} cannot be lifted: a {kind} has no counterpart in space", "wrong-dimension")
             LIFTED[kind](m, element)
     for name in _free(drawing):
         _keep(m, m[name])
@@ -103,7 +103,8 @@ def _measure(m: Any, name: str) -> str:
     if not isinstance(body := m._elements.get(owner), Body):
         return name
     if quantity == "angle":
-        raise WrongValue(f"{name!r} cannot be lifted: {body.name!r} has a rotation in space and no angle; take that of a joint")
+        raise WrongValue(f"{name!r} cannot be lifted: {body.name!r} has a rotation in space and no angle; take that of a joint",
+                         "wrong-dimension")
     return f"{name}.z" if quantity == "angular_velocity" else name
 
 

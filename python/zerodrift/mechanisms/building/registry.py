@@ -50,7 +50,7 @@ class Elements:
     def _in_the_plane(self, what: str) -> None:
         """Check that the mechanism is planar, for elements that exist in the plane only."""
         if self.dimension == 3:
-            raise WrongValue(f"{what} is there for mechanisms in the plane, not yet in space")
+            raise WrongValue(f"{what} is there for mechanisms in the plane, not yet in space", "wrong-dimension")
 
     # ---- reading arguments ----
 
@@ -66,14 +66,16 @@ class Elements:
         if side == "center" and isinstance(body := self._elements.get(owner), Body):
             return body.center
         known = [*self._elements, *(f"{link.name}.{side}" for link in self._of(Link) for side in ("start", "end"))]
-        raise WrongValue(f"{argument} names {value!r}, which is not an element of {self.name!r}; {_check.closest(value, known)}")
+        raise WrongValue(f"{argument} names {value!r}, which is not an element of {self.name!r}; {_check.closest(value, known)}",
+                         "wrong-name")
 
     def _body(self, argument: str, value: Any) -> Body:
         """Body of this mechanism, checked."""
         value = self._named(argument, value)
         _check.instance(argument, value, Body, f"a body of {self.name!r}")
         if self._elements.get(value.name) is not value:
-            raise WrongValue(f"{argument} must be a body of {self.name!r}, and {value!r} is not: it belongs to another mechanism")
+            raise WrongValue(f"{argument} must be a body of {self.name!r}, and {value!r} is not: it belongs to another mechanism",
+                             "wrong-element")
         return value
 
     def _point(self, argument: str, value: Any, *, center: bool = False) -> Point:
@@ -84,7 +86,8 @@ class Elements:
         if center and isinstance(value, Body):
             return self._body(argument, value).center
         if isinstance(value, Body):
-            raise WrongType(f"{argument} must be a point, and {value.name!r} is a whole body: take {value.name}.point(...)")
+            raise WrongType(f"{argument} must be a point, and {value.name!r} is a whole body: take {value.name}.point(...)",
+                            "wrong-element")
         _check.instance(argument, value, Point, "a point of a body, such as link.end or body.point((x, y))")
         self._body(argument, value.body)
         return value
@@ -98,12 +101,15 @@ class Elements:
         value = self._named(argument, value)
         _check.instance(argument, value, Joint, "a joint")
         if self._elements.get(value.name) is not value:
-            raise WrongValue(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism")
+            raise WrongValue(f"{argument} must be a joint of {self.name!r}, and {value!r} belongs to another mechanism",
+                             "wrong-element")
         if not set(value.coordinates) & set(coordinate):
-            raise WrongValue(f"{argument} must be a joint with {' or '.join(coordinate)}, and {value.name!r} is a {value.kind}")
+            raise WrongValue(f"{argument} must be a joint with {' or '.join(coordinate)}, and {value.name!r} is a {value.kind}",
+                             "wrong-element")
         particle = next((body for body in value.bodies if not body.turns), None)
         if value.coordinate == "angle" and particle is not None:
-            raise WrongValue(f"{argument} {value.name!r} joins the particle {particle.name!r}, which has no angle")
+            raise WrongValue(f"{argument} {value.name!r} joins the particle {particle.name!r}, which has no angle",
+                             "wrong-element")
         return value
 
     def _sides(self, name: str, first: Any, second: Any, at: Any) -> tuple[Point, Point]:
@@ -111,7 +117,8 @@ class Elements:
         first, second = self._named(f"first of {name!r}", first), self._named(f"second of {name!r}", second)
         is_body = [isinstance(side, Body) and side.turns for side in (first, second)]
         if at is not None and not all(is_body):
-            raise WrongType(f"at= of {name!r} goes with two bodies; with a point, the point says where the joint is")
+            raise WrongType(f"at= of {name!r} goes with two bodies; with a point, the point says where the joint is",
+                            "conflicting-arguments")
         if at is not None:
             at = self._drawn("at", at)
             sides = tuple(self._body(side, value).point(at=at) for side, value in (("first", first), ("second", second)))
@@ -122,7 +129,7 @@ class Elements:
     def _given_sides(self, name: str, first: Any, second: Any, is_body: list[bool]) -> tuple[Point, Point]:
         if all(is_body):
             raise WrongType(f"{name!r} joins two bodies, {first.name!r} and {second.name!r}: it needs at=, its place as drawn, "
-                            "or a point of one of them")
+                            "or a point of one of them", "missing-argument")
         if is_body[0]:
             second = self._point("second", second)
             return self._body("first", first).point(at=second.drawn), second
@@ -135,21 +142,24 @@ class Elements:
 
     def _different(self, name: str, first: Point, second: Point) -> tuple[Point, Point]:
         if first.body is second.body:
-            raise WrongValue(f"{name!r} joins {first.body.name!r} to itself: first and second must belong to two bodies")
+            raise WrongValue(f"{name!r} joins {first.body.name!r} to itself: first and second must belong to two bodies",
+                             "wrong-element")
         return first, second
 
     def _turning(self, name: str, what: str, *bodies: Body) -> None:
         """Check that bodies are not particles, which have no orientation."""
         for body in bodies:
             if not body.turns:
-                raise WrongValue(f"{what} {name!r} needs an orientation, and {body.name!r} is a particle, which has none")
+                raise WrongValue(f"{what} {name!r} needs an orientation, and {body.name!r} is a particle, which has none",
+                                 "wrong-element")
 
     def _direction(self, argument: str, value: Any) -> np.ndarray:
         """Direction in the drawing, (dimension,), of length one."""
         vector = _check.vector(argument, value, self.dimension)
         length = np.hypot(*vector) if self.dimension == 2 else np.linalg.norm(vector)
         if not length > 0:
-            raise WrongValue(f"{argument} must be a direction in the drawing, and {tuple(map(float, vector))} has length zero")
+            raise WrongValue(f"{argument} must be a direction in the drawing, and {tuple(map(float, vector))} has length zero",
+                             "geometry")
         return vector / length
 
     def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False,
@@ -163,9 +173,11 @@ class Elements:
                 held.append(measure)
                 continue
             if read is None or len(read.quantities) != 1:
-                raise WrongValue(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is none")
+                raise WrongValue(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is none",
+                                 "wrong-measure")
             if read.is_rate and positions:
-                raise WrongValue(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity")
+                raise WrongValue(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity",
+                                 "wrong-measure")
         if held:
             law.hold(held)
         return law
@@ -175,14 +187,14 @@ class Elements:
         owner = measure.partition(".")[0]
         if owner not in self._elements:
             raise WrongValue(f"{what} names {measure!r}, and there is no {owner!r} in {self.name!r}; "
-                             f"{_check.closest(owner, self._elements)}")
+                             f"{_check.closest(owner, self._elements)}", "wrong-name")
 
     # ---- access ----
 
     def __getitem__(self, name: str) -> Any:
         """The element of that name."""
         if name not in self._elements:
-            raise WrongName(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._elements)}")
+            raise WrongName(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._elements)}", "wrong-name")
         return self._elements[name]
 
     def _of(self, kind: type | tuple[type, ...]) -> list[Any]:
@@ -220,5 +232,5 @@ def checked_name(name: Any, what: str, taken: Iterable[str]) -> str:
     if not ALLOWED.fullmatch(name):
         raise WrongValue(f"name of a {what} must be of letters, digits, blanks inside, '_' and '-', not {name!r}")
     if name in taken:
-        raise WrongValue(f"name {name!r} is taken: each element of a mechanism has a name of its own")
+        raise WrongValue(f"name {name!r} is taken: each element of a mechanism has a name of its own", "duplicate-name")
     return name

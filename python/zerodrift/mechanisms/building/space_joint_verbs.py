@@ -35,7 +35,8 @@ class SpaceJointVerbs(Elements):
         """Ellipsoid on a plane: its shape along the rows of a frame of the second body."""
         name = self._new_name(name, "joint")
         if (radius is None) == (semiaxes is None):
-            raise WrongType(f"{name!r} needs radius=, of a sphere or with axle= of a disc, or else semiaxes=, of an ellipsoid")
+            raise WrongType(f"{name!r} needs radius=, of a sphere or with axle= of a disc, or else semiaxes=, of an ellipsoid",
+                            "missing-argument")
         normal = self._direction(f"normal of {name!r}", self._upwards() if normal is None else normal)
         first, second = self._body("first", first), self._named("second", second)
         if isinstance(second, Body) and second.turns:
@@ -46,11 +47,11 @@ class SpaceJointVerbs(Elements):
         frame, shape = self._shape(name, second.body, normal, radius, axle, semiaxes)
         height = float((second.drawn - at) @ normal)
         if not height > 0:
-            raise WrongValue(f"normal of {name!r} must point to the side of the plane on which the centre is drawn")
+            raise WrongValue(f"normal of {name!r} must point to the side of the plane on which the centre is drawn", "geometry")
         gap = height - float(np.linalg.norm(shape * (frame @ second.body.pose.local_direction(normal))))
         if abs(gap) > TOUCHING * height:
             raise WrongValue(f"{name!r} has no contact as drawn: {second.body.name!r} is {abs(gap):.3g} m "
-                             f"{'off' if gap > 0 else 'in'} the plane; draw its centre {height - gap:.6g} m from it")
+                             f"{'off' if gap > 0 else 'in'} the plane; draw its centre {height - gap:.6g} m from it", "geometry")
         frames = np.stack([first.body.pose.local_direction(row) for row in _frame(normal, None)]), frame
         return self._add(BY_KIND["rolling"](name, first, second, frames=frames, semiaxes=shape))
 
@@ -59,7 +60,7 @@ class SpaceJointVerbs(Elements):
         """Rows (3, 3) of a frame in the body's, and the semiaxes along them."""
         if semiaxes is not None:
             if axle is not None:
-                raise WrongType(f"{name!r} has semiaxes, of an ellipsoid, and no axle")
+                raise WrongType(f"{name!r} has semiaxes, of an ellipsoid, and no axle", "conflicting-arguments")
             given = _check.vector(f"semiaxes of {name!r}", semiaxes, 3)
             return np.eye(3), tuple(_check.number(f"each of the semiaxes of {name!r}", float(each), above=0) for each in given)
         radius = _check.number(f"radius of {name!r}", radius, above=0)
@@ -68,7 +69,7 @@ class SpaceJointVerbs(Elements):
         axle = self._direction(f"axle of {name!r}", axle)
         if np.linalg.norm(np.cross(axle, normal)) < FLAT:
             raise WrongValue(f"axle of {name!r} must not be parallel to the normal in the drawing: a disc that lies flat does "
-                             "not roll")
+                             "not roll", "geometry")
         return np.stack([body.pose.local_direction(row) for row in _frame(axle, None)]), (0.0, radius, radius)
 
     # ---- shared ----

@@ -78,11 +78,12 @@ class StartVerbs(Elements):
             taken = {"angle": ("angle", "speed"), "displacement": ("displacement", "speed"),
                      "speed": ("speed",)}.get(motor.drives, ())
             if name in {f"{motor.joint.name}.{quantity}" for quantity in taken}:
-                raise WrongValue(f"start holds {name!r}, which motor {motor.name!r} prescribes: leave one of them out")
+                raise WrongValue(f"start holds {name!r}, which motor {motor.name!r} prescribes: leave one of them out",
+                                 "prescribed-twice")
         owner, _, quantity = name.rpartition(".")
         actuator = self._elements.get(owner)
         if isinstance(actuator, Actuator) and actuator.prescribes:
-            raise WrongValue(f"start holds {name!r}, which the actuator prescribes: leave its {quantity} out")
+            raise WrongValue(f"start holds {name!r}, which the actuator prescribes: leave its {quantity} out", "prescribed-twice")
 
 
 def targets(given: Any, what: str, dimension: int = 2) -> dict[str, Any]:

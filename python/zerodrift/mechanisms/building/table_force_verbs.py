@@ -106,11 +106,12 @@ def _entry(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any
     """Entry for the plane or for space; arguments of the other must be left out."""
     here, other = ("in the plane", "in space") if m.dimension == 2 else ("in space", "in the plane")
     if m.dimension not in force.entries:
-        raise WrongValue(f"{force.kind} is there for mechanisms {other}, not {here}")
+        raise WrongValue(f"{force.kind} is there for mechanisms {other}, not {here}", "wrong-dimension")
     entry = force.entries[m.dimension]
     foreign = [word for word, value in given.items() if word not in (*sides(force), *words(entry)) and value is not None]
     if foreign:
-        raise WrongValue(f"{' and '.join(foreign)} of {name!r} {'are' if len(foreign) > 1 else 'is'} for mechanisms {other}")
+        raise WrongValue(f"{' and '.join(foreign)} of {name!r} {'are' if len(foreign) > 1 else 'is'} for mechanisms {other}",
+                         "wrong-dimension")
     return entry
 
 
@@ -130,7 +131,7 @@ def _directions(m: Elements, entry: ElementKind, name: str, given: dict[str, Any
     if not entry.axes:
         return {}
     if axis is None and entry.axes == 1:
-        raise WrongType(f"{name!r} needs axis=, its direction in the drawing")
+        raise WrongType(f"{name!r} needs axis=, its direction in the drawing", "missing-argument")
     first, second = ends
     m._turning(name, "axis of", first.body)
     axis = None if axis is None else m._direction(f"axis of {name!r}", axis)
@@ -142,11 +143,11 @@ def _directions(m: Elements, entry: ElementKind, name: str, given: dict[str, Any
 def _frames(name: str, first: Point, second: Point, axis: Any, normal: Any) -> tuple[np.ndarray, np.ndarray]:
     """Three directions in the frames of both bodies; by default the axes of the first body."""
     if axis is None and normal is not None:
-        raise WrongType(f"normal of {name!r} goes with axis=, to which it is made perpendicular")
+        raise WrongType(f"normal of {name!r} goes with axis=, to which it is made perpendicular", "missing-argument")
     frame = first.body.pose.rotation.T
     if axis is not None:
         if normal is not None and np.linalg.norm(np.cross(axis, normal)) < FLAT:
-            raise WrongValue(f"normal of {name!r} must not be parallel to its axis")
+            raise WrongValue(f"normal of {name!r} must not be parallel to its axis", "geometry")
         normal = perpendicular(axis, normal)
         frame = np.stack([axis, normal, np.cross(axis, normal)])
     return tuple(np.stack([side.body.pose.local_direction(row) for row in frame]) for side in (first, second))

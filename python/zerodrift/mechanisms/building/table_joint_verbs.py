@@ -112,7 +112,8 @@ def _check_dimension(m: Elements, plane: type[Joint] | None, space: type[SpaceJo
         m._in_the_plane(plane.kind)
     elif plane is None and space is not None and m.dimension == 2:
         instead = "revolute" if is_at_point(space.row) else "a free body" if axis_word(space) == "normal" else "prismatic"
-        raise WrongValue(f"{space.kind} is a joint of space, Mechanism(..., dimension=3): in the plane {instead} is meant")
+        raise WrongValue(f"{space.kind} is a joint of space, Mechanism(..., dimension=3): in the plane {instead} is meant",
+                         "wrong-dimension")
 
 
 def _taken(m: Elements, name: Any, values: dict[str, Any], words: list[str]) -> dict[str, Any]:
@@ -121,7 +122,7 @@ def _taken(m: Elements, name: Any, values: dict[str, Any], words: list[str]) -> 
     for word in values.keys() - taken:
         if values[word] is not None and not (word == "damping" and values[word] == INITIAL[word]):
             reason = ": in the plane bodies turn about its normal" if (word, m.dimension) == ("axis", 2) else ""
-            raise WrongValue(f"{word} of {name!r} is for mechanisms {other}{reason}")
+            raise WrongValue(f"{word} of {name!r} is for mechanisms {other}{reason}", "wrong-dimension")
     return {word: value for word, value in values.items() if word in taken}
 
 
@@ -179,7 +180,7 @@ def _add_in_space(m: Any, joint: type[SpaceJoint], name: Any, *, first: Any = No
     if length_word(joint) == "pitch":
         length = _check.number(f"pitch of {name!r}", pitch)
         if not length:
-            raise WrongValue(f"pitch of {name!r} must not be 0: take revolute")
+            raise WrongValue(f"pitch of {name!r} must not be 0: take revolute", "out-of-range")
     if holds_distance(joint.row):
         name = m._new_name(name, "joint")
         sides = m._different(name, m._point("first", first), m._point("second", second))
@@ -195,7 +196,7 @@ def _add_blade(m: Any, joint: type[SpaceJoint], name: Any, point: Any, along: An
     along = m._direction(f"along of {name!r}", along)
     up = m._direction(f"normal of {name!r}", m._upwards() if normal is None else normal)
     if np.linalg.norm(np.cross(up, along)) < FLAT:
-        raise WrongValue(f"along of {name!r} must not be parallel to the normal of the ice")
+        raise WrongValue(f"along of {name!r} must not be parallel to the normal of the ice", "geometry")
     point = m._point("point", point, center=True)
     sides = m._different(name, m.ground.point(at=point.drawn), point)
     return m._fasten(joint.kind, name, *sides, along, np.cross(perpendicular(along, up), along))
@@ -206,13 +207,13 @@ def _directions(m: Elements, joint: type[SpaceJoint], name: Any, given: Any) -> 
     word = axis_word(joint)
     if word != "axes":
         if given is None:
-            raise WrongType(f"{name!r} needs {word}=, the direction in the drawing about which it turns")
+            raise WrongType(f"{name!r} needs {word}=, the direction in the drawing about which it turns", "missing-argument")
         return (m._direction(f"{word} of {name!r}", given),)
     if np.ndim(given) == 0 or len(given) != 2:
-        raise WrongValue(f"axes of {name!r} must be two directions, one of the first body and one of the second")
+        raise WrongValue(f"axes of {name!r} must be two directions, one of the first body and one of the second", "shape")
     first, second = (m._direction(f"axes[{i}] of {name!r}", axis) for i, axis in enumerate(given))
     cosine = float(first @ second)
     if abs(cosine) > RIGHT_ANGLE:
         raise WrongValue(f"axes of {name!r} must be perpendicular in the drawing, and are "
-                         f"{np.degrees(np.arccos(cosine)):.6g} degrees apart")
+                         f"{np.degrees(np.arccos(cosine)):.6g} degrees apart", "geometry")
     return first, second

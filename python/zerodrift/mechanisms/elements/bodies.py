@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import _check
-from ...errors import WrongType
+from ...errors import WrongAttribute, WrongType
 from . import columns
 from .frames import Pose
 from .immutable import Fixed
@@ -51,7 +51,7 @@ class Point(Fixed):
     def measured_name(self) -> str:
         """First part of the names of its measures."""
         if self.name is None:
-            raise AttributeError(f"{self!r} has no name, and so no measures: give it one, {self.body.name}.point(..., name=...)")
+            raise WrongAttribute(f"{self!r} has no name, and so no measures: give it one, {self.body.name}.point(..., name=...)")
         return self.name
 
     @property
@@ -138,7 +138,8 @@ class Body(Fixed):
             If there are no coordinates, or the name is taken.
         """
         if (local is None) == (at is None):
-            raise WrongType(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn")
+            raise WrongType(f"a point of {self.name!r} needs one of two: coordinates in its frame, or at=, its place as drawn",
+                            "conflicting-arguments")
         size = self.dimension
         local = _check.vector("local", local, size) if at is None else self.pose.local(place("at", at, size))
         return self._register(Point(self, local, name))
@@ -257,7 +258,7 @@ class Particle(Body):
     @property
     def angle(self) -> Any:
         """Not defined: a particle has no orientation."""
-        raise AttributeError(f"particle {self.name!r} has no orientation: no angle, no angular velocity")
+        raise WrongAttribute(f"particle {self.name!r} has no orientation: no angle, no angular velocity")
 
     angular_velocity = angular_acceleration = angle
 

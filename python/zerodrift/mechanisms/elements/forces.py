@@ -197,7 +197,7 @@ def driven(drawing: Any, names: Sequence[str], changed: Mapping[str, float]) -> 
     for name in names:
         if name not in known:
             raise WrongValue(f"inputs must name a torque, force or speed of {drawing.name}, not {name!r}{_hint(drawing, name)}; "
-                             f"{_check.closest(name, known) if known else 'it has no motor, actuator or load'}")
+                             f"{_check.closest(name, known) if known else 'it has no motor, actuator or load'}", "wrong-name")
         element, quantity, path = known[name]
         if element.law.constant is None:
             raise WrongValue(f"input {name!r} must begin with a number: give {element.kind} {element.name!r} one, such as 0.0, "

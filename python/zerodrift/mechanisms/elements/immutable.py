@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import WrongAttribute
+
 
 class Fixed:
     """Base of elements: a public attribute is set once, when the element is made, and its arrays are read-only.
@@ -27,7 +29,7 @@ class Fixed:
         if not name.startswith("_"):
             if name in self.__dict__:
                 element = self.__dict__.get("name", "")
-                raise AttributeError(
+                raise WrongAttribute(
                     f"{name} of {element!r} must not change, as systems and solutions share their elements: "
                     f"m.with_parameters({{'{element}.{name}': value}}) makes a system with another value")
             if isinstance(value, np.ndarray):

@@ -55,17 +55,18 @@ def table(x: Any, y: Any = None, *, argument: str = "t") -> Table:
     """
     if isinstance(x, str | Path):
         if y is not None:
-            raise WrongType("y of a table must be left out where x is the path of a file")
+            raise WrongType("y of a table must be left out where x is the path of a file", "conflicting-arguments")
         x, y = _read(Path(x))
     elif y is None:
         raise WrongType(f"a table must have x and y, or the path of a CSV file, not {type(x).__name__} alone")
     x = np.array(_check.real("x of a table must hold", x), dtype=float)
     if x.ndim != 1 or x.size < 2:
-        raise WrongValue(f"x of a table must have shape (n,) with n at least 2, not {x.shape}")
+        raise WrongValue(f"x of a table must have shape (n,) with n at least 2, not {x.shape}", "shape")
     y = _check.vector("y of a table", y, x.size)
     if not (np.diff(x) > 0).all():
         place = int(np.flatnonzero(~(np.diff(x) > 0))[0])
-        raise WrongValue(f"x of a table must increase, and x[{place + 1}] = {x[place + 1]:g} follows x[{place}] = {x[place]:g}")
+        raise WrongValue(f"x of a table must increase, and x[{place + 1}] = {x[place + 1]:g} follows x[{place}] = {x[place]:g}",
+                         "not-increasing")
     return Table(x, _coefficients(x, y), argument)
 
 
@@ -78,7 +79,7 @@ def _read(path: Path) -> tuple[list[float], list[float]]:
     for number, line in lines:
         if len(line) != 2 or not all(map(_is_number, line)):
             raise WrongValue(f"a table's file must have two numbers in each line, separated by a comma; line {number} of "
-                             f"{path} is {','.join(line)!r}")
+                             f"{path} is {','.join(line)!r}", "unreadable-file")
     return [float(line[0]) for _, line in lines], [float(line[1]) for _, line in lines]
 
 
@@ -102,7 +103,7 @@ class Table:
         value = float(autodiff.value(at))
         if not self.x[0] - self._allowed <= value <= self.x[-1] + self._allowed:
             raise WrongValue(f"the table goes from {self.argument} = {self.x[0]:g} to {self.x[-1]:g}, "
-                             f"and its value at {value:g} was requested")
+                             f"and its value at {value:g} was requested", "out-of-range")
         piece = min(max(int(np.searchsorted(self.x, value, side="right")) - 1, 0), self.x.size - 2)
         s, result = at - float(self.x[piece]), 0.0
         for coefficient in self.coefficients[:, piece]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ..._gateway.mechanisms.plane import JointKind, joint_kinds
+from ...errors import WrongAttribute
 from . import columns
 from .bodies import Point
 from .immutable import Fixed
@@ -285,7 +286,7 @@ class Coupling(Fixed):
     def _effort(self, effort: str) -> Measure:
         if effort not in self.efforts:
             known = ", ".join(self.efforts) or "no measure but its multiplier"
-            raise AttributeError(f"{self.kind} {self.name!r} of {', '.join(self.of)} has no {effort}; it has {known}")
+            raise WrongAttribute(f"{self.kind} {self.name!r} of {', '.join(self.of)} has no {effort}; it has {known}")
         return Measure(f"{self.name}.{effort}")
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ... import _check
 from ..._rotations import AXES
-from ...errors import WrongValue
+from ...errors import WrongAttribute, WrongValue
 from .bodies import Body, Ground, Link, MassProperties, Particle, Point, _End
 from .drawing import Drawing
 from .frames import Pose3
@@ -27,7 +27,8 @@ def tensor(argument: str, value: Any) -> np.ndarray:
     if shape == () and _check.number(argument, value) == 0:
         return np.zeros((3, 3))
     if shape not in ((3,), (3, 3)):
-        raise WrongValue(f"{argument} must be a tensor (3, 3) or its diagonal (3,), in kg m^2, not {_check.shown(value)}")
+        raise WrongValue(f"{argument} must be a tensor (3, 3) or its diagonal (3,), in kg m^2, not {_check.shown(value)}",
+                         "inertia")
     entries = _check.vector(argument, np.ravel(value), 3 if shape == (3,) else 9)
     J = np.diag(entries) if shape == (3,) else entries.reshape(3, 3)
     check_tensor(argument, J)
@@ -39,13 +40,14 @@ def check_tensor(argument: str, J: np.ndarray) -> None:
     apart = np.abs(J - J.T)
     if apart.max() > SYMMETRIC * np.abs(J).max():
         i, j = np.unravel_index(int(np.argmax(apart)), (3, 3))
-        raise WrongValue(f"{argument} must be symmetric, and [{i}, {j}] is {J[i, j]:g} where [{j}, {i}] is {J[j, i]:g}")
+        raise WrongValue(f"{argument} must be symmetric, and [{i}, {j}] is {J[i, j]:g} where [{j}, {i}] is {J[j, i]:g}",
+                         "inertia")
     a, b, c = np.linalg.eigvalsh((J + J.T) / 2)
     if a < -TRIANGLE * abs(c):
-        raise WrongValue(f"{argument} must have no negative moment, and about one of its axes it has {a:g} kg m^2")
+        raise WrongValue(f"{argument} must have no negative moment, and about one of its axes it has {a:g} kg m^2", "inertia")
     if c - a - b > TRIANGLE * c:
         raise WrongValue(f"{argument} is that of no body: its largest moment, {c:g} kg m^2, is more than the sum of the two "
-                         f"others, {a:g} and {b:g}")
+                         f"others, {a:g} and {b:g}", "inertia")
 
 
 class RotationMeasure(Measure):
@@ -56,7 +58,8 @@ class RotationMeasure(Measure):
     def euler(self, order: str) -> Measure:
         """Orientation as angles (k, 3) in rad, by rotations about the body's own axes in this order, such as "zyx" or "zxz"."""
         if len(order) != 3 or set(order) - set(AXES) or order[0] == order[1] or order[1] == order[2]:
-            raise WrongValue(f"order must name three axes, such as 'zyx' or 'zxz', no two neighbours alike, not {order!r}")
+            raise WrongValue(f"order must name three axes, such as 'zyx' or 'zxz', no two neighbours alike, not {order!r}",
+                             "unknown-choice")
         return Measure(f"{self.name.removesuffix('.rotation')}.euler.{order}")
 
 
@@ -91,7 +94,7 @@ class SpaceBody(Body):
     @property
     def angle(self) -> Any:
         """Not defined: a body in space has a rotation."""
-        raise AttributeError(f"{self.name!r} is a body in space, which has a rotation and no angle")
+        raise WrongAttribute(f"{self.name!r} is a body in space, which has a rotation and no angle")
 
     def properties(self, numbers: Numbers) -> MassProperties:
         """Mass, inertia tensor and centre of mass, with parameters that may have been changed."""

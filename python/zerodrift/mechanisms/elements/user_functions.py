@@ -67,7 +67,8 @@ class Law:
             elif name in bound:
                 self._bound[name] = bound[name]
             elif name != "t" and name not in parameters:
-                raise WrongType(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures")
+                raise WrongType(f"{self.what} asks for {name!r}; there is {', '.join(['t', *parameters, *bound])}, and measures",
+                                "user-function")
             self._names.append(name)
 
     def hold(self, reactions: Iterable[str]) -> None:
@@ -124,7 +125,7 @@ class Law:
                 raise
             raise WrongType(f"{self.what} must have derivatives: an expression of SymPy, or a function of arithmetic and smooth "
                             "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none. zd.table(t, y) is a "
-                            "smooth function through data") from error
+                            "smooth function through data", "user-function") from error
         value = value[()] if isinstance(value, np.ndarray) else value
         return value if isinstance(value, autodiff.Jet) else autodiff.Jet(_check.number(f"what {self.what} returns", value))
 
@@ -167,7 +168,7 @@ class Law:
         """Check that code can be generated: a callable's computation is known to Python only."""
         if self._function is not None and not hasattr(self._function, "written"):
             raise WrongValue(f"{self.what} is a callable, which compiled=True cannot write out: give a SymPy expression in its "
-                             "place, or take compiled=False")
+                             "place, or take compiled=False", "not-portable")
 
     def written(self, equations: Any, x: Iterable[Any]) -> Any:
         """Node of its value, from the nodes x of its measures."""

@@ -131,7 +131,7 @@ class Nonholonomic(Call):
         x, one, other = (np.cos(np.arange(1.0, size + 1.0) + shift) for shift in (0.0, 0.5, 1.5))
         slopes = [np.broadcast_to(self.at(0.3, x, rate).gradient, size) for rate in (one, other)]
         if np.isfinite(slopes).all() and not np.allclose(*slopes, rtol=1e-9, atol=1e-12):
-            raise WrongValue(f"{self.law.what} must be linear in measures of velocities, and is not")
+            raise WrongValue(f"{self.law.what} must be linear in measures of velocities, and is not", "user-function")
 
 
 class Laws:

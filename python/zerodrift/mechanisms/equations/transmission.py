@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._gateway.mechanisms.plane import Quantity
+from ...errors import WrongValue
 from ..elements import columns
 from ..elements.bodies import Body, Point
 from ..elements.joints import Joint, is_hinge
@@ -30,8 +31,10 @@ class Line(NamedTuple):
     angle: float
 
 
-class NoTransmissionAngle(ValueError):
+class NoTransmissionAngle(WrongValue):
     """The transmission angle is undefined, for the reason in the message."""
+
+    code = "wrong-element"
 
 
 def joints_by_body(elements: Mapping[str, Any]) -> dict[str, list[Joint]]:

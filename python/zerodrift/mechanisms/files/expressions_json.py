@@ -41,7 +41,8 @@ def to_json(expression: Any, what: str) -> Any:
     """Expression as lists of words and numbers; errors name its owner `what`."""
     written = _written(expression, what)
     if _in_order(_written(from_json(written, what), what)) != _in_order(written):
-        raise WrongValue(f"{what} is an expression that would be simplified where it is read, {expression}: it cannot be saved")
+        raise WrongValue(f"{what} is an expression that would be simplified where it is read, {expression}: it cannot be saved",
+                         "not-portable")
     return written
 
 
@@ -69,7 +70,7 @@ def _written(expression: Any, what: str) -> Any:
     word = words.get(expression.func)
     if word is None:
         raise WrongValue(f"{what} is an expression with {expression.func.__name__}, and cannot be saved: there are "
-                         f"{', '.join(map(str, words.values()))}")
+                         f"{', '.join(map(str, words.values()))}", "not-portable")
     if word == "cases":
         return [word, *([_written(value, what), _written(condition, what)] for value, condition in expression.args)]
     return [word, *(_written(part, what) for part in expression.args)]
@@ -80,9 +81,9 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
     import sympy as sp
 
     if depth > DEEPEST:
-        raise WrongValue(f"{what} must have at most {DEEPEST} operations within operations")
+        raise WrongValue(f"{what} must have at most {DEEPEST} operations within operations", "unreadable-file")
     if isinstance(written, bool) or written is None or isinstance(written, dict):
-        raise WrongValue(f"{what} has {written!r}, which is not part of an expression")
+        raise WrongValue(f"{what} has {written!r}, which is not part of an expression", "unreadable-file")
     if isinstance(written, str):
         return sp.Symbol(written)
     if not isinstance(written, list):
@@ -94,7 +95,8 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
     if word == "/" and len(parts) == 2 and all(type(part) is int for part in parts) and parts[1]:
         return sp.Rational(*parts)
     if word not in _operations():
-        raise WrongValue(f"{what} has the operation {word!r}; there are {', '.join([*_operations(), *CONSTANTS, '/'])}")
+        raise WrongValue(f"{what} has the operation {word!r}; there are {', '.join([*_operations(), *CONSTANTS, '/'])}",
+                         "unreadable-file")
     if word == "cases" and all(isinstance(part, list) and len(part) == 2 for part in parts):
         read = [tuple(from_json(each, what, depth + 1) for each in part) for part in parts]
     else:
@@ -104,14 +106,16 @@ def from_json(written: Any, what: str, depth: int = 0) -> Any:
     try:
         return _operations()[word](*read)
     except Exception as error:      # classes of SymPy raise different errors
-        raise WrongValue(f"{what} has the operation {word!r} of {', '.join(map(str, read))}, which cannot be: {error}") from None
+        raise WrongValue(f"{what} has the operation {word!r} of {', '.join(map(str, read))}, which cannot be: {error}",
+                         "unreadable-file") from None
 
 
 def _integer(written: int, what: str) -> Any:
     import sympy as sp
 
     if abs(written) > LARGEST:
-        raise WrongValue(f"{what} must have whole numbers of at most 1e309, not one of {written.bit_length()} bits")
+        raise WrongValue(f"{what} must have whole numbers of at most 1e309, not one of {written.bit_length()} bits",
+                         "unreadable-file")
     return sp.Integer(written)
 
 
@@ -121,4 +125,5 @@ def _check_power(base: Any, exponent: Any, what: str) -> None:
         return
     bits = max(int(base.p).bit_length(), int(base.q).bit_length())
     if abs(exponent) > LARGEST or (bits > 1 and bits * abs(float(exponent)) > MOST_BITS):
-        raise WrongValue(f"{what} must not have the power {base}^{exponent}, whose digits would fill the memory")
+        raise WrongValue(f"{what} must not have the power {base}^{exponent}, whose digits would fill the memory",
+                         "unreadable-file")

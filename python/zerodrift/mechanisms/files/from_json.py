@@ -33,13 +33,13 @@ def parsed(text: str, where: str) -> dict[str, Any] | None:
     except json.JSONDecodeError:
         return None
     except RecursionError:
-        raise WrongValue(f"{where} has lists within lists, deeper than they can be read") from None
+        raise WrongValue(f"{where} has lists within lists, deeper than they can be read", "unreadable-file") from None
     return found if isinstance(found, dict) and found.get("zerodrift") == WHAT else None
 
 
 def _whole(digits: str, where: str) -> int:
     if len(digits) > MOST_DIGITS:
-        raise WrongValue(f"{where} has a whole number of {len(digits)} digits; there may be {MOST_DIGITS}")
+        raise WrongValue(f"{where} has a whole number of {len(digits)} digits; there may be {MOST_DIGITS}", "unreadable-file")
     return int(digits)
 
 
@@ -47,14 +47,14 @@ def _once(pairs: list[tuple[str, Any]], where: str) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for key, value in pairs:
         if key in found:
-            raise WrongValue(f"{where} has the key {key!r} twice in one place")
+            raise WrongValue(f"{where} has the key {key!r} twice in one place", "unreadable-file")
         found[key] = value
     return found
 
 
 def _refused(where: str) -> Callable[[str], Any]:
     def refuse(number: str) -> Any:
-        raise WrongValue(f"{where} has {number} where a finite number is needed")
+        raise WrongValue(f"{where} has {number} where a finite number is needed", "unreadable-file")
     return refuse
 
 
@@ -62,7 +62,7 @@ def mechanism(make: Callable[..., Any], description: Any, where: str) -> Any:
     """Mechanism, of the class `make`, from a description by `to_json.described`; errors name `where` and the place in it."""
     version = description.get("version", VERSION)       # first, as other versions may have other keys
     if type(version) is not int or version != VERSION:
-        raise WrongValue(f"{where} is a mechanism of version {version!r}, and version {VERSION} is known here")
+        raise WrongValue(f"{where} is a mechanism of version {version!r}, and version {VERSION} is known here", "unreadable-file")
     return _parts(make, where, **_fields(_parts, description, where, skip=("zerodrift", "version")))
 
 
@@ -81,7 +81,7 @@ def _element(m: Any, description: Any, where: str) -> None:
     kind, name = description.get("kind"), description.get("name")
     made = MADE_IN_SPACE if m.dimension == 3 else MADE
     if not isinstance(kind, str) or kind not in made:
-        raise WrongValue(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(made)}")
+        raise WrongValue(f"{where} is of kind {kind!r}, which is not known; there are {', '.join(made)}", "unreadable-file")
     where = f"{where} ({kind} {name!r})"
     given = _fields(made[kind], description, where, skip=("kind", "name"))
     _at(where, made[kind], m, name, **given)
@@ -94,11 +94,11 @@ def _fields(function: Callable[..., Any], description: Any, where: str, skip: tu
     known = [*skip, *(name for name in wanted if name not in skip)]
     for key in description:
         if key not in known:
-            raise WrongValue(f"{where} has the key {key!r}, which is not known; there are {', '.join(known)}")
+            raise WrongValue(f"{where} has the key {key!r}, which is not known; there are {', '.join(known)}", "unreadable-file")
     needed = [*skip, *(name for name, parameter in wanted.items() if parameter.default is parameter.empty)]
     for key in needed:
         if key not in description:
-            raise WrongValue(f"{where} lacks the key {key!r}")
+            raise WrongValue(f"{where} lacks the key {key!r}", "unreadable-file")
     return {key: value for key, value in description.items() if key not in skip}
 
 
@@ -107,7 +107,7 @@ def _at(where: str, function: Callable[..., Any], *given: Any, **named: Any) -> 
     try:
         return function(*given, **named)
     except (ValueError, TypeError) as error:
-        raise WrongValue(f"{where}: {sentence(error)}") from error
+        raise WrongValue(f"{where}: {sentence(error)}", "unreadable-file") from error
 
 
 # ---- elements ----
@@ -169,7 +169,7 @@ def _rack_pinion(m: Any, name: str, *, first: Any, second: Any, ratio: Any) -> N
 
 def _coupler(m: Any, name: str, *, law: Any = None, sum: Any = None) -> None:
     if (law is None) == (sum is None):
-        raise WrongValue("it needs one of two, law or sum")
+        raise WrongValue("it needs one of two, law or sum", "unreadable-file")
     value, of = (sum, None) if law is None else law_and_of(law, "law")
     m.coupler(name, value, of=of)
 

@@ -45,18 +45,19 @@ def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, 
     inertia = None if inertia is None else _matrix("inertia", inertia)
     link = m.link(name, start, end, mass, length=length, thickness=thickness, inertia=inertia, normal=R[:, 2])
     if np.abs(link.pose.rotation - R).max() > SAME:
-        raise WrongValue("rotation must have the link along its first column")
+        raise WrongValue("rotation must have the link along its first column", "unreadable-file")
     amend(link, pose=Pose3(link.pose.origin, R))
 
 
 def frames_from_json(first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:
     """Frames (3, 3) of a joint in both bodies, checked to be equal in the drawing."""
     if not isinstance(given, list) or len(given) != 2:
-        raise WrongValue(f"frames must be two matrices, not {_check.shown(given)}")
+        raise WrongValue(f"frames must be two matrices, not {_check.shown(given)}", "unreadable-file")
     frames = _rotation("frames[0]", given[0]), _rotation("frames[1]", given[1])
     one, other = (frame @ side.body.pose.rotation.T for frame, side in zip(frames, (first, second), strict=True))
     if np.abs(one - other).max() > SAME:
-        raise WrongValue("frames must be the same in the drawing, that of the first body and that of the second")
+        raise WrongValue("frames must be the same in the drawing, that of the first body and that of the second",
+                         "unreadable-file")
     return frames
 
 
@@ -66,7 +67,7 @@ def _joint(kind: str) -> Callable[..., None]:
         sides = m._different(name, *(m._point("a side", place_from_json(m, side)) for side in (first, second)))
         both = frames_from_json(*sides, frames)
         if advances(BY_KIND[kind].row) and not _check.number("length", length):
-            raise WrongValue("length must not be 0: it is the pitch")
+            raise WrongValue("length must not be 0: it is the pitch", "unreadable-file")
         made: SpaceJoint = m._fasten(kind, m._new_name(name, "joint"), *sides, *(both[0][:2] @ sides[0].body.pose.rotation.T),
                                      length=None if length is None else _check.number("length", length), damping=damping)
         amend(made, frames=both, cut=_check.instance("cut", cut, bool, "True or False"))

@@ -50,4 +50,4 @@ def law_to_json(law: Law) -> Any:
 
 def not_saved(what: str) -> ValueError:
     """Error for a callable."""
-    return WrongValue(f"{what} is a callable, which cannot be saved: a SymPy expression in its place can")
+    return WrongValue(f"{what} is a callable, which cannot be saved: a SymPy expression in its place can", "not-portable")

@@ -65,9 +65,9 @@ def bennett(*, first_length: float = 0.3, first_twist: float = 0.5, second_twist
     a, alpha, beta = _check.number("first_length", first_length, above=0), first_twist, second_twist
     if not (0 < alpha < np.pi and 0 < beta < np.pi and abs(np.sin((beta - alpha) / 2)) > 1e-6):
         raise WrongValue("first_twist and second_twist must be two different angles between 0 and pi, "
-                         f"not {alpha:g} and {beta:g}")
+                         f"not {alpha:g} and {beta:g}", "geometry")
     if abs(np.sin(angle)) < 1e-6:
-        raise WrongValue(f"angle must be neither 0 nor pi, where the linkage lies flat, not {angle:g}")
+        raise WrongValue(f"angle must be neither 0 nor pi, where the linkage lies flat, not {angle:g}", "geometry")
     b = a * np.sin(beta) / np.sin(alpha)
     other = 2 * np.arctan(np.sin((beta + alpha) / 2) / np.sin((beta - alpha) / 2) / np.tan(angle / 2))
     places, axes = _corners(a, b, alpha, beta, angle, -other)

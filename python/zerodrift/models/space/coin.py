@@ -55,9 +55,10 @@ def coin(*, radius: float = 0.012, mass: float = 7.5e-3, incline: float = 0.3, d
     """
     r = _check.number("radius", radius, above=0)
     if not 0 < incline < np.pi / 2:
-        raise WrongValue(f"incline must be more than 0 and less than a right angle, {np.pi / 2:g}, not {incline:g}")
+        raise WrongValue(f"incline must be more than 0 and less than a right angle, {np.pi / 2:g}, not {incline:g}",
+                         "out-of-range")
     if gravity < 0:
-        raise WrongValue(f"gravity must be at least 0, not {gravity:g}: the coin lies on the table")
+        raise WrongValue(f"gravity must be at least 0, not {gravity:g}: the coin lies on the table", "out-of-range")
     A, m = mass * r**2 / 4, Mechanism("coin", dimension=3, gravity=(0, 0, -gravity))
     turned = about((0, 1, 0), incline)
     body = m.body("coin", mass, (A, A, 2 * A), at=(0, 0, r * np.sin(incline)), rotation=turned)

@@ -67,7 +67,7 @@ def delta_robot(*, base_radius: float = 0.2, platform_radius: float = 0.05, arm:
     R, r, L, rod, w = (_check.number(name, length, above=0) for name, length in lengths.items())
     aside = R + L * np.cos(angle) - r
     if not abs(aside) < rod:
-        raise WrongValue(f"forearm_length must be more than {abs(aside):g} m to reach the platform, not {rod:g}")
+        raise WrongValue(f"forearm_length must be more than {abs(aside):g} m to reach the platform, not {rod:g}", "geometry")
     home = np.array([0.0, 0.0, -L * np.sin(angle) - np.sqrt(rod**2 - aside**2)])
     m = Mechanism("delta_robot", dimension=3, gravity=(0, 0, -gravity))
     disc = platform_mass * r**2 / 4

@@ -62,7 +62,7 @@ def double_cardan(*, bend: float = 0.5, last_bend: float | None = None, phase: f
     length, last_bend = _check.number("length", length, above=0), -bend if last_bend is None else last_bend
     for name, angle in (("bend", bend), ("last_bend", last_bend)):
         if not abs(angle) < np.pi / 2:
-            raise WrongValue(f"{name} must be less than a right angle, {np.pi / 2:g}, not {angle:g}")
+            raise WrongValue(f"{name} must be less than a right angle, {np.pi / 2:g}, not {angle:g}", "out-of-range")
     m, up = Mechanism("double_cardan", dimension=3), np.array([0.0, 0.0, 1.0])
     middle, out = (np.array([np.cos(angle), np.sin(angle), 0.0]) for angle in (bend, bend + last_bend))
     joints = np.zeros(3), length * middle

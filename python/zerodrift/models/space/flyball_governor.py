@@ -69,7 +69,7 @@ def flyball_governor(*, arm: float = 0.25, ball_mass: float = 2.0, ball_radius: 
     arm, radius = _check.number("arm", arm, above=0), _check.number("ball_radius", ball_radius, above=0)
     if not ball_mass * arm * speed**2 > (ball_mass + sleeve_mass) * gravity:
         least = np.sqrt(max((ball_mass + sleeve_mass) * gravity, 0.0) / (ball_mass * arm)) if ball_mass else np.inf
-        raise WrongValue(f"speed must be more than {least:g} rad/s for the balls to fly out, not {speed:g}")
+        raise WrongValue(f"speed must be more than {least:g} rad/s for the balls to fly out, not {speed:g}", "out-of-range")
     cosine = (ball_mass + sleeve_mass) * gravity / (ball_mass * arm * speed**2)
     down, out = arm * cosine, arm * np.sqrt(1 - cosine**2)
     m = Mechanism("flyball_governor", dimension=3, gravity=(0, 0, -gravity))

@@ -87,5 +87,6 @@ def _slow_precession(a: float, b: float, c: float) -> float:
     square = b**2 + 4 * a * c
     if square < 0 or not b:
         raise WrongValue("spin must be faster for a steady precession: "
-                         f"an angular momentum of at least {2 * np.sqrt(max(-a * c, 0.0)):g} N m s about the axle, not {b:g}")
+                         f"an angular momentum of at least {2 * np.sqrt(max(-a * c, 0.0)):g} N m s about the axle, not {b:g}",
+                         "out-of-range")
     return 2 * c / (b + np.copysign(np.sqrt(square), b))

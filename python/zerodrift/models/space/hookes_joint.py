@@ -58,7 +58,7 @@ def hookes_joint(*, bend: float = 0.6, length: float = 0.5, mass: float = 1.0, l
     """
     length = _check.number("length", length, above=0)
     if not abs(bend) < np.pi / 2:
-        raise WrongValue(f"bend must be less than a right angle, {np.pi / 2:g}, not {bend:g}")
+        raise WrongValue(f"bend must be less than a right angle, {np.pi / 2:g}, not {bend:g}", "out-of-range")
     m = Mechanism("hookes_joint", dimension=3)
     out = np.array([np.cos(bend), np.sin(bend), 0.0])
     shafts = [m.link("input", (-length, 0, 0), (0, 0, 0), mass), m.link("output", (0, 0, 0), length * out, mass)]

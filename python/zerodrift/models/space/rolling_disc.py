@@ -66,9 +66,10 @@ def rolling_disc(*, radius: float = 0.5, mass: float = 1.0, lean: float = 0.4, t
     r, m = _check.number("radius", radius, above=0), Mechanism("rolling_disc", dimension=3, gravity=(0, 0, -gravity))
     c, s = np.sin(lean), np.cos(lean)       # of the angle between axle and vertical
     if not abs(lean) < np.pi / 2 - 1e-6:
-        raise WrongValue(f"lean must be less than a right angle, {np.pi / 2:g}, to both sides, not {lean:g}")
+        raise WrongValue(f"lean must be less than a right angle, {np.pi / 2:g}, to both sides, not {lean:g}", "out-of-range")
     if spin is None and not turning:
-        raise WrongValue("spin must be given where turning is 0: then any is steady upright, and none with a lean")
+        raise WrongValue("spin must be given where turning is 0: then any is steady upright, and none with a lean",
+                         "missing-argument")
     A = mass * r**2 / 4
     if spin is None:
         spin = c * (A * turning**2 * s - mass * gravity * r) / (turning * s * (2 * A + mass * r**2)) if mass else 0.0

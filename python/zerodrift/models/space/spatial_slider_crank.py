@@ -63,7 +63,8 @@ def spatial_slider_crank(*, crank: float = 0.08, rod: float = 0.3, offset: float
     crank, rod = _check.number("crank", crank, above=0), _check.number("rod", rod, above=0)
     reach = np.hypot(offset, height) + crank
     if not 0 < reach < rod:
-        raise WrongValue(f"rod must be longer than {reach:g} m, which the crank reaches from the slider's line, not {rod:g}")
+        raise WrongValue(f"rod must be longer than {reach:g} m, which the crank reaches from the slider's line, not {rod:g}",
+                         "geometry")
     m = Mechanism("spatial_slider_crank", dimension=3, gravity=(0, 0, -gravity))
     pin, wrist = np.array([0.0, offset, height + crank]), np.array([np.sqrt(rod**2 - offset**2 - (height + crank)**2), 0.0, 0.0])
     turned, swung = crank_mass * crank**2 / (0.12 * 0.08**2), rod_mass * rod**2 / (0.5 * 0.3**2)

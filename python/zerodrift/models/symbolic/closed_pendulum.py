@@ -51,7 +51,7 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
     half = n // 2 + (n // 2 - n + 1) % 2
     span = half * length if span is None else _check.number("span", span, above=0)
     if span >= n * length:
-        raise WrongValue(f"span must be less than {n} links of {length:g} m together, {n * length:g} m, not {span:g}")
+        raise WrongValue(f"span must be less than {n} links of {length:g} m together, {n * length:g} m, not {span:g}", "geometry")
 
     angles = dynamicsymbols(f"theta1:{n + 1}")
     L, m, g, d = sp.symbols("length mass gravity span", positive=True)

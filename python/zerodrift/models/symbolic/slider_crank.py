@@ -42,7 +42,7 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
     """
     a, b = _check.number("crank", crank, above=0), _check.number("rod", rod, above=0)
     if not b > a:
-        raise WrongValue(f"rod must be longer than the crank of {a:g} m, not {b:g}")
+        raise WrongValue(f"rod must be longer than the crank of {a:g} m, not {b:g}", "geometry")
     q, x, phi = angles = dynamicsymbols("q x phi")
     t = dynamicsymbols._t
     names = {"crank": a, "rod": b, "crank_inertia": crank_inertia, "slider_mass": slider_mass, "rod_inertia": rod_inertia,

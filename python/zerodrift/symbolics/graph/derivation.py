@@ -72,7 +72,7 @@ class Derivation:
         second = Hessian(graph, by_rate, T)
         T_rr = [[second[a, b] for b in self.rate] for a in self.rate]
         if any(node.stage >= MOVING for row in T_rr for node in row):
-            raise WrongValue("kinetic must be quadratic in the velocities: its mass matrix depends on them")
+            raise WrongValue("kinetic must be quadratic in the velocities: its mass matrix depends on them", "expression")
         D = self._derivative_at_constant_v()
         slopes = self._listed(self.by_position(T), self.p)
         kind = self.rate[0].content[0]      # rates of differences of angles are multiplied out: most of their products cancel
@@ -103,7 +103,7 @@ class Derivation:
             return force
         V = graph.multiplied_out(given.potential)
         if V.stage >= MOVING:
-            raise WrongValue("potential must not depend on velocities")
+            raise WrongValue("potential must not depend on velocities", "expression")
         gradient = self._by_velocity(V)
         return [graph.plus(q, graph.minus(slope)) for q, slope in zip(force, gradient, strict=True)]
 

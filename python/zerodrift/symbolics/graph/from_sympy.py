@@ -114,7 +114,7 @@ class _Reading:
         return node
 
     def refusal(self, expression: Any, why: str) -> ValueError:
-        return WrongValue(f"{self._what} has {expression}, {why}")
+        return WrongValue(f"{self._what} has {expression}, {why}", "expression")
 
     def _of(self, e: Any) -> Node:
         if e.is_Number or isinstance(e, sympy.NumberSymbol):

@@ -41,7 +41,7 @@ class Plain:
 
     def read(self, what: str, expression: Any, known: Any) -> Node:
         """Raise TypeError, as expressions need the `Reader` of SymPy."""
-        raise WrongType(f"{what} is an expression, which takes a Reader: {expression}")
+        raise WrongType(f"{what} is an expression, which takes a Reader: {expression}", "expression")
 
     def _slope(self, function: Function, k: int, arguments: tuple[Node, ...]) -> Node:
         graph = self.graph
