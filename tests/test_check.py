@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import SYSTEMS
+from support import SYSTEMS, refused
 from zerodrift import _check
 
 BAR = SYSTEMS["four_bar"]
@@ -170,17 +170,17 @@ def test_bad_types(call, message):
 
 def test_energy_correction_needs_a_potential():
     free = zd.System(1, mass=[[1.0]], p0=[0.0], name="free")
-    with pytest.raises(ValueError, match=r"^energy correction needs V \(potential energy in J\), and free declares none "):
+    with refused("not-available", r"^energy correction needs V \(potential energy in J\), and free declares none "):
         zd.simulate(free, 1, step=0.1, energy=True)
 
 
 def test_corrections_are_given_once():
     for given in ("projection", ["energy", "energy"], [zd.Projection()]):
-        with pytest.raises(ValueError, match="each correction must be given once, but"):
+        with refused("duplicate-name"):
             run(correction=given)
-    with pytest.raises(ValueError, match=r"correction must be one of 'baumgarte', .*, not 'none'"):
+    with refused("unknown-choice", "correction.*'baumgarte'.*'none'"):
         run(correction="none")
-    with pytest.raises(TypeError, match=r"^correction must be names or settings of zd.corrections\(\), not 1 "):
+    with refused("wrong-type", r"^correction must be names or settings of zd.corrections\(\), not 1 "):
         run(correction=1)
 
 
@@ -188,7 +188,7 @@ def test_a_system_that_is_only_described_is_not_simulated(bar):
     from zerodrift.runs.saving import Described
 
     description = Described(bar._described())
-    with pytest.raises(TypeError, match=r"system must be one of zd.systems.*, not <description of four_bar>"):
+    with refused("wrong-type", "system.*zd.systems.*four_bar"):
         zd.simulate(description, 1, step=0.1)
 
 
@@ -198,8 +198,8 @@ def test_whole_numbers_of_any_kind_count():
 
 def test_masked_and_complex_starts():
     masked = np.ma.masked_array(BAR.p0, [False, True, False])
-    with pytest.raises(ValueError, match="p0 must hold real numbers, none of them masked"):
+    with refused("not-finite", "^p0 must"):
         zd.simulate(BAR, 0.1, masked, step=0.01)
-    with pytest.raises(TypeError, match="v0 must hold real numbers, not complex128"):
+    with refused("wrong-type", "^v0 must"):
         zd.simulate(BAR, 0.1, v0=BAR.v0 + 0j, step=0.01)
     assert zd.simulate(BAR, 0.1, np.ma.masked_array(BAR.p0), step=0.01).p.tobytes() == SOL.p.tobytes()

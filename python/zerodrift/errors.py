@@ -74,6 +74,7 @@ class ZerodriftError(_Coded, Exception):
 
 # Codes of the rules that arguments must keep, each the second argument of an error below; without one, it has that of its class.
 OF_ARGUMENTS = {
+    "wrong-name": "Nothing has this name; the message has the closest ones.",
     "not-finite": "A number is NaN or infinite, or an entry of an array is masked.",
     "out-of-range": "A number is not between the limits in the message.",
     "unknown-choice": "A word is none of those in the message.",

@@ -5,6 +5,7 @@ import pytest
 
 import zerodrift as zd
 from analysis.random_efforts import Driven, largest_error
+from support import refused
 from zerodrift.analysis.quantities import find
 from zerodrift.analysis.state import state
 
@@ -186,7 +187,7 @@ def test_motions_that_violate_constraints_are_refused():
                         ((p, v, vdot + 1.0), "(6), accelerations")):
         with pytest.raises(zd.InconsistentStart, match=what.replace("(", r"\(").replace(")", r"\)")):
             zd.inverse_dynamics(bar, 0.0, *wrong, efforts=["crank.angle"])
-    with pytest.raises(ValueError, match="efforts must be given"):
+    with refused("conflicting-arguments", "efforts"):
         zd.inverse_dynamics(bar, 0.0, p, v, vdot)
 
 
@@ -219,16 +220,16 @@ def test_masses_are_those_of_the_system_that_is_given():
     masses = {name: 2 * value for name, value in bar.system("joint").parameters.items() if name.endswith((".mass", ".inertia"))}
     light, heavy = (zd.inverse_dynamics(each, kin)["crank.angle"] for each in (bar, bar.with_parameters(masses)))
     assert heavy == pytest.approx(2 * light, rel=1e-9)
-    with pytest.raises(ValueError, match="motion must be one of slider_crank in its coordinates, not of four_bar"):
+    with refused("wrong-element", "motion.*slider_crank.*four_bar"):
         zd.inverse_dynamics(zd.models.slider_crank(), kin)
 
 
 def test_an_effort_along_nothing_is_refused():
     bar = zd.models.four_bar()
     kin = zd.kinematics(bar, {"crank.angle": [1.6, 1.7]}, speed=1.0)
-    with pytest.raises(ValueError, match=r"'A\.force' depends on accelerations or reactions"):
+    with refused("wrong-measure", r"'A\.force'"):
         zd.inverse_dynamics(bar, kin, efforts=["A.force"])      # a revolute joint: a torque acts along its angle, no force
     with pytest.warns(zd.AccuracyWarning, match="nothing drives this motion of four_bar: .* is missing at crank.angle"):
         zd.inverse_dynamics(bar, kin, efforts=[])
-    with pytest.raises(ValueError, match="p must be finite, not nan"):
+    with refused("not-finite", "^p must"):
         zd.inverse_dynamics(bar, 0.0, [np.nan] * 3, [0.0] * 3, [0.0] * 3, efforts=["crank.angle"])

@@ -5,6 +5,7 @@ import pytest
 from scipy.interpolate import make_interp_spline
 
 import zerodrift as zd
+from support import refused
 from zerodrift.analysis.prescribed import prescribed
 
 LAYOUTS = ["joint", "absolute"]
@@ -118,16 +119,16 @@ def test_what_is_wrong_is_refused():
     m = robot()
     with pytest.raises(zd.SingularSystem, match=r"must determine all positions of arm, and leave 1 free: lower\.angle"):
         zd.kinematics(m, {"upper.angle": [0.1, 0.2]})
-    with pytest.raises(ValueError, match="motion must prescribe quantities of positions"):
+    with refused("wrong-measure", "motion"):
         zd.kinematics(m, {"upper.angular_velocity": [0.1, 0.2]})
-    with pytest.raises(TypeError, match="t must be given"):
+    with refused("missing-argument", "t"):
         zd.kinematics(m, {"lower.end.position": circle})
-    with pytest.raises(ValueError, match="speed must not be zero"):
+    with refused("out-of-range", "speed"):
         zd.kinematics(m, {"upper.angle": [0.1, 0.2]}, speed=0.0)
-    with pytest.raises(ValueError, match="must have 2 components, not 1"):
+    with refused("shape", "have 2.*not 1"):
         zd.kinematics(m, {"lower.end.position": [0.1, 0.2]})
     bar = zd.models.four_bar()
-    with pytest.raises(KeyError, match="needs forces"):
+    with refused("not-available"):
         zd.kinematics(bar, {"crank.angle": [1.6, 1.7]})["A.force"]
 
 

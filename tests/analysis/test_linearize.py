@@ -5,6 +5,7 @@ import pytest
 import scipy.signal
 
 import zerodrift as zd
+from support import refused
 
 G = 9.81
 
@@ -219,13 +220,13 @@ def test_an_instant_of_a_motion_is_flagged():
 def test_what_is_wrong_is_refused():
     bar = zd.models.four_bar()
     rest = zd.equilibrium(bar)
-    with pytest.raises(ValueError, match=r"outputs names 'A\.fource'"):
+    with refused("wrong-name", r"'A\.fource'"):
         zd.linearize(bar, rest, outputs=["A.fource"])
     with pytest.raises(zd.InconsistentStart, match="must satisfy the constraints"):
         zd.linearize(bar, (0.0, rest.p + 0.1, rest.v))
-    with pytest.raises(TypeError, match="at must be an equilibrium, an instant"):
+    with refused("wrong-type", "^at must"):
         zd.linearize(bar, 3)
-    with pytest.raises(ValueError, match="names must be 1 quantities"):
+    with refused("wrong-measure", "names.*be 1"):
         zd.linearize(bar, rest).in_coordinates(["crank.angle", "rocker.angle"])
 
 
@@ -241,7 +242,7 @@ def test_pictures_of_modes_and_root_loci():
     bar = zd.models.four_bar()
     ax = zd.plot.mode(zd.linearize(bar, zd.equilibrium(bar)), 0, amplitude=0.1)
     assert len(ax.lines) == 2       # at both ends; between them it covers the position of reference
-    with pytest.raises(ValueError, match="index must be that of one of 2 eigenvalues"):
+    with refused("out-of-range", "index.*of 2"):
         zd.plot.mode(zd.linearize(bar, zd.equilibrium(bar)), 2)
     assert zd.plot.mode(lins[1], 1).lines
 

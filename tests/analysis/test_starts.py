@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 
 G = 9.81
 
@@ -36,7 +37,7 @@ def test_a_start_in_equilibrium_is_taken_back():
     m = suspension(equilibrium=True)
     m.start(equilibrium=False)
     assert zd.simulate(m, 0.01, step=0.01)["guide.displacement"][0] == pytest.approx(0.0, abs=1e-12)
-    with pytest.raises(TypeError, match="equilibrium must be True or False"):
+    with refused("wrong-type", "equilibrium"):
         m.start(equilibrium="yes")
 
 
@@ -81,9 +82,9 @@ def test_an_equilibrium_is_a_start(layout):
     for given in (m, eq.system):
         sol = zd.simulate(given, 0.2, eq, step=0.01)
         assert np.abs(sol["crank.angle"] - eq["crank.angle"]).max() < 1e-11
-    with pytest.raises(TypeError, match="v0 must be left out"):
+    with refused("conflicting-arguments", "^v0 must"):
         zd.simulate(m, 0.2, eq, np.zeros(3), step=0.01)
-    with pytest.raises(ValueError, match="p0 must be an equilibrium or an instant of closed_pendulum"):
+    with refused("wrong-element", "^p0 must.*closed_pendulum"):
         zd.simulate(zd.models.closed_pendulum(), 0.2, eq, step=0.01)
 
 
@@ -110,7 +111,7 @@ def test_an_instant_of_a_run_is_read_by_name_started_from_and_linearized():
     assert on["crank.angle"][-1] == pytest.approx(sol["crank.angle"][-1], rel=1e-12)
     with pytest.warns(zd.AccuracyWarning, match="not in an equilibrium"):
         assert zd.linearize(zd.models.four_bar(), now).A.shape == (2, 2)
-    with pytest.raises(KeyError, match=r"'A\.forse'; the closest"):
+    with refused("wrong-name", r"'A\.forse'"):
         _ = now["A.forse"]
-    with pytest.raises(TypeError, match="v0 must be left out"):
+    with refused("conflicting-arguments", "^v0 must"):
         zd.simulate(zd.models.four_bar(), 0.5, now, now.v, step=0.01)

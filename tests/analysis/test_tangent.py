@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 from zerodrift.analysis.derivatives import Derivatives, Direction, of_residuals, residuals
 from zerodrift.analysis.state import scales, state
 from zerodrift.analysis.tangent import Tangent
@@ -125,9 +126,9 @@ def test_bias_on_the_tangent_space_gives_the_acceleration():
 
 def test_wrong_names_are_refused():
     bar = zd.models.four_bar()
-    with pytest.raises(ValueError, match=r"measure names 'crank\.angel'.*crank\.angle"):
+    with refused("wrong-name", r"'crank\.angel'.*crank\.angle"):
         zd.jacobian(bar, "crank.angel")
-    with pytest.raises(ValueError, match="depends on accelerations or reactions"):
+    with refused("wrong-measure"):
         zd.jacobian(bar, "A.force")
 
 

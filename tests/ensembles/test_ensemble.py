@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 from zerodrift.ensembles import ensemble as module
 
 
@@ -45,7 +46,7 @@ def test_a_function_of_the_parameters_makes_the_systems():
         assert values[i, j] == zd.simulate(pendulum(length, gravity), 1.0, step=0.01)["link.angle"].min()
     assert ens.parameters["gravity"].tolist() == [1.0, 9.81, 20.0] * 2
     assert repr(ens).startswith("<ensemble of 2 x 3 runs over length, gravity: 101 samples each, none failed\n in ")
-    with pytest.raises(KeyError, match="no output is called"):
+    with refused("wrong-name"):
         _ = ens["link.angle"]
 
 
@@ -174,7 +175,7 @@ def test_solutions_can_be_kept():
     ens = zd.ensemble(pendulum, 0.1, parameters={"gravity": [5.0, 10.0]}, step=0.01, keep="solutions")
     assert ens[0] is ens[0]
     assert list(ens._ipython_key_completions_()) == ["link.angle"]
-    with pytest.raises(TypeError, match="an ensemble must not be iterated"):
+    with refused("wrong-type", "an ensemble must not be iterated"):
         list(ens)
 
 
@@ -215,58 +216,58 @@ def test_ctrl_c_in_the_first_run():
     assert caught.value.solution.failed.all()
 
 
-@pytest.mark.parametrize(("arguments", "error", "said"), [
-    ({"parameters": {"crank.mass": [1, 2], "rocker.mass": [1, 2, 3]}}, ValueError,
-     r"parameters\['crank.mass'\] has 2 values and parameters\['rocker.mass'\] has 3: .*zd.grid"),
-    ({"parameters": {"crank.mass": [1, 2]}, "start": {"crank.angle": [1, 2, 3]}}, ValueError, r"start\['crank.angle'\] has 3"),
-    ({"parameters": {"krank.mass": [1, 2]}}, ValueError, "parameter must be one of"),
-    ({"parameters": {"crank.mass": []}}, ValueError, "no values, so there are no runs"),
-    ({"parameters": {"crank.mass": ["a"]}}, TypeError, "must hold real numbers"),
-    ({"parameters": [{"crank.mass": 1}, {"rocker.mass": 1}]}, ValueError, r"parameters\[1\] and parameters\[0\] must have"),
-    ({"parameters": []}, ValueError, "at least one run"),
-    ({"parameters": 3}, TypeError, "parameters must be a dict"),
-    ({"outputs": ["crank.angel"]}, ValueError, "no output is called 'crank.angel' in four_bar; .*crank.angle"),
-    ({"outputs": [3]}, TypeError, "each of outputs must be a measure"),
-    ({"steps": 3}, TypeError, "ensemble has no argument 'steps'"),
-    ({"on_failure": "raise"}, TypeError, "ensemble has no argument 'on_failure'"),
-    ({"progress": 3}, TypeError, "progress must be True"),
-    ({"p0": [1.0, 2.0]}, ValueError, "p0 must have 3 entries for each run of four_bar"),
-    ({"events": [3]}, TypeError, r"events\[0\] must be a callable"),
-    ({"formulation": "best"}, ValueError, "formulation must be one of"),
-    ({"reduce": 3}, TypeError, "reduce must be a function"),
-    ({"threads": 0}, ValueError, "threads must be between 1"),
-    ({"keep": "all"}, ValueError, "keep must be one of"),
-    ({"assemble": "yes"}, TypeError, "assemble must be True or False"),
-    ({"p0": np.zeros((2, 2, 2))}, ValueError, "p0 must have one axis"),
-    ({"start": {"crank.force": 1.0}}, ValueError, "no such measure"),
+@pytest.mark.parametrize(("arguments", "code", "said"), [
+    ({"parameters": {"crank.mass": [1, 2], "rocker.mass": [1, 2, 3]}}, "shape",
+     r"parameters\['crank.mass'\].*has 2.*parameters\['rocker.mass'\].*has 3.*zd.grid"),
+    ({"parameters": {"crank.mass": [1, 2]}, "start": {"crank.angle": [1, 2, 3]}}, "shape", r"start\['crank.angle'\].*has 3"),
+    ({"parameters": {"krank.mass": [1, 2]}}, "unknown-choice", "parameter"),
+    ({"parameters": {"crank.mass": []}}, "shape", None),
+    ({"parameters": {"crank.mass": ["a"]}}, "wrong-type", "must hold real numbers"),
+    ({"parameters": [{"crank.mass": 1}, {"rocker.mass": 1}]}, "wrong-name", r"parameters\[1\] and parameters\[0\]"),
+    ({"parameters": []}, "shape", None),
+    ({"parameters": 3}, "wrong-type", "parameters"),
+    ({"outputs": ["crank.angel"]}, "wrong-name", "'crank.angel'.*four_bar.*crank.angle"),
+    ({"outputs": [3]}, "wrong-type", "each of outputs must be a measure"),
+    ({"steps": 3}, "wrong-name", "'steps'"),
+    ({"on_failure": "raise"}, "wrong-name", "'on_failure'"),
+    ({"progress": 3}, "wrong-type", "progress"),
+    ({"p0": [1.0, 2.0]}, "shape", "^p0 must.*have 3.*four_bar"),
+    ({"events": [3]}, "wrong-type", r"events\[0\]"),
+    ({"formulation": "best"}, "unknown-choice", "formulation"),
+    ({"reduce": 3}, "wrong-type", "reduce"),
+    ({"threads": 0}, "out-of-range", "threads.*between 1"),
+    ({"keep": "all"}, "unknown-choice", "^keep must"),
+    ({"assemble": "yes"}, "wrong-type", "assemble"),
+    ({"p0": np.zeros((2, 2, 2))}, "shape", "^p0 must"),
+    ({"start": {"crank.force": 1.0}}, "wrong-name", None),
 ])
-def test_what_is_refused(arguments, error, said):
-    with pytest.raises(error, match=said):
+def test_what_is_refused(arguments, code, said):
+    with refused(code, said):
         zd.ensemble(zd.models.four_bar(), 0.1, **({"step": 0.01} | arguments))
 
 
 def test_what_a_grid_refuses():
     assert repr(zd.grid({"crank.mass": [1.0, 2.0]}, damping=[0.1, 0.2, 0.3])) == "<grid of 2 crank.mass x 3 damping>"
-    with pytest.raises(ValueError, match="a grid needs parameters"):
+    with refused("missing-argument"):
         zd.grid()
-    with pytest.raises(ValueError, match="a grid needs parameters"):
+    with refused("missing-argument"):
         zd.grid(a=1.0)
-    with pytest.raises(TypeError, match="'a' is given twice"):
+    with refused("duplicate-name", "'a'"):
         zd.grid({"a": [1]}, a=[2])
-    with pytest.raises(TypeError, match="values must be a dict"):
+    with refused("wrong-type", "values"):
         zd.grid([1, 2])
 
 
 def test_functions_that_make_no_systems():
-    with pytest.raises(TypeError, match="<lambda> must return a system or a Mechanism, not 3"):
+    with refused("user-function", "not 3"):
         zd.ensemble(lambda: 3, 1.0, step=0.1)
-    with pytest.raises(TypeError, match=r"pendulum\(length=1.0, .*\) does not take the parameters mass: .*'mass'"):
+    with refused("user-function", "1.0.*'mass'"):
         zd.ensemble(pendulum, 1.0, parameters={"mass": [1.0, 2.0]}, step=0.1)
 
 
 def test_keys_that_are_none():
     ens = zd.ensemble(pendulum, 0.1, parameters={"gravity": [5.0, 10.0]}, step=0.01)
-    with pytest.raises(IndexError, match="index of a run must be below 2"):
+    with refused("wrong-index", "below 2"):
         _ = ens[2]
-    with pytest.raises(TypeError, match="key of an ensemble must be"):
+    with refused("wrong-type", "key of an ensemble must be"):
         _ = ens[0.5]

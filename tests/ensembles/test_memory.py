@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 from zerodrift.ensembles import memory
 from zerodrift.runs import memory as free_space
 
@@ -37,7 +38,7 @@ def test_sizes_are_those_of_the_arrays():
 def test_more_than_memory_is_refused_before_anything_runs(scarce, monkeypatch):
     scarce(1.5 * SIZE - 1)      # the outputs, and one of two besides as they are joined
     begun = []
-    with pytest.raises(MemoryError, match=r"the outputs of 20 runs take 32\.3 kB, 48\.5 kB while they are joined, and 48\.5 kB "
+    with refused("no-memory", r"the outputs of 20 runs take 32\.3 kB, 48\.5 kB while they are joined, and 48\.5 kB "
                                           r"of memory are free: keep fewer outputs .* \(store\) \[zd:no-memory\]$"):
         zd.ensemble(BAR, 1.0, **STUDY, progress=begun.append)
     assert not begun
@@ -57,7 +58,7 @@ def test_chosen_steps_stop_where_memory_gets_short(scarce):
     size = sum(each.nbytes for each in whole._part.arrays.values()) + whole._part.t.nbytes
     assert size == memory.size_of(whole._part)
     scarce(size / 2)
-    with pytest.raises(MemoryError, match=r"the outputs of \d+ runs, which are done, take .* are free: keep fewer") as caught:
+    with refused("no-memory", r"the outputs of \d+ runs, which are done, take .* are free: keep fewer") as caught:
         zd.ensemble(BAR, 1.0, **CHOSEN)
     ens = caught.value.solution
     done = np.flatnonzero(~ens.failed)
@@ -83,7 +84,7 @@ def test_a_store_may_be_larger_than_memory(scarce, tmp_path, study):
             assert np.array_equal(ens[3]["alpha1"], here[3]["alpha1"])
             scarce(free)
     scarce(0)
-    with pytest.raises(MemoryError, match=r"output 'alpha1' of all runs takes .*, and 0 bytes of memory are free: ens\[i\]"):
+    with refused("no-memory", r"'alpha1'.*and 0.*ens\[i\]"):
         there["alpha1"]
 
 
@@ -103,6 +104,6 @@ def test_parts_that_overlap_and_are_in_files(scarce, tmp_path):
 def test_a_disk_without_room_is_refused_before_anything_runs(scarce, tmp_path, monkeypatch):
     scarce(0)
     monkeypatch.setattr(free_space.shutil, "disk_usage", lambda folder: type("Usage", (), {"free": SIZE - 1}))
-    with pytest.raises(OSError, match=r"the outputs of 20 runs take 32\.3 kB, and 32\.3 kB are free in .*study: keep fewer"):
+    with refused("no-space", r"of 20.*take 32\.3.*and 32\.3"):
         zd.ensemble(BAR, 1.0, **STUDY, store=tmp_path / "new" / "study")
     assert not list(tmp_path.iterdir())

@@ -11,6 +11,7 @@ from scipy.special import ellipk
 
 import zerodrift as zd
 from every_model import IN_SPACE, MECHANISMS
+from support import refused
 from zerodrift import _gateway
 from zerodrift._gateway.mechanisms.blocks import SECTIONS, BlockCore
 
@@ -92,13 +93,13 @@ def test_a_parameter_of_the_mechanism_is_a_number_of_its_programs():
 
 
 def test_callables_and_unknown_functions_are_refused_by_name():
-    with pytest.raises(ValueError, match="torque of motor 'drive' is a callable, which a block cannot hold"):
+    with refused("not-portable", "'drive'"):
         zd.block(linkage(torque=lambda t: t))
-    with pytest.raises(ValueError, match="outputs of a block must be measures of the mechanism"):
+    with refused("wrong-name"):
         zd.block(linkage(torque=1.0).system("absolute"), outputs=["pin.y"])
-    with pytest.raises(ValueError, match="inputs must name forces, torques and speeds"):
+    with refused("wrong-name", "inputs"):
         zd.block(linkage(torque=t), inputs=["drive.torque"])
-    with pytest.raises(TypeError, match="a mechanism or its system"):
+    with refused("wrong-type", "a mechanism or its system"):
         zd.block(zd.systems.four_bar())
 
 
@@ -118,7 +119,7 @@ def test_inputs_are_set_by_name():
     opened["drive.torque"] = 3.5
     opened.step(STEPS)
     np.testing.assert_array_equal(run(core, STEPS * STEP, torque=3.5)["p"][-1], opened.p)
-    with pytest.raises(ValueError, match="must be a finite number, not nan"):
+    with refused("not-finite"):
         core.set_input("drive.torque", math.nan)
 
 

@@ -15,6 +15,7 @@ from mechanisms.every_element import hinged, machinery, vehicles
 from mechanisms.every_joint_by_row import by_row
 from mechanisms.known import four_bar
 from mechanisms.random_mechanisms import Maker
+from support import refused
 from tolerances import EPS
 from zerodrift._gateway.mechanisms.plane import element_kinds, joint_kinds
 
@@ -145,9 +146,9 @@ def test_own_parameters_are_numbers_too():
 def test_callables_are_refused_by_the_name_of_their_element(layout, add, named):
     m = swinging()
     add(m)
-    with pytest.raises(ValueError, match=f"{named} is a callable, which compiled=True cannot write out"):
+    with refused("not-portable", f"{named} is a callable, which compiled=True cannot write out"):
         m.system(layout, compiled=True)
-    with pytest.raises(TypeError, match="compiled must be True or False, not 'yes'"):
+    with refused("wrong-type", "compiled.*'yes'"):
         m.system(layout, compiled="yes")
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 import zerodrift as zd
-from support import assert_close
+from support import assert_close, refused
 
 
 @pytest.mark.parametrize("n", [2, 3, 4, 5, 30])
@@ -48,18 +48,18 @@ def test_a_force_from_measured_data():
 
 
 def test_beyond_its_ends_a_table_is_an_error_that_says_where():
-    with pytest.raises(ValueError, match=r"the table goes from t = 0 to 1, and its value at 1\.\d+"):
+    with refused("out-of-range", r"the table goes from t = 0 to 1, and its value at 1\.\d+"):
         zd.simulate(driven(zd.table([0, 1], [0, 1])), 2.0, step=0.3)
 
 
-@pytest.mark.parametrize(("x", "y", "message"), [
-    ([0, 1, 1], [0, 1, 2], "x of a table must increase, and x\\[2\\] = 1 follows"),
-    ([0], [1], "must have shape"),
-    ([0, 1], [1, 2, 3], "y of a table"),
-    ([0, np.nan], [1, 2], "x of a table"),
+@pytest.mark.parametrize(("x", "y", "code", "message"), [
+    ([0, 1, 1], [0, 1, 2], "not-increasing", r"x\[2\].*1"),
+    ([0], [1], "shape", None),
+    ([0, 1], [1, 2, 3], "shape", None),
+    ([0, np.nan], [1, 2], "not-increasing", None),
 ])
-def test_tables_that_are_refused(x, y, message):
-    with pytest.raises(ValueError, match=message):
+def test_tables_that_are_refused(x, y, code, message):
+    with refused(code, message):
         zd.table(x, y)
 
 
@@ -71,21 +71,21 @@ def test_a_table_from_a_csv_file(tmp_path, heading):
     assert repr(zd.table(str(tmp_path / "motion.csv"))) == repr(known)
 
 
-@pytest.mark.parametrize(("text", "message"), [
-    ("t,x\n0,1\n1,2,3\n", "line 3 .* '1,2,3'"),
-    ("0;1\n1;2\n2;3\n", "line 2"),
-    ("", "shape"),
+@pytest.mark.parametrize(("text", "code", "message"), [
+    ("t,x\n0,1\n1,2,3\n", "unreadable-file", "line 3.*'1,2,3'"),
+    ("0;1\n1;2\n2;3\n", "unreadable-file", "line 2"),
+    ("", "shape", None),
 ])
-def test_files_that_are_no_tables(tmp_path, text, message):
+def test_files_that_are_no_tables(tmp_path, text, code, message):
     (tmp_path / "motion.csv").write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=message):
+    with refused(code, message):
         zd.table(tmp_path / "motion.csv")
-    with pytest.raises(TypeError, match="x and y"):
+    with refused("wrong-type", "x and y"):
         zd.table([0, 1])
-    with pytest.raises(TypeError, match="y of a table must be left out"):
+    with refused("conflicting-arguments"):
         zd.table(tmp_path / "motion.csv", [0, 1])
 
 
 def test_functions_without_derivatives_name_the_table():
-    with pytest.raises(TypeError, match=r"zd\.table\(t, y\)"):
+    with refused("user-function", r"zd\.table"):
         zd.simulate(driven(lambda t: np.interp(t, [0, 1], [0, 1])), 0.5, step=0.1)

@@ -8,6 +8,7 @@ import sympy as sp
 
 import tolerances as tol
 import zerodrift as zd
+from support import refused
 
 
 @pytest.fixture
@@ -30,12 +31,12 @@ def pin(m, link):
 
 @pytest.mark.parametrize("name", ["", " ", "a.b", " a", "a ", "é", "a\n"])
 def test_a_name_is_letters_digits_and_blanks(m, name):
-    with pytest.raises(ValueError, match=r"name of a body must be of letters, digits, blanks inside, '_' and '-', not "):
+    with refused("wrong-value", r"name of a body must be of letters, digits, blanks inside, '_' and '-', not "):
         m.body(name, 1.0)
 
 
 def test_a_name_is_a_string(m):
-    with pytest.raises(TypeError, match=r"name of a body must be a string, not 3"):
+    with refused("wrong-type", "not 3"):
         m.body(3, 1.0)
 
 
@@ -45,54 +46,54 @@ def test_a_name_is_a_string(m):
     lambda m: m.revolute("link", m.ground, m["link"].start),
     lambda m: m.spring("ground", m.ground.point((0, 0)), m["link"].end, stiffness=1.0)])
 def test_a_name_is_taken_once(m, link, add):
-    with pytest.raises(ValueError, match=r"name '(link|ground)' is taken"):
+    with refused("duplicate-name", r"name '(link|ground)' is taken"):
         add(m)
 
 
 def test_elements_are_found_by_name(m, link, pin):
     assert m["link"] is link
     assert (m.bodies, m.joints, m.motors) == ((link,), (pin,), ())
-    with pytest.raises(KeyError, match=r"nothing in m is called 'rod'; there are ground, link, pin"):
+    with refused("wrong-name", "'rod'"):
         m["rod"]
 
 
 # ---- bodies and points ----
 
 
-@pytest.mark.parametrize(("add", "error"), [
-    (lambda m: m.body("b", -1.0), "mass of 'b' must be at least 0, not -1"),
-    (lambda m: m.body("b", 1.0, -0.1), "inertia of 'b' must be at least 0, not -0.1"),
-    (lambda m: m.body("b", 1.0, at=(1, 2, 3)), r"at of 'b' must have shape \(2,\)"),
-    (lambda m: m.body("b", 1.0, com=(np.nan, 0)), "com of 'b' must be finite"),
-    (lambda m: m.link("l", (1, 1), (1, 1), 1.0), "start and end of 'l' must be two places"),
-    (lambda m: m.link("l", (0, 0), (1, 1), 1.0, length=0.0), "length of 'l' must be greater than 0, not 0"),
-    (lambda m: m.link("l", (0, 0), (1, 1), 1.0, inertia=-1.0), "inertia of 'l' must be at least 0, not -1"),
-    (lambda m: m.particle("p", -2.0, at=(0, 0)), "mass of 'p' must be at least 0, not -2"),
-    (lambda m: m.prismatic("s", m.ground, m.body("b", 1.0), axis=(0, 0)), "axis of 's' must be a direction in the drawing"),
-    (lambda m: m.slot("s", m.ground, m.particle("p", 1.0, at=(0, 0)), axis=(0, 0)), "axis of 's' must be a direction"),
-    (lambda m: m.knife_edge("k", m.body("b", 1.0), along=(0, 0)), "along of 'k' must be a direction in the drawing"),
-    (lambda m: m.force("f", m.body("b", 1.0), along=(0, 0), value=1.0), "along of 'f' must be a direction in the drawing"),
-    (lambda m: m.rolling("r", m.ground, m.body("b", 1.0), radius=-1.0), "radius of 'r' must be greater than 0, not -1"),
-    (lambda m: m.rod("r", m.ground.point((0, 0)), m.particle("p", 1.0, at=(0, 0))), "length of 'r', as drawn, must be"),
-    (lambda m: m.revolute("r", m.ground, m.body("b", 1.0), at=(0, 0), damping=-1.0), "damping of 'r' must be at least 0, not -1"),
+@pytest.mark.parametrize(("add", "code", "error"), [
+    (lambda m: m.body("b", -1.0), "out-of-range", "'b'.*least 0, not -1"),
+    (lambda m: m.body("b", 1.0, -0.1), "out-of-range", "'b'.*least 0, not -0.1"),
+    (lambda m: m.body("b", 1.0, at=(1, 2, 3)), "shape", "'b'.*2"),
+    (lambda m: m.body("b", 1.0, com=(np.nan, 0)), "not-finite", "'b'"),
+    (lambda m: m.link("l", (1, 1), (1, 1), 1.0), "geometry", "'l'"),
+    (lambda m: m.link("l", (0, 0), (1, 1), 1.0, length=0.0), "out-of-range", "'l'.*than 0, not 0"),
+    (lambda m: m.link("l", (0, 0), (1, 1), 1.0, inertia=-1.0), "out-of-range", "'l'.*least 0, not -1"),
+    (lambda m: m.particle("p", -2.0, at=(0, 0)), "out-of-range", "'p'.*least 0, not -2"),
+    (lambda m: m.prismatic("s", m.ground, m.body("b", 1.0), axis=(0, 0)), "geometry", "'s'"),
+    (lambda m: m.slot("s", m.ground, m.particle("p", 1.0, at=(0, 0)), axis=(0, 0)), "geometry", "'s'"),
+    (lambda m: m.knife_edge("k", m.body("b", 1.0), along=(0, 0)), "geometry", "'k'"),
+    (lambda m: m.force("f", m.body("b", 1.0), along=(0, 0), value=1.0), "geometry", "'f'"),
+    (lambda m: m.rolling("r", m.ground, m.body("b", 1.0), radius=-1.0), "out-of-range", "'r'.*than 0, not -1"),
+    (lambda m: m.rod("r", m.ground.point((0, 0)), m.particle("p", 1.0, at=(0, 0))), "out-of-range", "'r'"),
+    (lambda m: m.revolute("r", m.ground, m.body("b", 1.0), at=(0, 0), damping=-1.0), "out-of-range", "'r'.*least 0, not -1"),
 ])
-def test_numbers_are_checked_where_they_are_given(m, add, error):
-    with pytest.raises(ValueError, match=error):
+def test_numbers_are_checked_where_they_are_given(m, add, code, error):
+    with refused(code, error):
         add(m)
 
 
-@pytest.mark.parametrize(("given", "kind", "error"), [
-    ({"along": (0, 1)}, TypeError, r"force 'f' needs value=, its magnitude in N, whose direction.* such as \(0.0, -10.0\)"),
-    ({"value": 5.0}, TypeError, r"force 'f' needs along=, its direction in the drawing, such as \(0.0, -10.0\), as value="),
-    ({"value": (0, 5.0), "along": (0, 1)}, ValueError, r"value of force 'f' must be a number or a function, not a vector"),
-    ({"value": (0, 5.0, 1.0)}, ValueError, r"value of force 'f' must have shape \(2,\)"),
-    ({"value": (0, 0)}, ValueError, r"value of force 'f' must be a direction"),
+@pytest.mark.parametrize(("given", "code", "error"), [
+    ({"along": (0, 1)}, "missing-argument", "'f'.*0.0, -10.0"),
+    ({"value": 5.0}, "missing-argument", "'f'.*0.0, -10.0"),
+    ({"value": (0, 5.0), "along": (0, 1)}, "conflicting-arguments", "'f'"),
+    ({"value": (0, 5.0, 1.0)}, "shape", "'f'.*2"),
+    ({"value": (0, 0)}, "geometry", "'f'"),
 ])
-def test_a_force_without_direction_or_magnitude_is_refused_with_what_is_missing(m, given, kind, error):
+def test_a_force_without_direction_or_magnitude_is_refused_with_what_is_missing(m, given, code, error):
     body = m.body("b", 1.0)
-    with pytest.raises(kind, match=error):
+    with refused(code, error):
         m.force("f", body, **given)
-    with pytest.raises(TypeError, match="needs value="):
+    with refused("missing-argument"):
         m.force("f", body, (0, 1))      # as it is typed first
 
 
@@ -118,18 +119,18 @@ def test_parameters_have_names_that_callables_can_take(name):
 
 def test_a_point_has_one_place(m, link):
     for given in ({}, {"local": (0, 0), "at": (0, 0)}):
-        with pytest.raises(TypeError, match=r"a point of 'link' needs one of two"):
+        with refused("conflicting-arguments", "'link'"):
             link.point(**given)
 
 
 def test_only_named_points_have_measures(m, link):
     assert link.point((0.5, 0), name="P").position.x.name == "P.position.x"
-    with pytest.raises(AttributeError, match=r"has no name, and so no measures: give it one, link.point"):
+    with refused("wrong-attribute", "link.point"):
         _ = link.point((0.5, 0)).position
 
 
 def test_a_particle_has_no_angle(m):
-    with pytest.raises(AttributeError, match=r"particle 'bob' has no orientation"):
+    with refused("wrong-attribute", "'bob'"):
         _ = m.particle("bob", 1.0, at=(0, 0)).angle
 
 
@@ -144,26 +145,26 @@ def test_the_frame_of_a_link(m):
 
 
 def test_a_joint_joins_two_bodies(m, link):
-    with pytest.raises(ValueError, match=r"'j' joins 'link' to itself"):
+    with refused("wrong-element", "'j'.*'link'"):
         m.revolute("j", link.start, link.end)
-    with pytest.raises(ValueError, match=r"'s' joins 'link' to itself"):
+    with refused("wrong-element", "'s'.*'link'"):
         m.spring("s", link.start, link.end, stiffness=1.0)
 
 
 def test_two_bodies_need_a_place(m, link):
-    with pytest.raises(TypeError, match=r"'j' joins two bodies, 'ground' and 'link': it needs at="):
+    with refused("missing-argument", "'j'.*'ground' and 'link'"):
         m.revolute("j", m.ground, link)
-    with pytest.raises(TypeError, match=r"at= of 'j' goes with two bodies"):
+    with refused("conflicting-arguments", "'j'"):
         m.revolute("j", m.ground, link.start, at=(0, 0))
 
 
 def test_points_belong_to_the_mechanism(m, link):
     stranger = zd.Mechanism("other").link("link", (0, 0), (1, 0), mass=1.0)
-    with pytest.raises(ValueError, match=r"second must be a body of 'm', and <link link> is not"):
+    with refused("wrong-element", "second.*'m'"):
         m.revolute("j", m.ground, stranger.start)
-    with pytest.raises(TypeError, match=r"second must be a point of a body, such as link.end or body.point\(\(x, y\)\), not"):
+    with refused("wrong-type", "second.*link.end or body.point"):
         m.revolute("j", m.ground, (0, 0))
-    with pytest.raises(TypeError, match=r"first must be a point, and 'link' is a whole body: take link.point\(...\)"):
+    with refused("wrong-element", "first.*'link'.*link.point"):
         m.rod("r", link, m.ground.point((0, 0)))
 
 
@@ -180,7 +181,7 @@ def test_a_body_and_a_point_meet_where_the_point_is_drawn(m, link):
     lambda m, p: m.motor("j", m.revolute("r", m.ground.point((0, 0)), p), speed=1.0),
     lambda m, p: m.torque("j", p, value=1.0), lambda m, p: m.knife_edge("j", p, along=(1, 0))])
 def test_what_needs_an_orientation_refuses_a_particle_by_name(m, add):
-    with pytest.raises(ValueError, match=r"particle"):
+    with refused("wrong-element"):
         add(m, m.particle("bob", 1.0, at=(0, 0)))
 
 
@@ -189,56 +190,56 @@ def test_what_needs_an_orientation_refuses_a_particle_by_name(m, add):
 
 @pytest.mark.parametrize("given", [{}, {"angle": 1.0, "speed": 2.0}])
 def test_a_motor_has_one_law(m, pin, given):
-    with pytest.raises(TypeError, match=r"motor 'drive' needs one of angle, displacement, speed, torque, force, not "):
+    with refused("conflicting-arguments", "'drive'"):
         m.motor("drive", pin, **given)
 
 
 def test_a_motor_drives_what_the_joint_has(m, pin):
-    with pytest.raises(ValueError, match=r"joint of motor 'drive' must be a joint with displacement, and 'pin' is a revolute"):
+    with refused("wrong-element", "'drive'.*'pin'"):
         m.motor("drive", pin, displacement=1.0)
 
 
 def test_two_motors_on_one_freedom_are_named(m, pin):
     m.motor("torque", pin, torque=1.0)
     m.motor("one", pin, speed=1.0)
-    with pytest.raises(ValueError, match=r"motors 'one' and 'two' both prescribe 'pin': one freedom takes one motor"):
+    with refused("prescribed-twice", "'one' and 'two'.*'pin'"):
         m.motor("two", pin, angle=1.0)
 
 
 def test_a_start_against_a_motor_names_both(m, pin):
     m.motor("drive", pin, speed=1.0)
-    with pytest.raises(ValueError, match=r"start holds 'pin.speed', which motor 'drive' prescribes"):
+    with refused("prescribed-twice", "'pin.speed'.*'drive'"):
         m.start({pin.speed: 2.0})
 
 
 def test_callables_that_ask_for_what_is_not_there(m, link, pin):
-    with pytest.raises(TypeError, match=r"torque of motor 'drive' asks for 'x'; there is t, amplitude, s"):
+    with refused("user-function", "'drive'.*'x'"):
         m.motor("drive", pin, torque=lambda x: x, of={"s": pin.angle})
-    with pytest.raises(TypeError, match=r"value of force 'f' asks for 'y'; there is t, amplitude, and measures"):
+    with refused("user-function", "'f'.*'y'"):
         m.force("f", link, along=(1, 0), value=sp.Symbol("y"))
-    with pytest.raises(ValueError, match=r"value of force 'f' names 'rod.angle', and there is no 'rod' in 'm'"):
+    with refused("wrong-name", "'f'.*'rod.angle'.*'rod'.*'m'"):
         m.force("f", link, along=(1, 0), value=lambda a: a, of={"a": "rod.angle"})
-    with pytest.raises(TypeError, match=r"of= of value of force 'f' must be a dict of measures"):
+    with refused("wrong-type", "'f'"):
         m.force("f", link, along=(1, 0), value=lambda a: a, of=[pin.angle])
 
 
 @pytest.mark.parametrize("measure", ["link.colour", "link.angle.x", "link.position", "pin.force", "pin.displacement",
                                      "link.position.z"])
 def test_laws_depend_on_scalar_measures_of_positions_and_velocities(m, link, pin, measure):
-    with pytest.raises(ValueError, match=r"must depend on scalar measures of positions and velocities"):
+    with refused("wrong-measure"):
         m.force("f", link, along=(1, 0), value=lambda a: a, of={"a": measure})
 
 
 def test_drives_and_holonomic_constraints_do_not_depend_on_velocities(m, link, pin):
-    with pytest.raises(ValueError, match=r"measures of positions alone, and 'pin.speed' is a velocity"):
+    with refused("wrong-measure", "'pin.speed'"):
         m.motor("drive", pin, speed=lambda w: w, of={"w": pin.speed})
-    with pytest.raises(ValueError, match=r"measures of positions alone, and 'link.velocity.x' is a velocity"):
+    with refused("wrong-measure", "'link.velocity.x'"):
         m.constraint("c", lambda u: u, of={"u": link.velocity.x})
 
 
 def test_a_nonholonomic_constraint_is_linear(m, link):
     m.nonholonomic("c", lambda u: u**2, of={"u": link.velocity.x})
-    with pytest.raises(ValueError, match=r"nonholonomic 'c' must be linear in measures of velocities, and is not"):
+    with refused("user-function", "'c'"):
         m.system()
 
 
@@ -254,7 +255,7 @@ def test_gears_have_a_ratio(m, link, pin, ratio):
     other = m.revolute("other", link.end, m.link("next", (1, 0), (2, 0), mass=1.0).start)
     with pytest.raises(ValueError, match=r"ratio of 'gear' must"):
         m.gear("gear", pin, other, ratio=ratio)
-    with pytest.raises(ValueError, match=r"'gear' couples 'pin' to itself"):
+    with refused("wrong-element", "'gear'.*'pin'"):
         m.gear("gear", pin, pin, ratio=1.0)
 
 
@@ -262,14 +263,14 @@ def test_gears_have_a_ratio(m, link, pin, ratio):
 
 
 def test_a_start_names_what_there_is(m, link, pin):
-    with pytest.raises(ValueError, match=r"start names 'rod.angle', and there is no 'rod' in 'm'"):
+    with refused("wrong-name", "'rod.angle'.*'rod'.*'m'"):
         m.start({"rod.angle": 1.0})
-    with pytest.raises(TypeError, match=r"a key of held must be a measure, such as crank.angle, or its name, not 3"):
+    with refused("wrong-type", "crank.angle.*not 3"):
         m.start({3: 1.0})
     for name, first in (("link.angel", "link.angle"), ("pin", "pin"), ("pin.force", "pin"), ("link.end.velocty", "link.end.vel")):
-        with pytest.raises(ValueError, match=rf"start names '{name}', and there is no such measure .*can be given: {first}"):
+        with refused("wrong-name", rf"start names '{name}', and there is no such measure .*can be given: {first}"):
             m.start({"link.angle": 9.0, name: 1.0})
-    with pytest.raises(ValueError, match=r"wish\['link.position'\] must have 2 components, not 1"):
+    with refused("shape", r"wish\['link.position'\].*have 2.*not 1"):
         m.start(wish={link.position: 1.0})
     np.testing.assert_allclose(m.system().p0, [0.0])      # nothing of what was refused is kept
 
@@ -303,7 +304,7 @@ def test_a_system_can_be_pickled(m, link, pin):
 
 
 def test_coordinates_are_one_of_two(m, link, pin):
-    with pytest.raises(ValueError, match=r"coordinates must be one of 'joint', 'absolute', not 'relative'"):
+    with refused("unknown-choice", "coordinates.*'joint', 'absolute', not 'relative'"):
         m.system("relative")
 
 
@@ -318,6 +319,6 @@ def test_numbers_change_by_path_and_what_follows_from_them(m, link, pin):
 
 
 def test_a_state_is_for_systems_alone(m, link, pin):
-    with pytest.raises(TypeError, match=r"p0 and v0 are for a system, whose coordinates are known, and 'm' is a mechanism"):
+    with refused("conflicting-arguments", "'m'"):
         zd.simulate(m, 1.0, [0.0], step=0.1)
     assert zd.simulate(m.system("joint"), 1.0, [0.3], step=0.1).p[0, 0] == 0.3

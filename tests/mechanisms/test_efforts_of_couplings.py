@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 
 STEP = 1e-3
 DIFFERENCED = 2e-4      # of the largest: central differences are off by STEP^2 / 6 times third derivatives of up to some hundred
@@ -109,8 +110,8 @@ def test_a_coupling_has_the_effort_of_its_unit():
     bead = m.particle("bead", 0.1, at=(1, 1))
     line = m.coupler("line", {bead.position.x: 1.0, bead.position.y: -1.0})
     assert line.force.name == "line.force"
-    with pytest.raises(AttributeError, match=r"coupler 'line' of .*\.x, .*\.y has no torque; it has force"):
+    with refused("wrong-attribute", "'line'"):
         _ = line.torque
     wire = m.constraint("wire", lambda x: x, of={"x": bead.position.x})
-    with pytest.raises(AttributeError, match=r"constraint 'wire' of .* has no force; it has no measure but its multiplier"):
+    with refused("wrong-attribute", "'wire'"):
         _ = wire.force

@@ -6,6 +6,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 import zerodrift as zd
+from support import refused
 from zerodrift.mechanisms.building.periodic_spline import PeriodicSpline
 from zerodrift.systems.autodiff import Jet
 
@@ -93,7 +94,7 @@ def test_a_table_may_end_where_its_turn_closes():
     once = PeriodicSpline("profile", angles, values)
     assert [closed(angle) for angle in np.linspace(0, 20, 7)] == [once(angle) for angle in np.linspace(0, 20, 7)]
     for end, value in ((2 * np.pi, values[0] + 1e-3), (2 * np.pi + 0.1, values[0])):
-        with pytest.raises(ValueError, match="angles of profile must increase and lie within one turn"):
+        with refused("not-increasing"):
             PeriodicSpline("profile", np.append(angles, end), np.append(values, value))
 
 
@@ -261,7 +262,7 @@ def test_a_weld_that_is_cut_is_rows():
     one, other = (zd.simulate(system, 0.1, step=1e-3) for system in (tree, cut))
     for measure in ("arm.angle", "tool.end.position", "glue.force", "glue.torque"):
         np.testing.assert_allclose(one[measure], other[measure], rtol=0, atol=1e-9)
-    with pytest.raises(TypeError, match="cut of 'wire' must be True or False, not 0"):
+    with refused("wrong-type", "'wire'.*not 0"):
         made().slot("wire", "arm", "tool.end", axis=(1, 0), cut=0)
 
 
@@ -273,7 +274,7 @@ def test_cut_says_where_a_loop_is_closed():
     m.revolute("C", b.end, c.start)
     m.revolute("D", c.end, m.ground.point((2, 0)))
     assert [variable.name for variable in m.system().constraints] == ["B.x", "B.y"]
-    with pytest.raises(TypeError, match="cut of 'E' must be True or False, not 1"):
+    with refused("wrong-type", "'E'.*not 1"):
         m.revolute("E", m.ground, b.end, cut=1)
 
 
@@ -292,7 +293,7 @@ def test_what_a_callable_raises_says_where(layout):
 def test_what_a_callable_returns_is_a_number():
     m, bodies, _ = wheels(1)
     m.torque("air", bodies[0], value=lambda: [1.0, 2.0])
-    with pytest.raises(TypeError, match="what value of torque 'air' returns at t = 0 must be a real number"):
+    with refused("wrong-type", "'air'.*0"):
         zd.simulate(m, 1.0, step=0.1)
 
 
@@ -301,14 +302,14 @@ def test_what_a_callable_returns_is_a_number():
 def test_prescribed_motions_have_derivatives(motion):
     m, _, joints = wheels(1)
     m.motor("drive", joints[0], angle=motion)
-    with pytest.raises(TypeError, match=r"angle of motor 'drive' must have derivatives: .* np\.interp, np\.floor and % have"):
+    with refused("user-function", r"'drive'.*np\.interp, np\.floor"):
         zd.simulate(m, 1.0, step=0.1)
 
 
 @pytest.mark.parametrize("given", [([0.0, 1.0], [0.0, 1.0]), np.zeros((2, 2)), {"t": 1.0}])
 def test_laws_are_numbers_functions_or_expressions(given):
     m, _, joints = wheels(1)
-    with pytest.raises(TypeError, match="angle of motor 'drive' must be a number, a function, an expression of SymPy"):
+    with refused("wrong-type", "'drive'"):
         m.motor("drive", joints[0], angle=given)
 
 
@@ -346,14 +347,14 @@ def test_a_terminal_event_ends_the_run_and_a_direction_counts():
     np.testing.assert_allclose(sol["link.angle"][-1], -5 * np.pi / 6, atol=1e-12)
 
 
-@pytest.mark.parametrize(("event", "error"), [
-    (zd.Event("link.position"), "events must be a scalar measure of positions or velocities, and 'link.position' is none"),
-    (zd.Event("pin.force.x"), "events must be a scalar measure of positions or velocities, and 'pin.force.x' is none"),
-    (zd.Event("rod.angle"), "events must be one of "),
-    (zd.Event(3), "events must be a measure, the name of one, an expression or a callable, not 3"),
-    (zd.Event(lambda x: x), "events asks for 'x'; there is t, p, v, low"), (3, "events must be a callable event")])
-def test_events_that_there_are_not(event, error):
-    with pytest.raises((TypeError, ValueError), match=error):
+@pytest.mark.parametrize(("event", "code", "error"), [
+    (zd.Event("link.position"), "wrong-measure", "events.*'link.position'"),
+    (zd.Event("pin.force.x"), "wrong-measure", "events.*'pin.force.x'"),
+    (zd.Event("rod.angle"), "unknown-choice", "events"),
+    (zd.Event(3), "wrong-type", "events.*not 3"),
+    (zd.Event(lambda x: x), "user-function", "'x'"), (3, "wrong-type", "events")])
+def test_events_that_there_are_not(event, code, error):
+    with refused(code, error):
         zd.simulate(pendulum()[0], 1.0, step=0.1, events=event)
 
 

@@ -7,6 +7,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
+from support import refused
 from zerodrift.mechanisms.elements.joints import BY_ROW
 from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_BY_ROW
 from zerodrift.mechanisms.files.expressions_json import from_json, to_json
@@ -134,7 +135,7 @@ CALLABLES = {
 def test_callables_are_named(what, tmp_path):
     m = crank()
     CALLABLES[what](m, m["pin"])
-    with pytest.raises(ValueError, match=f"^{what} is a callable, which cannot be saved: a SymPy expression in its place can "):
+    with refused("not-portable", f"^{what} is a callable, which cannot be saved: a SymPy expression in its place can "):
         m.save(tmp_path / "m")
     assert not list(tmp_path.iterdir())
 
@@ -160,8 +161,7 @@ def test_without_its_mechanism_a_solution_has_what_was_recorded_and_says_why_not
     again = zd.load(sol.save(tmp_path / "motion"))
     assert isinstance(again.system, Described)
     assert np.array_equal(again["pin.force.y"], sol["pin.force"][:, 1])
-    with pytest.raises(KeyError, match=r"'pin.torque' was not recorded, and crank was not saved with its motion: speed of "
-                                       r"motor 'drive' is a callable, .* simulate\(..., outputs=\['pin.torque'\]\) records it"):
+    with refused("not-available", "'pin.torque'.*'drive'.*'pin.torque'"):
         again["pin.torque"]
 
 
@@ -183,7 +183,7 @@ def test_expressions_come_back(expression):
     (sp.Add(t, t, evaluate=False), "law is an expression that would be simplified where it is read"),
 ], ids=["function", "digits", "unevaluated"])
 def test_expressions_that_cannot_be_saved(expression, sentence):
-    with pytest.raises(ValueError, match=sentence.replace("; ", ": ", 1)):
+    with refused("not-portable", sentence.replace("; ", ": ", 1)):
         to_json(expression, "law")
 
 
@@ -195,7 +195,7 @@ def test_expressions_that_cannot_be_saved(expression, sentence):
     (["sin", "t", "t", "t"], "law has the operation 'sin' of t, t, t"), (["<", ["true"], 1], "law has the operation '<'"),
 ], ids=str)
 def test_what_is_no_expression(written, sentence):
-    with pytest.raises(ValueError, match=sentence):
+    with refused("unreadable-file", sentence):
         from_json(written, "law")
 
 
@@ -245,7 +245,7 @@ WRONG = {
 def test_what_is_wrong_is_named_with_its_place(what, tmp_path):
     change, sentence = WRONG[what]
     path = changed(crank(speed=sp.cos(t)).save(tmp_path / "m"), change)
-    with pytest.raises(ValueError, match=sentence):
+    with refused("unreadable-file", sentence):
         zd.load(path)
 
 
@@ -258,7 +258,7 @@ def test_what_is_wrong_is_named_with_its_place(what, tmp_path):
 def test_text_that_is_wrong(old, new, sentence, tmp_path):
     path = crank().save(tmp_path / "m")
     path.write_text(path.read_text().replace(old, new, 1))
-    with pytest.raises(ValueError, match=sentence):
+    with refused("unreadable-file", sentence):
         zd.load(path)
 
 
@@ -269,5 +269,5 @@ def test_parts_of_joints_that_are_wrong(kind, key, value, sentence, tmp_path):
     def change(description):
         next(element for element in description["elements"] if element["kind"] == kind)[key] = value
 
-    with pytest.raises(ValueError, match=rf"\({kind} '\w+'\): {sentence}"):
+    with refused("unreadable-file", rf"\({kind} '\w+'\): {sentence}"):
         zd.load(changed(everything().save(tmp_path / "m"), change))

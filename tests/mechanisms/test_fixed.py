@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 
 
 @pytest.fixture
@@ -21,7 +22,7 @@ def pendulum():
     ("link", "mass"), ("link", "inertia"), ("link", "length"), ("pin", "damping"), ("spring", "stiffness"),
     ("clock", "stiffness"), ("motor", "law"), ("link", "pose"), ("pin", "first")])
 def test_attributes_are_set_once(pendulum, element, attribute):
-    with pytest.raises(AttributeError, match=rf"{attribute} of '{element}' must not change.*with_parameters"):
+    with refused("wrong-attribute", rf"{attribute} of '{element}' must not change.*with_parameters"):
         setattr(pendulum[element], attribute, 2.0)
 
 

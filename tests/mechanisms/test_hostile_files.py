@@ -7,6 +7,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
+from support import refused
 
 
 @pytest.fixture
@@ -39,7 +40,7 @@ def deep(depth):
 ])
 def test_expressions_that_are_refused(good, tmp_path, expression, message):
     (tmp_path / "h.json").write_text(with_law(good, expression))
-    with pytest.raises(ValueError, match=rf"element 2 \(motor 'motor'\).*{message}"):
+    with refused("unreadable-file", rf"element 2 \(motor 'motor'\).*{message}"):
         zd.load(tmp_path / "h.json")
 
 
@@ -53,11 +54,11 @@ def test_expressions_that_are_read(good, tmp_path, expression):
 def test_kinds_are_names(good, tmp_path):
     good["elements"][0]["kind"] = ["link"]
     (tmp_path / "h.json").write_text(json.dumps(good))
-    with pytest.raises(ValueError, match=r"element 0 is of kind \['link'\], which is not known"):
+    with refused("unreadable-file", "element 0.*'link'"):
         zd.load(tmp_path / "h.json")
 
 
 def test_numbers_of_thousands_of_digits(good, tmp_path):
     (tmp_path / "h.json").write_text(json.dumps(good).replace('"mass": 1.0', '"mass": 1' + "0" * 5000))
-    with pytest.raises(ValueError, match=r"h.json has a whole number of 5001 digits"):
+    with refused("unreadable-file", "h.json.*of 5001"):
         zd.load(tmp_path / "h.json")

@@ -7,7 +7,7 @@ import sympy as sp
 import zerodrift as zd
 from covering import spread
 from every_model import MECHANISMS
-from support import assert_close
+from support import assert_close, refused
 from zerodrift.mechanisms.building.plane_to_space import LIFTED
 
 ROUGH = {"jansen", "klann", "stephenson"}       # sketches: the two assemblies stop within 1e-6 of each other
@@ -118,12 +118,12 @@ def test_a_soft_joint():
 def test_what_cannot_be_lifted_is_named(monkeypatch):
     monkeypatch.delitem(LIFTED, "bushing")      # stands for a new kind of element
     m = mounted()
-    with pytest.raises(ValueError, match="'mount' cannot be lifted: a bushing has no counterpart in space"):
+    with refused("wrong-dimension", "'mount'"):
         m.lifted()
     m = zd.Mechanism("sail")
     body = m.body("body", 1.0, 0.1)
     m.force("wind", body, along=(1, 0), value=lambda a: np.cos(a), of={"a": body.angle})
-    with pytest.raises(ValueError, match=r"'body.angle' cannot be lifted: 'body' has a rotation in space and no angle"):
+    with refused("wrong-dimension", "'body.angle'.*'body'"):
         m.lifted()
-    with pytest.raises(ValueError, match="'chain' is in space already"):
+    with refused("wrong-dimension", "'chain'"):
         zd.models.chain(2).lifted()

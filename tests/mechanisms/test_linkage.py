@@ -5,6 +5,7 @@ import pytest
 
 import zerodrift as zd
 from circles import complex_of, crossing, jansen_by_circles
+from support import refused
 
 CLOSED = 1e-13          # in m, of mechanisms of about one: some hundred units of rounding
 
@@ -198,41 +199,41 @@ def test_what_is_massless_may_be_drawn_and_driven():
 
 
 REFUSED = [
-    ({"points": [(0, 0)]}, TypeError, r"points must be a dict of places by name, not \[\(0, 0\)\]"),
-    ({"points": {1: (0, 0)}}, TypeError, "points must have strings for names, not 1"),
-    ({"points": {**FOUR, "B": (0, 1, 2)}}, ValueError, r"points\['B'\] must have shape \(2,\), not \(3,\)"),
-    ({"points": {**FOUR, "E": (0, 1)}}, ValueError, "point 'E' belongs to no link"),
-    ({"points": {**FOUR, "crank": (0, 1)}, "links": {**BARS, "rocker": ("C", "D", "crank")}}, ValueError,
-     "'crank' is a link and a point"),
-    ({"links": [("A", "B")]}, TypeError, "links must be a dict of points by link"),
-    ({"links": {"crank": "AB"}}, ValueError, "links must have 'ground', the points that do not move; there are 'crank'"),
-    ({"links": {**BARS, "coupler": "BE"}}, ValueError, r"links\['coupler'\] names 'E', which is none of the points; there are A"),
-    ({"links": {**BARS, "coupler": 7}}, TypeError, r"links\['coupler'\] must be a string of one-letter points or a sequence"),
-    ({"links": {**BARS, "stub": "B"}}, ValueError, r"links\['stub'\] must have two points or more, not 'B'"),
-    ({"links": {**BARS, "ground": ""}}, ValueError, r"links\['ground'\] must have two points or more, not ''"),
-    ({"links": {**BARS, "coupler": "BCB"}}, ValueError, r"links\['coupler'\] must have each of its points once, not 'BCB'"),
-    ({"links": {**BARS, "a.b": "AC"}}, ValueError, "name of a link must be of letters"),
-    ({"lengths": [1.0]}, TypeError, "lengths must be a dict of lengths by pairs of points"),
-    ({"lengths": {"AC": 2.0}}, ValueError, r"lengths\['AC'\] must name two points of one link, and no link has both"),
-    ({"lengths": {"AE": 2.0}}, ValueError, "lengths names 'E', which is none of the points"),
-    ({"lengths": {"crank": 2.0}}, ValueError, "lengths are between two points, and 'crank' is a link: it has A, B"),
-    ({"lengths": {3: 2.0}}, TypeError, "lengths must be a string of one-letter points or a sequence of names, not 3"),
-    ({"lengths": {"ABC": 2.0}}, ValueError, "lengths must be between two points, such as 'AD', not 'ABC'"),
-    ({"lengths": {"AA": 2.0}}, ValueError, "lengths must be between two points, such as 'AD', not 'AA'"),
-    ({"lengths": {"AB": 2.0, "BA": 2.0}}, ValueError, "lengths has 'A' and 'B' twice"),
-    ({"lengths": {"AB": 0.0}}, ValueError, r"lengths\['AB'\] must be greater than 0, not 0"),
-    ({"mass": -1.0}, ValueError, "mass must be at least 0, not -1"),
-    ({"mass": {"arm": 1.0}}, ValueError, "mass names 'arm', which is not a link that moves; there are crank, coupler, rocker"),
-    ({"mass": {"ground": 1.0}}, ValueError, "mass names 'ground', which is not a link that moves"),
-    ({"mass": {"crank": -1.0}}, ValueError, r"mass\['crank'\] must be at least 0, not -1"),
-    ({"scale": 0.0}, ValueError, "scale must be greater than 0, not 0"),
-    ({"points": {**FOUR, "B": (0, 0)}}, ValueError, "points 'A' and 'B' of link 'crank' must be two places in the sketch"),
+    ({"points": [(0, 0)]}, "wrong-type", "points.*0, 0"),
+    ({"points": {1: (0, 0)}}, "wrong-type", "points.*not 1"),
+    ({"points": {**FOUR, "B": (0, 1, 2)}}, "shape", r"points\['B'\].*2.*3"),
+    ({"points": {**FOUR, "E": (0, 1)}}, "wrong-value", "point 'E' belongs to no link"),
+    ({"points": {**FOUR, "crank": (0, 1)}, "links": {**BARS, "rocker": ("C", "D", "crank")}}, "duplicate-name",
+     "'crank'"),
+    ({"links": [("A", "B")]}, "wrong-type", "links"),
+    ({"links": {"crank": "AB"}}, "missing-argument", "links.*'ground'.*'crank'"),
+    ({"links": {**BARS, "coupler": "BE"}}, "wrong-name", r"links\['coupler'\].*'E'"),
+    ({"links": {**BARS, "coupler": 7}}, "wrong-type", r"links\['coupler'\]"),
+    ({"links": {**BARS, "stub": "B"}}, "shape", r"links\['stub'\].*'B'"),
+    ({"links": {**BARS, "ground": ""}}, "shape", r"links\['ground'\].*''"),
+    ({"links": {**BARS, "coupler": "BCB"}}, "duplicate-name", r"links\['coupler'\].*'BCB'"),
+    ({"links": {**BARS, "a.b": "AC"}}, "wrong-value", "name of a link must be of letters"),
+    ({"lengths": [1.0]}, "wrong-type", "lengths"),
+    ({"lengths": {"AC": 2.0}}, "wrong-name", r"lengths\['AC'\]"),
+    ({"lengths": {"AE": 2.0}}, "wrong-name", "'E'"),
+    ({"lengths": {"crank": 2.0}}, "wrong-name", "'crank'"),
+    ({"lengths": {3: 2.0}}, "wrong-type", "lengths.*not 3"),
+    ({"lengths": {"ABC": 2.0}}, "wrong-value", "lengths must be between two points, such as 'AD', not 'ABC'"),
+    ({"lengths": {"AA": 2.0}}, "wrong-value", "lengths must be between two points, such as 'AD', not 'AA'"),
+    ({"lengths": {"AB": 2.0, "BA": 2.0}}, "duplicate-name", "'A' and 'B'"),
+    ({"lengths": {"AB": 0.0}}, "out-of-range", r"lengths\['AB'\].*than 0, not 0"),
+    ({"mass": -1.0}, "out-of-range", "^mass must.*least 0, not -1"),
+    ({"mass": {"arm": 1.0}}, "wrong-name", "'arm'"),
+    ({"mass": {"ground": 1.0}}, "wrong-name", "'ground'"),
+    ({"mass": {"crank": -1.0}}, "out-of-range", r"mass\['crank'\].*least 0, not -1"),
+    ({"scale": 0.0}, "out-of-range", "scale.*than 0, not 0"),
+    ({"points": {**FOUR, "B": (0, 0)}}, "geometry", "'A' and 'B'.*'crank'"),
 ]
 
 
-@pytest.mark.parametrize(("change", "kind", "sentence"), REFUSED)
-def test_what_cannot_be_is_refused_by_name(change, kind, sentence):
-    with pytest.raises(kind, match=sentence):
+@pytest.mark.parametrize(("change", "code", "sentence"), REFUSED)
+def test_what_cannot_be_is_refused_by_name(change, code, sentence):
+    with refused(code, sentence):
         zd.linkage(**{"points": FOUR, "links": BARS, **change})
 
 
@@ -246,12 +247,11 @@ PLATES = [
 
 @pytest.mark.parametrize(("lengths", "C", "sentence"), PLATES)
 def test_plates_that_cannot_be_are_told_with_their_lengths(lengths, C, sentence):
-    with pytest.raises(ValueError, match=sentence):
+    with refused("geometry", sentence):
         plate({"A": (0, 0), "B": (1, 0), "C": C}, lengths)
 
 
 def test_lengths_that_contradict_each_other_are_told():
-    with pytest.raises(ValueError, match=r"lengths of link 'plate' contradict each other: by the others, 'C' and 'D' are "
-                                         r"1 apart, not 1\.5"):
+    with refused("geometry", r"'plate'.*'C' and 'D'.*are 1.*not 1\.5"):
         plate({"A": (0, 0), "B": (1, 0), "C": (1, 1), "D": (0, 1)},
               {"AB": 1, "AC": np.sqrt(2), "BC": 1, "AD": 1, "BD": np.sqrt(2), "CD": 1.5})

@@ -5,6 +5,7 @@ import pytest
 
 import zerodrift as zd
 from mechanism_tables import Body, GeneralizedForce, Joint, OutputSpec, Quantity, Tabled, Tables, kind
+from support import refused
 
 BODY, POINT = Body(1.0, 1.0), Body(1.0, is_particle=True)
 PIN = Joint(kind("revolute"), 0, 1)
@@ -37,7 +38,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("tables", "sentence"), REFUSED)
 def test_tables_that_contradict_themselves_are_refused(tables, sentence):
-    with pytest.raises(ValueError, match=sentence):
+    with refused("wrong-value", sentence):
         Tabled(tables)
 
 
@@ -61,14 +62,14 @@ def test_a_law_that_fails_ends_the_run_with_its_error():
 
 
 def test_a_law_of_the_wrong_size_is_refused():
-    with pytest.raises(ValueError, match=r"law 0 must give 1 numbers, not an array of shape \(2,\)"):
+    with refused("shape", "law 0.*give 1.*2"):
         zd.simulate(hinged(lambda number, t, x, xdot: [1.0, 2.0]), 1.0, step=0.01)
 
 
 def test_a_reaction_needs_accelerations():
     tables = Tables([BODY._replace(inboard=0)], [PIN], measures=[OutputSpec("force", "N", "joint force", 0)])
     system = Tabled(tables, np.zeros(1), np.ones(1))
-    with pytest.raises(ValueError, match="measure force needs accelerations and multipliers"):
+    with refused("not-available"):
         system.measured("force", 0, system.p0, system.v0)
-    with pytest.raises(ValueError, match="measure force needs accelerations and multipliers"):
+    with refused("not-available"):
         system._core.measure_at(0, 0.0, system.p0, system.v0)

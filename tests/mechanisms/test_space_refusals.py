@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 from zerodrift.mechanisms.elements.frames import about
 
 
@@ -17,55 +18,56 @@ def drawing():
     return m, link, wheel, bead
 
 
-@pytest.mark.parametrize(("add", "error", "message"), [
-    (lambda m, *_: m.body("b", 1.0, (1, 1, 3)), ValueError, "inertia of 'b' is that of no body: its largest moment, 3 kg m"),
-    (lambda m, *_: m.body("b", 1.0, [[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]), ValueError, r"symmetric, and \[0, 1\] is 0.5 where"),
-    (lambda m, *_: m.body("b", 1.0, [[1, 2, 0], [2, 1, 0], [0, 0, 2]]), ValueError, "must have no negative moment"),
-    (lambda m, *_: m.body("b", 1.0, 0.3), ValueError, r"inertia of 'b' must be a tensor \(3, 3\) or its diagonal"),
-    (lambda m, *_: m.body("b", 1.0, angle=0.3), ValueError, "angle of 'b' is for the plane: in space take rotation="),
-    (lambda m, *_: m.body("b", 1.0, rotation=np.diag([1, 1, -1.0])), ValueError, "rotation of 'b' must be a rotation"),
-    (lambda m, *_: m.body("b", 1.0, rotation=(1, 1, 0, 0)), ValueError, r"of length 1, and .* has length 1\.41"),
-    (lambda m, *_: m.body("b", 1.0, rotation=(1, 0)), ValueError, r"must be a \(3, 3\) matrix or a quaternion"),
-    (lambda m, *_: m.body("b", 1.0, at=(1, 0)), ValueError, "at of 'b'"),
-    (lambda m, *_: m.link("l", (0, 0, 0), (0, 0, 0)), ValueError, "start and end of 'l' must be two places"),
-    (lambda m, *_: m.link("l", (0, 0, 0), (0, 2, 0), normal=(0, 1, 0)), ValueError, "normal of 'l' must not be parallel"),
-    (lambda m, *_: m.link("l", (0, 0, 0), (0, 2, 0), thickness=0), ValueError, "thickness of 'l'"),
-    (lambda m, link, *_: m.revolute("A", m.ground, link.start), TypeError, "'A' needs axis=, the direction in the drawing"),
-    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 0, 0)), ValueError, "axis of 'A' must be a direction"),
-    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1)), ValueError, "axis of 'A'"),
-    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1, 0), damping=-1), ValueError, "damping of 'A'"),
-    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1), (0, 1, 1))), ValueError, "45 degrees"),
-    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1),)), ValueError, "must be two directions"),
-    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=3), ValueError, "must be two directions"),
-    (lambda m, link, *_: m.screw("A", m.ground, link.start, axis=(0, 0, 1), pitch=0), ValueError, "pitch of 'A' must not be 0"),
-    (lambda m, *_: m.rod("A", m.ground.point((0, 1, 0)), "bead"), ValueError, "length of 'A', as drawn"),
-    (lambda m, *_: m.revolute("A", m.ground, "bead", axis=(0, 0, 1)), ValueError, "'bead' is a particle"),
-    (lambda m, link, *_: m.slot("A", "bead", link.end, axis=(0, 0, 1)), ValueError, "'bead' is a particle"),
-    (lambda m, link, *_: m.spherical("A", link, link.end), ValueError, "'A' joins 'link' to itself"),
-    (lambda m, *_: m.rolling("A", m.ground, "wheel", at=(0, 0, -1)), TypeError, "'A' needs radius=, of a sphere or with axle="),
-    (lambda m, *_: m.rolling("A", m.ground, "wheel", radius=1.0), ValueError, "must point to the side of the plane"),
-    (lambda m, *_: m.rolling("A", m.ground, "wheel", radius=1.0, axle=(0, 0, 1)), ValueError, "lies flat does not roll"),
-    (lambda m, *_: m.rolling("A", m.ground, "wheel", semiaxes=(1, 1, 0)), ValueError, "each of the semiaxes of 'A'"),
-    (lambda m, *_: m.rolling("A", m.ground, "wheel", semiaxes=(1, 1, 1), axle=(1, 0, 0)), TypeError, "and no axle"),
-    (lambda m, *_: m.rolling("A", m.ground, "bead", radius=1.0, at=(0, 0, -1)), ValueError, "'bead' is a particle"),
-    (lambda m, *_: m.knife_edge("A", "wheel", along=(0, 0, 1)), ValueError, "along of 'A' must not be parallel to the normal"),
-    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), stiffness=(1, 2)), ValueError, "stiffness of 'A'"),
-    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), torsion=(1, -2, 0)), ValueError, "torsion.y of 'A'"),
-    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), axis=(0, 0, 0)), ValueError, "axis of 'A' must be"),
-    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), normal=(0, 0, 1)), TypeError, "normal of 'A' goes with axis="),
-    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), axis=(0, 0, 1), normal=(0, 0, 2)), ValueError,
-     "normal of 'A' must not be parallel"),
-    (lambda m, *_: m.torsion_spring("A", "x", stiffness=1.0), ValueError, "joint of 'A' names 'x', which is not an element"),
-    (lambda m, *_: m.torque("A", "wheel", value=1.0), TypeError, "torque 'A' needs axis="),
-    (lambda m, *_: m.torque("A", "wheel", value=1.0, axis=(1, 0, 0), against="link", frame="link"), ValueError, "frame out"),
-    (lambda m, link, *_: link.angle, AttributeError, "'link' is a body in space, which has a rotation and no angle"),
-    (lambda m, link, *_: link.rotation.euler("zzx"), ValueError, "order must name three axes"),
-    (lambda m, *_: m.start({"link.angle": 1.0}), ValueError, "of 'link' these can be given: link.angular_velocity"),
-    (lambda m, *_: m.start({"link.angular_velocity": (1.0, 2.0)}), ValueError, "angular_velocity"),
+@pytest.mark.parametrize(("add", "code", "message"), [
+    (lambda m, *_: m.body("b", 1.0, (1, 1, 3)), "inertia", "'b'.*3"),
+    (lambda m, *_: m.body("b", 1.0, [[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]), "inertia", "0, 1.*is 0.5"),
+    (lambda m, *_: m.body("b", 1.0, [[1, 2, 0], [2, 1, 0], [0, 0, 2]]), "inertia", None),
+    (lambda m, *_: m.body("b", 1.0, 0.3), "inertia", "'b'.*3, 3"),
+    (lambda m, *_: m.body("b", 1.0, angle=0.3), "wrong-dimension", "'b'"),
+    (lambda m, *_: m.body("b", 1.0, rotation=np.diag([1, 1, -1.0])), "geometry", "'b'"),
+    (lambda m, *_: m.body("b", 1.0, rotation=(1, 1, 0, 0)), "geometry", r"length 1.*length 1\.41"),
+    (lambda m, *_: m.body("b", 1.0, rotation=(1, 0)), "shape", "3, 3"),
+    (lambda m, *_: m.body("b", 1.0, at=(1, 0)), "shape", "'b'"),
+    (lambda m, *_: m.link("l", (0, 0, 0), (0, 0, 0)), "geometry", "'l'"),
+    (lambda m, *_: m.link("l", (0, 0, 0), (0, 2, 0), normal=(0, 1, 0)), "geometry", "'l'"),
+    (lambda m, *_: m.link("l", (0, 0, 0), (0, 2, 0), thickness=0), "out-of-range", "'l'"),
+    (lambda m, link, *_: m.revolute("A", m.ground, link.start), "missing-argument", "'A'"),
+    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 0, 0)), "geometry", "'A'"),
+    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1)), "shape", "'A'"),
+    (lambda m, link, *_: m.revolute("A", m.ground, link.start, axis=(0, 1, 0), damping=-1), "out-of-range", "'A'"),
+    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1), (0, 1, 1))), "geometry", "45"),
+    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=((0, 0, 1),)), "shape", None),
+    (lambda m, link, *_: m.universal("A", m.ground, link.start, axes=3), "shape", None),
+    (lambda m, link, *_: m.screw("A", m.ground, link.start, axis=(0, 0, 1), pitch=0), "out-of-range", "'A'.*be 0"),
+    (lambda m, *_: m.rod("A", m.ground.point((0, 1, 0)), "bead"), "out-of-range", "'A'"),
+    (lambda m, *_: m.revolute("A", m.ground, "bead", axis=(0, 0, 1)), "wrong-element", "'bead'"),
+    (lambda m, link, *_: m.slot("A", "bead", link.end, axis=(0, 0, 1)), "wrong-element", "'bead'"),
+    (lambda m, link, *_: m.spherical("A", link, link.end), "wrong-element", "'A'.*'link'"),
+    (lambda m, *_: m.rolling("A", m.ground, "wheel", at=(0, 0, -1)), "missing-argument", "'A'"),
+    (lambda m, *_: m.rolling("A", m.ground, "wheel", radius=1.0), "geometry", None),
+    (lambda m, *_: m.rolling("A", m.ground, "wheel", radius=1.0, axle=(0, 0, 1)), "geometry", None),
+    (lambda m, *_: m.rolling("A", m.ground, "wheel", semiaxes=(1, 1, 0)), "out-of-range", "'A'"),
+    (lambda m, *_: m.rolling("A", m.ground, "wheel", semiaxes=(1, 1, 1), axle=(1, 0, 0)), "conflicting-arguments", None),
+    (lambda m, *_: m.rolling("A", m.ground, "bead", radius=1.0, at=(0, 0, -1)), "wrong-element", "'bead'"),
+    (lambda m, *_: m.knife_edge("A", "wheel", along=(0, 0, 1)), "geometry", "'A'"),
+    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), stiffness=(1, 2)), "shape", "'A'"),
+    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), torsion=(1, -2, 0)), "out-of-range", "torsion.y.*'A'"),
+    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), axis=(0, 0, 0)), "geometry", "'A'"),
+    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), normal=(0, 0, 1)), "missing-argument", "'A'"),
+    (lambda m, *_: m.bushing("A", m.ground, "wheel", at=(0, 0, 0), axis=(0, 0, 1), normal=(0, 0, 2)), "geometry",
+     "'A'"),
+    (lambda m, *_: m.torsion_spring("A", "x", stiffness=1.0), "wrong-name", "'A'.*'x'"),
+    (lambda m, *_: m.torque("A", "wheel", value=1.0), "missing-argument", "'A'"),
+    (lambda m, *_: m.torque("A", "wheel", value=1.0, axis=(1, 0, 0), against="link", frame="link"),
+     "conflicting-arguments", None),
+    (lambda m, link, *_: link.angle, "wrong-attribute", "'link'"),
+    (lambda m, link, *_: link.rotation.euler("zzx"), "unknown-choice", "order"),
+    (lambda m, *_: m.start({"link.angle": 1.0}), "wrong-name", "'link'.*link.angular_velocity"),
+    (lambda m, *_: m.start({"link.angular_velocity": (1.0, 2.0)}), "shape", "angular_velocity"),
 ])
-def test_what_there_is_not(add, error, message):
+def test_what_there_is_not(add, code, message):
     m, *rest = drawing()
-    with pytest.raises(error, match=message):
+    with refused(code, message):
         add(m, *rest)
 
 
@@ -86,13 +88,13 @@ def test_what_there_is_not(add, error, message):
 def test_what_there_is_in_space_alone(add, message):
     m = zd.Mechanism("m")
     link = m.link("link", (0, 0), (1, 0), 1.0)
-    with pytest.raises(ValueError, match=message):
+    with refused("wrong-dimension", message):
         add(m, link)
 
 
 @pytest.mark.parametrize("dimension", [1, 4, True, "3", None])
 def test_a_dimension_that_there_is_not(dimension):
-    with pytest.raises(ValueError, match="dimension must be 2, the plane, or 3, space"):
+    with refused("wrong-dimension", "dimension.*be 2.*or 3"):
         zd.Mechanism("m", dimension=dimension)
 
 
@@ -105,14 +107,14 @@ def joined(axis=(0, 0, 1)):
 
 def test_motors_say_which_coordinate():
     m = joined()
-    with pytest.raises(ValueError, match="'B' has angle and displacement: motor 'drive' must say which, not speed"):
+    with refused("missing-argument", "'B'.*'drive'"):
         m.motor("drive", "B", speed=1.0)
     m.motor("turn", "B", angle=lambda t: t)
     m.motor("push", "B", displacement=lambda t: t**2)
-    with pytest.raises(ValueError, match="both prescribe 'B'"):
+    with refused("prescribed-twice", "'B'"):
         m.motor("again", "B", angle=1.0)
     m.spherical("C", "link", "bead")
-    with pytest.raises(ValueError, match="must be a joint with angle or displacement"):
+    with refused("wrong-element"):
         m.motor("ball", "C", speed=1.0)
 
 
@@ -154,9 +156,9 @@ def test_a_body_without_inertia_is_named():
 
 def test_what_is_traced_in_the_plane_alone():
     m = joined()
-    with pytest.raises(ValueError, match="'m' is in space, and curves of positions are traced in the plane"):
+    with refused("wrong-dimension", "'m'"):
         zd.trace(m, "A.angle")
-    with pytest.raises(ValueError, match="transmission_angle is there for mechanisms in the plane"):
+    with refused("wrong-dimension", "transmission_angle"):
         zd.transmission_angle(m, "A")
 
 
@@ -164,14 +166,14 @@ def test_names_that_matrices_do_not_have():
     sol = zd.simulate(joined(), 0.01, step=0.01)
     assert sol["link.rotation"].shape == (2, 3, 3)
     for name in ("link.rotation.x", "link.quaternion.x", "link.euler", "link.euler.zz", "bead.rotation", "link.angle"):
-        with pytest.raises(KeyError, match="is called"):
+        with refused("wrong-name"):
             sol[name]
 
 
 def test_start_and_motor_in_each_others_way():
     m = joined()
     m.motor("drive", "A", angle=lambda t: t)
-    with pytest.raises(ValueError, match=r"start holds 'A\.speed', which motor 'drive' prescribes"):
+    with refused("prescribed-twice", r"'A\.speed'.*'drive'"):
         m.start({"A.speed": 1.0})
 
 
@@ -302,7 +304,7 @@ def test_how_far_a_nudge_goes():
     m.start({"in.speed": 1.0})
     for nudge, far in ((True, 1e-3), (np.True_, 1e-3), (0.25, 0.25), (False, 0.0)):
         assert abs(zd.assemble(m, nudge=nudge)[0][0] - far) < 1e-12
-    with pytest.raises(ValueError, match="nudge must be greater than 0, not -1"):
+    with refused("out-of-range", "nudge.*than 0, not -1"):
         zd.assemble(m, nudge=-1)
 
 

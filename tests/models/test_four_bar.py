@@ -1,10 +1,9 @@
 """The paper's four-bar from bodies and joints against its one equation of motion, and against the built-in one."""
 
-import pytest
 
 import known_motions
 import zerodrift as zd
-from support import assert_close
+from support import assert_close, refused
 
 
 def test_four_bar_against_its_one_equation_and_the_built_in_one():
@@ -15,7 +14,7 @@ def test_four_bar_against_its_one_equation_and_the_built_in_one():
 
 
 def test_lengths_that_make_no_four_bar():
-    with pytest.raises(ValueError, match=r"coupler and rocker, of 1 and 0\.6 m, do not meet: .* they begin 4\.01123 m apart"):
+    with refused("geometry", r"of 1.*and 0\.6.*begin 4\.01123"):
         zd.models.four_bar(lengths=(4.0, 0.3, 1.0, 0.6))
-    with pytest.raises(ValueError, match=r"lengths\[1\] must be greater than 0, not 0"):
+    with refused("out-of-range", r"lengths\[1\].*than 0, not 0"):
         zd.models.four_bar(lengths=(1.0, 0.0, 1.0, 0.6))

@@ -5,6 +5,7 @@ import pytest
 
 import known_motions
 import zerodrift as zd
+from support import refused
 
 
 @pytest.mark.parametrize("stages", [1, 4])
@@ -23,5 +24,5 @@ def test_height_and_force(stages):
 
 @pytest.mark.parametrize("wrong", [{"angle": 0.0}, {"angle": 1.6}, {"amplitude": 0.2}, {"amplitude": -0.2}])
 def test_a_roller_that_would_go_too_far(wrong):
-    with pytest.raises(ValueError, match=r"amplitude must be less than 0(\.\d+)? m with arms of 1 m at an angle of"):
+    with refused("geometry", r"amplitude must be less than 0(\.\d+)? m with arms of 1 m at an angle of"):
         zd.models.scissor_lift(**wrong)

@@ -6,7 +6,7 @@ import pytest
 import known_motions
 import zerodrift as zd
 from reference_files import table
-from support import assert_close
+from support import assert_close, refused
 
 
 def test_slider_crank_is_the_built_in_one(formulation):
@@ -30,5 +30,5 @@ def test_bodies_and_joints_against_the_reference():
 
 @pytest.mark.parametrize("model", [zd.models.slider_crank, zd.models.symbolic.slider_crank])
 def test_a_slider_crank_that_cannot_turn(model):
-    with pytest.raises(ValueError, match=r"rod must be longer than the crank of 0\.5 m, not 0\.4"):
+    with refused("geometry", r"^rod must.*of 0\.5.*not 0\.4"):
         model(rod=0.4)

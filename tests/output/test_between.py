@@ -5,7 +5,7 @@ import pytest
 
 import zerodrift as zd
 from large_mechanisms import four_bars
-from support import SYSTEMS
+from support import SYSTEMS, refused
 
 TIMES = np.array([0.0, 0.013, 0.1, 0.10001, 0.237, 0.5])
 
@@ -68,9 +68,9 @@ BAR = SYSTEMS["four_bar"]
 
 def test_values_between_rows_that_are_not_there():
     sol = zd.simulate(BAR, 0.5, step=0.02)
-    with pytest.raises(ValueError, match="t must be between 0 and"):
+    with refused("out-of-range", "^t must.*between 0"):
         sol(0.6)
-    with pytest.raises(ValueError, match="need every step saved"):
+    with refused("not-available"):
         zd.simulate(BAR, 0.5, step=0.02, save_every=2)(0.1)
 
 
@@ -86,22 +86,22 @@ def test_values_at_no_times():
 LATE = np.append(np.linspace(0, 0.1, 200), 0.2)
 
 
-@pytest.mark.parametrize(("times", "error", "message"), [
-    (LATE, ValueError, r"be between 0 and 0.1, not 0.2\d* \(entry 200\)"), ([0.1j], TypeError, "hold real numbers"),
-    (np.ma.masked_array([0.0, 0.1], [False, True]), ValueError, "hold real numbers, none of them masked"),
-    ([0.0, np.nan], ValueError, r"be finite, not nan \(entry 1\)"), (["a"], TypeError, "hold real numbers"),
-    ([[0.0], [0.0, 0.1]], ValueError, "not be a ragged sequence")])
-def test_times_that_are_none(times, error, message):
+@pytest.mark.parametrize(("times", "code", "message"), [
+    (LATE, "out-of-range", r"be between 0 and 0.1, not 0.2\d* \(entry 200\)"), ([0.1j], "wrong-type", "hold real numbers"),
+    (np.ma.masked_array([0.0, 0.1], [False, True]), "not-finite", None),
+    ([0.0, np.nan], "not-finite", "entry 1"), (["a"], "wrong-type", "hold real numbers"),
+    ([[0.0], [0.0, 0.1]], "shape", None)])
+def test_times_that_are_none(times, code, message):
     for call in (lambda: SOL(times), lambda: zd.simulate(BAR, 0.1, step=0.01, t_eval=times)):
-        with pytest.raises(error, match=message) as refused:
+        with refused(code, message) as caught:
             call()
-        assert len(str(refused.value)) < 140
+        assert len(str(caught.value)) < 140
 
 
 def test_times_that_do_not_increase():
-    with pytest.raises(ValueError, match=r"t_eval must increase, but 0.05\d* \(entry 2\) comes after 0.06"):
+    with refused("not-increasing", r"t_eval must increase, but 0.05\d* \(entry 2\) comes after 0.06"):
         zd.simulate(BAR, 0.1, step=0.01, t_eval=[0.0, 0.06, 0.05])
-    with pytest.raises(ValueError, match="needs at least one time"):
+    with refused("not-increasing"):
         zd.simulate(BAR, 0.1, step=0.01, t_eval=np.zeros(0))
 
 

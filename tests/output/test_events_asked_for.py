@@ -9,7 +9,7 @@ import tolerances as tol
 import zerodrift as zd
 from four_bar_in_python import four_bar as bar_in_python
 from output.test_events import OSCILLATOR, event, position
-from support import SYSTEMS, assert_close
+from support import SYSTEMS, assert_close, refused
 
 # ---- keeping ----
 
@@ -76,20 +76,20 @@ def test_values_that_are_no_numbers(bar, value, error, shown):
     assert "at t = 0.5 (step 5 of 10): the evaluation of an event failed" in caught.value.__notes__
 
 
-@pytest.mark.parametrize(("events", "error", "message"), [
-    (3.0, TypeError, r"events must be a callable event\(t, p, v\), a zd.Event or a measure, or a list of these, not 3\.0"),
-    ("position", ValueError, "events must be one of 'alpha1', .*, not 'position'"),
-    ([position, None], TypeError, r"events\[1\] must be a callable event\(t, p, v\), a zd.Event or .*, not None"),
-    (event(position, "up"), TypeError, "events.direction must be a real number, not 'up'"),
-    (event(position, np.nan), ValueError, "events.direction must be finite"),
-    (event(position, 2), ValueError, "events.direction must be -1, 0 or 1, not 2"),
-    ([event(position, None)], TypeError, r"events\[0\].direction must be a real number, not None"),
-    (event(position, 0, -1), ValueError, "events.terminal, where it is not True or False, must be between 0 and"),
-    (event(position, 0, 1.5), TypeError, "events.terminal, where it is not True or False, must be a whole number, not 1.5"),
-    (event(position, 0, "yes"), TypeError, "events.terminal, .* must be a whole number, not 'yes'"),
+@pytest.mark.parametrize(("events", "code", "message"), [
+    (3.0, "wrong-type", r"events.*zd.Event.*not 3\.0"),
+    ("position", "unknown-choice", "events.*'alpha1'.*'position'"),
+    ([position, None], "wrong-type", r"events\[1\].*zd.Event"),
+    (event(position, "up"), "wrong-type", "events.direction.*'up'"),
+    (event(position, np.nan), "not-finite", "events.direction"),
+    (event(position, 2), "unknown-choice", "events.direction.*be -1, 0.*or 1, not 2"),
+    ([event(position, None)], "wrong-type", r"events\[0\].direction"),
+    (event(position, 0, -1), "out-of-range", "events.terminal.*between 0"),
+    (event(position, 0, 1.5), "wrong-type", "events.terminal.*not 1.5"),
+    (event(position, 0, "yes"), "wrong-type", "events.terminal.*'yes'"),
 ])
-def test_events_that_are_none(bar, events, error, message):
-    with pytest.raises(error, match=message):
+def test_events_that_are_none(bar, events, code, message):
+    with refused(code, message):
         zd.simulate(bar, 1.0, step=0.1, events=events)
 
 

@@ -6,6 +6,7 @@ import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
 import zerodrift as zd
+from support import refused
 from zerodrift import _gateway
 from zerodrift._gateway.known_events import COORDINATE, MEASURE, VELOCITY, Reading
 from zerodrift.errors import ZerodriftError
@@ -89,13 +90,13 @@ def test_what_has_no_finite_value_is_named():
     assert 0 < len(caught.value.solution.t) < 200
 
 
-@pytest.mark.parametrize(("what", "error"), [
-    (sp.Symbol("alpha4"), "events must be one of "),
-    (dynamicsymbols("alpha1").diff(dynamicsymbols._t, 2), "which must be a velocity of"),
-    (dynamicsymbols("beta").diff(), "which must be a velocity of"), (A1 * sp.I, "events has I"),
-    (sp.Function("f")(A1), "f")])
-def test_expressions_that_cannot_be_read_are_refused(what, error):
-    with pytest.raises((TypeError, ValueError), match=error):
+@pytest.mark.parametrize(("what", "code", "error"), [
+    (sp.Symbol("alpha4"), "unknown-choice", "events"),
+    (dynamicsymbols("alpha1").diff(dynamicsymbols._t, 2), "expression", "which"),
+    (dynamicsymbols("beta").diff(), "expression", "which"), (A1 * sp.I, "expression", None),
+    (sp.Function("f")(A1), "unknown-choice", None)])
+def test_expressions_that_cannot_be_read_are_refused(what, code, error):
+    with refused(code, error):
         zd.simulate(zd.systems.four_bar(), 1.0, step=0.01, events=zd.Event(what))
 
 

@@ -12,7 +12,7 @@ from large_mechanisms import four_bars
 from mechanisms.every_element import machinery
 from mechanisms.plain_space import Plain
 from native_systems import PENDULUM, compile_text, needs_compiler
-from support import handed
+from support import handed, refused
 from zerodrift import _gateway
 
 OUTPUTS = ["C.force", "crank.angle", "coupler.end.velocity.y", "drive.power", "A.torque"]
@@ -132,15 +132,15 @@ def test_columns_that_every_run_has_may_be_asked_for(bar):
     assert np.array_equal(sol[names[1]], sol.v[:, 1])
 
 
-@pytest.mark.parametrize(("outputs", "error", "sentence"), [
-    (["C.forces"], ValueError, r"outputs\[0\] must name a measure or a variable of four-bar, not 'C.forces'; the clos"),
-    (["C.force", "crank.angle.x"], ValueError, r"outputs\[1\] must name a measure or a variable of four-bar, not 'crank.angle.x"),
-    (["C.force.z"], ValueError, r"outputs\[0\] must name a measure or a variable of four-bar, not 'C.force.z'"),
-    ([3], TypeError, r"outputs\[0\] must be a measure or the name of one, not 3"),
-    ({"C.force"}, TypeError, "outputs must be a list of measures or their names"),
+@pytest.mark.parametrize(("outputs", "code", "sentence"), [
+    (["C.forces"], "wrong-name", r"outputs\[0\].*'C.forces'"),
+    (["C.force", "crank.angle.x"], "wrong-name", r"outputs\[1\].*crank.angle.x"),
+    (["C.force.z"], "wrong-name", r"outputs\[0\].*'C.force.z'"),
+    ([3], "wrong-type", r"outputs\[0\].*not 3"),
+    ({"C.force"}, "wrong-type", "outputs"),
 ])
-def test_what_is_not_there_is_named(outputs, error, sentence):
-    with pytest.raises(error, match=sentence):
+def test_what_is_not_there_is_named(outputs, code, sentence):
+    with refused(code, sentence):
         zd.simulate(four_bar(), 0.1, step=0.05, outputs=outputs)
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 from zerodrift.compare import difference
 from zerodrift.paper import FOUR_BAR, FOUR_BAR_REFERENCE, OSCILLATOR, reference
 
@@ -105,7 +106,7 @@ def test_the_papers_reference_is_close_to_it():
 
 @pytest.mark.parametrize("t", [-0.025, 8.025, 0.01])
 def test_only_stored_times_are_answered(t):
-    with pytest.raises(ValueError, match=r"t must be a multiple of 0\.025 s between 0 and 8 s"):
+    with refused("out-of-range", r"^t must.*of 0\.025.*between 0.*and 8"):
         reference.four_bar(t)
 
 

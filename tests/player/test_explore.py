@@ -3,6 +3,7 @@
 import pytest
 
 import zerodrift as zd
+from support import refused
 
 
 @pytest.fixture
@@ -56,16 +57,16 @@ def test_sliders_move_the_film(crank):
     assert crank.group in behind.value
 
 
-@pytest.mark.parametrize(("parameters", "error", "words"), [
-    ({}, TypeError, "dict of ranges"), ({"spring.stiffness": 1.0}, TypeError, "two numbers"),
-    ({"spring.stiffness": (2.0, 1.0)}, ValueError, "must increase"),
-    ({"spring.stifness": (1.0, 2.0)}, ValueError, "must be those of"),
+@pytest.mark.parametrize(("parameters", "code", "words"), [
+    ({}, "wrong-type", "dict of ranges"), ({"spring.stiffness": 1.0}, "wrong-type", "two numbers"),
+    ({"spring.stiffness": (2.0, 1.0)}, "not-increasing", None),
+    ({"spring.stifness": (1.0, 2.0)}, "wrong-name", None),
 ])
-def test_what_is_refused(parameters, error, words):
-    with pytest.raises(error, match=words):
+def test_what_is_refused(parameters, code, words):
+    with refused(code, words):
         zd.explore(zd.models.slider_crank(), parameters, 1.0, step=0.01)
 
 
 def test_only_its_own_parameters_are_set(crank):
-    with pytest.raises(ValueError, match="must name parameters of this exploration"):
+    with refused("wrong-name"):
         crank.set({"rod.mass": 1.0})

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 from zerodrift.player.rigid import carried
 
 
@@ -177,16 +178,16 @@ def test_what_cannot_be_drawn_shows_its_text():
     system = zd.System(["x"], mass=np.eye(1), force=lambda p: -p, p0=[1.0])
     sol = zd.simulate(system, 1.0, step=0.1)
     assert sol._repr_html_() == f"<pre>{html.escape(repr(sol))}</pre>"
-    with pytest.raises(ValueError, match="draw"):
+    with refused("not-available"):
         zd.view(sol)
 
 
 def test_what_is_refused(crank):
-    with pytest.raises(TypeError, match="at least one solution"):
+    with refused("missing-argument"):
         zd.view()
-    with pytest.raises(TypeError, match="each of solutions"):
+    with refused("wrong-type", "each of solutions"):
         zd.view(zd.models.watt())
-    with pytest.raises(ValueError, match="labels must name 1 solutions"):
+    with refused("shape", "labels.*name 1"):
         zd.view(crank, labels=["a", "b"])
-    with pytest.raises(KeyError, match="nothing in slider_crank is called"):
+    with refused("wrong-name", "slider_crank"):
         zd.view(crank, graphs=["crank.angel"])

@@ -9,6 +9,8 @@ import zerodrift as zd
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 
+from support import refused
+
 
 @pytest.fixture(scope="module")
 def bar():
@@ -57,17 +59,17 @@ def test_positions_and_paths(bar):
     assert len(ghosts.get_segments()) == 8 * 3
 
 
-@pytest.mark.parametrize(("draw", "error", "said"), [
-    (lambda trace: zd.plot.trace(trace, "C.position"), ValueError, r"has components; plot.positions draws paths"),
-    (lambda trace: zd.plot.trace(trace, "C.place"), KeyError, "nothing in linkage is called 'C.place'"),
-    (lambda trace: zd.plot.trace(trace, [3]), TypeError, "each of names must be a measure"),
-    (lambda trace: zd.plot.trace(trace.system, "C.angle"), TypeError, r"traced must be a Trace, as zd.trace returns it"),
-    (lambda trace: zd.plot.positions(trace.system), TypeError, "traced must be a Trace"),
-    (lambda trace: zd.plot.positions(trace, [0, 43]), IndexError, "at must be numbers of 43 positions"),
-    (lambda trace: zd.plot.positions(trace, [0.5]), TypeError, "at must be numbers of positions"),
-    (lambda trace: zd.plot.positions(trace, path="Q"), KeyError, r"Q.position"),
-    (lambda trace: zd.plot.positions(trace, ax=3), TypeError, "ax must be"),
+@pytest.mark.parametrize(("draw", "code", "said"), [
+    (lambda trace: zd.plot.trace(trace, "C.position"), "wrong-measure", "plot.positions"),
+    (lambda trace: zd.plot.trace(trace, "C.place"), "wrong-name", "'C.place'"),
+    (lambda trace: zd.plot.trace(trace, [3]), "wrong-type", "each of names must be a measure"),
+    (lambda trace: zd.plot.trace(trace.system, "C.angle"), "wrong-type", "traced.*zd.trace"),
+    (lambda trace: zd.plot.positions(trace.system), "wrong-type", "traced"),
+    (lambda trace: zd.plot.positions(trace, [0, 43]), "wrong-index", "^at must.*of 43"),
+    (lambda trace: zd.plot.positions(trace, [0.5]), "wrong-type", "^at must"),
+    (lambda trace: zd.plot.positions(trace, path="Q"), "wrong-name", r"Q.position"),
+    (lambda trace: zd.plot.positions(trace, ax=3), "wrong-type", "^ax must"),
 ])
-def test_what_cannot_be_drawn(bar, draw, error, said):
-    with pytest.raises(error, match=said):
+def test_what_cannot_be_drawn(bar, draw, code, said):
+    with refused(code, said):
         draw(bar)

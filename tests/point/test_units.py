@@ -6,7 +6,7 @@ import sympy
 
 import tolerances as tol
 import zerodrift as zd
-from support import assert_close, numbers
+from support import assert_close, numbers, refused
 from units import MECHANISMS, Units, pendulum, run, slider_crank
 
 POWERS_OF_TWO = {"length": Units(length=2.0**-20), "mass": Units(mass=2.0**30), "time": Units(time=2.0**10),
@@ -95,9 +95,9 @@ def test_systems_of_ones_own_say_what_is_a_length(own_pendulum):
 
 @pytest.mark.parametrize("units", [["m"], "mm", ["m", 1], 3])
 def test_units_that_are_none(units):
-    with pytest.raises((ValueError, TypeError), match=r"units must be 2 strings, one for each coordinate, not|has no len"):
+    with refused("shape", r"units must be 2 strings, one for each coordinate, not|has no len"):
         own_pendulum(1.0, units)
-    with pytest.raises((ValueError, TypeError), match=r"units must be 2 strings, one for each coordinate, not|has no len"):
+    with refused("shape", r"units must be 2 strings, one for each coordinate, not|has no len"):
         symbolic_pendulum(1.0, units)
 
 

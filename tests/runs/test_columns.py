@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +48,7 @@ def test_an_excel_file(sol, tmp_path):
 def test_a_name_that_nothing_has_leaves_an_older_file(sol, tmp_path):
     path = sol.to_csv(tmp_path / "crank.csv", "crank.angle")
     before = path.read_bytes()
-    with pytest.raises(KeyError, match="nothing in slider_crank is called"):
+    with refused("wrong-name", "slider_crank"):
         sol.to_csv(path, "crank.angel")
     assert path.read_bytes() == before
 
@@ -75,7 +76,7 @@ def test_lines_of_measures(sol):
 
 def test_the_multiplier_of_a_drive_is_not_taken_for_its_torque():
     sol = zd.simulate(zd.models.watt(), 0.1, step=0.01)
-    with pytest.raises(KeyError, match=r"sol\['drive.torque'\].*opposite sign"):
+    with refused("duplicate-name", r"sol\['drive.torque'\]"):
         sol["drive"]
     constraint = [variable.name for variable in sol.system.constraints].index("drive")
     assert np.allclose(sol["drive.torque"], -sol.multipliers[:, constraint])

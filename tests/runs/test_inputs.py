@@ -139,7 +139,7 @@ def test_symbols_that_are_declared_are_inputs():
     run.advance_to(1.0)
     assert run.p[0] == pytest.approx(3.0, rel=1e-12)
     assert run.solution().energy_input[-1] == pytest.approx(18.0, rel=1e-12)
-    with pytest.raises(ValueError, match=r"must be declared, zd\.symbolic.*'k' is not"):
+    with refused("wrong-name", r"zd\.symbolic.*'k'"):
         zd.Run(system, step=0.01, inputs=["k"])
 
 
@@ -152,7 +152,7 @@ def test_numbers_among_the_parameters_of_a_system_are_inputs():
         each.step(100)
     assert np.allclose(run.p, [1.5, -1.5], rtol=1e-12)
     assert not other.p.any()
-    with pytest.raises(ValueError, match=r"must name numbers among the parameters of system, not 'w'"):
+    with refused("wrong-name", "'w'"):
         zd.Run(system, step=0.01, inputs=["w"])
 
 
@@ -169,7 +169,7 @@ def test_parameters_of_a_native_system_are_inputs(tmp_path):
     assert np.array_equal(run.p, on_the_moon.p)
     assert np.array_equal(same.p, on_earth.p)
     assert system.parameters["gravity"] == 9.81
-    with pytest.raises(ValueError, match="must be parameters of native system, not 'wind'; there are mass, gravity, length"):
+    with refused("wrong-name", "'wind'"):
         zd.Run(system, step=0.01, inputs=["wind"])
 
 
@@ -192,22 +192,22 @@ def test_an_input_that_must_not_be_used_makes_no_step(value):
 
 def test_wrong_inputs_say_what_is_allowed():
     m = four_bar(speed=1.0)
-    with pytest.raises(ValueError, match=r"not 'drive\.torque': motor 'drive' prescribes its speed, and its force follows"):
+    with refused("wrong-name", r"'drive\.torque'.*'drive'"):
         zd.Run(m, step=0.01, inputs=["drive.torque"])
-    with pytest.raises(ValueError, match=r"'drive\.speed' needs fixed steps"):
+    with refused("step-size", r"'drive\.speed'"):
         zd.Run(m, inputs=["drive.speed"])
-    with pytest.raises(ValueError, match="must begin with a number"):
+    with refused("wrong-value", "must begin with a number"):
         zd.Run(four_bar(torque=lambda t: t), step=0.01, inputs=["drive.torque"])
-    with pytest.raises(ValueError, match="named more often"):
+    with refused("duplicate-name"):
         zd.Run(m, step=0.01, inputs=["drive.speed", "drive.speed"])
-    with pytest.raises(ValueError, match=r"must be \(lower, upper\)"):
+    with refused("shape"):
         zd.Run(m, step=0.01, inputs={"drive.speed": (1.0, 0.0)})
-    with pytest.raises(ValueError, match="has none"):
+    with refused("not-available"):
         zd.Run(zd.systems.four_bar(), step=0.01, inputs=["mass"])
     run = zd.Run(m, step=0.01)
-    with pytest.raises(KeyError, match=r"'drive\.speed' must be declared to be set"):
+    with refused("wrong-name", r"'drive\.speed'"):
         run["drive.speed"] = 1.0
-    with pytest.raises(KeyError, match=r"nothing but inputs can be set, and 'A\.angle' is none"):
+    with refused("wrong-name", r"'A\.angle'"):
         run["A.angle"] = 1.0
 
 

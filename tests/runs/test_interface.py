@@ -8,7 +8,7 @@ from zerodrift._core import ffi, lib
 
 import zerodrift as zd
 from native_systems import GIVEN, PENDULUM, compile_text, needs_compiler
-from support import handed
+from support import handed, refused
 from zerodrift import _gateway
 
 ANY = 1     # the address of some function, which is not called here
@@ -242,7 +242,7 @@ def test_a_run_of_it_is_refused():
 def test_a_library_that_describes_what_does_not_fit_is_refused(tmp_path):
     text = PENDULUM.read_text().replace(".evaluate = pendulum,\n    },", ".evaluate = pendulum, .groups = 1,\n    },")
     library = compile_text(text, tmp_path / "malformed.so")
-    with pytest.raises(ValueError, match=r"zd_kind_pendulum of .*malformed\.so: groups: there must be 0 to 64, .*, not 1"):
+    with refused("compiled-function", r"zd_kind_pendulum of .*malformed\.so: groups: there must be 0 to 64, .*, not 1"):
         zd.native(library, symbol="pendulum", parameters={})
 
 
@@ -250,7 +250,7 @@ def test_a_library_that_describes_what_does_not_fit_is_refused(tmp_path):
 def test_a_library_of_an_earlier_version_is_told_to_be_compiled_again(tmp_path):
     text = PENDULUM.read_text().replace("ZD_INTERFACE_VERSION;", "3;")
     library = compile_text(text, tmp_path / "earlier.so")
-    with pytest.raises(ValueError, match=r"earlier\.so is 3, and this core has version 4 of the interface: compile it again"):
+    with refused("compiled-function", r"earlier\.so is 3, and this core has version 4 of the interface: compile it again"):
         zd.native(library, ["x", "y"], symbol="pendulum", **GIVEN)
 
 

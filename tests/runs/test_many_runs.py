@@ -5,6 +5,7 @@ import pytest
 
 import zerodrift as zd
 from restored_runs import crank
+from support import refused
 from zerodrift import _gateway
 
 
@@ -50,7 +51,7 @@ def test_parameters_differ_between_runs():
         one["drive.force"] = 1.0
         one.step(50)
         assert np.array_equal(many.p[i], one.p)
-    with pytest.raises(ValueError, match="must be a number or have 3 values"):
+    with refused("shape", "have 3"):
         zd.Run(cart_pole(), runs=3, step=0.01, parameters={"pole.mass": [1.0, 2.0]})
 
 
@@ -68,9 +69,9 @@ def test_runs_are_reset_by_a_mask():
     assert np.array_equal(many.p[[1, 3]], p[[1, 3]])
     many.reset(p0=[[0.5, 0.0]], where=np.array([True, False, False, False]))
     assert many.p[0].tolist() == [0.5, 0.0]
-    with pytest.raises(ValueError, match="where must be 4 values True or False"):
+    with refused("shape", "where.*be 4"):
         many.reset(where=[True])
-    with pytest.raises(ValueError, match=r"p0 must have shape \(2,\) or \(4, 2\)"):
+    with refused("shape", "^p0 must.*2.*4, 2"):
         many.reset(p0=[1.0])
 
 
@@ -98,12 +99,12 @@ def test_systems_in_python_can_be_many():
 
 
 def test_wrong_arguments_of_many_runs_are_refused():
-    with pytest.raises(TypeError, match="parameters are for Run"):
+    with refused("conflicting-arguments"):
         zd.Run(cart_pole(), step=0.01, parameters={"pole.mass": 1.0})
-    with pytest.raises(ValueError, match="runs must be between 1"):
+    with refused("out-of-range", "^runs must.*between 1"):
         zd.Run(cart_pole(), runs=0, step=0.01)
     many = zd.Run(cart_pole(), runs=2, step=0.01)
-    with pytest.raises(KeyError, match="there are none"):
+    with refused("wrong-name"):
         many["drive.force"] = 1.0
 
 

@@ -6,12 +6,12 @@ import types
 import pytest
 
 import zerodrift as zd
-from support import motion
+from support import motion, refused
 
 
 def test_a_progress_bar_needs_tqdm(bar, monkeypatch):
     monkeypatch.setitem(sys.modules, "tqdm.auto", None)
-    with pytest.raises(ImportError, match=r"^progress=True shows a bar with tqdm, which is not installed: pip install tqdm "):
+    with refused("missing-package", r"^progress=True shows a bar with tqdm, which is not installed: pip install tqdm "):
         zd.simulate(bar, 1, step=0.1, progress=True)
 
 

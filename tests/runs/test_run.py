@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 
 
 def dyadic(system, **settings):
@@ -106,9 +107,9 @@ def test_orientations_in_space_are_read():
 
 def test_names_that_nothing_has_are_refused():
     run = zd.Run(zd.models.slider_crank(), step=0.01)
-    with pytest.raises(KeyError, match=r"nothing in .* is called 'crank\.angel'; .*crank\.angle"):
+    with refused("wrong-name", r"'crank\.angel'.*crank\.angle"):
         run["crank.angel"]
-    with pytest.raises(TypeError, match="Run has no setting 'formulations'"):
+    with refused("wrong-name", "'formulations'"):
         zd.Run(zd.systems.four_bar(), step=0.01, formulations="schur")
 
 
@@ -128,14 +129,14 @@ def test_a_failed_step_leaves_the_run_at_its_start():
     system = zd.System(["x"], mass=np.eye(1), force=lambda t, p, v: np.array([np.nan]) if p[0] < -0.5 else np.array([-9.81]),
                        p0=[0.0], v0=[0.0])
     run = zd.Run(system, step=0.01, record=True)
-    with pytest.raises(ValueError, match="force") as caught:
+    with refused("not-finite") as caught:
         run.step(1000)
     t, p = run.t, run.p
     assert 0.3 < t < 0.32
     assert p[0] > -0.5
     assert p[0] == pytest.approx(-9.81 / 2 * t**2, rel=1e-12)
     assert caught.value.solution.t[-1] == t
-    with pytest.raises(ValueError, match="force"):
+    with refused("not-finite"):
         run.step()
     assert run.t == t
     assert np.array_equal(run.p, p)
@@ -209,7 +210,7 @@ def test_steps_must_be_counted(steps):
 def test_time_does_not_go_back():
     run = zd.Run(zd.systems.oscillator(), step=0.01, t0=2.0)
     run.advance_to(2.1)
-    with pytest.raises(ValueError, match=r"t must be at least 2\.1, not 2"):
+    with refused("out-of-range", r"^t must.*least 2\.1, not 2"):
         run.advance_to(2.0)
     run.advance_to(run.t)
     assert run.steps == 10
@@ -241,7 +242,7 @@ def test_samples_go_to_a_file(tmp_path):
 
 
 def test_a_run_that_records_nothing_has_no_solution():
-    with pytest.raises(ValueError, match=r"record=True\) keeps them"):
+    with refused("not-available"):
         zd.Run(zd.systems.oscillator(), step=0.01).solution()
 
 
@@ -265,11 +266,11 @@ def test_controllers_are_called_at_multiples_of_their_period(step):
 
 
 def test_a_step_that_does_not_divide_the_period_is_refused_with_one_that_does():
-    with pytest.raises(ValueError, match=r"step must divide the period 0\.01 s of control, and 0\.003 s does not.* 0\.00333"):
+    with refused("step-size", r"^step must.*period 0\.01.*and 0\.003.*0\.00333"):
         zd.Run(zd.systems.oscillator(), step=0.003, control=zd.every(0.01, call=print))
-    with pytest.raises(TypeError, match=r"control must be zd\.every"):
+    with refused("wrong-type", r"control.*zd\.every"):
         zd.Run(zd.systems.oscillator(), step=0.003, control=print)
-    with pytest.raises(TypeError, match="call must be a function"):
+    with refused("wrong-type", "^call must"):
         zd.every(0.01, call=3)
 
 

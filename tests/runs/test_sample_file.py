@@ -19,7 +19,7 @@ import pytest
 
 import zerodrift as zd
 from covering import draws
-from support import assert_same_bits
+from support import assert_same_bits, refused
 from watched import At, throw
 from zerodrift.runs import mapped_samples, memory, sample_file
 
@@ -233,7 +233,7 @@ def test_a_description_of_other_samples_is_refused(bar, tmp_path):
     zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run")
     zd.simulate(zd.systems.oscillator(), 0.1, step=0.05, save_to=tmp_path / "other")
     (tmp_path / "run.json").write_bytes((tmp_path / "other.json").read_bytes())
-    with pytest.raises(ValueError, match=r"run\.json must describe samples of 144 bytes, not "):
+    with refused("unreadable-file", r"run\.json.*of 144"):
         zd.load(tmp_path / "run.npy")
 
 
@@ -263,7 +263,7 @@ def test_a_header_that_is_cut_short_is_refused(bar, tmp_path, length):
     zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run")
     path = tmp_path / "run.npy"
     path.write_bytes(path.read_bytes()[:length])
-    with pytest.raises(ValueError, match=r"run\.npy cannot be read: its header must be whole"):
+    with refused("unreadable-file", r"run\.npy"):
         zd.load(path)
 
 
@@ -324,7 +324,7 @@ def test_a_file_that_cannot_be_removed_is_not_replaced(bar, tmp_path, monkeypatc
     if os.name != "nt":
         monkeypatch.setattr(sample_file, "AS_WINDOWS", True)
         monkeypatch.setattr(sample_file.Path, "unlink", lambda path, missing_ok=False: path.suffix == ".lock" or refuse(path))
-    with pytest.raises(PermissionError, match=r"save_to cannot replace '.*run\.npy' while its samples are in use: a sol"):
+    with refused("file-in-use", r"save_to.*'.*run\.npy'"):
         zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
     assert_same_bits(first, zd.load(tmp_path / "run.npy"))
 
@@ -411,7 +411,7 @@ def test_what_is_refused_names_the_argument(bar, tmp_path):
                                (tmp_path / "folder", FileExistsError, "save_to must be a new file")):
         with pytest.raises(error, match=message):
             zd.simulate(bar, 1.0, step=0.1, save_to=to)
-    with pytest.raises(ValueError, match="save_every must be 1 where t_eval is given"):
+    with refused("conflicting-arguments", "save_every.*be 1.*t_eval"):
         zd.simulate(bar, 1.0, step=0.1, save_to=tmp_path / "a", save_every=2, t_eval=[0.5])
     assert (tmp_path / "mine.npy").read_text() == "notes"
 
@@ -419,7 +419,7 @@ def test_what_is_refused_names_the_argument(bar, tmp_path):
 def test_another_byte_order_is_refused(bar, tmp_path, monkeypatch):
     zd.simulate(bar, 0.1, step=0.01, save_to=tmp_path / "run")
     monkeypatch.setattr(mapped_samples.sys, "byteorder", "middle")
-    with pytest.raises(ValueError, match=r"run\.npy was written by a machine of another byte order"):
+    with refused("unreadable-file", r"run\.npy"):
         zd.load(tmp_path / "run.npy")
 
 
@@ -452,7 +452,7 @@ def test_more_than_half_of_memory_is_told_before_anything_runs(bar, monkeypatch)
         zd.simulate(bar, 1.0, step=0.01)
     assert told[0].filename == __file__
     steps = At(1, throw(AssertionError("it runs")))
-    with pytest.raises(MemoryError, match=r"201 samples take 28\.9 kB"):
+    with refused("no-memory", r"201.*take 28\.9"):
         zd.simulate(bar, 2.0, step=0.01, progress=steps)
     monkeypatch.setattr(memory, "free_memory", lambda: None)
     assert len(zd.simulate(bar, 2.0, step=0.01).t) == 201
@@ -462,14 +462,14 @@ def test_chosen_steps_stop_where_no_more_rows_have_room(bar, monkeypatch):
     monkeypatch.setattr("zerodrift.runs.recording.UNCHECKED_BYTES", 1000)
     monkeypatch.setattr("zerodrift.runs.recording.FIRST_BLOCK", 16)
     monkeypatch.setattr(memory, "free_memory", lambda: 20000)
-    with pytest.warns(zd.CostWarning), pytest.raises(MemoryError, match="256 samples take") as caught:
+    with pytest.warns(zd.CostWarning), refused("no-memory") as caught:
         zd.simulate(bar, 20.0, rtol=1e-8, integrator="dop853")
     assert len(caught.value.solution.t) == 256
 
 
 def test_a_disk_without_room_is_refused_before_anything_runs(bar, tmp_path, monkeypatch):
     monkeypatch.setattr(memory.shutil, "disk_usage", lambda folder: type("Usage", (), {"free": 10**4}))
-    with pytest.raises(OSError, match=r"101 samples take 14\.5 kB, and 10 kB are free in "):
+    with refused("no-space", r"101.*take 14\.5.*and 10"):
         zd.simulate(bar, 1.0, step=0.01, save_to=tmp_path / "run")
     assert not list(tmp_path.iterdir())
 

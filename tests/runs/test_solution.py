@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import ROWS, assert_same_bits, motion
+from support import ROWS, assert_same_bits, motion, refused
 from zerodrift.runs.saving import Described
 
 
@@ -150,7 +150,7 @@ def write_one_array(path):
 def test_a_file_that_is_no_solution(write, tmp_path):
     path = tmp_path / "file.npz"
     write(path)
-    with pytest.raises(ValueError, match=r"file\.npz must be a solution, an ensemble or a mechanism saved"):
+    with refused("unreadable-file", r"file\.npz"):
         zd.load(path)
 
 
@@ -182,17 +182,17 @@ def test_names_that_say_nothing_or_too_much_are_refused():
     system = zd.System(["x", "constraint0"], mass=np.eye(2), constraints=lambda p: p[1:], p0=[1.0, 0.0])
     sol = zd.simulate(system, 0.1, step=0.1)
     assert np.array_equal(sol["x"], sol.p[:, 0])
-    with pytest.raises(KeyError, match=r"a name must be unique in system.*, but 'constraint0' names 2 variables"):
+    with refused("duplicate-name", "'constraint0'.*names 2"):
         sol["constraint0"]
     for nothing in ("z", 0, None):
-        with pytest.raises(KeyError, match=r"there are x, constraint0, x_dot, constraint0_dot \[zd:wrong-name"):
+        with refused("wrong-name", "x_dot, constraint0_dot"):
             sol[nothing]
 
 
 def test_of_many_names_the_closest_are_told():
     names = [f"rocker{i}" for i in range(9)]
     sol = zd.simulate(zd.System(names, mass=np.eye(9), p0=np.zeros(9)), 0.1, step=0.1)
-    with pytest.raises(KeyError, match=r"is called 'Roker3'; the closest of 18 names are rocker3, (rocker., ){3}rocker. \[zd:"):
+    with refused("wrong-name", r"is called 'Roker3'; the closest of 18 names are rocker3, (rocker., ){3}rocker. \[zd:"):
         sol["Roker3"]
-    with pytest.raises(KeyError, match="there are rocker0, rocker1, rocker2, rocker3, rocker4 and 13 more"):
+    with refused("wrong-name", "and 13"):
         sol["q"]

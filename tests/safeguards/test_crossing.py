@@ -297,7 +297,7 @@ def test_chosen_steps_follow_a_sharp_turn(ground, formulation):
 
 
 def test_what_to_do_is_a_setting(tmp_path):
-    with pytest.raises(ValueError, match=r"on_singular must be 'stop' or 'continue'|on_singular"):
+    with refused("unknown-choice", r"on_singular must be 'stop' or 'continue'|on_singular"):
         parallelogram(100, on_singular="guess")
     sol = parallelogram(100, on_singular="continue")
     again = zd.load(sol.save(tmp_path / "motion"))

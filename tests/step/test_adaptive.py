@@ -115,38 +115,38 @@ def test_chosen_steps_survive_saving_and_serve_again(bar, tmp_path):
 BAR = SYSTEMS["four_bar"]
 
 
-@pytest.mark.parametrize(("options", "message"), [
-    ({"integrator": "rk4"}, "step must be given: 'rk4' takes fixed steps; give step=, or integrator='dormand_prince' or"),
-    ({"integrator": "rk4", "rtol": 1e-6}, "'rk4' takes fixed steps, and rtol is for adaptive steps; give step="),
-    ({"step": 0.1, "rtol": 1e-6}, "rtol is for adaptive steps"),
-    ({"step": 0.1, "max_step": 1.0}, "max_step is for adaptive steps"),
-    ({"rtol": 1e-15}, "rtol must be at least 2.2"),
-    ({"rtol": -1.0}, "rtol must be at least"),
-    ({"rtol": np.nan}, "rtol must be finite"),
-    ({"atol": 0.0}, "atol must be greater than 0"),
-    ({"max_step": 0.0}, "max_step must be at least"),
-    ({"first_step": -1.0}, "first_step must be at least"),
-    ({"max_move": 0.0}, "max_move must be greater than 0"),
-    ({"t_eval": []}, "t_eval must increase"),
-    ({"t_eval": [0.2, 0.1]}, "t_eval must increase"),
-    ({"t_eval": [0.1, 0.1]}, "t_eval must increase"),
-    ({"t_eval": [0.5, 1.5]}, "be between 0 and 1, not"),
-    ({"t_eval": [-0.5]}, "be between 0 and 1, not"),
-    ({"t_eval": [[0.5]]}, "t_eval must have shape"),
-    ({"t_eval": [np.nan]}, "t_eval must be finite"),
-    ({"t_eval": [0.5], "save_every": 2}, "save_every must be 1 where t_eval is given"),
+@pytest.mark.parametrize(("options", "code", "message"), [
+    ({"integrator": "rk4"}, "step-size", "^step must.*'rk4'.*'dormand_prince'"),
+    ({"integrator": "rk4", "rtol": 1e-6}, "step-size", "'rk4'"),
+    ({"step": 0.1, "rtol": 1e-6}, "conflicting-arguments", None),
+    ({"step": 0.1, "max_step": 1.0}, "conflicting-arguments", "max_step"),
+    ({"rtol": 1e-15}, "tolerance", "^rtol must.*least 2.2"),
+    ({"rtol": -1.0}, "tolerance", "^rtol must"),
+    ({"rtol": np.nan}, "tolerance", "^rtol must"),
+    ({"atol": 0.0}, "tolerance", "^atol must.*than 0"),
+    ({"max_step": 0.0}, "step-size", "max_step"),
+    ({"first_step": -1.0}, "step-size", "first_step"),
+    ({"max_move": 0.0}, "step-size", "max_move.*than 0"),
+    ({"t_eval": []}, "not-increasing", "t_eval"),
+    ({"t_eval": [0.2, 0.1]}, "not-increasing", "t_eval"),
+    ({"t_eval": [0.1, 0.1]}, "not-increasing", "t_eval"),
+    ({"t_eval": [0.5, 1.5]}, "out-of-range", "between 0.*and 1"),
+    ({"t_eval": [-0.5]}, "out-of-range", "between 0.*and 1"),
+    ({"t_eval": [[0.5]]}, "shape", "t_eval"),
+    ({"t_eval": [np.nan]}, "not-finite", "t_eval"),
+    ({"t_eval": [0.5], "save_every": 2}, "conflicting-arguments", "save_every.*be 1.*t_eval"),
 ])
-def test_bad_values(options, message):
-    with pytest.raises(ValueError, match=message):
+def test_bad_values(options, code, message):
+    with refused(code, message):
         zd.simulate(BAR, 1.0, **({"integrator": "dop853"} | options))
 
 
 def test_what_is_as_in_scipy_and_what_is_not(bar):
     """`max_step=inf` does not bound steps, as in SciPy; time goes forward, `atol` is one number, a start is not an event."""
     assert adaptive(bar, 0.5, max_step=np.inf).p.tobytes() == adaptive(bar, 0.5).p.tobytes()
-    with pytest.raises(ValueError, match="t_span must run forwards: 0 is not after 1"):
+    with refused("not-increasing", "t_span.*0.*after 1"):
         zd.simulate(bar, (1.0, 0.0), **CHOSEN)
-    with pytest.raises(TypeError, match="atol must be a real number"):
+    with refused("wrong-type", "^atol must"):
         zd.simulate(bar, 1.0, atol=np.array([1e-9, 1e-6]), **CHOSEN)
     spring = zd.systems.oscillator(mass=1.0, stiffness=1.0, x0=0.0, v0=1.0)
     sol = zd.simulate(spring, 7.0, integrator="dop853", rtol=1e-10, atol=1e-10, events=lambda t, p, v: p[0])

@@ -10,7 +10,7 @@ from sympy.physics.mechanics import dynamicsymbols
 
 import tolerances as tol
 import zerodrift as zd
-from support import assert_close
+from support import assert_close, refused
 
 T = dynamicsymbols._t
 Q, U = dynamicsymbols("q u")
@@ -74,7 +74,7 @@ def test_what_is_not_finite_is_so_in_python_too(place):
     if system.compiled:
         assert math.isnan(system.evaluate([-2.0]).V)
         return
-    with pytest.raises(ValueError, match="is not finite at t = 0"):
+    with refused("not-finite"):
         system.evaluate([-2.0])
 
 
@@ -192,12 +192,12 @@ def test_what_cannot_be_is_refused_by_name(given, why):
         zd.symbolic([Q], **({"kinetic": ENERGY} | given))
 
 
-@pytest.mark.parametrize(("coordinates", "why"), [
-    ([X], "speeds are needed: coordinate x is a symbol"), ([], "coordinates must be different symbols"),
-    ([Q, Q], "coordinates must be different symbols"), ([Q + 1], "coordinates must be symbols or functions of time, not q"),
-    ("x", "coordinates must be symbols or functions of time, not 'x'")])
-def test_coordinates_are_symbols(coordinates, why):
-    with pytest.raises((ValueError, TypeError), match=why):
+@pytest.mark.parametrize(("coordinates", "code", "why"), [
+    ([X], "missing-argument", None), ([], "duplicate-name", "coordinates"),
+    ([Q, Q], "duplicate-name", "coordinates"), ([Q + 1], "wrong-type", "coordinates"),
+    ("x", "wrong-type", "coordinates.*'x'")])
+def test_coordinates_are_symbols(coordinates, code, why):
+    with refused(code, why):
         zd.symbolic(coordinates, kinetic=ENERGY)
 
 
@@ -252,5 +252,5 @@ def test_functions_that_bring_their_c_are_missed_in_python(monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler")
     with pytest.warns(zd.NoCompilerWarning):
         system = of(Cube(Q))
-    with pytest.raises(NotImplementedError, match="Python has no Cube; with a C compiler it can be evaluated"):
+    with refused("needs-compiler", "Python has no Cube; with a C compiler it can be evaluated"):
         system.evaluate([0.5])

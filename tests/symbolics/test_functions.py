@@ -8,6 +8,7 @@ import sympy as sp
 from sympy.codegen import cfunctions as c
 
 import zerodrift as zd
+from support import refused
 from zerodrift.symbolics.graph import sympy_functions
 from zerodrift.symbolics.system import _compiled
 
@@ -115,7 +116,7 @@ def test_powers_of_numbers_have_derivatives():
                          ids=lambda function: function.__name__)
 def test_functions_that_are_not_there_are_refused_by_name(function):
     expression = function(*(X, Y)[:2 if function in (sp.beta, sp.binomial, sp.RisingFactorial) else 1])
-    with pytest.raises(ValueError, match=r"has no counterpart in C|the imaginary unit"):
+    with refused("expression", r"has no counterpart in C|the imaginary unit"):
         zd.symbolic([X, Y], speeds=[DX, DY], kinetic=(DX**2 + DY**2) / 2, potential=expression)
 
 
@@ -138,35 +139,35 @@ def test_the_same_symbol_with_other_assumptions(given, why):
 
 def test_the_same_function_of_another_time():
     t, q = sp.Symbol("t", real=True), sp.Function("q")
-    with pytest.raises(ValueError, match=r"has q\(t\), Function\('q'\)\(Symbol\('t', real=True\)\), which to SymPy is another"):
+    with refused("expression", "'q'.*'t'"):
         zd.symbolic([q(sp.Symbol("t"))], speeds=[DX], kinetic=DX**2 / 2, potential=q(t), time=sp.Symbol("t"))
 
 
 # ---- arguments of another kind ----
 
 
-@pytest.mark.parametrize(("given", "why"), [
-    ({"parameters": [1, 2]}, "parameters must be a dict of symbols or names and their values, not \\[1, 2\\]"),
-    ({"parameters": "ab"}, "parameters must be a dict"),
-    ({"parameters": {"a": "1"}}, "parameter 'a' must be a real number, not '1'"),
-    ({"parameters": {"a": None}}, "parameter 'a' must be a real number, not None"),
-    ({"parameters": {"a": 1j}}, "parameter 'a' must be a real number, not 1j"),
-    ({"parameters": {"a": float("nan")}}, "parameter 'a' must be finite, not nan"),
-    ({"force": 3.0}, "force must be a sequence of expressions, not 3.0"),
-    ({"force": [None]}, "force must be a SymPy expression, not None"),
-    ({"force": [1j]}, "force has I, the imaginary unit"), ({"force": [sp.zoo]}, "force has zoo"),
-    ({"force": [sp.nan]}, "force has nan"),
-    ({"force": [X < 1]}, "force must be a scalar SymPy expression, not x < 1"),
-    ({"constraints": 3}, "constraints must be a sequence"),
-    ({"nonholonomic": 3}, "nonholonomic must be a sequence"), ({"points": 3}, "points must be a sequence"),
-    ({"points": [X]}, "point 0 must be a sequence"), ({"kinetic": None, "mass": 3}, "mass must be a matrix"),
-    ({"kinetic": None, "mass": [[1]], "bias": 3}, "bias must be a sequence"),
-    ({"kinematics": "ab"}, "kinematics must be a matrix"),
-    ({"coordinates": None}, "coordinates must be a sequence of symbols"), ({"speeds": 3}, "speeds must be a sequence of symbols"),
-    ({"units": 3}, "units must be 1 strings"), ({"potential": sp.MatrixSymbol("K", 2, 2)[0, 0]}, "potential has K\\[0, 0\\]"),
-    ({"potential": sp.Sum(X, (Y, 0, 3))}, "Sum has no counterpart"),
+@pytest.mark.parametrize(("given", "code", "why"), [
+    ({"parameters": [1, 2]}, "wrong-type", "parameters.*1, 2"),
+    ({"parameters": "ab"}, "wrong-type", "parameters"),
+    ({"parameters": {"a": "1"}}, "wrong-type", "'a'.*'1'"),
+    ({"parameters": {"a": None}}, "wrong-type", "'a'"),
+    ({"parameters": {"a": 1j}}, "wrong-type", "'a'.*not 1j"),
+    ({"parameters": {"a": float("nan")}}, "not-finite", "'a'"),
+    ({"force": 3.0}, "wrong-type", "force.*not 3.0"),
+    ({"force": [None]}, "wrong-type", "force"),
+    ({"force": [1j]}, "expression", None), ({"force": [sp.zoo]}, "expression", None),
+    ({"force": [sp.nan]}, "expression", None),
+    ({"force": [X < 1]}, "wrong-type", "force.*1"),
+    ({"constraints": 3}, "wrong-type", "constraints"),
+    ({"nonholonomic": 3}, "wrong-type", "nonholonomic"), ({"points": 3}, "wrong-type", "points"),
+    ({"points": [X]}, "wrong-type", "point 0"), ({"kinetic": None, "mass": 3}, "shape", "^mass must"),
+    ({"kinetic": None, "mass": [[1]], "bias": 3}, "wrong-type", "^bias must"),
+    ({"kinematics": "ab"}, "shape", "kinematics"),
+    ({"coordinates": None}, "wrong-type", "coordinates"), ({"speeds": 3}, "wrong-type", "speeds"),
+    ({"units": 3}, "shape", "units.*be 1"), ({"potential": sp.MatrixSymbol("K", 2, 2)[0, 0]}, "expression", "0, 0"),
+    ({"potential": sp.Sum(X, (Y, 0, 3))}, "expression", None),
 ])
-def test_arguments_of_another_kind_are_named(given, why):
+def test_arguments_of_another_kind_are_named(given, code, why):
     given = {"coordinates": [X], "speeds": [DX], "kinetic": DX**2 / 2} | given
-    with pytest.raises((TypeError, ValueError), match=why):
+    with refused(code, why):
         zd.symbolic(given.pop("coordinates"), **given)

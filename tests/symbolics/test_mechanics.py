@@ -3,7 +3,6 @@
 import functools
 
 import numpy as np
-import pytest
 import sympy as sp
 from sympy.physics.mechanics import (
     KanesMethod,
@@ -20,7 +19,7 @@ from sympy.physics.mechanics import (
 
 import tolerances as tol
 import zerodrift as zd
-from support import SYSTEMS, assert_close, consistent_states
+from support import SYSTEMS, assert_close, consistent_states, refused
 from symbolic_counterparts import GRAVITY, GROUND, LENGTHS, MASSES, VALUES, rolling_disc
 
 T = dynamicsymbols._t
@@ -173,13 +172,13 @@ def test_what_cannot_be_is_refused():
     N, P = ReferenceFrame("N"), Point("P")
     P.set_vel(N, u * N.x)
     particle = Particle("particle", P, 1)
-    with pytest.raises(TypeError, match="method must be a LagrangesMethod, a KanesMethod or a System"):
+    with refused("wrong-type", "method"):
         zd.from_mechanics(particle)
-    with pytest.raises(ValueError, match="the KanesMethod has no bodies yet"):
+    with refused("missing-argument"):
         zd.from_mechanics(KanesMethod(N, [q], [u], kd_eqs=[q.diff(T) - u]))
-    with pytest.raises(ValueError, match="kinematics 0 must be linear in the speeds"):
+    with refused("expression", "kinematics 0"):
         zd.from_mechanics(KanesMethod(N, [q], [u], kd_eqs=[q.diff(T) - u - 1], bodies=[particle]))
-    with pytest.raises(ValueError, match="auxiliary speeds such as w"):
+    with refused("expression"):
         zd.from_mechanics(KanesMethod(N, [q], [u], kd_eqs=[q.diff(T) - u], u_auxiliary=[w], bodies=[particle]))
-    with pytest.raises(ValueError, match="no frame"):
+    with refused("missing-argument"):
         zd.from_mechanics(LagrangesMethod(q.diff(T) ** 2, [q], forcelist=[(P, N.x)]))

@@ -16,7 +16,7 @@ from sympy.physics.mechanics import dynamicsymbols
 
 import tolerances as tol
 import zerodrift as zd
-from support import FORMULATIONS, SYSTEMS, assert_close, consistent_states, violated_states
+from support import FORMULATIONS, SYSTEMS, assert_close, consistent_states, refused, violated_states
 from symbolic_counterparts import GRAVITY, MASSES, VALUES, T, bar, chaplygin_sleigh, driven_four_bar, four_bar, rolling_disc
 from zerodrift.symbolics import progress_message
 from zerodrift.symbolics.graph import blocks
@@ -201,20 +201,20 @@ def test_parameters_are_changed_without_deriving_or_compiling(monkeypatch):
     assert again.parameters == heavy.parameters
     assert np.array_equal(again.evaluate().M, heavy.evaluate().M)
     assert_close(bar(parameters=VALUES | {MASSES[1]: 8.0}).evaluate(system.p0).M, heavy.evaluate().M, tol.SAME)
-    with pytest.raises(ValueError, match=r"parameter must be one of 'l1', .*, not 'mass'"):
+    with refused("unknown-choice", "parameter.*'l1'.*'mass'"):
         system.with_parameters(mass=1.0)
-    with pytest.raises(ValueError, match="parameter 'm2' must be finite"):
+    with refused("not-finite", "'m2'"):
         system.with_parameters(m2=np.inf)
 
 
 def test_the_start_can_be_changed_and_is_asked_for():
     system = bar()
-    with pytest.raises(ValueError, match="p0 is needed: bar has no start"):
+    with refused("missing-argument"):
         zd.simulate(system, 1.0, step=0.01)
     core = SYSTEMS["four_bar"]
     again = system.starting(core.p0, core.v0)
     assert_close(zd.simulate(again, 0.1, step=0.01).p, zd.simulate(core, 0.1, step=0.01).p, 1e-13)
-    with pytest.raises(ValueError, match=r"p0 must have shape \(3,\)"):
+    with refused("shape", "^p0 must.*3"):
         system.starting([1.0])
 
 

@@ -95,7 +95,7 @@ def test_nonholonomic_xi_is_derived():
 def test_callables_take_parameters_by_name_and_parameters_can_be_changed():
     short = four_bar().with_parameters(g=0.0)
     assert short.evaluate().f == pytest.approx(0.0)
-    with pytest.raises(ValueError, match="'l0', 'L', 'm', 'g'"):
+    with refused("unknown-choice", "'l0', 'L', 'm', 'g'"):
         four_bar().with_parameters(gravity=1.0)
 
 
@@ -151,25 +151,25 @@ def test_ctrl_c_inside_a_callable_is_an_interruption():
     assert len(caught.value.solution.t) > 1
 
 
-@pytest.mark.parametrize(("changes", "message"), [
-    ({"mass": lambda p: np.eye(2)}, "mass is for 2 velocities and there are 3 coordinates"),
-    ({"mass": np.ones(3)}, r"mass must return shape \(nv, nv\), not \(3,\)"),
-    ({"force": lambda p: np.zeros(2)}, r"force must return shape \(3,\), not \(2,\)"),
-    ({"jacobian": lambda p: np.zeros((3, 2))}, r"jacobian must return shape \(2, 3\), not \(3, 2\)"),
-    ({"xi": lambda p: np.zeros(3)}, r"xi must return shape \(2,\)"),
-    ({"constraints": lambda p: 0.0, "jacobian": None, "xi": None}, r"constraints must return shape \(mh\)"),
-    ({"constraints": None, "xi": None}, "jacobian is given without constraints"),
-    ({"potential": None, "power": 0.0}, "power must be given together with potential"),
-    ({"p0": [0.0, 1.0]}, r"p0 must have shape \(3,\)"),
-    ({"p0": [0.0, np.nan, 1.0]}, "p0 must be finite"),
+@pytest.mark.parametrize(("changes", "code", "message"), [
+    ({"mass": lambda p: np.eye(2)}, "missing-argument", "for 2.*are 3"),
+    ({"mass": np.ones(3)}, "shape", "^mass must.*3"),
+    ({"force": lambda p: np.zeros(2)}, "shape", "force.*3.*2"),
+    ({"jacobian": lambda p: np.zeros((3, 2))}, "shape", "jacobian.*2, 3.*3, 2"),
+    ({"xi": lambda p: np.zeros(3)}, "shape", "^xi must.*2"),
+    ({"constraints": lambda p: 0.0, "jacobian": None, "xi": None}, "shape", "constraints"),
+    ({"constraints": None, "xi": None}, "missing-argument", None),
+    ({"potential": None, "power": 0.0}, "missing-argument", "power"),
+    ({"p0": [0.0, 1.0]}, "shape", "^p0 must.*3"),
+    ({"p0": [0.0, np.nan, 1.0]}, "not-finite", "^p0 must"),
 ])
-def test_wrong_shapes_name_the_callable(changes, message):
-    with pytest.raises(ValueError, match=message):
+def test_wrong_shapes_name_the_callable(changes, code, message):
+    with refused(code, message):
         four_bar(**changes)
 
 
 def test_an_unknown_argument_of_a_callable_is_named():
-    with pytest.raises(TypeError, match="force asks for 'q'; there is t, p, v, l0, L, m, g"):
+    with refused("user-function", "'q'"):
         four_bar(force=lambda q: q)
 
 
@@ -182,7 +182,7 @@ def test_coordinates_are_a_number_or_names(coordinates):
 @pytest.mark.parametrize(("term", "value"), [("force", lambda t, p: np.full(3, np.nan if t > 0.1 else 0.0)),
                                              ("mass", lambda t: np.full((3, 3), np.inf) if t > 0.1 else np.eye(3))])
 def test_a_value_that_is_not_finite_names_callable_and_time(term, value):
-    with pytest.raises(ValueError, match=rf"{term} is not finite at t = 0.1") as caught:
+    with refused("not-finite", rf"{term} is not finite at t = 0.1") as caught:
         zd.simulate(four_bar(**{term: value}), 1.0, step=0.01)
     assert len(caught.value.solution.t) > 5
 
@@ -191,12 +191,12 @@ def test_a_jacobian_that_is_not_finite_is_named():
     def broken(t, p, L):
         return jacobian(p, L) if t < 0.1 else np.full((2, 3), np.nan)
 
-    with pytest.raises(ValueError, match=r"^jacobian is not finite at t = 0.1"):
+    with refused("not-finite", r"^jacobian is not finite at t = 0.1"):
         zd.simulate(four_bar(jacobian=broken), 1.0, step=0.01)
 
 
 def test_a_shape_that_changes_on_the_way_is_caught():
-    with pytest.raises(ValueError, match=r"force must return shape \(3,\), not \(4,\) \(at t = 0.1"):
+    with refused("shape", "force.*3.*4.*0.1"):
         zd.simulate(four_bar(force=lambda t: np.zeros(3 if t < 0.1 else 4)), 1.0, step=0.01)
 
 
@@ -213,12 +213,12 @@ def test_what_cannot_be_simulated_is_said_at_the_start(formulation, changes, cod
 
 
 def test_energy_correction_without_potential_is_refused():
-    with pytest.raises(ValueError, match=r"energy correction needs V \(potential energy in J\), and system declares none"):
+    with refused("not-available"):
         zd.simulate(four_bar(potential=None), 1.0, step=0.01, energy=True)
 
 
 def test_a_system_without_start_asks_for_one():
-    with pytest.raises(ValueError, match="p0 is needed"):
+    with refused("missing-argument"):
         zd.simulate(zd.System(1, mass=[[1.0]]), 1.0, step=0.1)
 
 
@@ -228,5 +228,5 @@ def test_filling_an_array_with_derivatives_explains_itself():
         out[0] = p[0] ** 2 + p[1] ** 2 - 1
         return out
 
-    with pytest.raises(TypeError, match="build arrays with"):
+    with refused("user-function"):
         zd.System(2, mass=np.eye(2), constraints=filled, p0=[1.0, 0.0]).evaluate()

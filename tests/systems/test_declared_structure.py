@@ -8,7 +8,7 @@ import pytest
 import zerodrift as zd
 from native_systems import needs_compiler
 from structured import Bodies, bodies_library, chain
-from support import assert_same_bits
+from support import assert_same_bits, refused
 from zerodrift import _gateway
 
 PAIR = zd.Structure(blocks=[3, 3], groups=[(2, [0]), (2, [0, 1])], mass="diagonal")
@@ -39,35 +39,35 @@ def test_a_structure_is_equal_to_its_like_prints_and_pickles():
     assert zd.Structure([3, 3], [(2, [0]), (2, [0, 1])]) != PAIR
 
 
-@pytest.mark.parametrize(("arguments", "error", "sentence"), [
-    ({"blocks": 3}, TypeError, "blocks must be a sequence of counts"),
-    ({"blocks": []}, ValueError, "blocks must be at least one"),
-    ({"blocks": [3, 0]}, ValueError, r"blocks\[1\] must be between 1"),
-    ({"blocks": [3.0]}, TypeError, r"blocks\[0\] must be a whole number, not 3.0"),
-    ({"blocks": [(4, 3, 1)]}, ValueError, r"blocks\[0\] must be a count or \(coordinates, velocities\)"),
-    ({"blocks": [3], "groups": 2}, TypeError, r"groups must be a sequence of \(rows, blocks\)"),
-    ({"blocks": [3], "groups": [2]}, TypeError, r"groups\[0\] must be a sequence \(rows, blocks\), not 2"),
-    ({"blocks": [3], "groups": [(1, [0], 2)]}, ValueError, r"groups\[0\] must be \(rows, blocks\)"),
-    ({"blocks": [3], "groups": [(0, [0])]}, ValueError, r"the rows of groups\[0\] must be between 1"),
-    ({"blocks": [3], "groups": [(1, [0]), (1, [1])]}, ValueError, r"groups\[1\] touches block 1, and there are blocks 0 to 0"),
-    ({"blocks": [3], "groups": [(1, [])]}, ValueError, r"groups\[0\] must touch at least one block"),
-    ({"blocks": [3, 3], "groups": [(1, [1, 0])]}, ValueError, r"groups\[0\] must touch at least one block, in increasing order"),
-    ({"blocks": [3, 3], "groups": [(1, [0, 0])]}, ValueError, "in increasing order"),
-    ({"blocks": [3], "groups": [(1, [-1])]}, ValueError, r"a block of groups\[0\] must be between 0"),
-    ({"blocks": [3], "mass": "light"}, ValueError, "mass must be one of '', 'constant', 'diagonal', 'constant diagonal'"),
-    ({"blocks": [3], "mass": ["", ""]}, ValueError, "mass must be one word, or 1, one for each block, not 2"),
+@pytest.mark.parametrize(("arguments", "code", "sentence"), [
+    ({"blocks": 3}, "declared-structure", "blocks"),
+    ({"blocks": []}, "declared-structure", "blocks"),
+    ({"blocks": [3, 0]}, "out-of-range", r"blocks\[1\].*between 1"),
+    ({"blocks": [3.0]}, "wrong-type", r"blocks\[0\].*not 3.0"),
+    ({"blocks": [(4, 3, 1)]}, "declared-structure", r"blocks\[0\]"),
+    ({"blocks": [3], "groups": 2}, "declared-structure", "groups"),
+    ({"blocks": [3], "groups": [2]}, "declared-structure", r"groups\[0\].*not 2"),
+    ({"blocks": [3], "groups": [(1, [0], 2)]}, "declared-structure", r"groups\[0\]"),
+    ({"blocks": [3], "groups": [(0, [0])]}, "out-of-range", r"groups\[0\].*between 1"),
+    ({"blocks": [3], "groups": [(1, [0]), (1, [1])]}, "declared-structure", r"groups\[1\].*block 1.*blocks 0.*to 0"),
+    ({"blocks": [3], "groups": [(1, [])]}, "declared-structure", r"groups\[0\]"),
+    ({"blocks": [3, 3], "groups": [(1, [1, 0])]}, "declared-structure", r"groups\[0\]"),
+    ({"blocks": [3, 3], "groups": [(1, [0, 0])]}, "declared-structure", None),
+    ({"blocks": [3], "groups": [(1, [-1])]}, "out-of-range", r"groups\[0\].*between 0"),
+    ({"blocks": [3], "mass": "light"}, "unknown-choice", "^mass must.*'', 'constant', 'diagonal', 'constant diagonal'"),
+    ({"blocks": [3], "mass": ["", ""]}, "declared-structure", "^mass must.*or 1.*not 2"),
 ])
-def test_what_is_no_structure_is_refused(arguments, error, sentence):
-    with pytest.raises(error, match=sentence):
+def test_what_is_no_structure_is_refused(arguments, code, sentence):
+    with refused(code, sentence):
         zd.Structure(**arguments)
 
 
 def test_what_does_not_fit_is_refused():
-    with pytest.raises(ValueError, match="term must be one of 'A', 'M', 'C', not 'f'"):
+    with refused("unknown-choice", "^term must.*'A', 'M', 'C', not 'f'"):
         PAIR.size("f")
-    with pytest.raises(ValueError, match=r"dense must be of shape \(6, 6\), not \(2, 2\)"):
+    with refused("declared-structure", "dense.*6, 6.*2, 2"):
         PAIR.pack("M", np.eye(2))
-    with pytest.raises(ValueError, match=r"M\[0, 4\] is 0.5, where the structure has nothing"):
+    with refused("declared-structure", "0, 4.*is 0.5"):
         PAIR.pack("M", np.eye(6) + 0.5 * np.eye(6, k=4))
 
 
@@ -76,17 +76,17 @@ def given(**changed):
             "structure": PAIR} | changed
 
 
-@pytest.mark.parametrize(("changed", "error", "sentence"), [
-    ({"structure": [3, 3]}, TypeError, "structure must be a zd.Structure"),
-    ({"structure": zd.Structure([3], [(4, [0])])}, ValueError, "structure has 3 coordinates in its blocks, and the system has 6"),
-    ({"structure": zd.Structure([3, 3], [(2, [0])])}, ValueError, "structure has 2 constraints in its groups, and the system"),
-    ({"structure": zd.Structure([(4, 3), (2, 3)], [(4, [0, 1])])}, ValueError,
-     "block 0 has 4 coordinates and 3 velocities: then a kinematic matrix is needed"),
-    ({"constraints": lambda p: np.array([p[0], p[1], p[3]]), "nonholonomic": lambda p: np.ones((1, 6))}, ValueError,
-     "group 1 has rows 2 to 3, of which the first 3 are holonomic; it has to be of one kind"),
+@pytest.mark.parametrize(("changed", "code", "sentence"), [
+    ({"structure": [3, 3]}, "wrong-type", "structure.*zd.Structure"),
+    ({"structure": zd.Structure([3], [(4, [0])])}, "declared-structure", "has 3.*has 6"),
+    ({"structure": zd.Structure([3, 3], [(2, [0])])}, "declared-structure", "has 2"),
+    ({"structure": zd.Structure([(4, 3), (2, 3)], [(4, [0, 1])])}, "declared-structure",
+     "block 0.*has 4.*and 3"),
+    ({"constraints": lambda p: np.array([p[0], p[1], p[3]]), "nonholonomic": lambda p: np.ones((1, 6))}, "declared-structure",
+     "group 1.*rows 2.*to 3.*first 3"),
 ])
-def test_a_system_refuses_a_structure_that_is_not_its_own(changed, error, sentence):
-    with pytest.raises(error, match=sentence):
+def test_a_system_refuses_a_structure_that_is_not_its_own(changed, code, sentence):
+    with refused(code, sentence):
         zd.System(6, **given(**changed))
 
 
@@ -97,13 +97,13 @@ def test_a_system_refuses_a_structure_that_is_not_its_own(changed, error, senten
      r"kinematics\[0, 5\] is 1, where"),
 ])
 def test_an_entry_without_a_place_is_never_dropped(changed, sentence):
-    with pytest.raises(ValueError, match=sentence + r".*\(at t = 0\)"):
+    with refused("declared-structure", sentence + r".*\(at t = 0\)"):
         zd.simulate(zd.System(6, **given(**changed)), 0.1, step=0.01)
 
 
 def test_a_term_that_is_not_finite_is_named_as_a_matrix():
     system = zd.System(6, **given(mass=lambda p: np.diag([1, 1, 1, 1, 1, np.nan if p[5] else 1.0])))
-    with pytest.raises(ValueError, match="mass is not finite at t = 0"):
+    with refused("not-finite"):
         system.evaluate(np.ones(6))     # as anywhere else, it is noticed by the core, which names the callable
 
 
@@ -130,9 +130,9 @@ def test_native_systems_with_structure_are_changed_and_pickled():
 def test_a_native_function_that_does_not_write_as_its_structure_says_is_refused():
     options = {"symbol": "dense", "terms": ["M", "f", "Phi", "C", "xi"], "constraints": 4, "scratch": 6, "p0": chain(2).p0,
                "parameters": chain(2).system().parameters, "structure": PAIR}
-    with pytest.raises(ValueError, match=r"it writes beyond M, which is of shape \(6,\)"):
+    with refused("compiled-function", r"it writes beyond M, which is of shape \(6,\)"):
         zd.native(bodies_library(), 6, **options)
-    with pytest.raises(ValueError, match="terms cannot have D where the structure is declared"):
+    with refused("compiled-function", "terms cannot have D where the structure is declared"):
         zd.native(bodies_library(), 6, **(options | {"terms": [*options["terms"], "D", "gamma"]}))
 
 

@@ -53,7 +53,7 @@ def test_a_capsule_is_known_by_its_signature(library):
     system = zd.native(scipy.LowLevelCallable(capsule), ["x", "y"], **GIVEN)
     assert_same_bits(motion(system), motion(built_in()))
     other = b"double (double, void *)"
-    with pytest.raises(TypeError, match=r"the LowLevelCallable is double \(double, void \*\), and must be int \(const void"):
+    with refused("compiled-function", r"the LowLevelCallable is double \(double, void \*\), and must be int \(const void"):
         zd.native(scipy.LowLevelCallable(new(address(library), other, None)), ["x", "y"], **GIVEN)
 
 
@@ -61,7 +61,7 @@ def test_a_capsule_is_known_by_its_signature(library):
 def test_pointers_are_not_pickled(source, library):
     function, options = SOURCES[source](library)
     system = zd.native(function, ["x", "y"], **GIVEN, **options)
-    with pytest.raises(TypeError, match="native system cannot be pickled: a function pointer means nothing in another process"):
+    with refused("not-portable"):
         pickle.dumps(system)
 
 
@@ -90,13 +90,13 @@ def test_parameters_of_a_kind(library):
     assert "length" in repr(system)
 
 
-@pytest.mark.parametrize(("parameters", "error", "message"), [
-    ({"lenght": 1.0}, TypeError, "pendulum has no parameter 'lenght'; it has mass, gravity, length"),
-    ({"length": -1.0}, ValueError, "length must be positive, not -1.0"),
-    ({"gravity": 1e3}, ValueError, "pendulum: there is no such gravity"),
+@pytest.mark.parametrize(("parameters", "code", "message"), [
+    ({"lenght": 1.0}, "wrong-name", "'lenght'"),
+    ({"length": -1.0}, "out-of-range", "length.*not -1.0"),
+    ({"gravity": 1e3}, "wrong-value", "pendulum: there is no such gravity"),
 ])
-def test_wrong_parameters_of_a_kind(parameters, error, message, library):
-    with pytest.raises(error, match=message):
+def test_wrong_parameters_of_a_kind(parameters, code, message, library):
+    with refused(code, message):
         zd.native(library, symbol="pendulum", parameters=parameters)
 
 
@@ -104,7 +104,7 @@ def test_a_saved_motion_is_not_taken_for_that_of_a_built_in_system(library, tmp_
     sol = motion(zd.native(library, symbol="pendulum"))
     again = zd.load(sol.save(tmp_path / "motion"))
     assert np.array_equal(again.p, sol.p)
-    with pytest.raises(TypeError, match="description of pendulum"):
+    with refused("wrong-type", "description of pendulum"):
         zd.simulate(again.system, 1.0, step=0.1)
 
 

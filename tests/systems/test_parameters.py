@@ -6,6 +6,7 @@ import pytest
 import zerodrift as zd
 from bead import MASKED, bead
 from native_systems import pendulum as native_pendulum
+from support import refused
 
 
 @pytest.mark.parametrize("name", ["t", "p", "v"])
@@ -13,9 +14,9 @@ def test_a_parameter_cannot_take_the_place_of_the_state(name, library):
     for make in (lambda: bead(parameters={"m": 1.0, "pull": np.zeros(2), name: np.zeros(2)}),
                  lambda: native_pendulum(library, parameters={name: 1.0}),
                  lambda: zd.native(library, symbol="pendulum", parameters={name: 1.0})):
-        with pytest.raises(ValueError, match=f"parameters cannot have '{name}': t, p, v are time, coordinates and velocities"):
+        with refused("duplicate-name", f"parameters cannot have '{name}': t, p, v are time, coordinates and velocities"):
             make()
-    with pytest.raises(ValueError, match=f"parameter must be one of 'm', 'pull', not '{name}'"):
+    with refused("unknown-choice", f"parameter must be one of 'm', 'pull', not '{name}'"):
         bead().with_parameters(**{name: 1.0})
 
 
@@ -28,7 +29,7 @@ def test_a_kind_whose_parameter_is_named_as_the_state_is_refused(library, monkey
         return kind
 
     monkeypatch.setattr(zd._gateway, "kind_at", renamed)
-    with pytest.raises(ValueError, match=r"zd_kind_pendulum of .*: parameters cannot have 'v'"):
+    with refused("compiled-function", r"zd_kind_pendulum of .*: parameters cannot have 'v'"):
         zd.native(library, symbol="pendulum")
 
 
@@ -47,20 +48,20 @@ def test_a_symbolic_parameter_has_a_name_of_its_own(name):
         if name == "other":
             assert zd.symbolic([x], **given).parameters["other"] == 1.0
         else:
-            with pytest.raises(ValueError, match=f"parameter {name} is a coordinate, a velocity or time"):
+            with refused("duplicate-name", f"parameter {name} is a coordinate, a velocity or time"):
                 zd.symbolic([x], **given)
 
 
-@pytest.mark.parametrize(("parameters", "error", "message"), [
-    ([1, 2], TypeError, r"parameters must be a dict of values by name, not \[1, 2\]"),
-    ("m", TypeError, "parameters must be a dict of values by name, not 'm'"),
-    ({1: 2.0}, TypeError, "parameters must have strings for names, not 1"),
-    ({"m": "2.0"}, TypeError, "parameter 'm' must be a number, an array of numbers or an object except a string, not '2.0'"),
-    ({"m": np.array(["2.0"])}, TypeError, "parameter 'm' must be a number, an array of numbers or an object except a string"),
-    ({"m": MASKED}, ValueError, "parameter 'm' must have no masked entries"),
+@pytest.mark.parametrize(("parameters", "code", "message"), [
+    ([1, 2], "wrong-type", "parameters.*1, 2"),
+    ("m", "wrong-type", "parameters.*'m'"),
+    ({1: 2.0}, "wrong-type", "parameters.*not 1"),
+    ({"m": "2.0"}, "wrong-type", "'m'.*'2.0'"),
+    ({"m": np.array(["2.0"])}, "wrong-type", "'m'"),
+    ({"m": MASKED}, "not-finite", "'m'"),
 ])
-def test_what_are_no_parameters(parameters, error, message):
-    with pytest.raises(error, match=message):
+def test_what_are_no_parameters(parameters, code, message):
+    with refused(code, message):
         bead(parameters=parameters)
 
 
@@ -72,7 +73,7 @@ def test_parameters_of_other_doors_are_a_dict(library):
     for make in (lambda: native_pendulum(library, parameters=[1, 2]),
                  lambda: zd.native(library, symbol="pendulum", parameters="x"),
                  lambda: zd.symbolic([x], kinetic=Symbol("m") * x.diff() ** 2, parameters=[1, 2])):
-        with pytest.raises(TypeError, match="parameters must be a dict of "):
+        with refused("wrong-type", "parameters"):
             make()
 
 

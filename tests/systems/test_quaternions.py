@@ -203,26 +203,26 @@ def test_a_system_without_compiler_says_it(monkeypatch):
     assert system.quaternions == (0,)
 
 
-@pytest.mark.parametrize(("quaternions", "error", "match"), [
-    ([1], ValueError, "quaternions must begin with four of the 4 coordinates each, not shared; not \\[1\\]"),
-    ([0, 0], ValueError, "quaternions must begin with four"),
-    (["q"], ValueError, "quaternions must be one of 'e0', 'e1', 'e2', 'e3', not 'q'"),
-    ([-1], ValueError, "quaternions must be between 0"),
-    ([0.0], TypeError, "quaternions must be a whole number, not 0.0"),
-    (0, TypeError, "quaternions must be a sequence of indices or names of coordinates, not 0"),
+@pytest.mark.parametrize(("quaternions", "code", "match"), [
+    ([1], "wrong-value", "quaternions must begin with four of the 4 coordinates each, not shared; not \\[1\\]"),
+    ([0, 0], "wrong-value", "quaternions must begin with four"),
+    (["q"], "unknown-choice", "quaternions.*'e0', 'e1', 'e2', 'e3', not 'q'"),
+    ([-1], "out-of-range", "quaternions.*between 0"),
+    ([0.0], "wrong-type", "quaternions.*not 0.0"),
+    (0, "wrong-type", "quaternions.*not 0"),
 ], ids=str)
-def test_what_is_none_is_refused(quaternions, error, match):
-    with pytest.raises(error, match=match):
+def test_what_is_none_is_refused(quaternions, code, match):
+    with refused(code, match):
         body(quaternions=quaternions)
 
 
 def test_a_quaternion_has_no_unit():
-    with pytest.raises(ValueError, match="units of a quaternion must be those of pure numbers, and e3 has 'm'"):
+    with refused("wrong-value", "units of a quaternion must be those of pure numbers, and e3 has 'm'"):
         body(quaternions=[0], units=["", "", "", "m", "rad/s", "rad/s", "rad/s"])
 
 
 def test_rates_of_a_quaternion_are_no_velocities():
-    with pytest.raises(ValueError, match="quaternions need kinematics"):
+    with refused("missing-argument"):
         zd.System(4, mass=np.eye(4), quaternions=[0])
 
 

@@ -10,6 +10,7 @@ import pytest
 
 import zerodrift as zd
 from bead import MASKED, bead
+from support import refused
 from watched import At, throw
 from zerodrift import compare
 
@@ -139,7 +140,7 @@ def test_a_debugger_finds_no_memory_of_a_run_that_is_over():
     lambda system: zd.acceleration(system, [1.0, 0.0], [0.0, 0.0]), lambda system: zd.project(system, [1.0, 0.1], [0.0, 0.0])],
     ids=["simulate", "evaluate", "acceleration", "project"])
 def test_what_is_not_finite_is_shown_as_it_was(call):
-    with pytest.raises(ValueError, match=r"^mass is not finite at t = 0: \[\[ *7. +nan\]\n \[nan +7.\]\] \[zd:not-finite\]$"):
+    with refused("not-finite", r"^mass is not finite at t = 0: \[\[ *7. +nan\]\n \[nan +7.\]\] \[zd:not-finite\]$"):
         call(bead(mass=np.array([[7.0, np.nan], [np.nan, 7.0]])))
 
 
@@ -160,19 +161,19 @@ def test_arrays_that_change_later_do_not_change_the_system():
 # ---- arguments that are not callables, results that are not values ----
 
 
-@pytest.mark.parametrize(("force", "error", "message"), [
-    (dict, TypeError, "force must be a function that names what it asks for, and <class 'dict'> does not; there is t, p, v, m"),
-    ({"x": 1.0}, TypeError, r"force must be a callable, or real numbers, not \{'x': 1.0\}"),
-    ("gravity", TypeError, "force must be a callable, or real numbers, not <U7"),
-    ([1j, 0.0], TypeError, "force must be a callable, or real numbers, not complex128"),
-    (MASKED, ValueError, "force must be a callable, or real numbers, none of them masked"),
-    ([[1.0], [2.0, 3.0]], ValueError, "force must be a callable, or an array of real numbers, not a ragged sequence"),
-    (lambda p, /: p, TypeError, "force takes 'p' by position only, and is handed it by name"),
-    (lambda *p: p, TypeError, r"force has '\*p', and must name what it asks for"),
-    (lambda p, **other: p, TypeError, r"force has '\*\*other', and must name what it asks for; there is t, p, v, m, pull"),
+@pytest.mark.parametrize(("force", "code", "message"), [
+    (dict, "user-function", "force.*'dict'"),
+    ({"x": 1.0}, "wrong-type", "force.*'x'.*1.0"),
+    ("gravity", "wrong-type", "force"),
+    ([1j, 0.0], "wrong-type", "force"),
+    (MASKED, "not-finite", "force"),
+    ([[1.0], [2.0, 3.0]], "shape", "force"),
+    (lambda p, /: p, "user-function", "'p'"),
+    (lambda *p: p, "user-function", r"'\*p'"),
+    (lambda p, **other: p, "user-function", r"'\*\*other'"),
 ])
-def test_what_is_no_force(force, error, message):
-    with pytest.raises(error, match=message):
+def test_what_is_no_force(force, code, message):
+    with refused(code, message):
         bead(force=force)
 
 
@@ -215,7 +216,7 @@ def test_what_a_callable_may_return(value):
 
 
 def test_numbers_too_large_are_not_finite():
-    with pytest.raises(ValueError, match="force is not finite at t = 0"):
+    with refused("not-finite"):
         bead(force=lambda: [10**400, 0]).evaluate()
 
 
@@ -227,7 +228,7 @@ def test_numbers_too_large_are_not_finite():
     lambda system: zd.simulate(system, 1.0, step=0.1)(MASKED),
     lambda system: compare.difference(zd.simulate(system, 1.0, step=0.1), lambda t: MASKED)])
 def test_masked_arrays_are_refused_everywhere(call):
-    with pytest.raises(ValueError, match=r"must (hold|return) real numbers, none of them masked, not "):
+    with refused("not-finite", r"must (hold|return) real numbers, none of them masked, not "):
         call(bead())
 
 

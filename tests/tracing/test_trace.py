@@ -7,6 +7,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
+from support import refused
 from tolerances import EPS
 from zerodrift.errors import InconsistentStart, SingularSystem
 from zerodrift.tracing import walk
@@ -235,7 +236,7 @@ def test_a_single_link():
     m.revolute("pin", m.ground, link.start)
     turn = zd.trace(m, "link.angle", count=5)
     assert np.abs(turn["link.end.position"] - [[1, 0], [0, 1], [-1, 0], [0, -1], [1, 0]]).max() < CLOSED
-    with pytest.raises(ValueError, match=r"starts in a dead point of 'link.end.position.x', at 1, .* start aside"):
+    with refused("wrong-value", r"starts in a dead point of 'link.end.position.x', at 1, .* start aside"):
         zd.trace(m, "link.end.position.x", [0.5])
 
 
@@ -247,55 +248,55 @@ def test_what_a_trace_is():
     assert np.array_equal(copied["C.position"], trace["C.position"])
     assert not trace.p.flags.writeable
     assert {"crank.angle", "C.position"} <= set(trace._ipython_key_completions_())
-    with pytest.raises(KeyError, match=r"nothing in linkage is called 'C.plaice'; the closest"):
+    with refused("wrong-name", "'C.plaice'"):
         _ = trace["C.plaice"]
-    with pytest.raises(KeyError, match=r"depends on velocities, and a trace has positions alone; derivative\(\)"):
+    with refused("not-available"):
         _ = trace["C.velocity"]
-    with pytest.raises(KeyError, match=r"'C.force' depends on accelerations"):
+    with refused("not-available", "'C.force'"):
         trace.derivative("C.force")
 
 
-@pytest.mark.parametrize(("values", "through", "said"), [
-    ([0.0, 2.5], False, r"values\[1\] = 2.5 is out of reach: the largest value of 'crank.angle', at a dead point, is 2.1945"),
-    ([0.0, -2.5], False, r"values\[1\] = -2.5 is out of reach: the least value .* is -2.194555933 rad"),
-    ([0.0, 2.0, -3.0], True, r"values\[2\] = -3 is out of reach: the least value .* is -2.194555933 rad"),
-    ([0.0, 2.5], True, r"values\[1\] = 2.5 is out of reach"),
-    ([2.5, 0.0], True, r"values\[0\] = 2.5 is out of reach"),
-    ([], False, r"values must have shape \(k,\)"),
-    ([[0.0]], False, r"values must have shape \(k,\)"),
-    ([0.0, np.nan], False, "values must be finite"),
+@pytest.mark.parametrize(("values", "through", "code", "said"), [
+    ([0.0, 2.5], False, "out-of-range", r"values\[1\].*2.5.*'crank.angle'.*is 2.1945"),
+    ([0.0, -2.5], False, "out-of-range", r"values\[1\].*-2.5.*is -2.194555933"),
+    ([0.0, 2.0, -3.0], True, "out-of-range", r"values\[2\].*-3.*is -2.194555933"),
+    ([0.0, 2.5], True, "out-of-range", r"values\[1\].*2.5"),
+    ([2.5, 0.0], True, "out-of-range", r"values\[0\].*2.5"),
+    ([], False, "shape", "values"),
+    ([[0.0]], False, "shape", "values"),
+    ([0.0, np.nan], False, "not-finite", "values"),
 ])
-def test_values_that_cannot_be(values, through, said):
-    with pytest.raises(ValueError, match=said):
+def test_values_that_cannot_be(values, through, code, said):
+    with refused(code, said):
         zd.trace(linkage(*NOT_GRASHOF), "crank.angle", values, through=through)
 
 
 def test_values_that_turn_back_where_there_is_no_dead_point():
-    with pytest.raises(ValueError, match=r"turn back at values\[2\] = 0.5, and the branch does not, as 'crank.angle' goes on"):
+    with refused("not-increasing", r"values\[2\].*0.5.*'crank.angle'"):
         zd.trace(linkage(0.3, 1.0, 0.6, 1.0), "crank.angle", [0.4, 1.0, 0.5], through=True)
 
 
-@pytest.mark.parametrize(("arguments", "options", "error", "said"), [
-    (("krank.angle",), {}, ValueError, "measure names 'krank.angle', and there is no such measure"),
-    (("crank.angle.x",), {}, ValueError, "no such measure"),
-    (("C.force",), {}, ValueError, "no such measure of positions"),
-    (("crank.angular_velocity",), {}, ValueError, "one of velocities"),
-    (("C.position",), {}, ValueError, r"has components: C.position.x and C.position.y"),
-    ((3,), {}, TypeError, "measure must be a measure"),
-    (("crank.angle",), {"hold": {"C.position": (1, 2)}}, ValueError, "hold must be a scalar"),
-    (("crank.angle",), {"hold": {"rocker.angle": "up"}}, TypeError, "hold"),
-    (("crank.angle",), {"hold": 5}, TypeError, "hold must be a measure"),
-    (("crank.angle",), {"through": 1}, TypeError, "through must be True or False"),
-    (("crank.angle",), {"count": 1}, ValueError, "count must be between 2"),
-    (("crank.angle", ["a"]), {}, TypeError, "values must hold"),
+@pytest.mark.parametrize(("arguments", "options", "code", "said"), [
+    (("krank.angle",), {}, "wrong-name", "'krank.angle'"),
+    (("crank.angle.x",), {}, "wrong-name", None),
+    (("C.force",), {}, "wrong-name", None),
+    (("crank.angular_velocity",), {}, "wrong-measure", None),
+    (("C.position",), {}, "wrong-measure", "C.position.x and C.position.y"),
+    ((3,), {}, "wrong-type", "measure"),
+    (("crank.angle",), {"hold": {"C.position": (1, 2)}}, "wrong-measure", "^hold must"),
+    (("crank.angle",), {"hold": {"rocker.angle": "up"}}, "wrong-type", "hold"),
+    (("crank.angle",), {"hold": 5}, "wrong-type", "^hold must"),
+    (("crank.angle",), {"through": 1}, "wrong-type", "through"),
+    (("crank.angle",), {"count": 1}, "out-of-range", "count.*between 2"),
+    (("crank.angle", ["a"]), {}, "wrong-type", "values"),
 ])
-def test_other_arguments_that_are_wrong(arguments, options, error, said):
-    with pytest.raises(error, match=said):
+def test_other_arguments_that_are_wrong(arguments, options, code, said):
+    with refused(code, said):
         zd.trace(linkage(*NOT_GRASHOF), *arguments, **options)
 
 
 def test_what_is_no_mechanism():
-    with pytest.raises(TypeError, match="system must be a mechanism of bodies and joints"):
+    with refused("wrong-type", "system"):
         zd.trace(zd.systems.four_bar(), "alpha1")
 
 
@@ -305,9 +306,9 @@ def test_what_has_no_end(monkeypatch):
     m = zd.Mechanism("rail")
     m.prismatic("slide", m.ground, m.body("cart", 1.0), axis=(1, 0), at=(0, 0))
     assert zd.trace(m, "slide.displacement", [0.0, 7.0])["cart.position.x"] == pytest.approx([0.0, 7.0], abs=1e-14)
-    with pytest.raises(ValueError, match=r"values go too far from 0, where 'slide.displacement' starts, to be followed: to 1"):
+    with refused("out-of-range", "from 0.*'slide.displacement'.*to 1"):
         zd.trace(m, "slide.displacement", [1e4])
-    with pytest.raises(ValueError, match="has no end that was found"):
+    with refused("missing-argument"):
         zd.reach(m, "slide.displacement")
-    with pytest.raises(ValueError, match="the branch does not"):
+    with refused("not-increasing"):
         zd.trace(m, "slide.displacement", [0.0, 1.0, 0.5], through=True)

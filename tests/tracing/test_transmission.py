@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from support import refused
 
 
 def test_of_a_four_bar_it_is_that_of_textbooks():
@@ -82,14 +83,14 @@ def test_what_has_none():
     m.revolute("end", m["crank"].end, loose.start)
     for joint, said in (("A", "is fixed to the ground"), ("C", "'plate' has the other joints 'B', 'E', none of them on"),
                         ("end", "'loose' has no other joint")):
-        with pytest.raises(ValueError, match=said):
+        with refused("wrong-element", said):
             zd.transmission_angle(m, joint)
     slide = m.slot("slide", m.ground, loose.end, axis=(0, 1))
-    with pytest.raises(ValueError, match="is no hinge"):
+    with refused("wrong-element"):
         zd.transmission_angle(m, slide)
-    with pytest.raises(TypeError, match="joint must be a joint of 'linkage', or its name"):
+    with refused("wrong-type", "joint.*'linkage'"):
         zd.transmission_angle(m, "crank")
-    with pytest.raises(TypeError, match="m must be a Mechanism"):
+    with refused("wrong-type", "^m must"):
         zd.transmission_angle(m.system(), "C")
-    with pytest.raises(ValueError, match="there is no such measure"):
+    with refused("wrong-name"):
         zd.trace(m, "A.transmission_angle")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from support import refused
 from zerodrift._gateway.mechanisms import plane, space
 from zerodrift._gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec, Relation
 
@@ -32,7 +33,7 @@ def law(number, t, x, xdot):
 
 @pytest.mark.parametrize("relation", [Relation([3]), Relation([-1]), Relation([]), Relation([0], law=0), Relation([0], joint=0)])
 def test_relations_are_of_what_there_is(room, relation):
-    with pytest.raises(ValueError, match="relation 0: its marker quantities, user function and joint must exist"):
+    with refused("wrong-value", "relation 0: its marker quantities, user function and joint must exist"):
         core(room, relations=[relation])
 
 
@@ -40,7 +41,7 @@ def test_relations_are_of_what_there_is(room, relation):
     GeneralizedForce("spring", 3), GeneralizedForce("law", 0), GeneralizedForce("constant", 0, law=0),
     GeneralizedForce("spring", 0, joint=0), GeneralizedForce("law", 0, law=0, inputs=[3])])
 def test_generalized_forces_are_of_what_there_is(room, force):
-    with pytest.raises(ValueError, match="generalized force 0: its kind, marker quantities, user function and joint must exist"):
+    with refused("wrong-value", "generalized force 0: its kind, marker quantities, user function and joint must exist"):
         core(room, law, forces=[force])
 
 
@@ -50,13 +51,13 @@ def test_generalized_forces_are_of_what_there_is(room, force):
     *(measure(quantity, 1) for quantity in ("force value", "force power", "force sum", "drive", "drive power")),
     measure("force sum", 0, 2), measure("drive", 0, term=1)])
 def test_measures_are_of_what_there_is(room, wrong):
-    with pytest.raises(ValueError, match="measure it: the entries that it measures must exist"):
+    with refused("wrong-value", "measure it: the entries that it measures must exist"):
         core(room, forces=[GeneralizedForce("constant", 0)], relations=[Relation([0])], **wrong)
 
 
 def test_a_quantity_that_there_is_not(room, monkeypatch):
     monkeypatch.setitem(room.written_elements.__globals__["OUTPUT_KINDS"], "none", 99)
-    with pytest.raises(ValueError, match="measure it: the entries that it measures must exist"):
+    with refused("wrong-value", "measure it: the entries that it measures must exist"):
         core(room, **measure("none", 0))
 
 

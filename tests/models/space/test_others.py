@@ -9,7 +9,7 @@ import scipy.integrate
 
 import zerodrift as zd
 from every_model import IN_SPACE
-from support import assert_close
+from support import assert_close, refused
 from zerodrift._rotations import rotation_of
 
 EXACT = {"integrator": "dop853", "step": None, "rtol": 1e-11, "atol": 1e-11}
@@ -46,7 +46,7 @@ def test_the_governor_by_hand(lift):
 
 
 def test_a_governor_that_is_too_slow():
-    with pytest.raises(ValueError, match=r"speed must be more than 11.7192 rad/s for the balls to fly out, not 5"):
+    with refused("out-of-range", "speed.*than 11.7192.*not 5"):
         zd.models.flyball_governor(speed=5.0)
 
 
@@ -105,7 +105,7 @@ def test_what_is_no_number_or_negative_is_named_by_its_argument(name):
             with pytest.raises((ValueError, TypeError), match=argument):
                 IN_SPACE[name](**{argument: wrong})
         if argument.rpartition("_")[2] in ("mass", "inertia", "stiffness", "damping", "radius", "length", "arm", "crank", "rod"):
-            with pytest.raises(ValueError, match=argument):
+            with refused("out-of-range", argument):
                 IN_SPACE[name](**{argument: -0.1})
 
 

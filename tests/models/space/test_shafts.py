@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import assert_close
+from support import assert_close, refused
 from zerodrift.mechanisms.elements.numbers import AS_GIVEN
 
 
@@ -56,10 +56,10 @@ def test_bennetts_relation(given):
     assert np.abs(sol.energy_violation).max() < 1e-9
 
 
-@pytest.mark.parametrize(("model", "wrong", "said"), [
-    ("hookes_joint", {"bend": 1.6}, "bend must be less than a right angle"),
-    ("double_cardan", {"last_bend": -1.6}, "last_bend must be less than a right angle"),
-    ("bennett", {"second_twist": 0.5}, "must be two different angles"), ("bennett", {"angle": 0.0}, "must be neither 0 nor pi")])
-def test_what_cannot_turn(model, wrong, said):
-    with pytest.raises(ValueError, match=said):
+@pytest.mark.parametrize(("model", "wrong", "code", "said"), [
+    ("hookes_joint", {"bend": 1.6}, "out-of-range", "^bend must"),
+    ("double_cardan", {"last_bend": -1.6}, "out-of-range", "last_bend"),
+    ("bennett", {"second_twist": 0.5}, "geometry", None), ("bennett", {"angle": 0.0}, "geometry", "neither 0")])
+def test_what_cannot_turn(model, wrong, code, said):
+    with refused(code, said):
         getattr(zd.models, model)(**wrong)

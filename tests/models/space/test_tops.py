@@ -6,7 +6,7 @@ import scipy.integrate
 
 import zerodrift as zd
 from reference_files import table
-from support import assert_close
+from support import assert_close, refused
 
 EXACT = {"integrator": "dop853", "step": None, "rtol": 1e-12, "atol": 1e-12}
 
@@ -56,5 +56,5 @@ def test_the_gyroscope_in_its_gimbals(rate):
 
 
 def test_a_rotor_that_is_too_slow():
-    with pytest.raises(ValueError, match="spin must be faster for a steady precession"):
+    with refused("out-of-range", "^spin must"):
         zd.models.gyroscope(incline=0.1, spin=1.0)
