@@ -46,4 +46,4 @@ def _cores(solution: Any, settings: Any, rows: np.ndarray) -> Iterator[tuple[Any
 
 
 def _wrong(reason: str) -> Exception:
-    return WrongValue(f"values between samples must be requested by t_eval, as {reason}")
+    return WrongValue(f"values between samples must be requested by t_eval, as {reason}", "not-available")
