@@ -118,7 +118,8 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     """
     system, *_ = start_of(mechanism, None, None, 0.0)
     if not isinstance(system, MechanismSystem):
-        raise WrongValue("a live view must be of a mechanism: the page simulates its block, and equations have none", "not-available")
+        raise WrongValue("a live view must be of a mechanism: the page simulates its block, and equations have none",
+                         "not-available")
     speed = 1.0 if speed is None else _check.number("speed", speed, above=0)
     sol = _motion(system, step, options)
     points = body_points(system, sol.p)
