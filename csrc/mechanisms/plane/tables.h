@@ -72,14 +72,6 @@ int zd_plane_data_size(void);
  * generated functions. The pointer to these inputs is the first member of the data. */
 void zd_plane_with(const zd_plane *mechanism, void *owner, const zd_compiled_law *compiled, const double *numbers, void *data);
 
-/* Component of a measure of positions or velocities that the start prescribes. */
-typedef struct zd_target {
-    int measure, component, is_rate;
-    double value;
-    /* 1: after all others; for positions the value is that of the assembled reference configuration, `value` is ignored */
-    int stays;
-} zd_target;
-
 /* Planned form of all joints and elements: links of a tree, rows, and generalized forces along marker quantities. Bodies are numbered as in
  * the tree, parents before children. */
 typedef struct zd_plane_plan {

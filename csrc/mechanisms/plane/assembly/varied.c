@@ -1,11 +1,12 @@
 /* One of many mechanisms: made from its own tables, and assembled where its start is not known. */
 #include "varied.h"
 
+#include <math.h>
 #include <string.h>
 
+#include "../../../linalg/small.h"
 #include "../../../workspace.h"
 #include "../plan.h"
-#include "assembly.h"
 
 static zd_plane_tables tables_of(const zd_plane_tables *first, const double *gravity, int64_t run)
 {
@@ -41,6 +42,8 @@ static zd_plane *create(const zd_varied *self, const zd_plane_tables *first, int
 typedef struct found {      /* start of one mechanism */
     double *poses, *rates, *places;     /* (bodies, 3) both; (drives,) */
     double *p, *v, *scratch;            /* state of the mechanism in absolute coordinates, and its scratch */
+    double *Phi;                        /* (mh,) */
+    int *is_angle, *row;                /* (nv,) and (mh,), as an assembly requires them */
 } found;
 
 static found take(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
@@ -51,15 +54,51 @@ static found take(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
         .poses = zd_take_doubles(arena, bodies), .rates = zd_take_doubles(arena, bodies),
             .places = zd_take_doubles(arena, (size_t)self->drives),
         .p = zd_take_doubles(arena, (size_t)system->nv), .v = zd_take_doubles(arena, (size_t)system->nv),
-        .scratch = zd_take_doubles(arena, (size_t)system->scratch),
+        .scratch = zd_take_doubles(arena, (size_t)system->scratch), .Phi = zd_take_doubles(arena, (size_t)system->mh),
+        .is_angle = zd_take(arena, (size_t)system->nv * sizeof(int)), .row = zd_take(arena, (size_t)system->mh * sizeof(int)),
     };
+}
+
+/* The drive of constant speed that a row of C is; -1: none */
+static int drive_of(const zd_varied *self, const zd_row_owner *owner)
+{
+    for (int i = 0; owner->owner == ZD_OF_RELATION && i < self->drives; i++)
+        if (self->drive[i] == owner->index) return i;
+    return -1;
+}
+
+static enum zd_assembly_row kind_of(const zd_varied *self, const zd_plane *drawn, int row)
+{
+    const zd_row_owner *owner = zd_plane_rows(drawn) + row;
+    const zd_relation *relation = zd_plane_planned(drawn).row + row;
+    if (owner->owner == ZD_OF_JOINT) return ZD_ROW_OF_JOINT;
+    if (drive_of(self, owner) >= 0) return ZD_ROW_LEFT_OUT;
+    return relation->law < 0 && relation->slope == 0 && relation->terms > 1 ? ZD_ROW_OF_COUPLING : ZD_ROW_OF_DRIVE;
+}
+
+/* Values of the driven coordinates, where the constants of these relations are 0 */
+static void find_places(const zd_varied *self, const zd_plane *drawn, const found *to)
+{
+    const zd_system *system = zd_plane_system(drawn);
+    const zd_terms terms = {.Phi = to->Phi, .scratch = to->scratch};
+    system->evaluate(system->data, ZD_PHI | ZD_MOVED, 0, to->p, to->v, &terms);
+    for (int k = 0; k < system->mh; k++) {
+        const int drive = drive_of(self, zd_plane_rows(drawn) + k);
+        if (drive >= 0) to->places[drive] = to->Phi[k];
+    }
 }
 
 static int assemble(const zd_varied *self, int64_t run, const zd_plane *drawn, const found *to)
 {
-    const zd_wanted wanted = {self->length[run], self->targets, self->target, self->drives, self->drive};
+    const zd_system *system = zd_plane_system(drawn);
+    const zd_assembly_given given = {.system = system, .length = self->length[run], .is_angle = to->is_angle, .row = to->row,
+                                     .targets = self->targets, .target = self->target};
+    for (int i = 0; i < system->nv; i++) to->is_angle[i] = zd_plane_coordinates(drawn)[i].kind == ZD_COORDINATE_ANGLE;
+    for (int k = 0; k < system->mh; k++) to->row[k] = kind_of(self, drawn, k);
     zd_plane_state(drawn, self->poses + run * 3 * drawn->tree.bodies, NULL, to->p, NULL);
-    if (!zd_assemble(drawn, &wanted, to->p, to->v, to->places)) return 0;
+    if (zd_assemble_positions(&given, to->p) || zd_assemble_velocities(&given, to->p, to->v)) return 0;
+    if (!(zd_largest(system->nv, to->p) < INFINITY && zd_largest(system->nv, to->v) < INFINITY)) return 0;
+    if (self->drives) find_places(self, drawn, to);
     zd_plane_poses(drawn, to->p, to->v, to->poses, to->rates, to->scratch);
     return 1;
 }

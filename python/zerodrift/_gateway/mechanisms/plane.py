@@ -15,6 +15,7 @@ from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
 from ..measures import Components, components, given
 from ..systems import CoreSystem
 from . import element_tables
+from .assembly import displaced, displacement
 from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, calls_python, compiled_table
 
@@ -189,11 +190,11 @@ class MechanismCore(CoreSystem):
 
     def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
         """Positions (nq,) after a displacement (nv,)."""
-        return p + step
+        return displaced(self, p, step)
 
     def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
         """Displacement (nv,) from other positions to p."""
-        return p - other
+        return displacement(self, p, other)
 
     def for_run(self) -> MechanismCore:
         """The system; with user functions, a copy that stores their exceptions."""

@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._core import ffi, lib
-from ..._rotations import product, turn, turn_between
 from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
 from ..measures import Components, components
 from ..systems import CoreSystem
 from . import element_tables
+from .assembly import displaced, displacement
 from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, calls_python, compiled_table
 from .plane import Coordinate
@@ -256,17 +256,12 @@ class SpaceCore(CoreSystem):
         return self.state(np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (len(self._at_p), 1)))[0]
 
     def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Positions (nq,) after a step (nv,): places go on, bodies turn about an axis of their own, and angles count turns."""
-        poses, rates = self.poses(p)[0], self._rates(step)
-        turned = product(poses[:, 3:], turn(rates[:, 3:]))
-        turned /= np.linalg.norm(turned, axis=1, keepdims=True)
-        return self.state(np.hstack([poses[:, :3] + rates[:, :3], turned]), angles=self.angles(p))[0]
+        """Positions (nq,) after a displacement (nv,): bodies turn about an axis of their own, and angles count turns."""
+        return displaced(self, p, step)
 
     def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
         """Displacement (nv,) from other positions to p, by the shorter rotation of each body."""
-        to, start = self.poses(p)[0], self.poses(other)[0]
-        rates = np.hstack([to[:, :3] - start[:, :3], turn_between(start[:, 3:], to[:, 3:])])
-        return self.state(start, rates)[1]
+        return displacement(self, p, other)
 
     def angles(self, p: np.ndarray) -> np.ndarray:
         """The angles of joints, (k,) in rad with their turns."""

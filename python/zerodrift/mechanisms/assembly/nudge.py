@@ -7,8 +7,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from ...errors import CorrectionFailed, InconsistentStart
-from .dense import NUDGE, Assembly, Target
-from .least_squares import RANK, nullspace
+from .dense import NUDGE, RANK, Assembly, Target, nullspace
 from .sparse import is_of_many
 
 NUDGED = "zd.assemble(m, nudge=True) starts beside it"

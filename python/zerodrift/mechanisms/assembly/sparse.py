@@ -9,17 +9,25 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Collection, Sequence
+from typing import Any
 
 import numpy as np
 
+from ..._gateway.mechanisms.assembly import Outcome
 from ..._gateway.mechanisms.plane import MechanismCore
 from ..._gateway.sparse_state import nearest_velocities
-from ...errors import InconsistentStart
+from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction
-from .dense import CLOSED, LONGEST, MET, NEARER, SMALLEST, TRACKED, Assembly
+from .dense import NUDGE, Assembly, Target
 from .least_squares import Attempt, Damping, levenberg_marquardt
-from .sparse_constraints import SparseRows, Target, are_met, read_targets, sparse_rows
+from .sparse_constraints import SparseRows, are_met, read_targets, sparse_rows
 
+CLOSED = 1e-12          # of a constraint, relative to its size: largest residual of a closed joint
+SMALLEST = 1e-3         # of the largest constraint, and of the length: lower bound of a constraint's size
+NEARER = 50             # steps towards the drawing, at most
+TRACKED = 0.1           # step of a target, at most, in rad or parts of the mechanism's length
+LONGEST = 0.4           # step of any coordinate, at most, in the same units
+MET = 1e-9              # of the largest prescribed or computed velocity: tolerance of prescribed velocities
 MOST_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
 HALVINGS = 6            # of a Newton step that does not reduce the residual, at most
 SMALLEST_PART = 1e-3    # of the way of drives and targets: smallest step of the continuation
@@ -43,7 +51,53 @@ def is_of_many(core: MechanismCore) -> bool:
 class AssemblyOfMany(Assembly):
     """Assembly of a mechanism of many bodies, all of them free and with mass; see `Assembly`."""
 
+    def __init__(self, core: MechanismCore, rows: Sequence[str], left_out: Sequence[int], length: float,
+                 t: float, couplings: Collection[int] = ()) -> None:
+        super().__init__(core, rows, left_out, length, t, couplings)
+        self.of_drawing = self.is_joint | np.isin(self.kept, list(couplings))
+        self._size: dict[int, np.ndarray] = {}
+        mass = self.core.evaluate_stored(t, core.origin, np.zeros(core.nv))["M"] * self.scale**2
+        self.weight = np.sqrt(mass)
+
+    def _moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Positions after a step in scaled coordinates."""
+        return self.core.moved(p, step * self.scale)
+
+    def _apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Step in scaled coordinates from `other` to p."""
+        return self.core.apart(p, other) / self.scale
+
     # ---- positions ----
+
+    def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
+                  staying: Sequence[Target] = ()) -> np.ndarray:
+        """Nearest positions that satisfy all constraints and held targets, and approach wished ones as nearly as possible.
+
+        Coordinates that stay are as in the drawing with its joints closed, whatever the values of these targets.
+        """
+        kept: list[Target] = []
+        if not self.is_closed(p, held):
+            p, kept = self._met(p, held, staying)
+        elif wished:
+            kept = self._as_they_are(p, staying)
+        return self._approach(p, [*held, *kept], wished) if wished else p
+
+    def _met(self, drawn: np.ndarray, held: Sequence[Target],
+             staying: Sequence[Target]) -> tuple[np.ndarray, list[Target]]:
+        """Positions that satisfy constraints and held targets: joints are closed first, then drives and targets approached."""
+        closed = self._close(drawn)
+        as_drawn = self._newton(closed, self._drawing) if staying else None
+        if as_drawn is not None:
+            as_drawn = self._nearest(drawn, as_drawn, self._drawing)
+            kept = self._as_they_are(as_drawn, staying)
+            with contextlib.suppress(InconsistentStart, CorrectionFailed):
+                p = self._track(as_drawn, [*held, *kept])
+                return self._nearest(as_drawn, p, lambda p: self._residual(p, [*held, *kept])), kept
+        return self._nearest(drawn, self._track(closed, held), lambda p: self._residual(p, held)), []
+
+    def led_to(self, p: np.ndarray, held: Sequence[Target] = (), staying: Sequence[Target] = ()) -> np.ndarray:
+        """Positions that satisfy drives and held targets, from closed ones, such as those of another time."""
+        return self._track(p, [*held, *self._as_they_are(p, staying)])
 
     def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         allowed = CLOSED * SMALLEST * self.length
@@ -59,6 +113,61 @@ class AssemblyOfMany(Assembly):
         rows = rows[is_kept] * self.scale
         size = self._sizes(rows.lengths(), targets)
         return np.concatenate([stored["Phi"][self.kept] if self.core.mh else [], off]) / size, rows / size
+
+    def _sizes(self, lengths: np.ndarray, targets: Sequence[Target]) -> np.ndarray:
+        """Sizes of the constraints, fixed at their first evaluation: units must not change during a minimization."""
+        known = self._size.get(len(targets))
+        if known is None:
+            known = self._size[len(targets)] = np.maximum(lengths, SMALLEST * lengths.max(initial=self.length))
+        return known
+
+    def _close(self, p: np.ndarray) -> np.ndarray:
+        """Positions with closed joints, by damped least squares from the sketch."""
+        p, residual = self._least_squares(p, self._joints)
+        if np.abs(residual).max(initial=0.0) > 1e3 * CLOSED:
+            raise CorrectionFailed("joints")
+        return p
+
+    def _joints(self, p: np.ndarray) -> tuple[np.ndarray, Any]:
+        """Residuals of the joints alone, and their Jacobian."""
+        residual, rows = self._residual(p, ())
+        return residual[self.is_joint], rows[self.is_joint]
+
+    def _drawing(self, p: np.ndarray) -> tuple[np.ndarray, Any]:
+        """Residuals of joints and of couplings without user functions, and their Jacobian."""
+        residual, rows = self._residual(p, ())
+        return residual[self.of_drawing], rows[self.of_drawing]
+
+    def nearby(self, p: np.ndarray, left_out: Collection[int] = ()) -> np.ndarray:
+        """Positions nearest to p that satisfy all constraints except those left out; p, if there are none."""
+        kept = [i for i, row in enumerate(self.kept) if row not in left_out]
+
+        def system(p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            residual, rows = self._residual(p, ())
+            return residual[kept], rows[kept]
+
+        found = self._newton(p, system)
+        return p if found is None else found
+
+    def least_open(self, p: np.ndarray) -> np.ndarray:
+        """Positions with the smallest gaps in the joints."""
+        return self._least_squares(p, lambda p: self._residual(p, ()))[0]
+
+    def _rows_are_met(self, p: np.ndarray) -> bool:
+        """True if all constraints are satisfied to the tightest tolerance, whatever their sizes."""
+        stored = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv))
+        Phi = stored["Phi"][self.kept] if self.core.mh else np.zeros(0)
+        return bool(np.abs(Phi).max(initial=0.0) <= CLOSED * SMALLEST * self.length)
+
+    def _aside(self, p: np.ndarray) -> np.ndarray:
+        """Positions perturbed slightly: at a dead centre, or in a straight chain, no step leads away from it."""
+        step = NUDGE * np.random.default_rng(0).standard_normal(self.core.nv)
+        closed = self._newton(self._moved(p, step), self._joints)
+        return p if closed is None else closed
+
+    def _shifted(self, p: np.ndarray, held: Sequence[Target], shift: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        residual, rows = self._residual(p, held)
+        return residual - shift, rows
 
     def _least_step(self, rows: SparseRows, right: np.ndarray) -> np.ndarray:
         return (rows * (1 / self.weight)).least(right) / self.weight
@@ -111,7 +220,7 @@ class AssemblyOfMany(Assembly):
             closest, residual = self._least_squares(begin, lambda p: self._residual(p, held))
             if np.abs(residual).max(initial=0.0) <= 1e3 * CLOSED:
                 return closest
-        raise self._unmet(self._left_over(p, held, residual), held)
+        raise self._unmet(Outcome(1, p, self._left_over(p, held, residual), self._size[len(held)]), held)
 
     def _left_over(self, p: np.ndarray, held: Sequence[Target], residual: np.ndarray) -> np.ndarray:
         """Residuals at the positions nearest to drives, couplings and held values that closed joints allow."""
@@ -183,6 +292,11 @@ class AssemblyOfMany(Assembly):
         return p, system(p)[0]
 
     # ---- velocities ----
+
+    def _may_rest(self, p: np.ndarray) -> bool:
+        """True if no constraint depends on time, so that zero velocities satisfy all of them."""
+        Phi_t = self.core.evaluate_stored(self.t, p, np.zeros(self.core.nv)).get("Phi_t")
+        return Phi_t is None or not Phi_t.any()
 
     def _as_they_are(self, p: np.ndarray, staying: Sequence[Target]) -> list[Target]:
         values = read_targets(self.core, p, staying)[1] if staying else ()

@@ -4,22 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
 from ..._gateway.measures import Components
 from ..._gateway.mechanisms.plane import MechanismCore
+from .dense import Target
 from .sparse_least_squares import Rows, least_solution
-
-
-class Target(NamedTuple):
-    """Component of a measure, and its prescribed value."""
-
-    name: str
-    measure: int
-    component: int
-    value: float
 
 
 def are_met(core: MechanismCore, p: np.ndarray, held: Sequence[Target], allowed: float) -> bool:

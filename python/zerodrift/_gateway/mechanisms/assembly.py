@@ -1,0 +1,101 @@
+"""Assembly of mechanisms in absolute coordinates by the core: positions that close all joints, and velocities that they allow."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..._core import ffi, lib
+from ..base import doubles, error_of
+from ..systems import CoreSystem
+
+ROWS = {"joint": lib.ZD_ROW_OF_JOINT, "coupling": lib.ZD_ROW_OF_COUPLING, "drive": lib.ZD_ROW_OF_DRIVE,
+        "left out": lib.ZD_ROW_LEFT_OUT}
+HELD, STAYS, WISHED = lib.ZD_TARGET_HELD, lib.ZD_TARGET_STAYS, lib.ZD_TARGET_WISHED
+ASSEMBLED, JOINTS_OPEN, TARGETS_UNMET = lib.ZD_ASSEMBLED, lib.ZD_JOINTS_OPEN, lib.ZD_TARGETS_UNMET
+
+
+class CoreTarget(NamedTuple):
+    """A `zd_target`: component of a measure, and the value that the start prescribes."""
+
+    measure: int
+    component: int
+    is_rate: bool
+    value: float
+    role: int
+
+
+class Outcome(NamedTuple):
+    """Result of an assembly: ASSEMBLED, JOINTS_OPEN or TARGETS_UNMET; positions or velocities found; residuals of the conditions
+    that are not met, divided by their sizes, and these sizes.
+    """
+
+    outcome: int
+    found: np.ndarray
+    residual: np.ndarray
+    size: np.ndarray
+
+
+class CoreAssembly:
+    """Assembly of a system at one time.
+
+    Parameters
+    ----------
+    core : MechanismCore
+        In absolute coordinates.
+    rows : sequence of str
+        Owner of each holonomic constraint, a key of ROWS.
+    length : float
+        Characteristic length in m.
+    """
+
+    def __init__(self, core: Any, rows: Sequence[str], length: float, t: float) -> None:
+        self.core, self.length, self.t = core, length, t
+        self._rows = ffi.new("int[]", [ROWS[row] for row in rows])
+        self._is_angle = ffi.new("int[]", [int(coordinate.kind == "angle") for coordinate in core.motions])
+        self._aside = np.random.default_rng(0).standard_normal(core.nv)
+
+    def run(self, operation: str, p: np.ndarray, targets: Sequence[CoreTarget] = (), *, left_out: Sequence[int] = ()) -> Outcome:
+        """Outcome of a function of the core that changes positions, ``zd_<operation>``, from p (nq,) on.
+
+        Constraints in `left_out` are ignored, too.
+        """
+        found = np.array(p, dtype=float)
+        return self._called(operation, targets, left_out, found, doubles(found, self.core.nq, writable=True))
+
+    def velocities(self, p: np.ndarray, targets: Sequence[CoreTarget]) -> Outcome:
+        """Velocities (nv,) at p."""
+        v, p = np.zeros(self.core.nv), np.ascontiguousarray(p, dtype=float)
+        return self._called("assemble_velocities", targets, (), v, doubles(p, self.core.nq), doubles(v, v.size, writable=True))
+
+    def _called(self, operation: str, targets: Sequence[CoreTarget], left_out: Sequence[int], found: np.ndarray,
+                *arrays: Any) -> Outcome:
+        core, rows = self.core.for_run(), self._rows
+        if left_out:
+            rows = ffi.new("int[]", [ROWS["left out"] if i in left_out else row for i, row in enumerate(self._rows)])
+        residual, size = np.zeros((2, core.m + len(targets)))
+        target, inputs = ffi.new("zd_target[]", list(targets)), core.initial_inputs()
+        given = ffi.new("zd_assembly_given *", {
+            "system": core.c, "inputs": inputs, "t": self.t, "length": self.length, "is_angle": self._is_angle, "row": rows,
+            "targets": len(targets), "target": target, "aside": doubles(self._aside, core.nv),
+            "residual": doubles(residual, residual.size, writable=True), "size": doubles(size, size.size, writable=True)})
+        outcome = getattr(lib, f"zd_{operation}")(given, *arrays)
+        if outcome < 0:
+            raise core.error or error_of(outcome, "the system's evaluation failed")
+        return Outcome(outcome, found, residual, size)
+
+
+def displaced(core: CoreSystem, p: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """Positions (nq,) after a displacement (nv,): places move, and bodies turn about an axis of their own."""
+    to, p, step = np.empty(core.nq), np.ascontiguousarray(p, dtype=float), np.ascontiguousarray(step, dtype=float)
+    lib.zd_displace(core.c, doubles(p, core.nq), doubles(step, core.nv), doubles(to, core.nq, writable=True))
+    return to
+
+
+def displacement(core: CoreSystem, p: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Displacement (nv,) from other positions to p, by the shorter rotation of each body."""
+    step, p, other = np.empty(core.nv), np.ascontiguousarray(p, dtype=float), np.ascontiguousarray(other, dtype=float)
+    lib.zd_displacement(core.c, doubles(p, core.nq), doubles(other, core.nq), doubles(step, core.nv, writable=True))
+    return step

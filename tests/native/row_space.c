@@ -1,0 +1,21 @@
+/* Minimum-norm solutions for tests/linalg/test_row_space.py. */
+#include <string.h>
+
+#include "linalg/row_space.h"
+
+/* x (n,) <- solution of A x = right, and turned (n,) <- the given vector along the rows and the null space; returns the rank, or -1 */
+int solve(int rows, int n, const double *A, const double *right, double *x, double *turned)
+{
+    zd_arena arena = {0};
+    zd_row_space_take(&arena, rows, n);
+    arena = (zd_arena){.base = zd_allocate(arena.used)};
+    if (!arena.base) return -1;
+    zd_row_space space = zd_row_space_take(&arena, rows, n);
+    memcpy(space.A, A, (size_t)(rows * n) * sizeof *A);
+    zd_row_space_factor(&space, rows, 1e-9, 0);
+    zd_row_space_solve(&space, right, x);
+    zd_row_space_turn(&space, turned);
+    const int rank = space.rank;
+    zd_release(arena.base);
+    return rank;
+}
