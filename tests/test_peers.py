@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 
+import energy_models
 import tolerances as tol
 import zerodrift as zd
 from support import ROOT
@@ -62,7 +63,7 @@ def test_equations_that_are_written_out_are_those_of_the_system(chain):
 def test_andrews_mechanism_is_the_model():
     """Its equations are derived apart from those of the model: with multipliers, without, and in the crank's velocity."""
     problem, functions = importlib.import_module("andrews").Squeezer(), {"sin": np.sin, "cos": np.cos, "sqrt": np.sqrt}
-    system = zd.models.symbolic.andrews()
+    system = energy_models.andrews()
     np.testing.assert_array_equal(problem.p0, system.p0)
     p, v = zd.assemble(system, problem.p0, problem.spread(problem.p0, 40.0, functions))
     expected = zd.acceleration(system, p, v)[0]

@@ -16,6 +16,7 @@ MOVED = {
     "mechanisms.plane": "mechanisms.elements.frames",
     "mechanisms.space": "mechanisms.elements.frames",
     "mechanisms.splines": "mechanisms.building.periodic_spline",
+    "models.symbolic": "models._energies",
     "runs.rows": "runs.methods",
     "symbolics.direct_functions": "symbolics.compile.closed_form_library",
     "symbolics.series_functions": "symbolics.compile.series_library",

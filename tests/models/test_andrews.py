@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import energy_models
 import known_motions
 import zerodrift as zd
 from reference_files import definition, end, falls_at_order_four, number, table
@@ -14,7 +15,7 @@ def andrews_end(prefix, t="03"):
 
 
 def test_andrews_starts_as_the_reference_does():
-    given, system = definition("A03_andrews"), zd.models.symbolic.andrews()
+    given, system = definition("A03_andrews"), energy_models.andrews()
     assert_close(system.p0, number(given["initial_q"]), 1e-15)
     for name, value in given["parameters"].items():
         assert system.parameters.get(name, system.parameters.get(name.upper())) == float(value), name
@@ -25,14 +26,14 @@ def test_andrews_starts_as_the_reference_does():
 
 def test_andrews_against_the_reference(formulation):
     steps = (1e-4, 5e-5, 2.5e-5, 5e-6)
-    runs = [end(zd.models.symbolic.andrews(), 0.03, step, formulation=formulation) for step in steps]
+    runs = [end(energy_models.andrews(), 0.03, step, formulation=formulation) for step in steps]
     falls_at_order_four(steps, [np.abs(run.p[-1] - andrews_end("q")).max() for run in runs])
     for run in runs:
         assert np.abs(run.position_violation).max() <= 1e-12
 
 
 def test_andrews_to_the_last_digits(formulation):
-    sol = zd.simulate(zd.models.symbolic.andrews(), 0.03, step=1e-5, integrator="dop853", formulation=formulation)
+    sol = zd.simulate(energy_models.andrews(), 0.03, step=1e-5, integrator="dop853", formulation=formulation)
     assert np.abs(sol.p[-1] - andrews_end("q")).max() < 1e-10      # the condition set; 1e-12 is reached
     assert_close(sol.v[-1], andrews_end("v"), 1e-11)
     assert_close(sol.multipliers[-1], andrews_end("lam"), 1e-10)
@@ -44,7 +45,7 @@ def test_andrews_to_the_last_digits(formulation):
 
 def test_andrews_along_the_way():
     reference = table("A03_andrews")
-    sol = zd.simulate(zd.models.symbolic.andrews(), reference["t"][-1], rtol=1e-12, atol=1e-12, integrator="dop853",
+    sol = zd.simulate(energy_models.andrews(), reference["t"][-1], rtol=1e-12, atol=1e-12, integrator="dop853",
                       t_eval=reference["t"])
     names = ("beta", "theta", "gamma", "phi", "delta", "omega", "eps")
     assert np.abs(sol.p - np.stack([reference[name] for name in names], axis=1)).max() < 1e-9
@@ -52,7 +53,7 @@ def test_andrews_along_the_way():
 
 
 def test_links_of_andrews_keep_their_lengths():
-    system = zd.models.symbolic.andrews()
+    system = energy_models.andrews()
     sol = zd.simulate(system, 0.03, step=1e-4)
     q = system.parameters
     lengths = [q["rr"], q["d"], q["e"], q["zt"], q["u"], q["zf"], q["ss"]]
@@ -79,13 +80,13 @@ def test_parameters_of_bodies_and_joints():
 
 
 def test_parameters_of_andrews():
-    assert zd.models.symbolic.andrews(mom=0.05).parameters["mom"] == 0.05
+    assert energy_models.andrews(mom=0.05).parameters["mom"] == 0.05
     with refused("unknown-choice", "parameter.*'m1'.*'moment'"):
-        zd.models.symbolic.andrews(moment=1.0)
+        energy_models.andrews(moment=1.0)
 
 
 def test_samples_within_steps_that_are_far_too_long():
     """Samples need a series of their own where variables change within a step: the former one ended the process."""
     with pytest.raises(zd.CorrectionFailed):
-        zd.simulate(zd.models.symbolic.andrews(), 0.03, step=0.03 / 16, t_eval=np.linspace(0, 0.03, 400), integrator="taylor",
+        zd.simulate(energy_models.andrews(), 0.03, step=0.03 / 16, t_eval=np.linspace(0, 0.03, 400), integrator="taylor",
                     formulation="independent")

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import scipy.integrate
 
+import energy_models
 import known_motions
 import zerodrift as zd
 from support import assert_close
@@ -33,7 +34,7 @@ def bicycle_by_hand(system, t_eval):
 
 @pytest.mark.parametrize("given", [{}, {"thrust": 60.0, "damping": 0.0, "frequency": 4.0, "speed": 2.0}], ids=str)
 def test_bicycle_against_equations_by_hand(given, formulation):
-    system = zd.models.symbolic.bicycle(**given)
+    system = energy_models.bicycle(**given)
     sol = zd.simulate(system, 10.0, step=0.0025, save_every=100, formulation=formulation)
     expected = bicycle_by_hand(system, sol.t)
     assert_close(sol.p, expected[:, :4], 1e-8)
@@ -45,7 +46,7 @@ def test_bicycle_against_equations_by_hand(given, formulation):
 @pytest.mark.parametrize("given", [{}, {"thrust": 60.0, "damping": 0.0, "frequency": 4.0, "speed": 2.0}], ids=str)
 def test_bodies_and_joints_against_equations_by_hand(given):
     sol = zd.simulate(zd.models.bicycle(**given), 5.0, step=0.02, integrator="dop853", save_every=10)
-    expected = bicycle_by_hand(zd.models.symbolic.bicycle(**given), sol.t)
+    expected = bicycle_by_hand(energy_models.bicycle(**given), sol.t)
     found = np.column_stack([sol["frame.position"], sol["frame.angle"], sol["head.angle"]])
     assert_close(found, expected[:, :4], 1e-9)
     assert bool(given) or known_motions.bicycle(sol) < 1e-9
@@ -53,7 +54,7 @@ def test_bodies_and_joints_against_equations_by_hand(given):
 
 
 def test_a_bicycle_whose_handlebar_is_let_go_keeps_its_energy():
-    system = zd.models.symbolic.bicycle(amplitude=0.0, damping=0.0)
+    system = energy_models.bicycle(amplitude=0.0, damping=0.0)
     sol = zd.simulate(system, 10.0, [0.0, 0.0, 0.0, 0.3], [3.0, 0.0, 3.0 * np.tan(0.3) / 1.1, 0.0], step=0.002)
     total = sol.kinetic_energy + sol.potential_energy
     assert_close(total, np.full(len(total), total[0]), 1e-7)

@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
+import energy_models
 import known_motions
 import zerodrift as zd
 from support import assert_close
@@ -15,7 +16,7 @@ LINKS = (4, 5, 6, 8, 10)
 @pytest.mark.parametrize("links", [3, *LINKS])
 def test_closed_pendulum_against_equations_by_hand(links):
     """Slender links: M_ij = m L^2 (n - max(i, j) - 1/2) cos(theta_i - theta_j), and n - i - 2/3 where i = j, from i = 0."""
-    system = zd.models.symbolic.closed_pendulum(links, length=0.7, mass=1.3)
+    system = energy_models.closed_pendulum(links, length=0.7, mass=1.3)
     rng, i = np.random.default_rng(links), np.arange(links)
     p, v = rng.normal(size=(2, links))
     share = links - np.maximum.outer(i, i) - 0.5 - np.eye(links) / 6
@@ -28,7 +29,7 @@ def test_closed_pendulum_against_equations_by_hand(links):
 
 
 def test_closed_pendulum_of_three_links_is_the_built_in_four_bar():
-    mine = zd.models.symbolic.closed_pendulum(3)
+    mine = energy_models.closed_pendulum(3)
     bar = zd.systems.four_bar(lengths=[2.0, 1.0, 1.0, 1.0], masses=[1.0, 1.0, 1.0], crank_angle=mine.p0[0])
     sols = [zd.simulate(system, 2.0, mine.p0, np.zeros(3), step=1e-3) for system in (mine, bar)]
     assert_close(sols[0].p, sols[1].p, 1e-10)
@@ -38,7 +39,7 @@ def test_closed_pendulum_of_three_links_is_the_built_in_four_bar():
 @pytest.mark.parametrize("links", LINKS)
 def test_closed_pendulum_for_a_hundred_seconds(links):
     """The motion is chaotic and not to be had twice; the constraints hold, and the energy stays."""
-    sol = zd.simulate(zd.models.symbolic.closed_pendulum(links), 100.0, step=0.002)
+    sol = zd.simulate(energy_models.closed_pendulum(links), 100.0, step=0.002)
     assert sol.t[-1] == 100.0
     assert np.abs(sol.position_violation).max() <= 1e-12
     assert np.abs(sol.velocity_violation).max() <= 1e-12
@@ -49,7 +50,7 @@ def test_closed_pendulum_for_a_hundred_seconds(links):
 @pytest.mark.each_value
 @pytest.mark.pairs(links=LINKS)
 def test_energy_of_the_closed_pendulum_falls_at_the_order_of_the_method(links, formulation):
-    system = zd.models.symbolic.closed_pendulum(links)
+    system = energy_models.closed_pendulum(links)
     errors = [np.abs(zd.simulate(system, 2.0, step=step, formulation=formulation).energy_violation).max()
               for step in (0.001, 0.0005, 0.00025)]
     orders = [np.log2(coarse / fine) for coarse, fine in itertools.pairwise(errors)]
@@ -59,7 +60,7 @@ def test_energy_of_the_closed_pendulum_falls_at_the_order_of_the_method(links, f
 @pytest.mark.parametrize("links", [4, 5, 8, 30])
 def test_start_of_the_closed_pendulum(links):
     """An arch, of which no link has wound up, and from which a run can start."""
-    system = zd.models.symbolic.closed_pendulum(links)
+    system = energy_models.closed_pendulum(links)
     assert (np.diff(system.p0) < 0).all()
     assert np.abs(system.p0).max() < 2.5
     assert zd.simulate(system, 0.01, step=0.005).success
@@ -72,7 +73,7 @@ def test_start_of_the_closed_pendulum(links):
 
 @pytest.mark.parametrize("links", [3, 6])
 def test_bodies_and_joints_are_the_pendulum_of_energies(links):
-    energies = zd.models.symbolic.closed_pendulum(links, length=0.7)
+    energies = energy_models.closed_pendulum(links, length=0.7)
     sols = [zd.simulate(each, 0.3, step=0.005, integrator="dop853")
             for each in (zd.models.closed_pendulum(links, length=0.7), energies)]
     angles = np.stack([sols[0][f"link{i + 1}.angle"] for i in range(links)], axis=1)
@@ -92,6 +93,6 @@ def test_bodies_and_joints_are_the_pendulum_of_energies(links):
 ])
 def test_wrong_closed_pendulums(wrong, error, message):
     with pytest.raises(error, match=message):
-        zd.models.symbolic.closed_pendulum(**wrong)
+        energy_models.closed_pendulum(**wrong)
     with pytest.raises(error, match=message.replace("parameter 'mass'", "mass")):
         zd.models.closed_pendulum(**wrong)

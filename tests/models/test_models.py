@@ -1,5 +1,6 @@
 """Properties of every model of `zd.models`; the motion of each is compared in the file of its name."""
 
+import importlib
 import inspect
 import pickle
 import subprocess
@@ -8,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 
+import energy_models
 import zerodrift as zd
 from every_model import MECHANISMS, MODELS
 from support import assert_close, refused
@@ -111,6 +113,13 @@ def test_what_cannot_be_negative_is_named(name):
 def test_arguments_that_nobody_knows_are_named(name):
     with refused("wrong-type", rf"{name}\(\): got an unexpected keyword argument 'colour'"):
         MECHANISMS[name](colour="red")
+
+
+def test_the_models_from_energies_work_under_their_earlier_name():
+    with pytest.warns(DeprecationWarning, match=r"your_mechanism_from_sympy' are worked examples of zd\.symbolic"):
+        from_energies = zd.models.symbolic.slider_crank
+    assert from_energies is importlib.import_module("zerodrift.models.symbolic").slider_crank
+    assert from_energies is energy_models.slider_crank
 
 
 def test_without_sympy():

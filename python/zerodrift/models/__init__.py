@@ -1,8 +1,7 @@
 """Worked models, each one short file whose function takes the parameters as keywords.
 
 All are mechanisms, from bodies and joints or, linkages, from a sketch: in the plane, and in space those of
-`zerodrift.models.space`. `zerodrift.models.symbolic` has four of them from their energies. Those whose drives swing, or follow a
-cam, need SymPy, the extra `symbolic`.
+`zerodrift.models.space`. Those whose drives swing, or follow a cam, need SymPy, the extra `symbolic`.
 
 >>> import zerodrift as zd
 >>> sol = zd.simulate(zd.models.closed_pendulum(links=5), 1.0, step=0.01)
@@ -11,6 +10,7 @@ True
 """
 
 import importlib
+import warnings
 from typing import Any
 
 from .andrews import andrews
@@ -59,10 +59,14 @@ __all__ = ["andrews", "bennett", "bicycle", "cam_follower", "chain", "chebyshev_
            "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "toggle_press",
            "watt", "whipple_bicycle"]
 
+DEPRECATED = ("zd.models.symbolic is deprecated: zd.models has these mechanisms from bodies and joints; the notebooks "
+              "'andrews' and 'your_mechanism_from_sympy' are worked examples of zd.symbolic")
+
 
 def __getattr__(name: str) -> Any:
     if name == "symbolic":      # SymPy is imported where it is used
-        return importlib.import_module(".symbolic", __name__)
+        warnings.warn(DEPRECATED, DeprecationWarning, stacklevel=2)
+        return importlib.import_module("._energies", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -7,6 +7,7 @@ import time
 import numpy as np
 
 import zerodrift as zd
+from zerodrift.models import _energies
 
 try:
     import sympy
@@ -22,7 +23,7 @@ def kinds(chain):
     if chain.name == "four-bar":
         return {"built in": lambda chain: zd.systems.four_bar()} | ({"compiled": compiled_system} if sympy else {})
     if chain.name == "Andrews":
-        return {"compiled": lambda chain: zd.models.symbolic.andrews()}
+        return {"compiled": lambda chain: _energies.andrews()}
     return ({"compiled": compiled_system} if sympy else {}) | {"Python system": python_system}
 
 

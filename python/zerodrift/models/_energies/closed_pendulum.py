@@ -41,8 +41,8 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
 
     Examples
     --------
-    >>> import zerodrift as zd
-    >>> zd.models.symbolic.closed_pendulum(links=6)
+    >>> from zerodrift.models import _energies
+    >>> _energies.closed_pendulum(links=6)
     <zd.symbolic closed_pendulum: 6 coordinates, 6 velocities, 2 holonomic and 0 nonholonomic constraints>
     """
     n = _check.count("links", links, least=3)

@@ -39,7 +39,8 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
     Examples
     --------
     >>> import zerodrift as zd
-    >>> sol = zd.simulate(zd.models.symbolic.bicycle(), 10.0, step=0.01)
+    >>> from zerodrift.models import _energies
+    >>> sol = zd.simulate(_energies.bicycle(), 10.0, step=0.01)
     >>> bool(abs(sol.velocity_violation).max() < 1e-12)
     True
     """

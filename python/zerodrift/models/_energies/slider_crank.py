@@ -36,7 +36,8 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
     Examples
     --------
     >>> import zerodrift as zd
-    >>> sol = zd.simulate(zd.models.symbolic.slider_crank(), 10.0, step=0.01)
+    >>> from zerodrift.models import _energies
+    >>> sol = zd.simulate(_energies.slider_crank(), 10.0, step=0.01)
     >>> bool(sol.energy_input[-1] < 0)      # the damper
     True
     """

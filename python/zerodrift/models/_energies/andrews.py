@@ -32,7 +32,8 @@ def andrews(**parameters: float) -> SymbolicSystem:
     Examples
     --------
     >>> import zerodrift as zd
-    >>> sol = zd.simulate(zd.models.symbolic.andrews(), 0.03, step=1e-5)
+    >>> from zerodrift.models import _energies
+    >>> sol = zd.simulate(_energies.andrews(), 0.03, step=1e-5)
     >>> sol.p[-1, :2].round(6)
     array([ 15.810771, -15.756371])
     """

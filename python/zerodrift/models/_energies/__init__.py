@@ -4,7 +4,8 @@ They need SymPy, the extra `symbolic`. Their arguments are those of the models o
 are their own.
 
 >>> import zerodrift as zd
->>> chain = zd.models.symbolic.closed_pendulum(links=5)
+>>> from zerodrift.models import _energies
+>>> chain = _energies.closed_pendulum(links=5)
 >>> sol = zd.simulate(chain, 1.0, step=0.01)
 >>> bool(abs(sol.position_violation).max() < 1e-12)
 True
