@@ -42,7 +42,7 @@ static double norm_of(int n, const double *x)
     return sqrt(zd_dot(n, x, x));
 }
 
-/* Brings the row of which most is left to place k. */
+/* Exchanges row k with the row of the largest remaining norm. */
 static void bring_longest(zd_row_space *self, int k)
 {
     int longest = k;
@@ -98,7 +98,7 @@ static void solve_triangle(const zd_row_space *self, const double *c, double *y)
     for (int k = 0; k < self->rank; k++) y[k] = (c[k] - zd_dot(k, self->A + k * self->n, y)) / self->diagonal[k];
 }
 
-/* y <- solution of [L; B] y = c of least squares, by reflections of its columns */
+/* y <- least-squares solution of [L; B] y = c, by reflections of its columns */
 static void solve_trapezoid(zd_row_space *self, double *c, double *y)
 {
     const int rows = self->rows, rank = self->rank;

@@ -6,8 +6,8 @@
 #include "../../../linalg/small.h"
 #include "steps.h"
 
-static const double MET = 1e-9;         /* of the largest prescribed or computed velocity: tolerance of prescribed velocities */
-static const double ZERO_ROW = 1e-9;    /* of the mechanism's length: length below which a row consists of rounding errors */
+static const double MET = 1e-9;         /* relative to the largest prescribed or computed velocity: tolerance of velocities */
+static const double ZERO_ROW = 1e-9;    /* relative to the mechanism's length: length of a row of rounding errors */
 
 /* ---- positions ---- */
 
@@ -20,7 +20,7 @@ static void report(const zd_assembly *self, int roles)
     }
 }
 
-/* Reports the residuals where targets are as near as closed joints allow, or where self->begun is if drives are not met. */
+/* Reports the residuals in positions as near to the targets as closed joints allow; with drives, those in self->begun. */
 static int report_unmet(zd_assembly *self, int roles, double *p)
 {
     const zd_conditions all = {.choice = ZD_OF_ALL, .roles = roles}, none = {.choice = ZD_OF_ALL};
@@ -46,8 +46,8 @@ static int is_closed(zd_assembly *self, const double *p)
     return zd_assembly_find(self, &all, p) <= ZD_CLOSED;
 }
 
-/* Meets constraints and held targets while those that stay are as in the drawing with its joints closed; returns whether that can be. p: closed
- * positions on entry, changed on success only. */
+/* Meets constraints and held targets while staying ones are as in the drawing with its joints closed; returns whether that is possible.
+ * p: closed positions on entry, changed on success only. */
 static int meet_staying(zd_assembly *self, double *p)
 {
     const zd_conditions drawing = {.choice = ZD_OF_DRAWING}, all = {.choice = ZD_OF_ALL, .roles = ZD_HELD | ZD_STAYING};
@@ -66,7 +66,7 @@ static int meet_staying(zd_assembly *self, double *p)
     return 1;
 }
 
-/* Closes the joints, and meets constraints and held targets from there; roles <- those that are met besides. */
+/* Closes the joints, and meets constraints and held targets from there; roles <- roles of the targets that are met. */
 static int meet(zd_assembly *self, double *p, int *roles)
 {
     const zd_conditions joints = {.choice = ZD_OF_JOINTS}, all = {.choice = ZD_OF_ALL, .roles = ZD_HELD};
@@ -150,8 +150,7 @@ static double find_left(zd_assembly *self, int count, const double *x)
     return zd_largest(count, self->right);
 }
 
-/* Reports what is left of contradictory velocities: by it rows are weighted so that their sum vanishes, and that of their right sides does
- * not. */
+/* Reports the residuals of contradictory velocities: weights with which the rows sum to zero, and their right sides do not. */
 static int report_contradiction(zd_assembly *self)
 {
     for (int k = 0; k < self->rows; k++) {

@@ -8,8 +8,8 @@
 #include "../../../point/point.h"
 #include "displacement.h"
 
-static const double LEAST_MASS = 1e-6;          /* of the largest mass, in the metric: mass of massless directions */
-static const double RANK = 1e-9;                /* of the longest row: bound below which rows are redundant */
+static const double LEAST_MASS = 1e-6;          /* relative to the largest mass, in the metric: mass of massless directions */
+static const double RANK = 1e-9;                /* relative to the longest row: bound below which rows are redundant */
 
 /* ---- memory ---- */
 
@@ -85,7 +85,7 @@ int zd_assembly_close(zd_assembly *self, int outcome)
 
 /* ---- evaluation ---- */
 
-/* First component of a target's measure in `value`, and its rows in `jacobian`, unless they are there already */
+/* self->value and self->jacobian <- measure of a target */
 static void read_target(zd_assembly *self, const zd_target *target, const double *p)
 {
     const zd_measured out = {.value = self->value, .jacobian = self->jacobian};
@@ -154,7 +154,10 @@ void zd_assembly_keep(zd_assembly *self, const double *p)
 int zd_assembly_has(const zd_assembly *self, enum zd_target_role role, int is_rate)
 {
     int any = 0;
-    for (int i = 0; i < self->given->targets; i++) any |= (int)role == self->given->target[i].role && is_rate == self->given->target[i].is_rate;
+    for (int i = 0; i < self->given->targets; i++) {
+        const zd_target *target = self->given->target + i;
+        any |= target->role == (int)role && target->is_rate == is_rate;
+    }
     return any;
 }
 
@@ -194,7 +197,7 @@ static void scale_rows(zd_assembly *self)
         for (int i = 0; i < self->n; i++) self->J[k * self->n + i] *= self->scale[i];
 }
 
-/* Of the rows that there are, those that are chosen */
+/* Keeps the chosen rows only. */
 static void choose(zd_assembly *self, enum zd_assembly_choice choice)
 {
     int count = 0;

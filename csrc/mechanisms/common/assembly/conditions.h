@@ -3,9 +3,9 @@
 #define ZD_ASSEMBLY_CONDITIONS_H
 
 #include "../../../linalg/row_space.h"
-#include "assembly.h"
+#include "given.h"
 
-#define ZD_SMALLEST_SIZE 1e-3   /* of the largest constraint, and of the length: lower bound of a constraint's size */
+#define ZD_SMALLEST_SIZE 1e-3   /* relative to the largest constraint and the length: lower bound of a constraint's size */
 
 /* Set of roles of targets, as bits */
 enum { ZD_HELD = 1 << ZD_TARGET_HELD, ZD_STAYING = 1 << ZD_TARGET_STAYS, ZD_WISHED = 1 << ZD_TARGET_WISHED, ZD_ROLE_SETS = 8 };
@@ -13,7 +13,7 @@ enum { ZD_HELD = 1 << ZD_TARGET_HELD, ZD_STAYING = 1 << ZD_TARGET_STAYS, ZD_WISH
 typedef struct zd_assembly {
     const zd_assembly_given *given;
     const zd_system *system;
-    void *block;            /* of memory */
+    void *block;            /* memory of all arrays */
     int n, m, most, widest; /* velocities; constraints; constraints and targets; components of a measure, at most */
     int status;             /* first failure of the system */
     zd_terms terms;
@@ -25,16 +25,16 @@ typedef struct zd_assembly {
     int rows;
     double *C;              /* (m, n) */
     double *r, *J, *start;  /* (most,), (most, n) residuals and rows of the chosen conditions; residuals that are shifted away */
-    int *of;                /* (most,): which condition each row is, a constraint, or m + a target */
+    int *of;                /* (most,): condition of each row, a constraint, or m + a target */
     zd_row_space firm, soft;
     double *right, *x, *moved, *step;           /* (most,), (n,), (n,), (n,) of a displacement */
-    double *tried, *polished, *led, *begun, *found, *as_drawn, *drawn;      /* (nq,): positions of the steps that are named so */
+    double *tried, *polished, *led, *begun, *found, *as_drawn, *drawn;      /* (nq,): positions used by these steps */
     double *square, *factors;                   /* (k, k), (k, k + 2) with the smaller k of most and n */
 } zd_assembly;
 
 enum zd_assembly_choice { ZD_OF_ALL, ZD_OF_DRAWING, ZD_OF_JOINTS };
 
-/* Which conditions are meant, and the share of the residuals in `start` that is still allowed */
+/* Selection of conditions, and the share of the residuals in `start` that is still allowed */
 typedef struct zd_conditions {
     enum zd_assembly_choice choice;
     int roles;
@@ -57,9 +57,9 @@ double zd_assembly_length_of(const zd_assembly *self, int row);
 void zd_assembly_divide_row(zd_assembly *self, int row, double by);
 /* Factor that preserves the length of a row when it is divided by weights */
 double zd_assembly_unit_of(const zd_assembly *self, int row, const double *weight);
-int zd_assembly_is_joint(const zd_assembly *self, int row);     /* of r and J */
-/* x (n,) <- solution of J x = right for the first `firm` rows of minimum norm of weight * x, of least squares where they contradict each
- * other; among these, the nearest to that of the other rows. weight: NULL: of one */
+int zd_assembly_is_joint(const zd_assembly *self, int row);     /* row: of r and J */
+/* x (n,) <- minimum-norm solution, in the norm of weight * x, of J x = right for the first `firm` rows, least squares where they contradict
+ * each other; among these, least squares of the other rows. weight NULL: ones */
 void zd_assembly_solve(zd_assembly *self, int firm, const double *right, const double *weight, double *x);
 /* to <- p + step, with the step shortened so that no scaled coordinate moves by more than `longest` */
 void zd_assembly_move(zd_assembly *self, const double *p, double longest, double *step, double *to);

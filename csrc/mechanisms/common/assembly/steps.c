@@ -11,7 +11,7 @@ static const double LONGEST = 0.4;          /* step of any coordinate, at most, 
 static const double NUDGE = 1e-3;           /* length of a perturbation, in the same units */
 static const double FIRST_DAMPING = 1e-2, LEAST_DAMPING = 1e-12, MOST_DAMPING = 1e12;
 static const double SOLVED = 1e-12;         /* sum of squares below which Newton's method goes on */
-static const double LEAST_GAIN = 1e-14;     /* of the sum of squares: gain below which a minimization ends */
+static const double LEAST_GAIN = 1e-14;     /* relative to the sum of squares: gain below which a minimization ends */
 enum { ATTEMPTS = 200, HALVINGS = 20, NEARER = 50, ITERATIONS = 40, PARTS = 200, POWERS = 200 };
 
 int zd_assembly_newton(zd_assembly *self, const zd_conditions *of, double *p)

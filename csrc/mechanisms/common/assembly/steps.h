@@ -4,7 +4,7 @@
 
 #include "conditions.h"
 
-#define ZD_CLOSED 1e-12         /* of a constraint, relative to its size: largest residual of a closed joint */
+#define ZD_CLOSED 1e-12         /* relative to the size of a constraint: largest residual of a closed joint */
 
 /* Minimum-norm Newton steps until the residual stops decreasing; returns whether the conditions are met. */
 int zd_assembly_newton(zd_assembly *self, const zd_conditions *of, double *p);
