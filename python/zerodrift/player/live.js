@@ -5,7 +5,7 @@ const scene = JSON.parse(document.getElementById("live").textContent);
 const canvas = document.getElementById("picture"), AXES = ["x", "y", "z"].slice(0, scene.dimension);
 const words = {play: document.getElementById("play"), state: document.getElementById("state"), told: document.getElementById("told")};
 const BUDGET = 8;           // ms of computation in a picture
-const live = {mechanism: null, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches, dragged: null, turned: null, cost: 0, pictures: 0,
+const live = {mechanism: null, playing: !matchMedia("(prefers-reduced-motion: reduce)").matches, dragged: null, turned: null, owed: 0, cost: 0, pictures: 0,
   trust: [], chosen: null, initial: null, sliders: []};
 globalThis.zerodrift = {live, scene, read, time, poses, parameter, setParameter, setInput, input, save, violation, energyViolation, freedoms};
 
@@ -110,8 +110,9 @@ function next(now) {
   live.last = now;
   try {
     if (live.playing || (live.dragged && !assembles())) {
-      const goal = time(live.mechanism) + elapsed, tug = live.dragged ? springOf(live.dragged) : () => {};
-      while (time(live.mechanism) < goal - scene.step / 2 && performance.now() - begin < BUDGET) {
+      const tug = live.dragged ? springOf(live.dragged) : () => {};
+      live.owed = Math.min(live.owed + elapsed, 0.05 * scene.speed + scene.step);
+      for (; live.owed >= scene.step / 2 && performance.now() - begin < BUDGET; live.owed -= scene.step) {
         tug();
         step(live.mechanism, 1);
       }
