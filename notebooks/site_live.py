@@ -20,6 +20,15 @@ BOARD = Path(__file__).parent / "board"
 SCRIPTS = ("model.js", "block.js", "python.js", "edit.js", "fields.js", "picture.js", "board.js")      # what a script uses stands before it
 
 
+PACKAGE = [path for path in Path(zd.__file__).parent.rglob("*.*") if path.suffix != ".pyc"]
+CHANGED = max(path.stat().st_mtime for path in PACKAGE)     # s
+
+
+def is_current(path: Path) -> bool:
+    """Existence of a file that is made of the package as it is."""
+    return path.exists() and path.stat().st_mtime >= CHANGED
+
+
 def write(folder: Path) -> None:
     """Write the core and the drawing board; a file that would not change is left as it is."""
     for name, text in {"core_bytes.js": core_bytes(), "board.html": board()}.items():
@@ -45,12 +54,12 @@ def board() -> str:
 
 
 def lives(folder: Path) -> None:
-    """Write the pages that simulate the models, each once for a version of the package, and the player that they share."""
+    """Write the pages that simulate the models, each anew when the package has changed, and the player that they share."""
     folder.mkdir(exist_ok=True)
     (folder / "player.js").write_text(player(), encoding="utf-8")
     for each in gallery.exhibits():
         path = folder / f"{each.name}.html"
-        if not path.exists():
+        if not is_current(path):
             view = live_view(each.made(), step=min(each.step, 0.01), speed=each.speed, **dict(each.options))
             path.write_text(view.linked("../core_bytes.js", "player.js"), encoding="utf-8")
 

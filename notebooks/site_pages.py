@@ -162,7 +162,7 @@ document.querySelectorAll(".films a").forEach(card => {
 
 
 def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
-    """The gallery, and a page for each model; films are files of their own, which are made once for a version of the package."""
+    """The gallery, and a page for each model; films are files of their own, which are made anew when the package has changed."""
     (folder / "extra" / "films").mkdir(parents=True, exist_ok=True)
     kept = folder / "graphs.json"
     known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
@@ -170,7 +170,7 @@ def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
     site_live.lives(folder / "extra" / "live")
     for exhibit in shown.values():
         path = folder / "extra" / "films" / f"{exhibit.name}.html"
-        if not path.exists() or exhibit.name not in known:
+        if not site_live.is_current(path) or exhibit.name not in known:
             sol = exhibit.run()
             film = zd.view(sol, path=list(exhibit.path), speed=exhibit.speed, graphs=plotted(sol))
             path.with_suffix(".png").write_bytes(base64.b64decode(film._still()))
