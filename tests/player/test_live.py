@@ -159,6 +159,22 @@ def test_a_point_is_dragged_in_the_plane_and_what_a_motor_holds_is_refused(brows
     assert browser.errors == []
 
 
+def test_a_finger_drags_as_the_pointer_does(browser, tmp_path):
+    opened(browser, zd.view(zd.models.four_bar(), live=True, sliders={}), tmp_path)
+    spot = """(() => { const box = document.getElementById("picture").getBoundingClientRect();
+        const [x, y] = zerodrift.spot(zerodrift.parts.find(each => each.name === "coupler").point);
+        return [x + box.left, y + box.top]; })()"""
+    browser.evaluate("document.getElementById('play').click()")
+    x, y = browser.evaluate(spot)
+    browser("Input.dispatchTouchEvent", type="touchStart", touchPoints=[{"x": x, "y": y}])
+    browser("Input.dispatchTouchEvent", type="touchMove", touchPoints=[{"x": x + 20, "y": y + 10}])
+    until(browser, f"Math.hypot({spot}[0] - {x}, {spot}[1] - {y}) > 3")      # points of the screen
+    assert browser.evaluate("zerodrift.live.dragged") is not None
+    browser("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+    assert browser.evaluate("zerodrift.live.dragged") is None
+    assert browser.errors == []
+
+
 def test_restart_goes_back_to_the_start_with_its_parameters(browser, tmp_path):
     opened(browser, zd.view(zd.models.gyroscope(), live=True, sliders={"outer.mass": (0.5, 2)}), tmp_path)
     browser.evaluate("document.getElementById('play').click()")

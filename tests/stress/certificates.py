@@ -1,7 +1,8 @@
 """Certified errors of `zd.reference` against true ones, in both precisions, for random motions known to thirty digits.
 
-Run it with ``python tests/stress/certificates.py 1000``, motions in each precision, or with a second number, of minutes after
-which it ends; it writes ``certificates.csv`` into ``tests/bench/results/``. It exits with 1 if a certificate is too small.
+Run it with ``python tests/stress/certificates.py 1000``, motions in each precision; a second number is of minutes after
+which it ends, a third the first seed. It writes ``certificates.csv`` into ``tests/bench/results/``, and exits with 1 if a
+certificate is too small.
 """
 
 import collections
@@ -23,9 +24,8 @@ from certain_motions import FAMILIES, compare  # noqa: E402
 PRECISIONS = ("double", "double-double")
 
 
-def drawn():
+def drawn(seed):
     """Families in turn, each time with another seed, in both precisions."""
-    seed = 0
     while True:
         yield from ((precision, name, seed) for name in FAMILIES for precision in PRECISIONS
                     if (precision, name) != ("double-double", "henon_in_python"))
@@ -59,11 +59,11 @@ def tried(precision, name, seed):
     return outcome
 
 
-def main(count, minutes):
+def main(count, minutes, first):
     """So many motions in each precision; the number of certificates that are too small."""
     end = time.monotonic() + 60 * minutes
     found, refused = {}, collections.Counter()
-    for precision, name, seed in islice(drawn(), 2 * count):
+    for precision, name, seed in islice(drawn(first), 2 * count):
         if time.monotonic() > end:
             break
         outcome = tried(precision, name, seed)
@@ -84,5 +84,5 @@ def main(count, minutes):
 
 
 if __name__ == "__main__":
-    given = [float(each) for each in sys.argv[1:]]
-    sys.exit(main(int(given[0]) if given else 1000, given[1] if len(given) > 1 else np.inf) > 0)
+    given = [float(each) for each in sys.argv[1:]] + [1000, np.inf, 0][len(sys.argv) - 1:]
+    sys.exit(main(int(given[0]), given[1], int(given[2])) > 0)
