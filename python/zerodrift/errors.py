@@ -166,7 +166,7 @@ class NoSpace(_Coded, OSError):
 
 
 class NeedsCompiler(_Coded, NotImplementedError):
-    """A function of C has no counterpart in Python, and there is no C compiler."""
+    """Missing C compiler, for a function of C without a counterpart in Python."""
 
     code = "needs-compiler"
 

@@ -268,7 +268,7 @@ def test_a_start_names_what_there_is(m, link, pin):
     with refused("wrong-type", "crank.angle.*not 3"):
         m.start({3: 1.0})
     for name, first in (("link.angel", "link.angle"), ("pin", "pin"), ("pin.force", "pin"), ("link.end.velocty", "link.end.vel")):
-        with refused("wrong-name", rf"start names '{name}', and there is no such measure .*can be given: {first}"):
+        with refused("wrong-name", rf"start must name a measure .*, not '{name}'; .*can be given: {first}"):
             m.start({"link.angle": 9.0, name: 1.0})
     with refused("shape", r"wish\['link.position'\].*have 2.*not 1"):
         m.start(wish={link.position: 1.0})

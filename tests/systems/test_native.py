@@ -79,7 +79,7 @@ def test_pickling_wants_the_same_library(library, tmp_path):
             pickle.loads(data)
     copy.unlink()
     for data in pickled:
-        with refused("missing-file", r"there is no shared library .*pendulum\.so"):
+        with refused("missing-file", r"the shared library must exist: .*pendulum\.so"):
             pickle.loads(data)
 
 

@@ -279,5 +279,5 @@ def _common(counts: dict[str, int]) -> int:
             raise WrongValue(f"{first} has {counts[first]} values and {name} has {count}: there must be one for each run, or one "
                              "for all; zd.grid(...) takes the product", "shape")
     if not counts[first]:
-        raise WrongValue(f"{first} has no values, so there are no runs", "shape")
+        raise WrongValue(f"{first} must have at least one value: each is a run", "shape")
     return counts[first]

@@ -146,7 +146,7 @@ def violation(sol: Solution, ax: Axes | None = None, *, positions: bool = True, 
     if velocities and constraints:
         lines.append((sol.velocity_violation, _style.with_unit("velocity violation |Ψ|", rates)))
     if not lines:
-        raise WrongValue(f"{sol.system.name} has no such constraints, so there is no violation to draw", "not-available")
+        raise WrongValue(f"the system must have these constraints, of which {sol.system.name} has none", "not-available")
     ax = _style.axes(ax)
     for values, label in lines:
         _style.log_line(ax, sol.t, np.abs(values).max(axis=1), **{"label": label} | style)

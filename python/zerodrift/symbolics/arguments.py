@@ -272,7 +272,7 @@ def _matrix(what: str, given: Any) -> list[list[Any]] | None:
     try:
         return None if given is None else sympy.Matrix(given).tolist()
     except (TypeError, ValueError):
-        raise WrongType(f"{what} must be a matrix, or a sequence of rows that are as long as each other, not {given!r}",
+        raise WrongType(f"{what} must be a matrix, or a sequence of rows of equal length, not {given!r}",
                         "shape") from None
 
 

@@ -167,17 +167,18 @@ static int find_velocities(zd_assembly *self, int roles, const double *p, double
 {
     memset(v, 0, (size_t)self->n * sizeof *v);
     zd_assembly_find_rates(self, roles, p);
-    const int firm = self->rows;
+    const int required = self->rows;
     zd_assembly_find_rates(self, roles | ZD_WISHED, p);
-    if (zd_largest(firm, self->r) == 0 && firm == self->rows) return ZD_ASSEMBLED;
-    normalize_rates(self, firm);
+    if (zd_largest(required, self->r) == 0 && required == self->rows) return ZD_ASSEMBLED;
+    normalize_rates(self, required);
     for (int k = 0; k < self->rows; k++) self->start[k] = -self->r[k];
     const int rows = self->rows;
-    self->rows = firm;
-    zd_assembly_solve(self, firm, self->start, self->weight, v);
-    if (!(find_left(self, firm, v) <= MET * fmax(zd_largest(firm, self->r), zd_largest(self->n, v)))) return report_contradiction(self);
+    self->rows = required;
+    zd_assembly_solve(self, required, self->start, self->weight, v);
+    const double left = find_left(self, required, v), largest = fmax(zd_largest(required, self->r), zd_largest(self->n, v));
+    if (!(left <= MET * largest)) return report_contradiction(self);
     self->rows = rows;
-    if (firm < rows) zd_assembly_solve(self, firm, self->start, self->weight, v);
+    if (required < rows) zd_assembly_solve(self, required, self->start, self->weight, v);
     for (int i = 0; i < self->n; i++) v[i] *= self->scale[i];
     return ZD_ASSEMBLED;
 }

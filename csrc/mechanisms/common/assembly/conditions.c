@@ -57,7 +57,7 @@ static zd_assembly take(zd_arena *arena, const zd_assembly_given *given)
         .scale = zd_take_doubles(arena, n), .weight = zd_take_doubles(arena, n), .C = zd_take_doubles(arena, m * n),
         .r = zd_take_doubles(arena, most), .J = zd_take_doubles(arena, most * n), .start = zd_take_doubles(arena, most),
         .of = zd_take(arena, most * sizeof(int)),
-        .firm = zd_row_space_take(arena, (int)most, system->nv), .soft = zd_row_space_take(arena, (int)targets, system->nv),
+        .required = zd_row_space_take(arena, (int)most, system->nv), .wished = zd_row_space_take(arena, (int)targets, system->nv),
     };
     for (int i = 0; i < ZD_ROLE_SETS; i++) self.size[i] = zd_take_doubles(arena, most);
     take_steps(arena, &self, n, (size_t)system->nq, most);
@@ -274,35 +274,35 @@ static void weigh_rows(zd_assembly *self, int first, int count, const double *we
     }
 }
 
-/* x <- x + the step along the null space of the firm rows that brings the soft ones nearest to `right` */
-static void approach_soft(zd_assembly *self, int first, const double *weight, double *right, double *x)
+/* x <- x + the step along the null space of the required rows on which the wished rows come nearest to `right` */
+static void approach_wished(zd_assembly *self, int first, const double *weight, double *right, double *x)
 {
-    const int n = self->n, count = self->rows - first, rank = self->firm.rank;
-    double *A = self->soft.A, square = 0;
+    const int n = self->n, count = self->rows - first, rank = self->required.rank;
+    double *A = self->wished.A, square = 0;
     weigh_rows(self, first, count, weight, 0, A, right);
     for (int k = 0; k < count; k++) {
         right[k] -= zd_dot(n, A + k * n, x);
         square += zd_dot(n, A + k * n, A + k * n);
-        zd_row_space_turn(&self->firm, A + k * n);
+        zd_row_space_turn(&self->required, A + k * n);
     }
-    self->soft.n = n - rank;
+    self->wished.n = n - rank;
     for (int k = 0; k < count; k++)
         for (int i = 0; i < n - rank; i++) A[k * (n - rank) + i] = A[k * n + rank + i];
-    zd_row_space_factor(&self->soft, count, 0, RANK * sqrt(square * (n - rank)));
+    zd_row_space_factor(&self->wished, count, 0, RANK * sqrt(square * (n - rank)));
     double *y = self->moved;
     for (int i = 0; i < rank; i++) y[i] = 0;
-    zd_row_space_solve(&self->soft, right, y + rank);
-    zd_row_space_turn_back(&self->firm, y);
+    zd_row_space_solve(&self->wished, right, y + rank);
+    zd_row_space_turn_back(&self->required, y);
     zd_add_scaled(n, x, 1, y);
 }
 
-void zd_assembly_solve(zd_assembly *self, int firm, const double *right, const double *weight, double *x)
+void zd_assembly_solve(zd_assembly *self, int required, const double *right, const double *weight, double *x)
 {
     for (int k = 0; k < self->rows; k++) self->right[k] = right[k];
-    weigh_rows(self, 0, firm, weight, 1, self->firm.A, self->right);
-    zd_row_space_factor(&self->firm, firm, RANK, 0);
-    zd_row_space_solve(&self->firm, self->right, x);
-    if (firm < self->rows) approach_soft(self, firm, weight, self->right + firm, x);
+    weigh_rows(self, 0, required, weight, 1, self->required.A, self->right);
+    zd_row_space_factor(&self->required, required, RANK, 0);
+    zd_row_space_solve(&self->required, self->right, x);
+    if (required < self->rows) approach_wished(self, required, weight, self->right + required, x);
     for (int i = 0; weight && i < self->n; i++) x[i] /= weight[i];
 }
 

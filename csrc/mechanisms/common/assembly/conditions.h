@@ -26,7 +26,7 @@ typedef struct zd_assembly {
     double *C;              /* (m, n) */
     double *r, *J, *start;  /* (most,), (most, n) residuals and rows of the chosen conditions; residuals that are shifted away */
     int *of;                /* (most,): condition of each row, a constraint, or m + a target */
-    zd_row_space firm, soft;
+    zd_row_space required, wished;
     double *right, *x, *moved, *step;           /* (most,), (n,), (n,), (n,) of a displacement */
     double *tried, *polished, *led, *begun, *found, *as_drawn, *drawn;      /* (nq,): positions used by these steps */
     double *square, *factors;                   /* (k, k), (k, k + 2) with the smaller k of most and n */
@@ -58,9 +58,9 @@ void zd_assembly_divide_row(zd_assembly *self, int row, double by);
 /* Factor that preserves the length of a row when it is divided by weights */
 double zd_assembly_unit_of(const zd_assembly *self, int row, const double *weight);
 int zd_assembly_is_joint(const zd_assembly *self, int row);     /* row: of r and J */
-/* x (n,) <- minimum-norm solution, in the norm of weight * x, of J x = right for the first `firm` rows, least squares where they contradict
- * each other; among these, least squares of the other rows. weight NULL: ones */
-void zd_assembly_solve(zd_assembly *self, int firm, const double *right, const double *weight, double *x);
+/* x (n,) <- minimum-norm solution, in the norm of weight * x, of J x = right for the first `required` rows, least squares where they
+ * contradict each other; among these, least squares of the other rows. weight NULL: ones */
+void zd_assembly_solve(zd_assembly *self, int required, const double *right, const double *weight, double *x);
 /* to <- p + step, with the step shortened so that no scaled coordinate moves by more than `longest` */
 void zd_assembly_move(zd_assembly *self, const double *p, double longest, double *step, double *to);
 

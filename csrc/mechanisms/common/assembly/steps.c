@@ -145,13 +145,13 @@ static double norm_from(const zd_assembly *self, int first)
     return sqrt(zd_dot(self->rows - first, self->r + first, self->r + first));
 }
 
-/* Takes the longest of a step and its halves that reduces the residuals of the soft targets; returns whether there is one. */
-static int approach_by(zd_assembly *self, const zd_conditions *firm, const zd_conditions *all, int first, double before, double *p)
+/* Takes the longest of a step and its halves that reduces the residuals of the wished targets; returns whether there is one. */
+static int approach_by(zd_assembly *self, const zd_conditions *required, const zd_conditions *all, int first, double before, double *p)
 {
     double *nearer = self->polished, *step = self->x;
     for (int i = 0; i < HALVINGS; i++) {
         zd_assembly_move(self, p, INFINITY, step, nearer);
-        if (zd_assembly_newton(self, firm, nearer)) {
+        if (zd_assembly_newton(self, required, nearer)) {
             zd_assembly_find(self, all, nearer);
             if (norm_from(self, first) < before * (1 - 1e-9)) {
                 zd_copy_all(self->system->nq, nearer, p);
@@ -163,9 +163,9 @@ static int approach_by(zd_assembly *self, const zd_conditions *firm, const zd_co
     return 0;
 }
 
-void zd_assembly_approach(zd_assembly *self, int firm, int soft, double *p)
+void zd_assembly_approach(zd_assembly *self, int required, int wished, double *p)
 {
-    const zd_conditions others = {.choice = ZD_OF_ALL, .roles = firm}, all = {.choice = ZD_OF_ALL, .roles = firm | soft};
+    const zd_conditions others = {.choice = ZD_OF_ALL, .roles = required}, all = {.choice = ZD_OF_ALL, .roles = required | wished};
     for (int i = 0; i < ATTEMPTS && !self->status; i++) {
         zd_assembly_find(self, &others, p);
         const int first = self->rows;

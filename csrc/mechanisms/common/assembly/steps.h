@@ -15,8 +15,8 @@ void zd_assembly_approach_drawing(zd_assembly *self, const zd_conditions *of, do
 /* Leads drives, couplings and targets from where they are to where they must be in small steps on one branch; returns whether they arrive.
  * Otherwise p is where they were led. */
 int zd_assembly_track(zd_assembly *self, int roles, double *p);
-/* Approaches the targets of the roles `soft` as nearly as all constraints and the targets of the roles `firm` allow. */
-void zd_assembly_approach(zd_assembly *self, int firm, int soft, double *p);
+/* Approaches the targets of the roles `wished` as nearly as all constraints and the targets of the roles `required` allow. */
+void zd_assembly_approach(zd_assembly *self, int required, int wished, double *p);
 /* Perturbs p slightly, with closed joints if possible. */
 void zd_assembly_perturb(zd_assembly *self, double *p);
 

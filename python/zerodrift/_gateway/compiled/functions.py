@@ -146,7 +146,7 @@ def _remove_old_copies(temporary: Path) -> None:
 
 def _content(path: Path) -> bytes:
     if not path.is_file():
-        raise MissingFile(f"there is no shared library {path}")
+        raise MissingFile(f"the shared library must exist: {path}")
     return path.read_bytes()
 
 

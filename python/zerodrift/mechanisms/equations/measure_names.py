@@ -105,7 +105,7 @@ def checked_reading(what: str, name: str, value: Any, elements: Mapping[str, Any
         owner = elements.get(name.partition(".")[0])
         known = readable(owner) if owner is not None else []
         said = f"; of {owner.name!r} these can be given: {_closest_first(name, known)}" if known else ""
-        raise WrongValue(f"{what} names {name!r}, and there is no such measure of positions or velocities{said}", "wrong-name")
+        raise WrongValue(f"{what} must name a measure of positions or velocities, not {name!r}{said}", "wrong-name")
     if value is not None and len(read.quantities) != np.size(value):
         raise WrongValue(f"{what}[{name!r}] must have {len(read.quantities)} components, not {np.size(value)}", "shape")
     return read
