@@ -234,7 +234,7 @@ WRONG = {
     "point": (lambda d: d["elements"][1].update(first=[0, 0]), r"a point must be a name, or have a body and local coordinates"),
     "no element": (lambda d: d["elements"].append(3), r"m\.json, element 3: an element must be a dict with kind"),
     "elements": (lambda d: d.update(elements={}), r"m\.json: elements must be a list"),
-    "start": (lambda d: d["start"].update({"link.angles": 1.0}), r"m\.json, start: start must name a measure of .*, not 'link.angles'"),
+    "start": (lambda d: d["start"].update({"link.angles": 1.0}), r"m\.json, start: start must name a measure .*'link.angles'"),
     "law": (lambda d: d["elements"][2].update(law={"callable": 1}), r"\(motor 'drive'\): law must be a number, or"),
     "operation": (lambda d: d["elements"][2]["law"].update(expression=["exec", "t"]), r"law has the operation 'exec'"),
     "drive": (lambda d: d["elements"][2].update(drives="power"), r"\(motor 'drive'\): drives must be one of|drives .*'power'"),
