@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import sys
 import types
+import warnings
 from typing import Any
 
 ELEMENTS = ("bodies", "columns", "drawing", "forces", "joints", "measures", "numbers", "space_bodies", "space_joints")
@@ -22,6 +23,10 @@ MOVED = {
     "symbolics.series_functions": "symbolics.compile.series_library",
     "systems.watching": "systems.measure_values",
 }
+DEPRECATED = {
+    "models.symbolic": "zd.models.symbolic is deprecated: zd.models has these mechanisms from bodies and joints; the notebooks "
+                       "'andrews' and 'your_mechanism_from_sympy' are worked examples of zd.symbolic",
+}
 RENAMED = {"DirectFunctions": "ClosedFormFunctions"}
 
 
@@ -31,8 +36,11 @@ class _Moved(types.ModuleType):
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
-        now = importlib.import_module(f"{__package__}.{MOVED[self.__name__.removeprefix(f'{__package__}.')]}")
-        return getattr(now, RENAMED.get(name, name))
+        earlier = self.__name__.removeprefix(f"{__package__}.")
+        now = getattr(importlib.import_module(f"{__package__}.{MOVED[earlier]}"), RENAMED.get(name, name))
+        if earlier in DEPRECATED:
+            warnings.warn(DEPRECATED[earlier], DeprecationWarning, stacklevel=2)
+        return now
 
 
 def register() -> None:

@@ -1,6 +1,5 @@
 """Properties of every model of `zd.models`; the motion of each is compared in the file of its name."""
 
-import importlib
 import inspect
 import pickle
 import subprocess
@@ -115,11 +114,20 @@ def test_arguments_that_nobody_knows_are_named(name):
         MECHANISMS[name](colour="red")
 
 
-def test_the_models_from_energies_work_under_their_earlier_name():
-    with pytest.warns(DeprecationWarning, match=r"your_mechanism_from_sympy' are worked examples of zd\.symbolic"):
-        from_energies = zd.models.symbolic.slider_crank
-    assert from_energies is importlib.import_module("zerodrift.models.symbolic").slider_crank
-    assert from_energies is energy_models.slider_crank
+EARLIER_NAMES = {      # of the models from energies, as old scripts write them
+    "attribute": "import zerodrift as zd; slider_crank = zd.models.symbolic.slider_crank",
+    "import of a name": "from zerodrift.models.symbolic import slider_crank",
+    "import of the module": "from zerodrift.models import symbolic; slider_crank = symbolic.slider_crank",
+    "module under another name": "import zerodrift.models.symbolic as models; slider_crank = models.slider_crank"}
+
+
+@pytest.mark.parametrize("way", EARLIER_NAMES)
+def test_the_models_from_energies_work_under_their_earlier_name(way):
+    names = {}
+    with pytest.warns(DeprecationWarning, match=r"your_mechanism_from_sympy' are worked examples of zd\.symbolic") as warned:
+        exec(compile(EARLIER_NAMES[way], "script.py", "exec"), names)
+    assert names["slider_crank"] is energy_models.slider_crank
+    assert {warning.filename for warning in warned} == {"script.py"}       # where Python shows it
 
 
 def test_without_sympy():

@@ -13,6 +13,7 @@ import importlib
 import warnings
 from typing import Any
 
+from ..earlier_names import DEPRECATED
 from .andrews import andrews
 from .bicycle import bicycle
 from .cam_follower import cam_follower
@@ -59,13 +60,10 @@ __all__ = ["andrews", "bennett", "bicycle", "cam_follower", "chain", "chebyshev_
            "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "toggle_press",
            "watt", "whipple_bicycle"]
 
-DEPRECATED = ("zd.models.symbolic is deprecated: zd.models has these mechanisms from bodies and joints; the notebooks "
-              "'andrews' and 'your_mechanism_from_sympy' are worked examples of zd.symbolic")
-
 
 def __getattr__(name: str) -> Any:
     if name == "symbolic":      # SymPy is imported where it is used
-        warnings.warn(DEPRECATED, DeprecationWarning, stacklevel=2)
+        warnings.warn(DEPRECATED["models.symbolic"], DeprecationWarning, stacklevel=2)
         return importlib.import_module("._energies", __name__)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
