@@ -17,10 +17,10 @@ static int are_of_pins(const zd_batch *batch)
     return batch->system->pinned && !batch->data && !batch->settings->events && zd_takes_many_rows(formulation, batch->system);
 }
 
-static int are_known(const zd_events *events)
+static int are_known(const zd_events *events, const zd_system *system)
 {
     for (int i = 0; events && i < events->count; i++)
-        if (!zd_is_known(events, i)) return 0;
+        if (!zd_is_known(events, i) || zd_reads_accelerations(events, system, i)) return 0;
     return 1;
 }
 
@@ -36,7 +36,7 @@ int zd_lanes_serve(const zd_batch *batch)
     const zd_system *system = batch->system;
     const zd_settings *settings = batch->settings;
     const zd_closed_form *direct;
-    if (!batch->lanes || batch->settings_differ || batch->family || !are_known(settings->events)
+    if (!batch->lanes || batch->settings_differ || batch->family || !are_known(settings->events, system)
         || !zd_lanes_serve_settings(system, settings))
         return 0;
     if (are_of_pins(batch)) return zd_lanes_of_unit(settings->vector) > 0;
@@ -81,7 +81,7 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
         .terms = {.scratch = zd_take_doubles(arena, (size_t)system->scratch), .inputs = run->motion.point->inputs},
     };
     zd_lanes_take(&group.lanes, arena, run, group.functions, direct, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
-    group.reader = zd_reader_take(arena, batch->settings->events, system, run->motion.point->inputs);
+    group.reader = zd_reader_take(arena, batch->settings->events, system, run->motion.point->inputs, NULL);
     for (int lane = 0; lane < ZD_MOST_LANES; lane++)
         group.run_of[lane] = (zd_lane_run){
             .number = -1,

@@ -11,11 +11,15 @@
  * Remaining jumps (corrections stop within their tolerance, energy corrections are left out near rest) and the rounding of t between
  * shorter steps are removed at last: the states on both sides of the instant are interpolated linearly to the zero of the function. The
  * end of the bracket after the event is reported, so that a run that starts there does not find it again.
+ *
+ * Reactions and accelerations that an event reads are those of the state at which it is evaluated, with the inputs of its step. They are not
+ * interpolated: the state after the event is reported as it is.
  */
 #include "events.h"
 
 #include <math.h>
 
+#include "../constraints/rank.h"
 #include "../paths/choose.h"
 #include "../point/quaternions.h"
 #include "../step_limits.h"
@@ -29,7 +33,7 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
     return (zd_watch){
         .events = events,
         .output = output,
-        .reader = zd_reader_take(arena, events, &motion->system, motion->rate.inputs),
+        .reader = zd_reader_take(arena, events, &motion->system, motion->rate.inputs, motion->point),
         .before = zd_take_doubles(arena, count),
         .now = zd_take_doubles(arena, count),
         .bracket = zd_take(arena, count * sizeof(zd_bracket)),
@@ -45,16 +49,25 @@ static int evaluate(zd_watch *self, int event, double t, const double *p, const 
 {
     const zd_events *events = self->events;
     const zd_system *system = &self->output->stepper->motion->system;
-    int status = zd_is_known(events, event) ? zd_read_event(&self->reader, system->data, event, t, p, v, value)
-                                            : events->evaluate(events->data, event, t, p, v, value);
+    const int reads = events->known && events->known[event].readings;
+    int status = reads ? zd_read_event(&self->reader, system->data, event, t, p, v, value)
+                       : events->evaluate(events->data, event, t, p, v, NULL, value);
     if (status) self->failed = event + 1;
     return status;
+}
+
+static int reads_accelerations(const zd_watch *self, int event)
+{
+    return zd_reads_accelerations(self->events, &self->output->stepper->motion->system, event);
 }
 
 static int evaluate_here(zd_watch *self, int event, double *value)
 {
     const zd_stepper *stepper = self->output->stepper;
     const zd_point *point = stepper->motion->point;
+    const int is_dynamic = reads_accelerations(self, event), status = is_dynamic ? zd_motion_accelerate(stepper->motion) : ZD_DONE;
+    if (status) return status;
+    if (is_dynamic) zd_rank_find_multipliers(point);
     return evaluate(self, event, stepper->t, point->p, point->v, value);
 }
 
@@ -189,7 +202,7 @@ static int settle(zd_watch *self, int event, const zd_state **there)
 {
     const zd_bracket *found = &self->bracket[event];
     const zd_stepper *stepper = self->output->stepper;
-    const int is_mixed = !self->output->is_spread || zd_bracket_leaps(found);
+    const int is_mixed = (!self->output->is_spread || zd_bracket_leaps(found)) && !reads_accelerations(self, event);
     int status = is_mixed ? move(self, found->a) : ZD_DONE;
     if (is_mixed) zd_stepper_keep_place(stepper, &self->early);
     if (!status) status = move(self, found->b);

@@ -10,7 +10,7 @@ int zd_largest_measure(const zd_measures *measures)
     return largest;
 }
 
-zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs)
+zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point)
 {
     if (!events || !events->known) return (zd_reader){.events = events};
     const zd_system *of = events->of ? events->of : run;
@@ -21,6 +21,7 @@ zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_syst
         .events = events,
         .of = of,
         .inputs = inputs,
+        .point = point,
         .x = zd_take_doubles(arena, (size_t)most),
         .measured = zd_take_doubles(arena, (size_t)zd_largest_measure(of->measures)),
         .scratch = zd_take_doubles(arena, of->measures ? (size_t)of->measures->scratch : 0),
@@ -32,6 +33,19 @@ static int is_within(int index, int count)
     return index >= 0 && index < count;
 }
 
+static int is_of_accelerations(const zd_argument *reading, const zd_measures *measures)
+{
+    return reading->what == ZD_READS_MEASURE && measures->measure[reading->index].depends == ZD_OF_ACCELERATIONS;
+}
+
+int zd_reads_accelerations(const zd_events *events, const zd_system *run, int event)
+{
+    const zd_event *known = events->known ? events->known + event : NULL;
+    for (int k = 0; known && k < known->readings; k++)
+        if (is_of_accelerations(known->reading + k, (events->of ? events->of : run)->measures)) return 1;
+    return 0;
+}
+
 static int can_be_read(const zd_argument *reading, const zd_system *run, const zd_measures *measures)
 {
     switch (reading->what) {
@@ -39,8 +53,7 @@ static int can_be_read(const zd_argument *reading, const zd_system *run, const z
     case ZD_READS_V: return is_within(reading->index, run->nv);
     case ZD_READS_MEASURE:
         return measures && is_within(reading->index, measures->count)
-               && is_within(reading->component, measures->measure[reading->index].size)
-               && measures->measure[reading->index].depends != ZD_OF_ACCELERATIONS;
+               && is_within(reading->component, measures->measure[reading->index].size);
     case ZD_READS_TIME:
     case ZD_READS_NUMBER: break;
     }
@@ -65,7 +78,8 @@ static int read(const zd_reader *self, const void *data, const zd_argument *read
     case ZD_READS_NUMBER: *x = reading->number; break;
     case ZD_READS_MEASURE: {
         const zd_measured out = {.value = self->measured};
-        if (self->of->measures->evaluate(data, self->inputs, reading->index, t, p, v, NULL, NULL, &out, self->scratch)) return ZD_CALLBACK;
+        const double *vdot = self->point ? self->point->vdot : NULL, *lambda = self->point ? self->point->lambda : NULL;
+        if (self->of->measures->evaluate(data, self->inputs, reading->index, t, p, v, vdot, lambda, &out, self->scratch)) return ZD_CALLBACK;
         *x = self->measured[reading->component];
     }
     }
@@ -77,6 +91,7 @@ int zd_read_event(const zd_reader *self, const void *data, int event, double t, 
     const zd_event *known = self->events->known + event;
     for (int k = 0; k < known->readings; k++)
         if (read(self, self->events->of ? self->of->data : data, known->reading + k, t, p, v, self->x + k)) return ZD_CALLBACK;
+    if (known->is_called) return self->events->evaluate(self->events->data, event, t, p, v, self->x, value);
     *value = (known->function ? known->function(self->x) : self->x[0]) - known->value;
     return isfinite(*value) ? ZD_DONE : ZD_CALLBACK;
 }

@@ -1,7 +1,8 @@
-/* Event functions that the core evaluates itself, from time, coordinates, velocities and measures, without callbacks. */
+/* Quantities that event functions read: time, coordinates, velocities and measures; and the functions that need no callback. */
 #ifndef ZD_READING_H
 #define ZD_READING_H
 
+#include "../point/point.h"
 #include "../workspace.h"
 #include "../zerodrift.h"
 
@@ -9,6 +10,7 @@ typedef struct zd_reader {
     const zd_events *events;    /* NULL: none */
     const zd_system *of;    /* system whose measures are read */
     const double *inputs;   /* (2 inputs + 1,): of the simulated system */
+    const zd_point *point;  /* whose accelerations and multipliers are read; NULL: none are */
     double *x;              /* arguments of an event function; size: the largest number of arguments */
     double *measured;       /* values of a measure; size: the largest one */
     double *scratch;        /* scratch memory of the measures */
@@ -16,12 +18,18 @@ typedef struct zd_reader {
 
 /* Number of components of the largest measure; 0 without measures. */
 int zd_largest_measure(const zd_measures *measures);
-zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs);
+zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point);
 /* The reason, in one sentence, for which the events cannot be evaluated; NULL: they can. */
 const char *zd_wrong_readings(const zd_events *events, const zd_system *run);
 /* True if the core evaluates the event itself, false if it calls the callback. */
-static inline int zd_is_known(const zd_events *events, int event) { return events->known && events->known[event].readings > 0; }
-/* *value <- that of an event evaluated by the core, for a system with this data; ZD_CALLBACK if it is not finite or a measure fails. */
+static inline int zd_is_known(const zd_events *events, int event)
+{
+    return events->known && events->known[event].readings > 0 && !events->known[event].is_called;
+}
+/* True if the event reads reactions or accelerations. */
+int zd_reads_accelerations(const zd_events *events, const zd_system *run, int event);
+/* *value <- that of an event, for a system with this data; ZD_CALLBACK if it is not finite, or a measure or the callback fails. Requires the
+ * accelerations and multipliers at this state if it reads them. */
 int zd_read_event(const zd_reader *self, const void *data, int event, double t, const double *p, const double *v, double *value);
 
 #endif

@@ -12,28 +12,30 @@ enum zd_source { ZD_READS_TIME, ZD_READS_P, ZD_READS_V, ZD_READS_MEASURE, ZD_REA
 
 typedef struct zd_argument {
     enum zd_source what;
-    int index;              /* entry of p or v, or index of a measure, which must depend on positions or velocities only */
+    int index;              /* entry of p or v, or index of a measure */
     int component;          /* component of the measure */
     double number;          /* value of ZD_READS_NUMBER */
 } zd_argument;
 
-/* Event function that the core evaluates without a callback: zero of function(x) - value. */
+/* Event function of quantities x that the core reads: zero of function(x) - value, or of zd_events.evaluate(). */
 typedef struct zd_event {
-    int readings;           /* number of arguments; 0: zd_events.evaluate() is called instead */
+    int readings;           /* number of arguments; 0: zd_events.evaluate() is called without any */
     const zd_argument *reading;  /* (readings,) the arguments x */
     double (*function)(const double *x);    /* NULL: x[0] itself */
     double value;           /* the event occurs when the function passes through this value */
+    int is_called;          /* true: zd_events.evaluate() is called with x, and the two above are not used */
 } zd_event;
 
 typedef struct zd_events {
     int count;
     const int *direction;   /* (count,) 1: from below, -1: from above, 0: either */
     const int *terminal;    /* (count,) the run ends at this occurrence of the event, counted from 1; 0: never */
-    const zd_event *known;  /* (count,) functions that the core evaluates; NULL: all are evaluated by the callback */
+    const zd_event *known;  /* (count,) what the core reads and evaluates; NULL: all are evaluated by the callback */
     const zd_system *of;    /* system whose measures are read; NULL: the simulated system */
     void *data;
-    /* Callbacks: value of an event function, and notification of an event at its instant. Both return 0, or ZD_CALLBACK on failure. */
-    int (*evaluate)(void *data, int event, double t, const double *p, const double *v, double *value);
+    /* Callbacks: value of an event function, with the arguments x that the core reads for it, and notification of an event at its instant.
+     * Both return 0, or ZD_CALLBACK on failure. */
+    int (*evaluate)(void *data, int event, double t, const double *p, const double *v, const double *x, double *value);
     int (*found)(void *data, int event, double t, const double *p, const double *v);
 } zd_events;
 

@@ -187,8 +187,9 @@ typedef struct events {
     int calls;          /* until one fails; below 0: none does */
 } events;
 
-static int value_of_event(void *data, int event, double t, const double *p, const double *v, double *value)
+static int value_of_event(void *data, int event, double t, const double *p, const double *v, const double *x, double *value)
 {
+    (void)x;
     events *self = data;
     if (self->calls-- == 0) return ZD_CALLBACK;
     *value = (self->what[event] == 0 ? p[0] : self->what[event] == 1 ? v[0] : self->what[event] == 2 ? t : 0) - self->value[event];

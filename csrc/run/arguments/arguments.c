@@ -92,6 +92,11 @@ static int check_given(const zd_system *system, const zd_settings *settings, cha
     return status;
 }
 
+static int are_alike(const zd_system *one, const zd_system *other)
+{
+    return one->nq == other->nq && one->nv == other->nv && one->mh == other->mh && one->mn == other->mn;
+}
+
 static const char *wrong_events(const zd_system *system, const zd_events *events)
 {
     if (!events) return NULL;
@@ -99,6 +104,8 @@ static const char *wrong_events(const zd_system *system, const zd_events *events
         {events->count < 0 || events->count > ZD_LARGEST, "a run must have at most 8192 events"},
         {!events->evaluate || !events->found, "events must have both functions, evaluate() and found()"},
         {events->count > 0 && (!events->direction || !events->terminal), "events must have the arrays direction and terminal"},
+        {events->of && !are_alike(events->of, system),
+         "events must read measures of a system with the same numbers of coordinates, velocities and constraints"},
     };
     const char *wrong = FIRST_BROKEN(rules);
     return wrong ? wrong : zd_wrong_readings(events, system);
@@ -109,8 +116,8 @@ static const char *wrong_outputs(const zd_system *system, const zd_outputs *outp
     if (!outputs) return NULL;
     const zd_system *of = outputs->of ? outputs->of : system;
     const zd_measures *measures = of->measures;
-    int alike = of->nq == system->nq && of->nv == system->nv && of->mh == system->mh && of->mn == system->mn;
-    if (!alike) return "outputs must be measures of a system with the same numbers of coordinates, velocities and constraints";
+    if (!are_alike(of, system))
+        return "outputs must be measures of a system with the same numbers of coordinates, velocities and constraints";
     if (!measures || outputs->count < 1 || outputs->count > ZD_LARGEST || !outputs->measure) return "outputs must be 1 to 8192 measures";
     for (int i = 0; i < outputs->count; i++)
         if (outputs->measure[i] < 0 || outputs->measure[i] >= measures->count) return "every output must be the index of a measure";

@@ -82,8 +82,9 @@ def zd_refuse_in_python(owner, term, t):
 class Watcher:
     """Evaluation of the events of one run, called by the core; stores the states of their occurrences.
 
-    An event is a row with `direction` and `terminal`, as the core's `zd_events` has them, and either `known`, which the core
-    evaluates itself, or `value(t, p, v)`. Measures are those of the system `of`, which has the equations of `core`.
+    An event is a row with `direction` and `terminal`, as the core's `zd_events` has them; `known`, which the core reads, or None;
+    and, unless the core evaluates it itself, `value(t, p, v, x)` of what is read. Measures are those of the system `of`, which
+    has the equations of `core`.
     """
 
     def __init__(self, core: CoreSystem, events: Sequence[Any], of: CoreSystem | None = None, *, is_own: bool = False) -> None:
@@ -109,9 +110,10 @@ class Watcher:
     def error(self, error: BaseException) -> None:
         self._error = error
 
-    def value(self, event: int, t: float, p: Any, v: Any) -> float:
+    def value(self, event: int, t: float, p: Any, v: Any, x: Any) -> float:
         """The value of an event."""
-        return self.events[event].value(t, *self.state(p, v))
+        row = self.events[event]
+        return row.value(t, *self.state(p, v), ffi.unpack(x, len(row.known.readings)) if row.known else ())
 
     def state(self, p: Any, v: Any) -> tuple[np.ndarray, np.ndarray]:
         """Copies of the core's p and v, which the event may store."""
@@ -124,8 +126,8 @@ class Watcher:
 
 
 @ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
-def zd_event_in_python(owner, event, t, p, v, value):
-    value[0] = ffi.from_handle(owner).value(event, t, p, v)
+def zd_event_in_python(owner, event, t, p, v, x, value):
+    value[0] = ffi.from_handle(owner).value(event, t, p, v, x)
     return DONE
 
 

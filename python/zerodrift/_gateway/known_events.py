@@ -1,4 +1,4 @@
-"""Events that the core evaluates without Python: a quantity of the motion, or a compiled function of several, reaches a value."""
+"""Events whose quantities the core reads: one of them, or a compiled function or one in Python of several, reaches a value."""
 
 from __future__ import annotations
 
@@ -21,12 +21,13 @@ class Reading(NamedTuple):
 
 
 class KnownEvent(NamedTuple):
-    """Event that the core evaluates."""
+    """Event whose quantities the core reads; it evaluates it itself unless `is_called`."""
 
     readings: tuple[Reading, ...]
     value: float                        # which it reaches
     function: tuple[int, Any] | None = None     # the address of a function of the readings, and its library; None: the first
     parameters: frozenset[str] = frozenset()    # of the system, whose values are among the readings
+    is_called: bool = False     # True: a function in Python is called with the readings
 
     @property
     def is_measured(self) -> bool:
@@ -39,6 +40,7 @@ def known_table(events: Sequence[KnownEvent | None]) -> tuple[Any, Any]:
     kept = [None if event is None else ffi.new("zd_argument[]", [tuple(each) for each in event.readings]) for event in events]
     rows = [{} if event is None else {
         "readings": len(event.readings), "reading": readings, "value": event.value,
+        "is_called": event.is_called,
         "function": ffi.cast("double(*)(const double *)", event.function[0]) if event.function else ffi.NULL}
         for event, readings in zip(events, kept, strict=True)]
     return ffi.new("zd_event[]", rows), (kept, events)

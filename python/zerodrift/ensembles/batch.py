@@ -90,8 +90,9 @@ def _batch(plan: Plan) -> Batch | None:
 def _are_known(watched: tuple[events_of.Watched, ...], system: BaseSystem, varied: set[str]) -> bool:
     """True if the core evaluates all events without Python and none depends on a varied parameter."""
     has_measures = system._watching.core is core_of(system)
-    return all(event.known is not None and (has_measures or not event.known.is_measured) and not event.known.parameters & varied
-               for event in watched)
+    known = [event.known for event in watched if event.known is not None and not event.known.is_called]
+    return len(known) == len(watched) and all((has_measures or not event.is_measured) and not event.parameters & varied
+                                              for event in known)
 
 
 ANGLES = ("angle", "angular_velocity")      # measures of bodies that are also coordinates or velocities of the same name

@@ -21,10 +21,10 @@ class Event:
     Parameters
     ----------
     what : measure, str, SymPy expression or callable
-        A scalar measure of positions or velocities, or a coordinate or velocity of the system, by name; or an expression of
-        these, of ``t``, of parameters, and of what `of` binds, in symbols of their names; or a function of Python that names what
-        it wants: ``t``, ``p``, ``v``, parameters, and what `of` binds. The core evaluates all but the last itself, in
-        nanoseconds; in ensembles, runs with these alone take vector lanes.
+        A scalar measure, or a coordinate or velocity of the system, by name; or an expression of these, of ``t``, of parameters,
+        and of what `of` binds, in symbols of their names; or a function of Python that names what it wants: ``t``, ``p``, ``v``,
+        parameters, and what `of` binds. The core evaluates all but the last itself, in nanoseconds; in ensembles, runs with
+        these alone take vector lanes, unless they read reactions or accelerations.
     value : float
         Which it reaches, in the unit of the measure.
     direction : {-1, 0, 1}
@@ -33,6 +33,13 @@ class Event:
         Whether the run ends when it has happened, once or that often.
     of : dict of str to measure, optional
         Measures that the function receives, by argument name.
+
+    Notes
+    -----
+    Reactions and accelerations are those of the state at which the event is evaluated: at the end of each step, and at the times
+    within it by which the zero is located. They are not held over the step, as they are in the forces of a mechanism. Where an
+    input jumps, they jump with it: the event happens there, and the state after the jump is reported. Each step then needs one
+    evaluation of the accelerations more, unless its sample is recorded.
 
     Examples
     --------
@@ -43,6 +50,14 @@ class Event:
     >>> sol = zd.simulate(m, 2.0, step=0.01, events=zd.Event(link.end.position.y, value=-0.5, terminal=True))
     >>> sol[link.end.position][-1].round(9).tolist()
     [0.866025404, -0.5]
+
+    The pin bears 10 N: the force along the link is 5/2 m g times the sine of its angle below the horizontal, and the one across
+    m g / 4 times the cosine:
+
+    >>> load = zd.Event(lambda x, y: (x**2 + y**2)**0.5 - 10, of={"x": pin.force.x, "y": pin.force.y}, terminal=True)
+    >>> sol = zd.simulate(m, 2.0, step=0.01, events=load)
+    >>> float(round(sol[pin.angle][-1], 6))
+    -0.408558
 
     The crank and the rocker of a four-bar at right angles, compiled:
 
@@ -67,8 +82,9 @@ class Event:
         if hasattr(self.what, "free_symbols"):
             function, known = _expression(name, self.what, system, dict(self.of or {}), level)
         elif callable(self.what):
-            bound = {key: _reader(f"of[{key!r}] of {name}", measure, system) for key, measure in (self.of or {}).items()}
-            function = _Called(name, self.what, system, bound, level)
+            function = _Called(name, self.what, system, tuple(self.of or {}), level)
+            bound = [_reading(f"of[{key!r}] of {name}", measure, system) for key, measure in (self.of or {}).items()]
+            known = _called(bound, level)
         else:
             known = _gateway.KnownEvent((_reading(name, self.what, system),), level)
         return _watched(name, function, self.direction, self.terminal, known)
@@ -80,37 +96,36 @@ def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
     from ..symbolics.compile import scalar_function  # slow to import, as SymPy is
     from . import expressions
 
-    found = expressions.read(name, what, system, of)
+    found = expressions.read(name, what, system, of, is_dynamic=True)
     compiled = scalar_function.compiled(name, found.expression, found.atoms) if found.readings else None
     if compiled is None:
-        read = expressions.in_python(found, system)
-        return lambda t, p, v: read(t, p, v) - level, None
+        value = expressions.in_python(found)
+        return lambda t, p, v, x: value(*x) - level, _called(found.readings, level)
     return None, _gateway.KnownEvent(tuple(found.readings), level, compiled, found.parameters)
 
 
-class _Called:
-    """A function called with the arguments that it names."""
+def _called(readings: list[Reading], level: float) -> _gateway.KnownEvent | None:
+    """What the core reads for a function in Python; None: nothing."""
+    return _gateway.KnownEvent(tuple(readings), level, is_called=True) if readings else None
 
-    def __init__(self, name: str, function: Callable[..., Any], system: BaseSystem, bound: dict[str, Any], level: float) -> None:
+
+class _Called:
+    """A function called with the arguments that it names, of which `bound` are read."""
+
+    def __init__(self, name: str, function: Callable[..., Any], system: BaseSystem, bound: Sequence[str], level: float) -> None:
         from ..systems.callables import arguments  # slow to import
 
         parameters = {key: value for key, value in system.parameters.items() if key.isidentifier()}
         names = arguments(name, function, [*_check.STATE, *parameters, *bound])
         self._function, self._level = function, level
         self._fixed = {key: parameters[key] for key in names if key in parameters and key not in bound}
-        self._read = {key: bound[key] for key in names if key in bound}
+        self._read = {key: i for i, key in enumerate(bound) if key in names}
         self._state = [key for key in names if key in _check.STATE]
 
-    def __call__(self, t: float, p: np.ndarray, v: np.ndarray) -> float:
+    def __call__(self, t: float, p: np.ndarray, v: np.ndarray, x: Sequence[float]) -> float:
         state = {"t": t, "p": p, "v": v}
-        asked = {key: state[key] for key in self._state} | {key: read(t, p, v) for key, read in self._read.items()}
+        asked = {key: state[key] for key in self._state} | {key: x[i] for key, i in self._read.items()}
         return self._function(**asked, **self._fixed) - self._level
-
-
-def _reader(what: str, measure: Any, system: BaseSystem) -> Callable[[float, np.ndarray, np.ndarray], float]:
-    """Function of (t, p, v) that evaluates a scalar measure."""
-    reading = _reading(what, measure, system)
-    return lambda t, p, v: system._read(reading, t, p, v)
 
 
 def _reading(what: str, measure: Any, system: BaseSystem) -> Reading:
@@ -118,22 +133,22 @@ def _reading(what: str, measure: Any, system: BaseSystem) -> Reading:
     name = getattr(measure, "name", measure)
     if not isinstance(name, str):
         raise WrongType(f"{what} must be a measure, the name of one, an expression or a callable, not {_check.shown(measure)}")
-    return system._reading(name, what)
+    return system._reading(name, what, is_dynamic=True)
 
 
 class Watched(NamedTuple):
-    """Event function, checked; `value(t, p, v)` is a finite number."""
+    """Event function, checked; `value(t, p, v, x)` is a finite number."""
 
     name: str
-    function: Callable[[float, np.ndarray, np.ndarray], float] | None   # None if the core evaluates the event
+    function: Callable[..., float] | None   # of (t, p, v, x), x as `known` has it; None if the core evaluates the event
     direction: int
     terminal: int
-    known: _gateway.KnownEvent | None   # its description for the core, or None
+    known: _gateway.KnownEvent | None   # what the core reads, or None
 
-    def value(self, t: float, p: np.ndarray, v: np.ndarray) -> float:
+    def value(self, t: float, p: np.ndarray, v: np.ndarray, x: Sequence[float]) -> float:
         """Value of the event function, checked to be a finite number."""
         try:
-            value = self.function(t, p, v)
+            value = self.function(t, p, v, x)
         except BaseException as error:
             _check.tell(error, f"in {self.name}, called at t = {t:g}")
             raise
@@ -158,7 +173,7 @@ def _event(name: str, given: Any, system: BaseSystem) -> Watched:
         return given.watched(name, system)
     if not callable(given):
         raise WrongType(f"{name} must be a callable event(t, p, v), a zd.Event or a measure, or a list of these, not {given!r}")
-    return _watched(name, given, getattr(given, "direction", 0), getattr(given, "terminal", False))
+    return _watched(name, lambda t, p, v, x: given(t, p, v), getattr(given, "direction", 0), getattr(given, "terminal", False))
 
 
 def _watched(name: str, function: Any, direction: Any, terminal: Any, known: _gateway.KnownEvent | None = None) -> Watched:

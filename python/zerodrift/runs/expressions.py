@@ -22,8 +22,11 @@ class Read(NamedTuple):
     parameters: frozenset[str]  # names of the parameters of the system that occur
 
 
-def read(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any]) -> Read:
-    """Identify the names in an expression: t, coordinates, velocities, measures, parameters, and the names bound by `of`."""
+def read(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any], *, is_dynamic: bool = False) -> Read:
+    """Identify the names in an expression: t, coordinates, velocities, measures, parameters, and the names bound by `of`.
+
+    `is_dynamic`: reactions and accelerations are accepted, too.
+    """
     import sympy  # slow to import
 
     found: dict[Any, Reading] = {}
@@ -35,12 +38,12 @@ def read(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any]) -> Re
         elif name == "t":
             found[each] = Reading(TIME)
         elif name in of:
-            found[each] = system._reading(getattr(of[name], "name", of[name]), f"of[{name!r}] of {what}")
+            found[each] = system._reading(getattr(of[name], "name", of[name]), f"of[{name!r}] of {what}", is_dynamic=is_dynamic)
         elif name in system.parameters and np.ndim(system.parameters[name]) == 0:
             found[each] = Reading(NUMBER, number=float(system.parameters[name]))
             parameters.add(name)
         else:
-            found[each] = system._reading(name, what)
+            found[each] = system._reading(name, what, is_dynamic=is_dynamic)
     atoms = [sympy.Symbol(f"x{i}", real=True) for i in range(len(found))]
     expression = sympy.sympify(given).xreplace(dict(zip(found, atoms, strict=True)))
     return Read(expression, atoms, list(found.values()), frozenset(parameters))
@@ -66,9 +69,9 @@ def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
     return Reading(VELOCITY, coordinates.index(name))
 
 
-def in_python(of: Read, system: BaseSystem) -> Callable[[float, np.ndarray, np.ndarray], float]:
-    """Python function of (t, p, v) for an expression, used if there is no compiler."""
+def in_python(of: Read) -> Callable[..., float]:
+    """Python function of the readings for an expression, used if there is no compiler."""
     import sympy
 
     function = sympy.lambdify(of.atoms, of.expression, "math")
-    return lambda t, p, v: float(function(*(system._read(each, t, p, v) for each in of.readings)))
+    return lambda *x: float(function(*x))

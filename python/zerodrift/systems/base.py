@@ -268,32 +268,19 @@ class BaseSystem:
         """Values of a measure at all samples of a solution; None if there is no measure of that name."""
         return self._watching.values(getattr(name, "name", name), solution)
 
-    def _reading(self, name: str, what: str) -> Reading:
-        """Index of a scalar measure of positions or velocities, or of a coordinate or velocity, for the core."""
+    def _reading(self, name: str, what: str, *, is_dynamic: bool = False) -> Reading:
+        """Index of a scalar measure, of reactions and accelerations only if `is_dynamic`, or of a coordinate or velocity."""
         place, core = self._watching.find(name), self._measuring
         if place is not None:
             is_scalar = place.component is not None or core.measure_size(place.number) == 1
-            if not is_scalar or core.measure_depends(place.number) == "accelerations":
-                raise WrongValue(f"{what} must be a scalar measure of positions or velocities, and {name!r} is none",
-                                 "wrong-measure")
+            if not is_scalar or (core.measure_depends(place.number) == "accelerations" and not is_dynamic):
+                of = "" if is_dynamic else " of positions or velocities"
+                raise WrongValue(f"{what} must be a scalar measure{of}, and {name!r} is none", "wrong-measure")
             return Reading(known_events.MEASURE, place.number, place.component or 0)
         coordinates, velocities = ([variable.name for variable in group] for group in (self.coordinates, self.velocities))
         if name in coordinates:
             return Reading(known_events.COORDINATE, coordinates.index(name))
         return Reading(known_events.VELOCITY, velocities.index(_check.choice(what, name, [*coordinates, *velocities])))
-
-    def _read(self, reading: Reading, t: float, p: np.ndarray, v: np.ndarray) -> float:
-        """Value of a reading at a state."""
-        match reading.what:
-            case known_events.TIME:
-                return t
-            case known_events.COORDINATE:
-                return float(p[reading.index])
-            case known_events.VELOCITY:
-                return float(v[reading.index])
-            case known_events.NUMBER:
-                return reading.number
-        return float(self._watching.at(Place(reading.index, reading.component), t, p, v))
 
     def _advice(self, error: Exception) -> str | None:
         """Advice of the system on an error that the core reported at the start; None: there is none."""

@@ -121,11 +121,6 @@ class Watching:
         same = same if component is None else same[component : component + 1]
         return bool(same[0]) if same.size == 1 else same
 
-    def at(self, place: Place, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """A measure of positions or velocities at one state."""
-        value = self.core.measure_at(place.number, t, np.ascontiguousarray(p), np.ascontiguousarray(v))["value"]
-        return place.pick(value[None])[0]
-
 
 def _formulation(given: Any) -> int:
     """Index in the core of a formulation given by its name or its settings."""
