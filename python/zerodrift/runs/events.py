@@ -105,7 +105,7 @@ def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
 
 
 def _called(readings: list[Reading], level: float) -> _gateway.KnownEvent | None:
-    """What the core reads for a function in Python; None: nothing."""
+    """Measures that the core reads for a function in Python; None: none."""
     return _gateway.KnownEvent(tuple(readings), level, is_called=True) if readings else None
 
 
