@@ -1,5 +1,6 @@
 """`zd.fmu`: valid by FMPy, with the numbers of open runs, and the core's sentences as messages."""
 
+import struct
 import subprocess
 import sys
 import zipfile
@@ -10,9 +11,12 @@ import pytest
 import zerodrift as zd
 from core_objects import needs_compiler
 from support import refused
+from zerodrift.export import fmu_libraries
+from zerodrift.symbolics.compile import compilers
 
 fmpy = pytest.importorskip("fmpy")
 pytestmark = [needs_compiler, pytest.mark.filterwarnings("ignore")]       # FMPy opens files that it does not close
+AARCH64 = 183       # machine in the header of an ELF file
 OUTPUTS = ["lower.end.position", "elbow.force", "upper.angle"]
 STEP = 1e-3
 
@@ -191,3 +195,40 @@ def test_failures_are_reported_with_the_sentence_of_the_core(unit):
 def test_other_versions_are_refused(tmp_path):
     with refused("unknown-choice", "version"):
         zd.fmu(crane(), tmp_path / "crane", step=STEP, version="1.0")
+
+
+# ---- other platforms ----
+
+
+def test_ziglang_compiles_for_a_platform_that_is_named(tmp_path, monkeypatch):
+    """Without the core, which takes half a minute, and the C library: `tests/stress/fmu_platforms.py` takes all."""
+    from fmpy.validation import validate_fmu
+
+    pytest.importorskip("ziglang")
+    monkeypatch.setattr(fmu_libraries.core_build, "compiled", lambda *_, **__: b"!<arch>\n")
+    monkeypatch.setattr(fmu_libraries, "FLAGS", (*fmu_libraries.FLAGS, "-nostdlib"))
+    unit = zd.fmu(crane(), tmp_path / "crane", step=STEP, platforms=["aarch64-linux", "aarch64-linux"])
+    with zipfile.ZipFile(unit) as archive:
+        binaries = [name for name in archive.namelist() if name.startswith("binaries/")]
+        library = archive.read("binaries/aarch64-linux/crane.so")
+    assert binaries == ["binaries/aarch64-linux/crane.so"]
+    assert library[:4] == b"\x7fELF"
+    assert struct.unpack_from("<H", library, 18)[0] == AARCH64
+    assert all(name in library for name in (b"fmi3InstantiateCoSimulation\0", b"fmi3DoStep\0", b"fmi3GetShiftFraction\0"))
+    assert validate_fmu(str(unit)) == []
+
+
+def test_platforms_are_named_as_the_standard_does(tmp_path, monkeypatch):
+    def written(**options):
+        return zd.fmu(crane(), tmp_path / "crane", step=STEP, **options)
+
+    with refused("unknown-choice", "platforms of FMI 3.0"):
+        written(platforms=["win64"])
+    with refused("unknown-choice", "platforms of FMI 2.0"):
+        written(platforms=["aarch64-linux"], version="2.0")
+    for wrong in ("x86_64-linux", []):
+        with pytest.raises(TypeError, match="platforms must be a list of names"):
+            written(platforms=wrong)
+    monkeypatch.setattr(compilers, "zig", lambda: None)
+    with pytest.raises(zd.CompilationFailed, match=r"pip install zerodrift\[fmu\]"):
+        written(platforms=["x86_64-windows"])

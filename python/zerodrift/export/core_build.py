@@ -1,4 +1,4 @@
-"""The core compiled with few of its methods, into one object that is kept in the cache."""
+"""The core compiled with few of its methods, into one file that is kept in the cache."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from ..symbolics.compile import cache
 from .core_files import CoreFiles
 
 
-def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *, last: Sequence[str], product: str,
+def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *, join: Sequence[str], product: str,
              more: Mapping[str, str] = MappingProxyType({})) -> bytes:
-    """Product of the sources of a core, and of `more` by their names: compiled with `options`, and joined by the command with
-    the words `last`.
+    """Product of the sources of a core, and of `more` by their names: compiled with `options`, and joined by the command `join`,
+    whose next words are the product and the objects.
 
     Raises
     ------
     CompilationFailed
         With the first message of the compiler.
     """
-    key = f"core-{cache.digest_of(list(command), list(options), list(last), files.texts, dict(more))}"
+    key = f"core-{cache.digest_of(list(command), list(options), list(join), files.texts, dict(more))}"
     found = cache.get(key)
     if found is None:
         with tempfile.TemporaryDirectory() as name:
@@ -33,19 +33,19 @@ def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *
             files.write(here)
             for file, text in more.items():
                 (here / file).write_text(text, encoding="utf-8")
-            found = _made([*files.sources, *more], here, [*command, *options], [*command, *last], product)
+            found = _made([*files.sources, *more], here, [*command, *options], join, product)
         cache.put(key, found)
     return found
 
 
-def _made(sources: Sequence[str], here: Path, compiling: Sequence[str], joining: Sequence[str], product: str) -> bytes:
+def _made(sources: Sequence[str], here: Path, compiling: Sequence[str], join: Sequence[str], product: str) -> bytes:
     def compile_one(number: int) -> str:
         run([*compiling, "-I.", "-c", "-o", f"{number}.o", sources[number]], here)
         return f"{number}.o"
 
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         objects = list(pool.map(compile_one, range(len(sources))))
-    run([*joining, "-o", product, *objects], here)
+    run([*join, product, *objects], here)
     return (here / product).read_bytes()
 
 

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import io
-import platform
 import re
-import sys
-import tempfile
 import zipfile
 from collections.abc import Sequence
 from importlib import resources
@@ -18,19 +15,13 @@ from xml.sax.saxutils import quoteattr
 from .. import _check, _gateway
 from .._gateway.mechanisms import blocks
 from .._writing import write_whole
-from ..errors import CompilationFailed, WrongValue
-from ..symbolics.compile import compilers
-from . import core_build
 from .block import Chosen, choose, written
 from .c_source import core_of, data
 from .core_files import CoreFiles
+from .fmu_libraries import chosen_platforms, libraries
 
 VERSIONS = ("3.0", "2.0")
 OPENED = ("block/opened.c", "block/opened_states.c")
-FLAGS = ("-O2", "-std=c11", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden")
-MACHINES = {"x86_64": "x86_64", "amd64": "x86_64", "aarch64": "aarch64", "arm64": "aarch64"}
-SYSTEMS = {"linux": ("linux", ".so"), "darwin": ("darwin", ".dylib"), "win32": ("windows", ".dll")}
-OF_FMI2 = {"linux": "linux64", "darwin": "darwin64", "windows": "win64"}
 UNITS = {"m": 'm="1"', "rad": 'rad="1"', "s": 's="1"', "m/s": 'm="1" s="-1"', "rad/s": 'rad="1" s="-1"', "m/s^2": 'm="1" s="-2"',
          "rad/s^2": 'rad="1" s="-2"', "N": 'kg="1" m="1" s="-2"', "N m": 'kg="1" m="2" s="-2"', "W": 'kg="1" m="2" s="-3"',
          "J": 'kg="1" m="2" s="-2"'}
@@ -47,13 +38,14 @@ class Scalar(NamedTuple):
 
 
 def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (), outputs: Sequence[Any] = (),
-        version: str = "3.0", p0: Any = None, v0: Any = None, t0: float = 0.0, **chosen: Any) -> Path:
+        version: str = "3.0", platforms: Sequence[str] | None = None, p0: Any = None, v0: Any = None, t0: float = 0.0,
+        **chosen: Any) -> Path:
     """Write a mechanism as a functional mock-up unit (FMU) for co-simulation, as Simulink, Dymola and FMPy import it.
 
     The file has the mechanism as a block of data (see `block`), the core's sources, and a library for this platform, which the C
-    compiler makes; the core is compiled once for the same methods and kept in the cache. The unit makes fixed steps; if those of
-    the importer are not a whole number of them, the last one is shorter. Its state can be saved, restored and serialized; a
-    restored unit continues with the same bits, in another process with the same library, too.
+    compiler makes, or libraries for the `platforms`; the core is compiled once for the same methods and kept in the cache. The
+    unit makes fixed steps; if those of the importer are not a whole number of them, the last one is shorter. Its state can be
+    saved, restored and serialized; a restored unit continues with the same bits, in another process with the same library, too.
 
     Parameters
     ----------
@@ -69,6 +61,11 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
         Measures to read, vectors component by component: ``"pin.force[1]"``.
     version : {"3.0", "2.0"}
         Version of the FMI standard.
+    platforms : list of str, optional
+        Platforms to compile for, by their names in the standard: ``"x86_64-linux"``, ``"aarch64-linux"``, ``"x86_64-windows"``,
+        ``"aarch64-windows"``, ``"x86_64-darwin"``, ``"aarch64-darwin"``; in FMI 2.0 ``"linux64"``, ``"win64"``, ``"darwin64"``.
+        The package ziglang compiles for each of them on every machine: ``pip install zerodrift[fmu]``. Those for Linux need glibc
+        2.17 or later. By default this platform.
     p0, v0, t0, **chosen
         As in `block`.
 
@@ -80,9 +77,9 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
     Raises
     ------
     CompilationFailed
-        Without a C compiler, or if it fails.
+        Without a C compiler, or without ziglang for `platforms`; or if it fails.
     ValueError
-        As `block`; or if this platform has no name in the standard.
+        As `block`; or if a platform has no name in the standard.
 
     References
     ----------
@@ -97,25 +94,18 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
     'bar.fmu'
     """
     _check.choice("version", version, VERSIONS)
+    names = None if platforms is None else chosen_platforms(platforms, version)
     made = choose(system, p0, v0, t0, _check.number("step", step, above=0, code="step-size"), list(outputs), inputs, chosen)
     path = Path(path)
     path = path if path.suffix == ".fmu" else path.with_name(path.name + ".fmu")
     identifier = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
     identifier = identifier if identifier[:1].isalpha() else f"m_{identifier}"
-    content = _packed(made, identifier, version, _place(version))
+    content = _packed(made, identifier, version, names)
     write_whole(path, lambda file: file.write(content))
     return path
 
 
-def _place(version: str) -> tuple[str, str]:
-    """Folder of this platform's library, and its suffix."""
-    machine, known = MACHINES.get(platform.machine().lower()), SYSTEMS.get(sys.platform)
-    if machine is None or known is None or (version == "2.0" and machine != "x86_64"):
-        raise WrongValue(f"FMI {version} has no name for this platform, {sys.platform} on {platform.machine()}")
-    return (f"{machine}-{known[0]}" if version == "3.0" else OF_FMI2[known[0]]), known[1]
-
-
-def _packed(made: Chosen, identifier: str, version: str, place: tuple[str, str]) -> bytes:
+def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str] | None) -> bytes:
     """The zip file."""
     scalars = _scalars(made)
     token = "{" + hashlib.sha256(written(made) + version.encode() + _gateway.FINGERPRINT.encode()).hexdigest()[:32] + "}"
@@ -123,11 +113,12 @@ def _packed(made: Chosen, identifier: str, version: str, place: tuple[str, str])
     own = {f"fmi{version[0]}.c": _text(f"fmi{version[0]}.c"), "fmu.h": _text("fmu.h"),
            "data.h": f'#define TOKEN "{token}"\n{data(made)}'}
     description = (_description3 if version == "3.0" else _description2)(made, identifier, token, scalars, files)
-    library = _library(files, own)
+    binaries = libraries(files, own, version, platforms)
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("modelDescription.xml", description)
-        archive.writestr(f"binaries/{place[0]}/{identifier}{place[1]}", library)
+        for each in binaries:
+            archive.writestr(f"binaries/{each.platform}/{identifier}{each.suffix}", each.content)
         for name, text in {**files.texts, **own}.items():
             archive.writestr(f"sources/{name}", text)
         if version == "3.0":
@@ -137,23 +128,6 @@ def _packed(made: Chosen, identifier: str, version: str, place: tuple[str, str])
 
 def _text(name: str) -> str:
     return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
-
-
-def _library(files: CoreFiles, own: dict[str, str]) -> bytes:
-    """Shared library of the core and of these sources."""
-    compiler = compilers.find()
-    if compiler is None or compiler.is_like_msvc:
-        raise CompilationFailed(f"an FMU needs a C compiler with the options of gcc (looked for {compilers.looked_for()})")
-    core = core_build.compiled(files, compiler.command, FLAGS, last=("-r", "-nostdlib"), product="core.o")
-    with tempfile.TemporaryDirectory() as name:
-        here = Path(name)
-        files.write(here)
-        (here / "core.o").write_bytes(core)
-        for file, text in own.items():
-            (here / file).write_text(text, encoding="utf-8")
-        source = next(file for file in own if file.endswith(".c"))
-        core_build.run([*compiler.command, *FLAGS, "-shared", "-I", name, "-o", "library", source, "core.o", "-lm"], here)
-        return (here / "library").read_bytes()
 
 
 # ---- the model description ----

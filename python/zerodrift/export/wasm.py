@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 from importlib import resources
 
 from ..errors import CompilationFailed
+from ..symbolics.compile import compilers
 from . import core_build
 from .core_files import ENTRIES, CoreFiles
 
@@ -30,8 +29,10 @@ def core() -> bytes:
     CompilationFailed
         If the package ziglang is not installed.
     """
-    if importlib.util.find_spec("ziglang") is None:
+    program = compilers.zig()
+    if program is None:
         raise CompilationFailed("the core for browsers must be compiled once, by ziglang: pip install zerodrift[web]")
+    command = [program, "cc", *TARGET]
     return core_build.compiled(
-        CoreFiles(LISTS, [*ENTRIES, "block/opened.c"]), [sys.executable, "-m", "ziglang", "cc", *TARGET], FLAGS,
-        more={"page.c": text("page.c")}, last=("-mexec-model=reactor", "-Wl,--strip-all"), product="core.wasm")
+        CoreFiles(LISTS, [*ENTRIES, "block/opened.c"]), command, FLAGS, more={"page.c": text("page.c")},
+        join=[*command, "-mexec-model=reactor", "-Wl,--strip-all", "-o"], product="core.wasm")

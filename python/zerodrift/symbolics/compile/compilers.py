@@ -131,8 +131,14 @@ def _candidates() -> Iterator[list[str]]:
             yield [name]
     if SYSTEM == "win32" and (found := _visual_studio()):
         yield [found[0]]
-    if (package := importlib.util.find_spec("ziglang")) and package.origin:
-        yield [str(Path(package.origin).parent / ("zig.exe" if SYSTEM == "win32" else "zig")), "cc", *ZIG_FLAGS]
+    if program := zig():
+        yield [program, "cc", *ZIG_FLAGS]
+
+
+def zig() -> str | None:
+    """Program of the package ziglang; None: it is not installed."""
+    package = importlib.util.find_spec("ziglang")
+    return str(Path(package.origin).parent / ("zig.exe" if SYSTEM == "win32" else "zig")) if package and package.origin else None
 
 
 def _can_be_called(name: str) -> bool:
