@@ -5,6 +5,7 @@ import pytest
 
 import zerodrift as zd
 from analysis.random_efforts import Driven, largest_error
+from covering import draws, spread
 from support import refused
 from zerodrift.analysis.quantities import find
 from zerodrift.analysis.state import state
@@ -194,14 +195,15 @@ def test_motions_that_violate_constraints_are_refused():
 @pytest.mark.parametrize("in_space", [False, True])
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_efforts_of_random_mechanisms_give_the_accelerations(layout, in_space):
-    """200 mechanisms, both layouts; nearly dependent rows multiply the rounding of one of them, which is 1.5e-11."""
-    errors = np.array([largest_error(seed, in_space, layout) for seed in range(100)], dtype=float)
-    assert (errors < 1e-11).sum() >= 99
+    """200 mechanisms with all draws; nearly dependent rows multiply the rounding of one of them, which is 1.5e-11."""
+    errors = np.array([largest_error(seed, in_space, layout) for seed in range(draws(25, 100))], dtype=float)
+    assert (errors < 1e-11).sum() >= len(errors) - 1
     assert errors.max() < 1e-10
 
 
-FOLLOWED = [*((seed, False, layout) for seed in (2, 3, 4) for layout in LAYOUTS), (1, True, "joint"), (2, True, "joint"),
-            (5, True, "joint"), (6, True, "joint"), (1, True, "absolute"), (4, True, "absolute")]
+FOLLOWED = spread([(2, False, "joint"), (2, False, "absolute"), (3, False, "absolute"), (3, False, "joint"), (1, True, "joint"),
+                   (4, False, "joint"), (4, False, "absolute"), (2, True, "joint"), (5, True, "joint"), (6, True, "joint"),
+                   (1, True, "absolute"), (4, True, "absolute")], 5)
 
 
 @pytest.mark.parametrize(("seed", "in_space", "layout"), FOLLOWED)

@@ -138,7 +138,7 @@ def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure
         return zd.simulate(written, 0.2, rtol=1e-7, integrator="dormand_prince", on_failure=on_failure, progress=lambda part: 0)
 
     partial = over = 0
-    for presser, outcome, whole in pressed_everywhere(call, monkeypatch, draws(50, 150)):
+    for presser, outcome, whole in pressed_everywhere(call, monkeypatch, draws(25, 150)):
         assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
         if presser.over:
             over += 1
@@ -152,8 +152,8 @@ def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure
         else:
             assert isinstance(outcome, KeyboardInterrupt | zd.Solution)
             assert not getattr(outcome, "success", False)
-    assert partial > draws(15, 50)
-    assert over < draws(6, 15)
+    assert partial > draws(7, 50)
+    assert over < draws(4, 15)
 
 
 def pressed_after(seconds, call):
