@@ -13,6 +13,9 @@ import numpy as np
 from .errors import WrongType, WrongValue
 
 
+MOST_LISTED = 12     # largest number of allowed words that an error lists in full
+
+
 def shown(value: Any) -> str:
     """A value in a message: in one line, and not all of what is long."""
     text = " ".join(repr(value).split())
@@ -62,7 +65,14 @@ def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
     words = allowed if isinstance(allowed, tuple | dict) else list(allowed)
     if isinstance(value, str) and value in words:
         return value
+    if len(words) > MOST_LISTED:
+        raise WrongValue(f"{name} must be a known name, not {value!r}; {closest(value, words)}", "unknown-choice")
     raise WrongValue(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}", "unknown-choice")
+
+
+def counted(number: int, noun: str) -> str:
+    """Number with its noun, in the plural unless it is one."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def closest(name: Any, known: Iterable[str], most: int = 5) -> str:

@@ -68,9 +68,9 @@ def test_states_may_be_kept(bar):
     (True, TypeError, "must be a real number, not True"), ([0.5], TypeError, r"must be a real number, not \[0.5\]"),
 ], ids=str)
 def test_values_that_are_no_numbers(bar, value, error, shown):
-    with pytest.raises(error, match=r"what events returns at t = 0 " + shown):
+    with pytest.raises(error, match=r"value of events at t = 0 " + shown):
         zd.simulate(bar, 1.0, step=0.1, events=lambda t, p, v: value)
-    with pytest.raises(error, match=r"what events\[1\] returns at t = 0\.5 " + shown) as caught:
+    with pytest.raises(error, match=r"value of events\[1\] at t = 0\.5 " + shown) as caught:
         zd.simulate(bar, 1.0, step=0.1, events=[position, lambda t, p, v: 1.0 if t < 0.45 else value])
     assert caught.value.solution.t.tolist() == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
     assert "at t = 0.5 (step 5 of 10): the evaluation of an event failed" in caught.value.__notes__
@@ -78,7 +78,7 @@ def test_values_that_are_no_numbers(bar, value, error, shown):
 
 @pytest.mark.parametrize(("events", "code", "message"), [
     (3.0, "wrong-type", r"events.*zd.Event.*not 3\.0"),
-    ("position", "unknown-choice", "events.*'alpha1'.*'position'"),
+    ("position", "unknown-choice", "events.*'position'.*alpha1"),
     ([position, None], "wrong-type", r"events\[1\].*zd.Event"),
     (event(position, "up"), "wrong-type", "events.direction.*'up'"),
     (event(position, np.nan), "not-finite", "events.direction"),

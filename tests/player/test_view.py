@@ -143,6 +143,8 @@ def test_gravity_points_down():
 def test_a_file_needs_no_other(crank, tmp_path):
     path = zd.view(crank).save(tmp_path / "film")
     assert path.name == "film.html"
+    with refused("wrong-value", r"must end in \.html.* not in \.mp4"):
+        zd.view(crank).save(tmp_path / "film.mp4")
     assert path.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 

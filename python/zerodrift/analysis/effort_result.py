@@ -10,6 +10,7 @@ from ..systems.base import BaseSystem
 from .kinematic_result import read
 
 ALIASES = {"angle": "torque", "displacement": "force", "length": "force", "position": "force"}
+UNITS = {"torque": "N m", "force": "N"}
 
 
 class Efforts:
@@ -55,8 +56,16 @@ class Efforts:
         lines = [f"<efforts of a motion of {self.system.name}: {len(self.t)} samples, t = {self.t[0]:g} ... {self.t[-1]:g} s>"]
         for name, values in self.efforts.items():
             if values.ndim == 1:
-                lines.append(f"  {name:<24} {np.nanmin(values, initial=np.inf):.6g} ... {np.nanmax(values, initial=-np.inf):.6g}")
+                lines.append(f"  {name:<24} {np.nanmin(values, initial=np.inf):.6g} ... {np.nanmax(values, initial=-np.inf):.6g}"
+                             f"{_unit(name)}")
         lines.append(f"  power                    {np.nanmin(self.power):.6g} ... {np.nanmax(self.power):.6g} W")
         if (worst := np.nanmax(self.residual, initial=0.0)) > 0:
             lines.append(f"  residual                 {worst:.3g} N/sqrt(kg)")
         return "\n".join(lines)
+
+
+def _unit(name: str) -> str:
+    """Unit of an effort, after a space, by the name of its measure; none for a coordinate of a system without such names."""
+    quantity = next((word for word in reversed(name.split(".")[1:]) if word not in ("x", "y", "z")), "")
+    unit = UNITS.get(ALIASES.get(quantity, quantity))
+    return f" {unit}" if unit else ""

@@ -233,5 +233,5 @@ def _ranges(parts: dict[int, Part]) -> list[tuple[int, int]]:
 def _where(executor: Any, threads: int) -> str:
     """Threads, processes or executor of the runs, for `repr`."""
     if executor is None:
-        return f"on {threads} threads"
+        return f"on {_check.counted(threads, 'thread')}"
     return f"in {threads} processes" if executor == "processes" else f"by {type(executor).__name__}"

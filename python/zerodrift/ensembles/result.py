@@ -206,7 +206,7 @@ class Ensemble:
         failed = f"{int(self.failed.sum())} failed" if self.failed.any() else "none failed"
         failed += f", {int(self.doubtful.sum())} doubtful" if self.doubtful.any() else ""
         first = f", the first because {self.messages[int(self.failed.argmax())]}" if self.failed.any() else ""
-        return (f"<ensemble of {count} runs{varied}: {rows}, {failed}{first}\n"
+        return (f"<ensemble of {count} {'run' if count == '1' else 'runs'}{varied}: {rows}, {failed}{first}\n"
                 f" {f'in {self.seconds:.3g} s ' if self.seconds else ''}{self._where}; {self._paths()}\n"
                 f" outputs {', '.join(self._names) or 'none'}>")
 

@@ -18,12 +18,14 @@ from .. import _check
 from .._writing import write_whole
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.solution import A_SOLUTION, Solution
+from ..systems.base import Makes
 from .scene import Wanted, scene
 
 HEIGHT = 460            # of a film in a notebook, in points of the screen
 GRAPH = 110             # more for each graph
 LARGEST = 100_000       # characters of the page that a solution shows of itself
 MOST_COORDINATES = 300  # of systems whose solutions show a film of themselves
+PICTURES = (".mp4", ".gif", ".webm", ".mov", ".avi", ".png")   # suffixes of films that `zerodrift.plot.animate` writes
 SHORTER = (900, 300, 100, 40)       # samples of it: the first whose page is not larger
 
 
@@ -64,8 +66,16 @@ class View:
         -------
         Path
             The file.
+
+        Raises
+        ------
+        ValueError
+            If the suffix is that of another kind of film or picture.
         """
         path = Path(path)
+        if path.suffix.lower() in PICTURES:
+            raise WrongValue(f"path must end in .html, as a film is a page, not in {path.suffix}: zd.plot.animate(sol).save(...) "
+                             "writes such a film")
         path = path if path.suffix == ".html" else path.with_name(path.name + ".html")
         write_whole(path, lambda file: file.write(self.page.encode()))
         return path
@@ -199,7 +209,8 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
     if not solutions:
         raise WrongType("view needs at least one solution, as zd.simulate returns", "missing-argument")
     for sol in solutions:
-        _check.instance("each of solutions", sol, Solution, A_SOLUTION)
+        _check.instance("each of solutions", sol, Solution, A_SOLUTION if not isinstance(sol, Makes) else
+                        f"{A_SOLUTION}, or with live=True a mechanism")
     if labels is None:
         labels = [sol.system.name if len(solutions) == 1 else f"{sol.system.name} {i}" for i, sol in enumerate(solutions, 1)]
     if len(labels) != len(solutions):

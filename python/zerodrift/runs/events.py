@@ -150,11 +150,11 @@ class Watched(NamedTuple):
         try:
             value = self.function(t, p, v, x)
         except BaseException as error:
-            _check.tell(error, f"in {self.name}, called at t = {t:g}")
+            _check.tell(error, f"in {self.name}, called at t = {t:g} with (t, p, v)")
             raise
         if type(value) is float and abs(value) < np.inf:
             return value
-        return _check.number(f"what {self.name} returns at t = {t:g}", value)
+        return _check.number(f"value of {self.name} at t = {t:g}", value)
 
 
 def events(given: Any, system: BaseSystem) -> tuple[Watched, ...] | None:

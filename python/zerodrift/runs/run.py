@@ -379,7 +379,7 @@ class Run:
         if name in self._places:
             return self._places[name]
         if name in self.system._names_of_inputs():
-            raise WrongName(f"{name!r} must be declared to be set: Run(..., inputs=[{name!r}])", "wrong-name")
+            raise WrongName(f"{name!r} must be declared as an input before it can be set: inputs=[{name!r}]", "wrong-name")
         known = f"; {_check.closest(name, self._places)}" if self._places else ""
         raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}", "wrong-name")
 

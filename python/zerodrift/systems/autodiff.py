@@ -110,9 +110,9 @@ class Jet:
         return self
 
     def __float__(self) -> float:
-        raise WrongType("here a number is expected, but derivatives are being taken: build arrays with np.array or np.stack "
-                        "instead of filling one, use NumPy's functions instead of math's; or supply jacobian and xi",
-                        "user-function")
+        raise WrongType("a function that is differentiated must not convert its values to plain numbers: use NumPy's functions "
+                        "instead of math's, and np.array or np.stack instead of filling an array; the constraints of a zd.System "
+                        "need neither if jacobian and xi are given", "user-function")
 
     # Comparisons look at the value, so that branches work.
     def __lt__(self, other: Any) -> bool:

@@ -272,15 +272,22 @@ class BaseSystem:
         """Index of a scalar measure, of reactions and accelerations only if `is_dynamic`, or of a coordinate or velocity."""
         place, core = self._watching.find(name), self._measuring
         if place is not None:
-            is_scalar = place.component is not None or core.measure_size(place.number) == 1
-            if not is_scalar or (core.measure_depends(place.number) == "accelerations" and not is_dynamic):
-                of = "" if is_dynamic else " of positions or velocities"
-                raise WrongValue(f"{what} must be a scalar measure{of}, and {name!r} is none", "wrong-measure")
+            if core.measure_depends(place.number) == "accelerations" and not is_dynamic:
+                raise WrongValue(f"{what} must be a scalar measure of positions or velocities, and {name!r} depends on "
+                                 "accelerations", "wrong-measure")
+            if place.component is None and (size := core.measure_size(place.number)) != 1:
+                component = f": '{name}.x' is one" if size <= 3 else ""
+                raise WrongValue(f"{what} must be a scalar measure, and {name!r} has {size} components{component}",
+                                 "wrong-measure")
             return Reading(known_events.MEASURE, place.number, place.component or 0)
         coordinates, velocities = ([variable.name for variable in group] for group in (self.coordinates, self.velocities))
         if name in coordinates:
             return Reading(known_events.COORDINATE, coordinates.index(name))
-        return Reading(known_events.VELOCITY, velocities.index(_check.choice(what, name, [*coordinates, *velocities])))
+        if name not in velocities:
+            known = _check.closest(name, [*coordinates, *velocities, *self._watching.number])
+            raise WrongValue(f"{what} must be a measure, a coordinate or a velocity of {self.name}, not {name!r}; {known}",
+                             "unknown-choice")
+        return Reading(known_events.VELOCITY, velocities.index(name))
 
     def _advice(self, error: Exception) -> str | None:
         """Advice of the system on an error that the core reported at the start; None: there is none."""
@@ -442,7 +449,7 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     """The core's system of a system; TypeError for other objects and for descriptions without equations."""
     core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
     if core is None:
-        raise WrongType(f"system must be one of zd.systems or a zd.System, not {_check.shown(system)}")
+        raise WrongType(f"system must be one of zd.systems, a zd.System or a zd.Mechanism, not {_check.shown(system)}")
     core.name_rows(system)
     return core
 

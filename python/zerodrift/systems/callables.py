@@ -206,6 +206,7 @@ def _parameter(name: str, value: Any) -> Any:
 # The shape of what each callable returns. The first callable in which a size appears determines that size.
 SHAPES = {"mass": ("nv", "nv"), "force": ("nv",), "bias": ("nv",), "constraints": ("mh",), "jacobian": ("mh", "nq"),
           "nonholonomic": ("mn", "nv"), "xi": ("m",), "kinematics": ("nq", "nv"), "potential": (), "power": ()}
+SIZES = {"nv": "velocities", "mh": "holonomic constraints", "mn": "nonholonomic constraints"}     # those read from a result
 
 
 # How to call a callable whose arguments are these of t, p, v. Its parameters are bound beforehand. Each gets views of its own, as
@@ -318,7 +319,9 @@ def _sizes(functions: dict[str, _Function], p: np.ndarray) -> tuple[int, int, in
         with np.errstate(all="ignore"):
             found = functions[name].value(0.0, p, _check.frozen(np.zeros(nv))).shape
         if len(found) != dimensions:
-            raise WrongValue(f"{name} must return shape ({', '.join(SHAPES[name])}), not {found}", "shape")
+            sizes = SHAPES[name]
+            raise WrongValue(f"{name} must return shape ({', '.join(sizes)}{',' * (len(sizes) == 1)}), not {found}: "
+                             f"{sizes[0]} is the number of {SIZES[sizes[0]]}", "shape")
         return found
 
     nv = nq     # for a mass that asks for v

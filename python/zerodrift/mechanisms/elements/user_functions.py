@@ -113,7 +113,7 @@ class Law:
         value = self.value(t, x, parameters)
         if type(value) is float and -np.inf < value < np.inf:
             return value
-        return _check.number(f"what {self.what} returns at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
+        return _check.number(f"{self.what} at t = {t:g}", value[()] if isinstance(value, np.ndarray) else value)
 
     def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> autodiff.Jet:
         """Value with derivatives, which are zero where the function is constant."""
@@ -127,7 +127,7 @@ class Law:
                             "NumPy functions (np.sin, np.exp, np.sqrt); np.interp, np.floor and % have none. zd.table(t, y) is a "
                             "smooth function through data", "user-function") from error
         value = value[()] if isinstance(value, np.ndarray) else value
-        return value if isinstance(value, autodiff.Jet) else autodiff.Jet(_check.number(f"what {self.what} returns", value))
+        return value if isinstance(value, autodiff.Jet) else autodiff.Jet(_check.number(self.what, value))
 
     def _has_value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> bool:
         """True if an evaluation with floats instead of jets succeeds."""
