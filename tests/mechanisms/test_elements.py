@@ -349,7 +349,7 @@ def test_a_terminal_event_ends_the_run_and_a_direction_counts():
 
 @pytest.mark.parametrize(("event", "code", "error"), [
     (zd.Event("link.position"), "wrong-measure", "events.*'link.position'"),
-    (zd.Event("pin.force.x"), "wrong-measure", "events.*'pin.force.x'"),
+    (zd.Event("pin.force"), "wrong-measure", "events.*'pin.force.x'"),
     (zd.Event("rod.angle"), "unknown-choice", "events"),
     (zd.Event(3), "wrong-type", "events.*not 3"),
     (zd.Event(lambda x: x), "user-function", "'x'"), (3, "wrong-type", "events")])

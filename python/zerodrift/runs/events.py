@@ -150,7 +150,7 @@ class Watched(NamedTuple):
         try:
             value = self.function(t, p, v, x)
         except BaseException as error:
-            _check.tell(error, f"in {self.name}, called at t = {t:g} with (t, p, v)")
+            _check.tell(error, f"in {self.name}, called at t = {t:g}")
             raise
         if type(value) is float and abs(value) < np.inf:
             return value
