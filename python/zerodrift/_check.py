@@ -12,7 +12,6 @@ import numpy as np
 
 from .errors import WrongType, WrongValue
 
-
 MOST_LISTED = 12     # largest number of allowed words that an error lists in full
 
 

@@ -110,5 +110,5 @@ def test_ensembles_have_the_events_of_single_runs():
 
 
 def test_what_is_no_scalar_is_refused():
-    with pytest.raises(ValueError, match=r"events must be a scalar measure, and 'pin.force' has 2 components: 'pin.force.x' is one"):
+    with pytest.raises(ValueError, match=r"must be a scalar measure, and 'pin.force' has 2 components: 'pin.force.x'"):
         zd.simulate(rod(), 1.0, step=0.01, events="pin.force")

@@ -102,7 +102,8 @@ class LiveView:
                 f'style="width:100%;max-width:960px;height:{HEIGHT}px;border:0"></iframe>')
 
     def __repr__(self) -> str:
-        return f"<live view of {self._scene['name']}: {_check.counted(len(self._scene['sliders']), 'slider')}, {len(self.page) / 1000:.0f} kB>"
+        sliders = _check.counted(len(self._scene["sliders"]), "slider")
+        return f"<live view of {self._scene['name']}: {sliders}, {len(self.page) / 1000:.0f} kB>"
 
 
 def player() -> str:
