@@ -10,7 +10,7 @@ import pytest
 
 import energy_models
 import zerodrift as zd
-from every_model import MECHANISMS, MODELS
+from every_model import MECHANISMS, MODELS, assert_right
 from support import assert_close, refused
 
 
@@ -21,8 +21,7 @@ def model(request):
 
 
 def test_check(model):
-    report = zd.check(model)
-    assert report, report
+    assert_right(model)
 
 
 def test_drawing(model):

@@ -60,19 +60,6 @@ def test_a_balance_that_closes_in_another_split_is_no_mistake():
     assert zd.check(moved)
 
 
-MODELS = sorted(set(zd.models.__all__) - {"chain"})
-
-
-@pytest.mark.parametrize("name", MODELS)
-def test_derivatives_of_every_model_equal_differences_of_accelerations(name):
-    """Tangent directions and parameters; driven mechanisms have no tangent directions."""
-    system = getattr(zd.models, name)().system()
-    report = zd.check(system, samples=1)
-    assert report, report
-    is_driven = not zd.mass_matrix(system, tangent=True).size
-    assert is_driven or "derivatives of accelerations" in report.checks
-
-
 def test_a_wrong_jacobian_of_a_system_is_said(monkeypatch):
     system = zd.models.four_bar().system("joint", compiled=True)
     if not system.compiled:
