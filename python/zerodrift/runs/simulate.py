@@ -81,8 +81,9 @@ def simulate(
         after 50 already that get nowhere, as where friction is the sign of a speed: `StepFailed` with the code "step-collapse".
         None: unlimited. Fixed steps are not limited.
     t_eval : array_like (k,), optional
-        Output times in s, increasing, instead of every step. With adaptive steps they use the method's dense output where it
-        has one, otherwise a shorter step is taken. All values satisfy the constraints.
+        Output times in s, increasing. Left out: the times of the steps; adaptive steps are long, and maxima of forces may lie
+        between them. With adaptive steps, values at output times are from the method's dense output where it has one, otherwise
+        from a shorter step. All values satisfy the constraints.
     events : callable, Event or measure, or a list of these, optional
         Functions ``event(t, p, v) -> float``. If one changes its sign within a step, its zero is located to the rounding of t,
         and the state there is reported in `Solution.t_events`, `p_events` and `v_events`; it satisfies the constraints. At a
