@@ -7,7 +7,7 @@
 
 static const double NEAREST = 0x1p-18;  /* distance, characteristic scales: nearer to the bifurcation c(v) is more accurate than w v */
 
-/* (wdot - K C_r) x, from wdot x and C_r x = rhs. */
+/* (wdot - K C_r) x: `product` is wdot x, the rate of the limit w of this row times x, and rhs is C_r x; K is limits->K_rate. */
 static double besides_others(const zd_selection *self, int row, double product, const double *rhs)
 {
     return product - zd_limits_along_others(self, self->limits->K_rate + row * self->m, rhs, 1);

@@ -199,7 +199,8 @@ static double rates_apart(const taylor *self, int n, const double *x, double h, 
     return sum;
 }
 
-/* Rates of p and v where the polynomial ends, and the power there: of a state that is converted, by the first terms of their series. */
+/* self->rate <- rates of p and v at the end of the step, and the power there. Where the state is converted to (p, v) for the series,
+ * they are the first terms of a series that begins there. */
 static int rates_at(taylor *self, const zd_rate *rate, double t1, const double *y)
 {
     const zd_system *system = self->system;
@@ -215,7 +216,8 @@ static int rates_at(taylor *self, const zd_rate *rate, double t1, const double *
     return ZD_DONE;
 }
 
-/* The error was foreseen to be small enough, from what the coefficients tell: the residual at the end tells whether they tell enough. */
+/* Error estimate: the residual of the rates at the end of the step. The size of the step was chosen by the last coefficients, which may
+ * be small by chance. */
 static int error(void *memory, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm, double *lambda_h)
 {
     taylor *self = memory;

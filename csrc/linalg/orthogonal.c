@@ -55,7 +55,8 @@ static double take_out_again(const zd_orthogonal *self, int k, double *row)
     return square_of(self, row);
 }
 
-/* The squared sine between a row of Q as it was and as it is, of which this is the square; infinite beyond a right angle. */
+/* Squared sine of the angle between two versions of a row of Q, the earlier one `was` and the new one `is`, whose squared norm is
+ * `square`; infinity if they are more than a right angle apart. */
 static double turn(const zd_orthogonal *self, const double *was, const double *is, double square)
 {
     double *weighted = self->weighted;
@@ -64,7 +65,8 @@ static double turn(const zd_orthogonal *self, const double *was, const double *i
     return along > 0 && product < INFINITY ? 1 - along * along / product : INFINITY;
 }
 
-/* Row k, from which those before it in other fours have been taken out; returns whether enough of it is left. */
+/* Completes row k of Q: subtracts its components along the rows before it in its own group of four; those along earlier groups have been
+ * subtracted. Returns 1 if its squared norm is then more than `enough` of that of the row given, 0 if the row is dependent. */
 static int finish(const zd_orthogonal *self, int k, double *row, double enough, zd_shares *shares)
 {
     const int n = self->n, m = self->m;

@@ -99,8 +99,8 @@ static int make_general_step(zd_resample *self, int64_t row)
     return status ? status : make_step(self, row);
 }
 
-/* Repeats the step from a sample. The run may have left the closed-form path in it: the path is used that reproduces the next sample bit
- * for bit, if one does. */
+/* Repeats the step from a sample on each evaluation path until the next sample is reproduced bit for bit, as the run may have left the
+ * closed-form path in it. If neither reproduces it, the step in closed form stands. */
 static int make_again(zd_resample *self, int64_t row)
 {
     const int has_closed_form = zd_has_closed_form(&self->run->motion);

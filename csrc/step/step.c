@@ -1,16 +1,19 @@
-/* One step of a run, in order:
+/* One step of a run. Numbers of equations are the paper's, notebooks/computation.md; C is the Jacobian of the constraints, and y the
+ * integrated state: (p, v), or fewer variables from which these follow. In order:
  *
- *  1. zd_step(): choose the integrated variables, the evaluation path, then the size, anew for each attempt
- *  2. attempt(): save the start of the step; integrate
- *  3. adaptive steps: estimate the error, and reject the step if it is too large
+ *  1. zd_step(): choose the integrated variables and the evaluation path, by matrices or in closed form (paths/choose.c), once for the step;
+ *     attempt_sizes(): choose the size h, anew for each attempt (fixed.c, adaptive.c)
+ *  2. attempt(), by functions of the path (paths/path.h): integrate, which saves the start of the step and advances y from t to t + h
+ *  3. adaptive steps: estimate the error; the attempt ends here if it is too large
  *  4. project positions, then velocities, onto the constraints: (25)-(27)
- *  5. correct the energy: (29)
- *  6. write the integrated state from the corrected point
- *  7. check: assembly branch, pivots or orientation of C, stability, resolution, consistency of the system
- *  8. attempt_sizes(): accept; or return to the start of the step and repeat it: through a bifurcation, by matrices, in (p, v), or with a
- *     shorter step
+ *  5. correct the energy, if the settings request it: (29)
+ *  6. finish: write y from the corrected point
+ *  7. check, by comparison with the start (safeguards/): assembly branch; a bifurcation within the step, by the pivots or the orientation
+ *     of C; stability; whether fixed steps resolve the motion; whether the terms of the system agree with each other
+ *  8. accept the step; or return to its start and repeat it, in this order: through a bifurcation; by matrices; in (p, v), if the
+ *     integrated variables lost digits; with a shorter step, fixed steps in equal parts
  *
- * zd_substep(): a step to a sample or an event within the last one is the same without 3 and 7.
+ * zd_substep(): a step to a sample or an event within the last one is the same without 3 and 7, with all corrections, due or not.
  */
 #include "step.h"
 
@@ -21,6 +24,7 @@
 
 enum { MOST_HALVINGS = 8 };     /* largest number of halvings of a substep that fails */
 
+/* A step by matrices after steps in closed form: their ends were not saved as starts for its checks, so that its start is saved here. */
 static int choose_path(zd_step_loop *loop)
 {
     int is_left;
@@ -28,7 +32,8 @@ static int choose_path(zd_step_loop *loop)
     return !status && is_left ? zd_safeguards_begin(loop->safeguards, loop->step) : status;
 }
 
-/* `kind` is a->kind, known to the compiler where it is that of a new step. */
+/* Makes one attempt on the present path, 2 to 7. `kind` is a->kind, as a constant for new steps, whose branches are then resolved at
+ * compile time. ZD_DONE with control.norm > 1 or control.move > 1: rejected by its error estimate. */
 ZD_INLINE int attempt(zd_step_loop *loop, const zd_attempt *a, const int kind)
 {
     zd_stepper *stepper = loop->stepper;
@@ -65,7 +70,7 @@ static int return_for_matrices(zd_step_loop *loop, const zd_attempt *a)
     return status || is_substep ? status : zd_safeguards_begin(loop->safeguards, loop->step);
 }
 
-/* To (p, v); the safeguards may have saved the end of the step already. */
+/* Returns to the start of the step with (p, v) as the integrated variables; the safeguards may have saved the end of the step already. */
 static int return_for_dependent(zd_step_loop *loop, const zd_attempt *a)
 {
     int status = zd_variables_use_dependent(loop->stepper);
@@ -79,7 +84,7 @@ static int make_from_start(zd_step_loop *loop, double t)
     return status ? status : zd_substep(loop, t);
 }
 
-/* Through the bifurcation in the step, if the settings allow it and the motion is continuous there. */
+/* Repeats the step through the bifurcation in it, if the settings allow that and the motion is continuous there. */
 static int return_for_bifurcation(zd_step_loop *loop, const zd_attempt *a)
 {
     zd_attempt through = *a;
@@ -105,7 +110,8 @@ ZD_INLINE int attempt_or_pass(zd_step_loop *loop, const zd_attempt *a, const int
     return status == ZD_BIFURCATION_PASSED && kind == ZD_NEW_STEP ? return_for_bifurcation(loop, a) : status;
 }
 
-/* By matrices, and in (p, v), after an attempt with *status that these can mend. */
+/* Repeats an attempt that ended with `status`: by matrices, if it failed in closed form; then in (p, v), if the integrated variables lost
+ * digits, of which attempts that succeed report it, too. Returns `status` if neither applies. */
 static int attempt_again(zd_step_loop *loop, const zd_attempt *a, int status, const zd_stiffness *before, int64_t stiff)
 {
     if (status && zd_path_of(loop->motion)->is_closed_form) {

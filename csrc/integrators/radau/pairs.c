@@ -37,7 +37,8 @@ int zd_radau_pairs_factor_real(zd_radau_matrices *self, double h)
     return zd_lu_factor(n, self->real, self->real_order) == n;
 }
 
-/* After the real one, whose rows are multiplied by the same. */
+/* Factors the complex matrix of the pairs at mu = (alpha - i beta) / h; its rows have the scales that
+ * zd_radau_pairs_factor_real() has computed. */
 int zd_radau_pairs_factor_complex(zd_radau_matrices *self, double h)
 {
     const int n = self->pairs;

@@ -148,8 +148,8 @@ ZD_INLINE void subtract_rows(double scale, zd_two l0, zd_two l1, zd_two b0, zd_t
     subtract_two(zd_scaled_two(scale, zd_sum_of_two(zd_second_of(l0), b0, zd_second_of(l1), b1)), to + 2);
 }
 
-/* Blocks of two rows are written out, in one pass over all that there is, and both columns of a block are kept as pairs. Products with P are
- * divided by its determinant last, as that takes longest. `carries`: whether there is an x. */
+/* Eliminates all blocks if each has two rows, with their loops unrolled. Both columns of a block are held as pairs. Products with the
+ * inverse P are divided by its determinant last, as a division takes longest. `carries`: 1 if a right-hand side x is eliminated, too. */
 ZD_INLINE void eliminate_twos(const int carries, const zd_blocks *self, double *restrict x, zd_pivots *pivots)
 {
     const int count = self->count, *begin = self->begin, *row = self->row, *target = self->target;

@@ -54,7 +54,7 @@ typedef struct ends {
     const void *quantities;
 } ends;
 
-/* The blocks of the group of rows from `row` on. */
+/* Lists the blocks, one for each body, in which `count` rows from `row` on have entries; *end: end of the list, which grows. */
 static void touch_all(zd_packed *self, const zd_planned_elements *elements, ends bodies, int row, int count, int *end)
 {
     const int first = *end;

@@ -11,7 +11,7 @@ static const double ZERO_ROW = 1e-9;    /* relative to the mechanism's length: l
 
 /* ---- positions ---- */
 
-/* Residuals, with the sizes that they are divided by, of the conditions that are found */
+/* Copies the residuals of the conditions last evaluated, and the sizes by which they are divided, to the caller. */
 static void report(const zd_assembly *self, int roles)
 {
     for (int k = 0; self->given->residual && k < self->rows; k++) {
@@ -46,8 +46,8 @@ static int is_closed(zd_assembly *self, const double *p)
     return zd_assembly_find(self, &all, p) <= ZD_CLOSED;
 }
 
-/* Meets constraints and held targets while staying ones are as in the drawing with its joints closed; returns whether that is possible.
- * p: closed positions on entry, changed on success only. */
+/* Assembles with the held targets met and with the values of the staying targets fixed to those of the drawing with its joints closed.
+ * Returns 1 if that is possible, 0 otherwise. p (nq,): closed positions on entry, changed on success only. */
 static int meet_staying(zd_assembly *self, double *p)
 {
     const zd_conditions drawing = {.choice = ZD_OF_DRAWING}, all = {.choice = ZD_OF_ALL, .roles = ZD_HELD | ZD_STAYING};

@@ -59,7 +59,7 @@ static found take(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
     };
 }
 
-/* The drive of constant speed that a row of C is; -1: none */
+/* Index of the drive of constant speed to which a row of C belongs, by the owner of the row; -1: it belongs to something else. */
 static int drive_of(const zd_varied *self, const zd_row_owner *owner)
 {
     for (int i = 0; owner->owner == ZD_OF_RELATION && i < self->drives; i++)
