@@ -3,7 +3,7 @@ system and an integrator once for each pair that the core accepts.
 
 With all three, or with more axes by ``@pytest.mark.pairs(name=values, ...)``, they run for cases in which each pair of values of
 two axes occurs. With ``@pytest.mark.each_value`` each value of each axis occurs, where other tests have the pairs. They run
-for the whole product with ZERODRIFT_PRODUCTS=1 in the environment.
+for the whole product with ZERODRIFT_PRODUCTS=1 in the environment, and for each value only with ZERODRIFT_EACH_VALUE=1.
 """
 
 import atexit
@@ -19,9 +19,10 @@ import pytest
 import zerodrift as zd
 from caching import cache_folder, compiler  # noqa: F401  (fixtures)
 from core_objects import core_objects  # noqa: F401  (a fixture)
-from covering import WHOLE, covering, product
+from covering import EACH_VALUE, WHOLE, covering, product
 from native_systems import PENDULUM, compile_library
 from support import FORMULATIONS, INTEGRATORS, SYSTEMS
+from zerodrift.export import fmu_libraries
 
 TABLES = {"system": SYSTEMS, "integrator": {name: name for name in INTEGRATORS},
           "formulation": {name: name for name in FORMULATIONS}}
@@ -34,6 +35,8 @@ ABSENT = {name for name in EXTRAS if importlib.util.find_spec(name) is None}
 def pytest_configure(config):
     """Separate the compile cache of the tests from the user's, and let Ctrl-C interrupt also in the background."""
     signal.signal(signal.SIGINT, signal.default_int_handler)    # processes in the background begin with it ignored
+    if not WHOLE:
+        fmu_libraries.FLAGS = ("-O0", *fmu_libraries.FLAGS[1:])     # FMUs: the same bits, in a third of the compiler's time
     if not hasattr(config, "workerinput"):      # processes of pytest-xdist share the cache of the one that started them
         folder = tempfile.mkdtemp(prefix="zerodrift-tests-")
         os.environ["ZERODRIFT_CACHE"] = folder
@@ -89,7 +92,7 @@ def pytest_generate_tests(metafunc):
         axes |= {name: values if isinstance(values, dict) else {str(value): value for value in values}
                  for name, values in mark.kwargs.items()}
     if axes:
-        strength = 1 if metafunc.definition.get_closest_marker("each_value") else 2
+        strength = 1 if EACH_VALUE or metafunc.definition.get_closest_marker("each_value") else 2
         cases = cases_of(tuple((name, tuple(values)) for name, values in axes.items()), strength)
         metafunc.parametrize(tuple(axes), [[axes[name][key] for name, key in case.items()] for case in cases],
                              ids=["-".join(case.values()) for case in cases])

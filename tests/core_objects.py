@@ -1,8 +1,10 @@
 """The core's sources, compiled once for all tests that link them with programs of their own or look at their symbols."""
 
+import hashlib
 import os
 import shutil
 import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -14,7 +16,9 @@ SOURCES = sorted(CSRC.rglob("*.c"))
 CC = os.environ.get("CC", "cc")
 needs_compiler = pytest.mark.skipif(not shutil.which(CC) or not SOURCES, reason="no C compiler, or no sources of the core")
 # Without -fPIC, constants with addresses in them stay read-only data, so that symbols tell what could change.
-FLAGS = ("-O0", "-std=c11", "-ffp-contract=off", "-fno-pic", "-I", CSRC)
+PLAIN, AT_FIXED_PLACES = (("-fno-pic",), ("-no-pie",)) if sys.platform == "linux" else ((), ())    # to compile, and to link
+FLAGS = ("-O0", "-std=c11", "-ffp-contract=off", *PLAIN, "-I", CSRC)
+STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wstrict-prototypes", "-Werror")
 
 
 def unit_of(path):
@@ -27,21 +31,31 @@ def core_objects(tmp_path_factory):
     """The object of each source, by unit."""
     if not shutil.which(CC) or not SOURCES:
         pytest.skip("no C compiler, or no sources of the core")
-    folder, order = shared_folder(tmp_path_factory) / "core", SOURCES
-    folder.mkdir(exist_ok=True)
-    if os.environ.get("PYTEST_XDIST_WORKER", "gw0") != "gw0":
-        order = SOURCES[::-1]       # two processes of pytest-xdist meet in the middle
-    objects = {unit_of(path): folder / (unit_of(path).replace("/", "-") + ".o") for path in SOURCES}
+    return {unit_of(path): compiled for path, compiled in objects_of(SOURCES, CSRC, shared_folder(tmp_path_factory)).items()}
 
-    def compile_one(path):
-        if not (target := objects[unit_of(path)]).exists():
-            unfinished = target.with_suffix(f".{os.getpid()}")
-            subprocess.run([CC, "-c", *FLAGS, "-o", unfinished, path], check=True)
+
+def objects_of(sources, include, shared):
+    """The object of each source, compiled without a warning and once for all processes that share a folder.
+
+    Its name is a hash of what the preprocessor leaves of the source, so that exported copies of the core are not compiled again.
+    """
+    folder = shared / "objects"
+    folder.mkdir(exist_ok=True)
+    flags = [*FLAGS[:-1], include]
+    if os.environ.get("PYTEST_XDIST_WORKER", "gw0") != "gw0":
+        sources = sources[::-1]     # two processes of pytest-xdist meet in the middle
+
+    def compile_one(source):
+        text = subprocess.run([CC, "-E", "-P", *flags, source], check=True, capture_output=True).stdout
+        target = folder / f"{hashlib.sha256(text).hexdigest()[:32]}.o"
+        if not target.exists():
+            unfinished = folder / f"{target.stem}.{os.getpid()}"
+            subprocess.run([CC, "-c", *flags, *STRICT, "-o", unfinished, source], check=True)
             unfinished.replace(target)
+        return target
 
     with ThreadPoolExecutor(2) as pool:
-        list(pool.map(compile_one, order))
-    return objects
+        return dict(zip(sources, pool.map(compile_one, sources), strict=True))
 
 
 def shared_folder(tmp_path_factory):
@@ -52,5 +66,5 @@ def shared_folder(tmp_path_factory):
 
 def linked(program, source, objects, *options):
     """A program of a test's own source and objects of the core."""
-    subprocess.run([CC, *FLAGS, "-no-pie", "-o", program, source, *objects, *options, "-lm"], check=True)
+    subprocess.run([CC, *FLAGS, *AT_FIXED_PLACES, "-o", program, source, *objects, *options, "-lm"], check=True)
     return program

@@ -4,6 +4,7 @@ import itertools
 import os
 
 WHOLE = bool(os.environ.get("ZERODRIFT_PRODUCTS"))     # products instead of pairs, all values and draws
+EACH_VALUE = bool(os.environ.get("ZERODRIFT_EACH_VALUE"))     # each value instead of pairs, for what looks at code, not numbers
 
 
 def product(axes, allowed=lambda **case: True):

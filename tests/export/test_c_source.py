@@ -1,20 +1,16 @@
 """`zd.c_source`: sources without warnings whose numbers are those of `simulate` to the bit, and no allocation in steps."""
 
-import os
 import shutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 import zerodrift as zd
-from core_objects import needs_compiler
+from core_objects import AT_FIXED_PLACES, CC, STRICT, needs_compiler, objects_of, shared_folder
 from support import refused
 
-CC = os.environ.get("CC", "cc")
-STRICT = ("-std=c11", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wstrict-prototypes", "-Werror")
 ALLOCATED = """
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,19 +22,14 @@ __attribute__((constructor)) static void begin(void) { atexit(report); }
 """
 
 
-def built(folder, *options, compiler=(CC,)):
-    """Program of all sources below a folder."""
-    sources = sorted(folder.rglob("*.c"))
-
-    def compile_one(source):
-        target = source.with_suffix(".o")
-        subprocess.run([*compiler, "-O0", *STRICT, "-c", "-I", folder, "-o", target, source], check=True)
-        return target
-
-    with ThreadPoolExecutor(2) as pool:
-        objects = list(pool.map(compile_one, sources))
-    subprocess.run([*compiler, "-o", folder / "main", *objects, *options, "-lm"], check=True)
-    return folder / "main"
+@pytest.fixture
+def built(tmp_path_factory):
+    """Program of all sources below a folder, by a function; warnings are errors."""
+    def build(folder, *options):
+        objects = objects_of(sorted(folder.rglob("*.c")), folder, shared_folder(tmp_path_factory))
+        subprocess.run([CC, *AT_FIXED_PLACES, "-o", folder / "main", *objects.values(), *options, "-lm"], check=True)
+        return folder / "main"
+    return build
 
 
 def printed(program, duration):
@@ -49,7 +40,7 @@ def printed(program, duration):
 
 @needs_compiler
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="wraps the allocation by the linker of GNU")
-def test_a_crank_has_the_bits_of_simulate_and_allocates_before_its_steps(tmp_path):
+def test_a_crank_has_the_bits_of_simulate_and_allocates_before_its_steps(tmp_path, built):
     names = ["crank.angle", "pin.force"]
     folder = zd.c_source(zd.models.slider_crank(), tmp_path / "crank", step=1e-3, outputs=names, energy=True)
     (folder / "allocated.c").write_text(ALLOCATED)
@@ -61,7 +52,7 @@ def test_a_crank_has_the_bits_of_simulate_and_allocates_before_its_steps(tmp_pat
 
 
 @needs_compiler
-def test_a_disc_in_space_has_the_bits_of_simulate(tmp_path):
+def test_a_disc_in_space_has_the_bits_of_simulate(tmp_path, built):
     folder = zd.c_source(zd.models.rolling_disc(), tmp_path / "disc", step=1e-3, outputs=["disc.position"], integrator="heun")
     sol = zd.simulate(zd.models.rolling_disc(), 0.5, step=1e-3, outputs=["disc.position"], integrator="heun", vector="baseline")
     rows, _ = printed(built(folder), 0.5)
@@ -76,7 +67,8 @@ def test_clang_compiles_it_without_warnings(tmp_path):
     compiler = (clang,) if clang else (sys.executable, "-m", "ziglang", "cc")
     folder = zd.c_source(zd.models.four_bar(), tmp_path / "bar", step=1e-2)
     for source in ("main.c", "block/create.c", "block/laws.c", "simulate.c", "registry.c"):
-        subprocess.run([*compiler, *STRICT, "-c", "-I", folder, "-o", tmp_path / "one.o", folder / source], check=True)
+        subprocess.run([*compiler, "-std=c11", "-ffp-contract=off", *STRICT, "-c", "-I", folder, "-o", tmp_path / "one.o",
+                        folder / source], check=True)
 
 
 def test_the_folder_has_what_the_mechanism_needs_and_no_more(tmp_path):
