@@ -18,9 +18,10 @@ def rotation_of(q: np.ndarray) -> np.ndarray:
 
 
 def quaternion_of(R: np.ndarray) -> np.ndarray:
-    """The quaternion (4,) of a rotation (3, 3), of the two the one with the positive scalar part.
+    """Unit quaternion (4,) of a rotation matrix (3, 3); its scalar part is not negative.
 
-    The products of its entries are sums of the matrix's, and the row of the largest of them loses no digits.
+    The matrix of products q q^T is linear in the entries of R. Its row with the largest diagonal entry, normalised, is q without
+    loss of digits.
     """
     x, y, z = R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]
     off = R + R.T

@@ -76,7 +76,7 @@ def set_quaternions(system: Any, places: Sequence[int]) -> Any:
 
 
 def is_length(variable: Variable) -> bool:
-    """True if a variable is a length or the rate of one: all variables are, except pure numbers and their rates."""
+    """True if a variable counts as a length or its rate: its unit is not that of a pure number (1, rad) or of its rate."""
     return variable.unit not in {*DIMENSIONLESS, *(f"{unit}/s" for unit in DIMENSIONLESS), "1/s"}
 
 

@@ -27,8 +27,9 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
     """The linear motion z' = A z + B u, y = C z + D u near a state, (p, v) = (p0, v0) + basis z.
 
     z are coordinates on the tangent space of all constraints, so that none has to be chosen as dependent. In a steady motion the
-    basis is carried along by it: displacements of bodies are those in the drawing's axes, turned with a precession, not with a
-    wheel. Derivatives come from the system's own Jacobian where it has one, and else from differences of the residuals, 1e-12.
+    basis moves along: displacements of bodies turn with the precession of the mechanism, and not with a wheel that spins.
+    Derivatives are those of the system's own Jacobian where it has one, and otherwise differences of eighth order, with relative
+    errors of some 1e-12.
 
     Parameters
     ----------

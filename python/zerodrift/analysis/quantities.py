@@ -22,10 +22,18 @@ PARTS = ("value", "rate", "bias", "row")
 
 
 class Found(NamedTuple):
-    """A quantity at a state.
+    """A quantity at a state: a measure, a coordinate or a velocity.
 
-    value (size,); rate (size,); row (size, nv), the derivative of the rate, of velocities of the value, with respect to v; bias
-    (size,), so that the second rate, of velocities the first, is ``row @ vdot + bias``; `is_velocity`.
+    Attributes
+    ----------
+    value : ndarray (size,)
+    rate : ndarray (size,)
+        Rate of change of a quantity of positions.
+    row : ndarray (size, nv)
+        Derivative with respect to v: of the rate; of the value, if that is a velocity.
+    bias : ndarray (size,)
+        ``row @ vdot + bias`` is the second rate; the first, if the value is a velocity.
+    is_velocity : bool
     """
 
     value: np.ndarray

@@ -36,7 +36,7 @@ class Target(NamedTuple):
 
 
 class DeadPoint(CorrectionFailed):
-    """The way to a target ends; `reached` is the last target before, `p` the position there."""
+    """No position exists beyond a target; `reached` is the last target that was reached, `p` (nq,) the position there."""
 
     def __init__(self, reached: Target, p: np.ndarray) -> None:
         super().__init__("a dead point")
@@ -83,7 +83,7 @@ class Tracker:
         Raises
         ------
         DeadPoint
-            If the way ends before.
+            If there is no position beyond a target between the two.
         """
         done, part = 0.0, 1.0
         while done < 1.0:
@@ -99,7 +99,11 @@ class Tracker:
         return p
 
     def contradiction(self, p: np.ndarray, here: Target, there: Target) -> float:
-        """Part of the changes between targets that no displacement has; zero next to a dead point, where rows are singular."""
+        """Largest relative residual of the changes between two targets after the best displacement in the least-squares sense.
+
+        Above 0, the prescribed quantities contradict each other or the constraints; 0 next to a dead point, where the rows are
+        singular.
+        """
         rows, change = self._rows(p, here, there)
         scale = scales(self.system, p).v
         values = np.linalg.svd(scaled_rows(rows, scale), compute_uv=False)

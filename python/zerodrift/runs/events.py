@@ -77,7 +77,7 @@ class Event:
     of: Mapping[str, Any] | None = None
 
     def watched(self, name: str, system: BaseSystem) -> Watched:
-        """The event of a system, whose errors call it by `name`."""
+        """The event, checked for a system; error messages call it `name`, such as ``events[1]``."""
         level, function, known = _check.number(f"value of {name}", self.value), None, None
         if hasattr(self.what, "free_symbols"):
             function, known = _expression(name, self.what, system, dict(self.of or {}), level)

@@ -20,9 +20,9 @@ def start_of(system: Any, p0: Any, v0: Any, t0: float) -> tuple[BaseSystem, Any,
     Raises
     ------
     TypeError
-        If velocities are given besides one.
+        If v0 is given with an equilibrium or an instant as p0.
     ValueError
-        If it is that of a system with other coordinates.
+        If p0 is an equilibrium or an instant of a system with other coordinates.
     """
     if not isinstance(p0, Reading):
         return system_of(system, p0, v0), p0, v0

@@ -108,7 +108,7 @@ class Motion:
         return self.system._brings_perturbed_series and not settings.disagreement(chosen)
 
     def by_series(self, formulation: str) -> Motion:
-        """The same motion by Taylor's method, with the previous method as the check."""
+        """The same motion by Taylor's method in this formulation; the method used so far becomes the one that checks it."""
         found = copy.copy(self)
         found.method, found.other = SERIES, self.method
         with unwarned():

@@ -17,7 +17,10 @@ LARGEST_COUNT_TO_A_VALUE = 5_000    # pieces: no value is farther from the start
 
 
 class Met(NamedTuple):
-    """Segments that contain the values, in order; and dead points passed, each with the index of the next value."""
+    """Segments of the curve of positions, for each given value of the measure the one that contains it.
+
+    `dead`: dead points passed on the way, each with the index of the first value behind it.
+    """
 
     segments: list[Segment]
     dead: list[tuple[Knot, int]]

@@ -107,7 +107,10 @@ WIDTHS = {"laws": 4, "instructions": 4, "splines": 2, "knots": 5, "inputs": 5, "
 
 
 def assembled(dimension: int, sections: Mapping[str, Sequence[float]], counts: Mapping[str, int], texts: Texts) -> bytes:
-    """The block of these sections; `counts` has the numbers of entries of those whose widths depend on the dimension."""
+    """Bytes of a block (csrc/block/block.h): header, then the sections, by name.
+
+    `counts` has the number of entries of each section whose width depends on the dimension; others are counted by `WIDTHS`.
+    """
     parts = [np.asarray(sections.get(name, ()), dtype="<f8") for name in SECTIONS[:-1]] + [texts.words()]
     entries = [counts.get(name, len(part) // WIDTHS.get(name, 1)) for name, part in zip(SECTIONS, parts, strict=True)]
     size = 4 + len(SECTIONS) + sum(len(part) for part in parts)

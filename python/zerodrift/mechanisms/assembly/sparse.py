@@ -71,9 +71,10 @@ class AssemblyOfMany(Assembly):
 
     def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
                   staying: Sequence[Target] = ()) -> np.ndarray:
-        """Nearest positions that satisfy all constraints and held targets, and approach wished ones as nearly as possible.
+        """Positions (nq,) nearest to p that satisfy all constraints and held targets, and approach wished targets.
 
-        Coordinates that stay are as in the drawing with its joints closed, whatever the values of these targets.
+        Staying targets are kept at the values that their coordinates have in the drawing with its joints closed, where that is
+        possible; their own values are not used.
         """
         kept: list[Target] = []
         if not self.is_closed(p, held):

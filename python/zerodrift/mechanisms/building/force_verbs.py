@@ -20,7 +20,11 @@ DRIVES = {"angle": ("angle",), "displacement": ("displacement",), "speed": ("ang
 
 
 class ForceVerbs(Elements):
-    """Drives, springs, forces. Callables name their arguments: ``t``, parameters, and names that ``of=`` binds to measures."""
+    """Methods of `Mechanism` that add drives, springs and forces.
+
+    A callable that gives a force or a motion receives by argument name what it wants: ``t``, parameters, and the measures that
+    ``of=`` binds to names.
+    """
 
     def motor(self, name: str, joint: Joint | str, *, angle: Any = None, displacement: Any = None, speed: Any = None,
               torque: Any = None, force: Any = None, of: Mapping[str, Any] | None = None) -> Motor:

@@ -72,7 +72,9 @@ def space_words(joint: type[SpaceJoint]) -> list[str]:
 
 
 def axis_word(joint: type[SpaceJoint]) -> str:
-    """Name of the argument for directions: two axes, the normal of a plane that holds the second point, along, or an axis."""
+    """Keyword argument for the directions of a joint: "axes" for two; "normal" of the plane that holds the second point;
+    "along" for a blade; otherwise "axis".
+    """
     if joint.row.axes == 2:
         return "axes"
     if is_blade(joint.row):
@@ -81,7 +83,7 @@ def axis_word(joint: type[SpaceJoint]) -> str:
 
 
 def length_word(joint: type[SpaceJoint]) -> str:
-    """Name of the argument for the length: a screw's is its pitch."""
+    """Keyword argument for the length of a joint: "pitch" of a screw, otherwise "length"."""
     return "pitch" if advances(joint.row) else "length"
 
 

@@ -28,7 +28,7 @@ from .tree import inboard_joints
 
 
 class SpaceTables(Tables):
-    """Tables of a mechanism in space: those of the plane, with marker quantities, joints and bodies of space."""
+    """Tables of a mechanism in space, from which the core makes its system; built as in the plane, see `Tables`."""
 
     joints: list[SpaceJoint]    # type: ignore[assignment]
     inertias: SpaceInertias     # type: ignore[assignment]
@@ -127,7 +127,7 @@ class SpaceTables(Tables):
         return tuple(Quantity(axis, 0, body, point2=local) for axis in AXES)
 
     def spin_quantities(self, body: Body) -> tuple[Quantity, ...]:
-        """Marker quantities of a body's angular velocity, in the drawing's axes."""
+        """Marker quantities whose rates are the three components of a body's angular velocity in the drawing's axes."""
         return tuple(Quantity("spin", 0, self.number[body.name], a=axis) for axis in AS_DRAWN)
 
     def rotation_quantities(self, body: Body) -> tuple[Quantity, ...]:
@@ -167,5 +167,8 @@ class SpaceTables(Tables):
 
 
 def tables_of(drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> Tables:
-    """Tables of a drawing in the plane or in space."""
+    """Tables of a mechanism, for the core: `Tables` in the plane, `SpaceTables` in space.
+
+    `in_tree`: in joint coordinates of a tree; otherwise in absolute coordinates.
+    """
     return (SpaceTables if drawing.dimension == 3 else Tables)(drawing, numbers, in_tree=in_tree, starts=starts)

@@ -31,7 +31,7 @@ ORIGIN = np.zeros(2)
 
 
 class Tables:
-    """Tables of a mechanism, built element by element.
+    """Tables of a mechanism, from which the core makes its system, one entry for each body, joint, constraint and force.
 
     Attributes
     ----------

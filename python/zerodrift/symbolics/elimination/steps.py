@@ -155,7 +155,7 @@ class Elimination:
     # ---- what is wanted ----
 
     def accelerations(self) -> dict[str, Vector]:
-        """The pdot of systems with A, vdot, lambda, power and pivots."""
+        """Outputs of the accelerations: vdot, lambda, power of forces and moving constraints, pivots, and pdot if there is A."""
         return self._accelerations(self._with_added())
 
     def _with_added(self) -> Vector:
@@ -175,11 +175,11 @@ class Elimination:
                 "pivots": self.determinants + self.mass.shares}
 
     def corrections(self) -> dict[str, Vector]:
-        """Phi, dp and dv."""
+        """Outputs of the projection: Phi, and the corrections dp and dv of (25)."""
         return self._corrections(self._leaves("v"), self._projected)
 
     def landing(self) -> dict[str, Vector]:
-        """Phi, dp, the dv of the velocities before, and what accelerations there are with the velocities after it."""
+        """Outputs of the end of a step: Phi, dp, dv of the velocities before the projection, accelerations for those after it."""
         return self._corrections(self._leaves("before"), self._projected) | self._accelerations(self._vector("xi", self.m))
 
     def embedding(self) -> dict[str, Vector]:
@@ -198,7 +198,7 @@ class Elimination:
         return self.particular(right)
 
     def _share_of(self, j: int) -> Vector:
-        """The row of D of a velocity."""
+        """Row of D of velocity j."""
         return self.D[j]
 
     def _leaves(self, kind: str) -> Vector:

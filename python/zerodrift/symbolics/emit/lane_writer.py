@@ -18,8 +18,8 @@ SETS = {(0, 1): "ZD_SET_BASELINE_1", (0, 2): "ZD_SET_BASELINE_2", (1, 1): "ZD_SE
 class LaneWriter(CWriter):
     """Statements of one function that are the same for any unit and number of lanes.
 
-    A product that is used but once, in a sum, is one operation with it where the unit has that: which products are, is written
-    here, and so does not depend on the compiler.
+    A product that is used once, in a sum, becomes one fused multiply-add on vector units that have it. This class decides which
+    products do, so that the bits do not depend on the compiler.
     """
 
     words = CWriter.words | {"and": "ZD_BOTH", "or": "ZD_EITHER", "root": "ZD_SQRT"}

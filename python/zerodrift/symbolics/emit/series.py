@@ -119,7 +119,7 @@ class Writer:
     # ---- coefficients ----
 
     def coefficients(self) -> list[str]:
-        """Statements of the coefficients of one order of all time-dependent operations."""
+        """C statements, one for each time-dependent operation, that compute its Taylor coefficient of the present order."""
         return [f"const zd_number y{number} = {self._coefficient(number, jet)};"
                 for number, jet in enumerate(self.operations) if not jet.is_fixed]
 

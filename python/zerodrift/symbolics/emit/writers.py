@@ -118,7 +118,7 @@ class Writer:
 
 
 def turn_of(function: Any) -> str:
-    """The core's array of sines or cosines if the function is one of these (and not a user's function of that name)."""
+    """Name of the core's array of sines or cosines, for SymPy's sin and cos; "" for others, a user's sin too."""
     is_known = isinstance(function, Function) or function.__module__.startswith("sympy.")
     return TURNS.get(function.__name__, "") if is_known else ""
 
