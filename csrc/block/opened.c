@@ -86,6 +86,7 @@ void zd_opened_free(zd_opened *self)
 zd_block *zd_opened_block(const zd_opened *self) { return self->block; }
 const zd_run *zd_opened_run(const zd_opened *self) { return self->run; }
 const char *zd_opened_message(const zd_opened *self) { return self->message; }
+void zd_opened_watch(zd_opened *self, const zd_events *events) { self->settings.events = events; }
 
 int zd_opened_settings(zd_opened *self, double t, zd_settings *settings)
 {

@@ -192,6 +192,67 @@ def test_failures_are_reported_with_the_sentence_of_the_core(unit):
     assert "inputs must be finite numbers" in "".join(told)
 
 
+# ---- events ----
+
+EVENTS = [zd.Event("upper.angle", value=-1.5), zd.Event("pin.speed", value=0.9, direction=1, terminal=True)]
+
+
+def with_events(folder, version, events):
+    """Unit of a crane with these events, and whose outputs are the quantities of `EVENTS`."""
+    return zd.fmu(crane(4.0), folder / "crane", step=STEP, inputs=["drive.torque"], outputs=["upper.angle", "pin.speed"],
+                  events=events, version=version)
+
+
+@pytest.fixture(scope="module")
+def eventful(tmp_path_factory):
+    return with_events(tmp_path_factory.mktemp("events"), "3.0", EVENTS)
+
+
+def run_of(unit, **options):
+    return fmpy.simulate_fmu(str(unit), stop_time=0.5, step_size=0.02, output_interval=0.02, **options)
+
+
+def located():
+    """Instants of the events by `simulate`, without input."""
+    sol = zd.simulate(crane(4.0), 0.5, step=STEP, events=EVENTS, vector="baseline")
+    return [float(times[0]) for times in sol.t_events]
+
+
+def test_steps_return_early_at_events_where_the_importer_allows_it(eventful):
+    passed, ended = located()
+    assert fmpy.read_model_description(str(eventful)).coSimulation.mightReturnEarlyFromDoStep
+    assert 0.02 < passed < ended < 0.48
+    found = run_of(eventful, early_return_allowed=True)
+    at = np.argmin(abs(found["time"] - passed))
+    np.testing.assert_allclose([found["time"][at], found["time"][-1]], [passed, ended], rtol=0, atol=1e-9)
+    np.testing.assert_allclose([found["upper.angle"][at], found["pin.speed"][-1]], [-1.5, 0.9], rtol=0, atol=1e-9)
+    assert found["time"][at + 1] > found["time"][at] + 1e-3         # it is not located again
+
+
+def test_without_early_return_the_end_is_requested_at_the_end_of_a_step(eventful):
+    found, (_, ended) = run_of(eventful), located()
+    assert 0 <= found["time"][-1] - ended < 0.02
+    sol = zd.simulate(crane(4.0), 0.5, step=STEP, outputs=["upper.angle"], vector="baseline")
+    np.testing.assert_allclose(found["upper.angle"][1:-1], sol["upper.angle"][20:20 * (len(found) - 1):20], rtol=0, atol=1e-12)
+
+
+def test_a_terminal_event_discards_the_step_in_the_second_version(tmp_path):
+    unit, (_, ended) = with_events(tmp_path, "2.0", EVENTS[1:]), located()
+    told = []
+    found = run_of(unit, logger=lambda *words: told.append(str(words)))     # FMPy would go on calling that of the last unit
+    np.testing.assert_allclose([found["time"][-1], found["pin.speed"][-1]], [ended, 0.9], rtol=0, atol=1e-9)
+    assert "ended by event 0" in "".join(told)
+    with refused("not-available", r"events\[0\] must be terminal in FMI 2\.0"):
+        with_events(tmp_path, "2.0", EVENTS)
+
+
+def test_events_of_units_are_quantities_that_reach_a_value(tmp_path):
+    with refused("not-portable", "not be a function"):
+        with_events(tmp_path, "3.0", lambda t, p, v: p[0])
+    with refused("not-available", "terminal must be True or False"):
+        with_events(tmp_path, "3.0", zd.Event("pin.speed", value=0.3, terminal=2))
+
+
 def test_other_versions_are_refused(tmp_path):
     with refused("unknown-choice", "version"):
         zd.fmu(crane(), tmp_path / "crane", step=STEP, version="1.0")

@@ -36,6 +36,7 @@ class Chosen(NamedTuple):
     outputs: tuple[str, ...] | None     # measures; None: all, and none is recorded
     inputs: tuple[str, ...]
     limits: Mapping[str, tuple[float, float]] = MappingProxyType({})       # of parameters
+    watched: tuple[str, ...] = ()   # measures that are kept besides the outputs
     has_grip: bool = False          # a force on a point of a body, see `grip`
 
 
@@ -146,7 +147,8 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
     """Sections of the tables, of user functions and of inputs; numbers of entries; and names of measures."""
     quantities, observed = read(tables)
     if chosen.outputs is not None:
-        quantities, observed = _kept(len(tables.quantities), quantities, [row for row in observed if row.name in chosen.outputs])
+        wanted = {*chosen.outputs, *chosen.watched}
+        quantities, observed = _kept(len(tables.quantities), quantities, [row for row in observed if row.name in wanted])
     packed, grip = tables.written(quantities, observed), None
     if chosen.has_grip:
         grip = Grip(chosen.system._drawing.dimension, len(quantities), len(tables.forces), len(tables.parts))

@@ -70,7 +70,12 @@ FMU_EXPORT int fmi2SetReal(void *instance, const uint32_t reference[], size_t co
 FMU_EXPORT int fmi2DoStep(void *instance, double t, double size, int no_set)
 {
     (void)no_set;
-    return fmu_step(instance, t, size);
+    fmu *self = instance;
+    const int status = fmu_step(self, t, size);
+    if (status || self->event < 0) return status;
+    snprintf(self->message, sizeof self->message, "%s", zd_opened_message(self->opened));
+    self->log(self, FMU_DISCARD);
+    return FMU_DISCARD;
 }
 
 FMU_EXPORT int fmi2GetRealStatus(void *instance, int kind, double *value)
@@ -78,6 +83,14 @@ FMU_EXPORT int fmi2GetRealStatus(void *instance, int kind, double *value)
     fmu *self = instance;
     if (kind != 2) return FMU_DISCARD;      /* 2: the last successful time */
     *value = zd_run_time(zd_opened_run(self->opened));
+    return FMU_OK;
+}
+
+FMU_EXPORT int fmi2GetBooleanStatus(void *instance, int kind, int *value)
+{
+    const fmu *self = instance;
+    if (kind != 3) return FMU_DISCARD;      /* 3: the simulation is to end */
+    *value = self->event >= 0;
     return FMU_OK;
 }
 
@@ -105,4 +118,4 @@ FMU_EXPORT int fmi2DeSerializeFMUstate(void *instance, const unsigned char bytes
 REFUSED(fmi2GetInteger) REFUSED(fmi2GetBoolean) REFUSED(fmi2GetString) REFUSED(fmi2SetInteger) REFUSED(fmi2SetBoolean) REFUSED(fmi2SetString)
 REFUSED(fmi2GetDirectionalDerivative)
 REFUSED(fmi2SetRealInputDerivatives) REFUSED(fmi2GetRealOutputDerivatives) REFUSED(fmi2CancelStep) REFUSED(fmi2GetStatus)
-REFUSED(fmi2GetIntegerStatus) REFUSED(fmi2GetBooleanStatus) REFUSED(fmi2GetStringStatus)
+REFUSED(fmi2GetIntegerStatus) REFUSED(fmi2GetStringStatus)

@@ -22,10 +22,11 @@ FMU_EXPORT void *fmi3InstantiateCoSimulation(const char *name, const char *token
                                              bool events, bool early, const uint32_t intermediate[], size_t count, void *environment,
                                              log_message *log, void (*update)(void))
 {
-    (void)resources, (void)visible, (void)logging, (void)events, (void)early, (void)intermediate, (void)count, (void)update;
+    (void)resources, (void)visible, (void)logging, (void)events, (void)intermediate, (void)count, (void)update;
     fmu *self = fmu_create(name);
     if (!self) return NULL;
     self->environment = environment;
+    self->returns_early = early;
     self->log = log_error;
     memcpy(&self->callback, &log, sizeof self->callback);
     if (!strcmp(token, TOKEN) && !fmu_begin(self)) return self;
@@ -62,9 +63,15 @@ FMU_EXPORT int fmi3DoStep(void *instance, double t, double size, bool no_set, bo
 {
     (void)no_set;
     fmu *self = instance;
-    const int status = fmu_step(self, t, size);
-    *events = *terminate = *early = false;
+    int status = fmu_step(self, t, size);
+    *events = *terminate = false;
+    while (!status && self->event >= 0) {
+        *terminate |= event_is_terminal[self->event];
+        if (self->returns_early) break;
+        status = fmu_step(self, t, size);       /* the simulation is to end, but not before the end of this step */
+    }
     *last = zd_run_time(zd_opened_run(self->opened));
+    *early = !status && *last < t + size && self->event >= 0;
     return status;
 }
 

@@ -23,6 +23,10 @@ typedef struct fmu {
     zd_opened *opened;
     double start, inputs[INPUTS + 1], outputs[OUTPUTS + 1];
     bool is_new;                /* outputs must be computed */
+    bool returns_early;         /* the importer allows steps to end at events */
+    int event;                  /* index of the one that ended the last step; -1: none */
+    int ends[EVENTS + 1];       /* events that end a step: those that end the simulation, or all */
+    zd_events events;
     char message[500];
     void *environment;
     void (*log)(struct fmu *self, int status);
@@ -45,12 +49,33 @@ static int fmu_pass_inputs(fmu *self)
     return FMU_OK;
 }
 
+/* Not called: the core evaluates all events of a unit. */
+static int fmu_evaluate_event(void *data, int event, double t, const double *p, const double *v, const double *x, double *value)
+{
+    return (void)data, (void)event, (void)t, (void)p, (void)v, (void)x, (void)value, 1;
+}
+
+static int fmu_pass_event(void *data, int event, double t, const double *p, const double *v)
+{
+    return (void)data, (void)event, (void)t, (void)p, (void)v, 0;
+}
+
+static void fmu_watch(fmu *self)
+{
+    for (int i = 0; i < EVENTS; i++) self->ends[i] = self->returns_early || event_is_terminal[i];
+    self->events = (zd_events){
+        .count = EVENTS, .direction = event_direction, .terminal = self->ends, .known = event_table, .evaluate = fmu_evaluate_event,
+        .found = fmu_pass_event};
+    if (EVENTS) zd_opened_watch(self->opened, &self->events);
+}
+
 static int fmu_begin(fmu *self)
 {
     zd_opened_free(self->opened);
     self->opened = zd_opened_create(block_words, sizeof block_words, self->start, self->message, sizeof self->message);
     self->is_new = true;
     if (!self->opened) return fmu_refuse(self, NULL);
+    fmu_watch(self);
     if (zd_opened_begin(self->opened, self->start)) return fmu_refuse(self, zd_opened_message(self->opened));
     for (int i = 0; i < INPUTS; i++) self->inputs[i] = zd_block_input(zd_opened_block(self->opened), i);
     return FMU_OK;
@@ -81,11 +106,14 @@ static int fmu_initialize(fmu *self)
     return zd_opened_begin(self->opened, self->start) ? fmu_refuse(self, zd_opened_message(self->opened)) : FMU_OK;
 }
 
+/* Steps to t + size, or to an event that ends a step. */
 static int fmu_step(fmu *self, double t, double size)
 {
     if (fmu_pass_inputs(self)) return FMU_ERROR;
     self->is_new = true;
-    return zd_opened_advance(self->opened, t + size) ? fmu_refuse(self, zd_opened_message(self->opened)) : FMU_OK;
+    const int status = zd_opened_advance(self->opened, t + size);
+    self->event = status == ZD_EVENT ? zd_run_ended_by(zd_opened_run(self->opened)) : -1;
+    return status && status != ZD_EVENT ? fmu_refuse(self, zd_opened_message(self->opened)) : FMU_OK;
 }
 
 static int fmu_get(fmu *self, const uint32_t *reference, size_t count, double *value)

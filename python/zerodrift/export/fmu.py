@@ -18,6 +18,7 @@ from .._writing import write_whole
 from .block import Chosen, choose, written
 from .c_source import core_of, data
 from .core_files import CoreFiles
+from .fmu_events import Level, chosen_events, table
 from .fmu_libraries import chosen_platforms, libraries
 
 VERSIONS = ("3.0", "2.0")
@@ -38,8 +39,8 @@ class Scalar(NamedTuple):
 
 
 def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (), outputs: Sequence[Any] = (),
-        version: str = "3.0", platforms: Sequence[str] | None = None, p0: Any = None, v0: Any = None, t0: float = 0.0,
-        **chosen: Any) -> Path:
+        events: Any = None, version: str = "3.0", platforms: Sequence[str] | None = None, p0: Any = None, v0: Any = None,
+        t0: float = 0.0, **chosen: Any) -> Path:
     """Write a mechanism as a functional mock-up unit (FMU) for co-simulation, as Simulink, Dymola and FMPy import it.
 
     The file has the mechanism as a block of data (see `block`), the core's sources, and a library for this platform, which the C
@@ -59,6 +60,10 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
         their initial values. Forces are constant within a step of the importer; speeds are followed linearly over one step.
     outputs : list of measures or names
         Measures to read, vectors component by component: ``"pin.force[1]"``.
+    events : Event or measure, or a list of these, optional
+        Measures, coordinates or velocities that reach a value. Where the importer allows it (``earlyReturnAllowed``), a step
+        returns early at each of them, with its instant as ``lastSuccessfulTime``. A terminal one requests the end of the
+        simulation, in FMI 2.0 by ``fmi2Discard``, in FMI 3.0 at the end of the step if this may not return early.
     version : {"3.0", "2.0"}
         Version of the FMI standard.
     platforms : list of str, optional
@@ -96,23 +101,29 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
     _check.choice("version", version, VERSIONS)
     names = None if platforms is None else chosen_platforms(platforms, version)
     made = choose(system, p0, v0, t0, _check.number("step", step, above=0, code="step-size"), list(outputs), inputs, chosen)
+    watched = chosen_events(events, made.system, version)
+    made = made._replace(watched=tuple(each.measure for each in watched if each.measure))
     path = Path(path)
     path = path if path.suffix == ".fmu" else path.with_name(path.name + ".fmu")
     identifier = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
     identifier = identifier if identifier[:1].isalpha() else f"m_{identifier}"
-    content = _packed(made, identifier, version, names)
+    content = _packed(made, identifier, version, names, watched)
     write_whole(path, lambda file: file.write(content))
     return path
 
 
-def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str] | None) -> bytes:
+def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str] | None,
+            events: Sequence[Level]) -> bytes:
     """The zip file."""
     scalars = _scalars(made)
-    token = "{" + hashlib.sha256(written(made) + version.encode() + _gateway.FINGERPRINT.encode()).hexdigest()[:32] + "}"
+    events_table = table(events, made)
+    parts = (written(made), events_table.encode(), version.encode(), _gateway.FINGERPRINT.encode())
+    token = "{" + hashlib.sha256(b"".join(parts)).hexdigest()[:32] + "}"
     files = core_of(made, OPENED)
     own = {f"fmi{version[0]}.c": _text(f"fmi{version[0]}.c"), "fmu.h": _text("fmu.h"),
-           "data.h": f'#define TOKEN "{token}"\n{data(made)}'}
-    description = (_description3 if version == "3.0" else _description2)(made, identifier, token, scalars, files)
+           "data.h": f'#define TOKEN "{token}"\n{data(made)}{events_table}'}
+    description = (_description3(made, identifier, token, scalars, bool(events)) if version == "3.0" else
+                   _description2(made, identifier, token, scalars, files))
     binaries = libraries(files, own, version, platforms)
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -181,15 +192,16 @@ def _experiment(made: Chosen) -> str:
     return f'  <DefaultExperiment startTime="{made.core_settings.t0!r}" stepSize="{made.core_settings.step!r}"/>\n'
 
 
-def _description3(made: Chosen, identifier: str, token: str, scalars: Sequence[Scalar], files: CoreFiles) -> str:
+def _description3(made: Chosen, identifier: str, token: str, scalars: Sequence[Scalar], has_events: bool) -> str:
     variables = "".join(
         f'    <Float64 name={_quoted(each.name)} valueReference="{each.reference}" causality="{each.causality}" '
         f'variability="continuous"{_unit(each)}{_start(each)}/>\n' for each in scalars)
     outputs = [each.reference for each in scalars if each.causality == "output"]
     structure = "".join(f'    <{kind} valueReference="{reference}"/>\n' for kind in ("Output", "InitialUnknown")
                         for reference in outputs)
+    early = ' mightReturnEarlyFromDoStep="true"' if has_events else ""
     return (f"""{_heading(made, "3.0", f"instantiationToken={quoteattr(token)}")}  <CoSimulation modelIdentifier="{identifier}"\
- canHandleVariableCommunicationStepSize="true" canGetAndSetFMUState="true" canSerializeFMUState="true"/>
+ canHandleVariableCommunicationStepSize="true" canGetAndSetFMUState="true" canSerializeFMUState="true"{early}/>
 {_units(scalars)}{_experiment(made)}  <ModelVariables>
     <Float64 name="time" valueReference="0" causality="independent" variability="continuous" unit="s"/>
 {variables}  </ModelVariables>
