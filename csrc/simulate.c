@@ -1,4 +1,6 @@
 /* The outer loop of a run: one step, events within it, samples that are due; again until the end. */
+#include <math.h>
+
 #include "run/explain.h"
 #include "run/goal.h"
 #include "run/inputs.h"
@@ -47,12 +49,24 @@ static int begin(zd_run *run, zd_record *record)
     return save(run, record);
 }
 
+/* A step that ends where a speed has followed its input, if that comes first. */
+static int take_step_within_ramp(zd_run *run)
+{
+    const double end = run->loop.end;
+    run->loop.end = fmin(end, zd_inputs_next_end(run));
+    const int status = take_step(run);
+    if (!run->watch.ended) run->loop.end = end;
+    return status;
+}
+
 /* One step with what precedes it. An open run can go on after a step that failed: it returns to the start of that step. */
 static int go_on(zd_run *run)
 {
     if (run->settings.is_open) zd_run_keep_good(run);
-    int status = run->settings.inputs ? zd_inputs_begin_step(run) : ZD_DONE;
-    return status ? status : take_step(run);
+    const zd_inputs *inputs = run->settings.inputs;
+    int status = inputs ? zd_inputs_begin_step(run) : ZD_DONE;
+    if (status) return status;
+    return inputs && inputs->ramp > 0 ? take_step_within_ramp(run) : take_step(run);
 }
 
 /* Explains why the run ends, or why an open run stops before its goal. */

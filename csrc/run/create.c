@@ -92,7 +92,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     run->output = zd_output_take(arena, settings, &run->loop, &run->recorder);
     run->watch = zd_watch_take(arena, settings->events, &run->output);
     run->goal.step = INT64_MAX;
-    run->held = zd_inputs_take(arena, settings->inputs);
+    run->held = zd_inputs_take(arena, settings->inputs, motion);
     if (settings->is_open) run->goal.good = zd_state_take(arena, motion);
     return here;
 }

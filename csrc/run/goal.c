@@ -8,6 +8,7 @@
 #include "../constraints/rank.h"
 #include "../paths/choose.h"
 #include "../paths/variables.h"
+#include "inputs.h"
 
 static int is_fixed(const zd_run *run) { return run->settings.steps == ZD_FIXED_STEPS; }
 
@@ -76,6 +77,7 @@ int zd_run_return_to_good(zd_run *run)
     run->output.is_away = run->output.is_spread = run->output.is_short = run->watch.failed = 0;
     motion->point->known = 0;
     motion->point->rank->was_deficient = motion->point->rank->was_doubtful = 0;
+    zd_inputs_return(run);
     int status = zd_variables_use_chosen(&run->stepper);
     if (!status) status = zd_stepper_return_to(&run->stepper, &run->goal.good);
     return status ? status : zd_safeguards_begin(&run->safeguards, loop->step + 1);

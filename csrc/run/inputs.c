@@ -1,4 +1,5 @@
-/* Inputs are constant within a step, except speeds: these follow an input linearly over one step, so that velocities do not jump. A change
+/* Inputs are constant within a step, except speeds: these follow an input linearly, so that velocities do not jump: over one fixed step, or
+ * over a given time in which steps are adaptive, and which ends with one of them. Or they jump, see jump.c. A change
  * makes what is known at the start of the step invalid; without a change nothing is done, and the bits are those of a run without inputs.
  * Reactions and accelerations that user functions read are inputs, too, which are read from the accepted state before each step.
  */
@@ -9,15 +10,43 @@
 
 #include "../constraints/rank.h"
 
-zd_held_inputs zd_inputs_take(zd_arena *arena, const zd_inputs *inputs)
+static size_t count_speeds(const zd_inputs *inputs)
+{
+    size_t count = 0;
+    for (int k = 0; inputs && k < inputs->places; k++) count += inputs->place[k].is_speed != 0;
+    return count;
+}
+
+int zd_inputs_have_speeds(const zd_inputs *inputs) { return count_speeds(inputs) > 0; }
+
+static void keep_speeds(const zd_inputs *inputs, double *to)
+{
+    for (int k = 0; inputs && k < inputs->places; k++)
+        if (inputs->place[k].is_speed) memcpy(to, inputs->place[k].place, 3 * sizeof *to), to += 3;
+}
+
+static void take_jump(zd_held_inputs *held, zd_arena *arena, const zd_motion *motion)
+{
+    const size_t m = (size_t)zd_constraints(&motion->system);
+    held->jump.impulses = zd_take_doubles(arena, m);
+    held->jump.works = zd_take_doubles(arena, m);
+    held->start = zd_state_take(arena, motion);
+    held->rhs = zd_take_doubles(arena, m);
+    held->x = zd_take_doubles(arena, (size_t)motion->system.nv);
+}
+
+zd_held_inputs zd_inputs_take(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion)
 {
     const size_t count = inputs ? (size_t)inputs->count : 0, measures = inputs ? (size_t)inputs->measures : 0;
-    zd_held_inputs held = {.value = zd_take_doubles(arena, count + measures)};
+    zd_held_inputs held = {.value = zd_take_doubles(arena, count + measures), .has_changed = zd_take(arena, count)};
+    held.before.place = zd_take_doubles(arena, 3 * count_speeds(inputs));
+    if (inputs && inputs->jumps) take_jump(&held, arena, motion);
     if (measures) {
         held.measured = zd_take_doubles(arena, (size_t)zd_largest_measure(inputs->of->measures));
         held.scratch = zd_take_doubles(arena, (size_t)inputs->of->measures->scratch);
     }
     if (held.value && count) memcpy(held.value, inputs->value, count * sizeof(double));
+    if (held.before.place) keep_speeds(inputs, held.before.place);
     return held;
 }
 
@@ -37,7 +66,12 @@ static void set_speed(double *place, double t, double speed, double h)
     place[2] = t;
 }
 
-/* Writes the inputs to their places. */
+static void derive(const zd_inputs *inputs)
+{
+    for (int i = 0; i < inputs->derivations; i++) inputs->derive[i](inputs->data[i]);
+}
+
+/* Writes the inputs to their places; speeds follow them over a time h, or jump to them if it is 0. */
 static void write(const zd_run *run, double h)
 {
     const zd_inputs *inputs = run->settings.inputs;
@@ -46,7 +80,7 @@ static void write(const zd_run *run, double h)
         if (place->is_speed) set_speed(place->place, run->stepper.t, value, h);
         else *place->place = value;
     }
-    for (int i = 0; i < inputs->derivations; i++) inputs->derive[i](inputs->data[i]);
+    derive(inputs);
 }
 
 /* Recomputes what is known at the present point and depends on inputs. */
@@ -62,13 +96,6 @@ static int renew(zd_run *run)
     return status;
 }
 
-static int has_speeds(const zd_inputs *inputs)
-{
-    for (int k = 0; k < inputs->places; k++)
-        if (inputs->place[k].is_speed) return 1;
-    return 0;
-}
-
 int zd_inputs_read(zd_run *run)
 {
     const zd_inputs *inputs = run->settings.inputs;
@@ -76,8 +103,10 @@ int zd_inputs_read(zd_run *run)
     const size_t bytes = (size_t)inputs->count * sizeof(double);
     if (!memcmp(run->held.value, inputs->value, bytes)) return ZD_DONE;
     if (is_refused(inputs)) return ZD_BAD_INPUT;
+    if (!run->held.is_new) memset(run->held.has_changed, 0, (size_t)inputs->count);
+    for (int i = 0; i < inputs->count; i++) run->held.has_changed[i] |= run->held.value[i] != inputs->value[i];
     memcpy(run->held.value, inputs->value, bytes);
-    run->held.has_ramp = has_speeds(inputs);
+    run->held.has_ramp = zd_inputs_have_speeds(inputs) && !inputs->jumps && !inputs->ramp;
     run->held.is_new = 1;
     return ZD_DONE;
 }
@@ -111,15 +140,98 @@ static int read_measures(zd_run *run, int *have_changed)
     return ZD_DONE;
 }
 
+/* ---- speeds over several steps ---- */
+
+static int is_followed(const zd_input_place *place) { return place->is_speed && place->place[1] != 0; }
+
+/* s: end of the ramp of a speed */
+static double end_of(const zd_inputs *inputs, const zd_input_place *place) { return place->place[2] + inputs->ramp; }
+
+double zd_inputs_next_end(const zd_run *run)
+{
+    const zd_inputs *inputs = run->settings.inputs;
+    double end = INFINITY;
+    for (const zd_input_place *place = inputs->place; place < inputs->place + inputs->places; place++)
+        if (is_followed(place)) end = fmin(end, end_of(inputs, place));
+    return end;
+}
+
+/* Ends ramps at this time, and begins those of inputs that changed. Returns true if anything is written. */
+static int follow(const zd_run *run)
+{
+    const zd_inputs *inputs = run->settings.inputs;
+    const double t = run->stepper.t;
+    int is_written = 0;
+    for (const zd_input_place *place = inputs->place; place < inputs->place + inputs->places; place++) {
+        const int begins = run->held.is_new && run->held.has_changed[place->input], ends = is_followed(place) && t >= end_of(inputs, place);
+        const double value = run->held.value[place->input];
+        if (!place->is_speed) *place->place = value;
+        else if (begins || ends) set_speed(place->place, t, value, begins ? inputs->ramp : 0);
+        is_written |= ends;
+    }
+    derive(inputs);
+    return is_written || run->held.is_new;
+}
+
+/* ---- a step ---- */
+
+static void keep(zd_run *run)
+{
+    zd_held_inputs *held = &run->held;
+    keep_speeds(run->settings.inputs, held->before.place);
+    held->before.is_new = held->is_new;
+    held->before.has_ramp = held->has_ramp;
+    held->before.jumps = held->jump.count;
+}
+
+void zd_inputs_return(zd_run *run)
+{
+    const zd_inputs *inputs = run->settings.inputs;
+    zd_held_inputs *held = &run->held;
+    const double *from = held->before.place;
+    if (!zd_inputs_have_speeds(inputs)) return;
+    for (int k = 0; k < inputs->places; k++)
+        if (inputs->place[k].is_speed) memcpy(inputs->place[k].place, from, 3 * sizeof *from), from += 3;
+    held->is_new = held->before.is_new;
+    held->has_ramp = held->before.has_ramp;
+    held->jump.count = held->before.jumps;
+    derive(inputs);
+}
+
+static int speeds_have_changed(const zd_run *run)
+{
+    const zd_inputs *inputs = run->settings.inputs;
+    for (int k = 0; k < inputs->places; k++)
+        if (inputs->place[k].is_speed && run->held.has_changed[inputs->place[k].input]) return 1;
+    return 0;
+}
+
+/* Writes what is new at the start of a step, and makes the jump of speeds, if any. */
+static int begin(zd_run *run)
+{
+    const zd_inputs *inputs = run->settings.inputs;
+    zd_held_inputs *held = &run->held;
+    const int jumps = inputs->jumps && held->is_new && speeds_have_changed(run);
+    int status = jumps ? zd_jump_begin(run) : ZD_DONE;
+    if (status) return status;
+    write(run, held->is_new && !inputs->jumps ? run->settings.step : 0);
+    if (!held->is_new) held->has_ramp = 0;
+    held->is_new = 0;
+    return jumps ? zd_jump_end(run) : renew(run);
+}
+
 int zd_inputs_begin_step(zd_run *run)
 {
+    const zd_inputs *inputs = run->settings.inputs;
     zd_held_inputs *held = &run->held;
     int have_changed = 0;
     const int status = read_measures(run, &have_changed);
     if (status) return status;
-    if (!held->is_new && !held->has_ramp && !have_changed) return ZD_DONE;
-    write(run, held->is_new ? run->settings.step : 0);
-    if (!held->is_new) held->has_ramp = 0;
-    held->is_new = 0;
-    return renew(run);
+    keep(run);
+    if (inputs->ramp > 0 && !inputs->jumps) {
+        if (!follow(run) && !have_changed) return ZD_DONE;
+        held->is_new = 0;
+        return renew(run);
+    }
+    return held->is_new || held->has_ramp || have_changed ? begin(run) : ZD_DONE;
 }

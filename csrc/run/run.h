@@ -24,8 +24,19 @@ typedef struct zd_goal {    /* end of the present advance of an open run */
     double good_h;          /* s: adaptive steps: size of the next step there */
 } zd_goal;
 
+typedef struct zd_speeds_before {   /* speeds at the start of the step, to which a failed one returns */
+    double *place;          /* (places, 3) */
+    int is_new, has_ramp;
+    int64_t jumps;
+} zd_speeds_before;
+
 typedef struct zd_held_inputs {     /* inputs of the settings, as the present step has them */
     double *value;          /* (count + measures,) */
+    unsigned char *has_changed;     /* (count,): 1 for inputs that changed since the last step */
+    zd_speeds_before before;
+    zd_jump jump;           /* the last one; open for runs whose speeds jump only */
+    zd_state start;         /* state at which it is made */
+    double *rhs, *x;        /* (m,), (nv,): Psi, and the change of velocities */
     double *measured, *scratch;     /* a measure; scratch memory of the measures */
     int64_t measured_step;  /* number of steps made when the measures were read, + 1 */
     int is_new;             /* true if they changed since the last step */
@@ -48,5 +59,13 @@ struct zd_run {
     zd_goal goal;
     zd_held_inputs held;
 };
+
+/* jump.c: a jump of speeds, before and after the new ones are written; the second function moves the velocities. */
+int zd_jump_begin(zd_run *run);
+int zd_jump_end(zd_run *run);
+/* Sets each speed that is an input to the number which the velocities at the point fit. Psi (m,) is overwritten. */
+int zd_speeds_fit(zd_run *run, double *Psi);
+/* The sentence on the speed that differs most from its input after that. */
+void zd_speeds_say(const zd_run *run, char *to, size_t size);
 
 #endif

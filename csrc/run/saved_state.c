@@ -108,6 +108,7 @@ static uint64_t hash_settings(const zd_settings *settings)
         settings->atol, settings->first_step, settings->max_step, settings->max_move, (double)settings->max_steps,
         (double)settings->save_every, (double)settings->t_evals, settings->on_singular, settings->direct, settings->given_jacobian,
         settings->is_open, settings->events ? settings->events->count : -1, settings->outputs ? settings->outputs->count : -1,
+        settings->inputs ? settings->inputs->jumps : 0, settings->inputs ? settings->inputs->ramp : 0,
     };
     uint64_t found = hash(UINT64_C(0xcbf29ce484222325), numbers, sizeof numbers);
     found = hash_given(hash_given(found, &settings->of_formulation), &settings->of_integrator);

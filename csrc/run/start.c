@@ -17,6 +17,7 @@
 #include "../point/units.h"
 #include "../registry.h"
 #include "../step/adaptive.h"
+#include "inputs.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start relative to sizes, if the corrections' own is tighter */
 static const double CONSTRAINT_ROUNDING = 0x1p-46;  /* rounding of Phi relative to the largest size: tens of roundings of its terms */
@@ -84,6 +85,24 @@ static int check_constraints(zd_run *run, double *Psi)
              "zd.assemble finds a consistent start nearby", position.size, velocity.size, allowed,
              zd_name_row(system, position.size > allowed ? position.row : velocity.row, row));
     return ZD_BAD_START;
+}
+
+/* The same with speeds of inputs that fit the velocities of the start: they jump to their inputs in the first step, or are reported. */
+static int check_fitting_speeds(zd_run *run, double *Psi)
+{
+    int status = zd_speeds_fit(run, Psi);
+    if (!status) status = check_constraints(run, Psi);
+    if (status) return status;
+    run->outcome.message[0] = '\0';
+    if (run->settings.inputs->jumps) return ZD_DONE;
+    zd_speeds_say(run, run->outcome.message, sizeof run->outcome.message);
+    return ZD_BAD_START;
+}
+
+static int check_state(zd_run *run, double *Psi)
+{
+    const int status = check_constraints(run, Psi);
+    return status == ZD_BAD_START && zd_inputs_have_speeds(run->settings.inputs) ? check_fitting_speeds(run, Psi) : status;
 }
 
 /* Checks that the tolerance of positions is above the rounding of Phi that follows from the rounding of p. */
@@ -213,7 +232,7 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
 {
     zd_motion *motion = &run->motion;
     int status = !zd_suits(&motion->system, run->settings.integrator) ? ZD_UNSUITED_INTEGRATOR
-               : zd_point_is_finite(motion->point) ? check_constraints(run, work->Psi) : ZD_NOT_FINITE;
+               : zd_point_is_finite(motion->point) ? check_state(run, work->Psi) : ZD_NOT_FINITE;
     if (!status) status = check_quaternions(run);
     if (!status) status = check_mass(run, work->factor);
     if (!status) status = zd_consistency_jacobian(&run->safeguards.consistency, 0);

@@ -52,7 +52,7 @@ typedef struct zd_outputs {
 typedef struct zd_input_place {
     int input;                  /* index of the input that is written there */
     int is_speed;               /* false: place[0] is the input. True: the speed is place[0] + place[1] (t - place[2]); it follows the
-                                 * input linearly over one step of fixed size */
+                                 * input linearly, see zd_inputs.ramp, or jumps to it */
     double *place;              /* in the data of the system, which belongs to this run */
 } zd_input_place;
 
@@ -65,6 +65,9 @@ typedef struct zd_inputs {
     int count;
     const double *value;        /* (count,): read at the start of each advance; the places hold the initial ones already */
     const double *lower, *upper;    /* (count,): limits */
+    const char *const *name;    /* (count,): for messages on speeds; NULL: their indices are given there */
+    int jumps;                  /* true: speeds jump to their inputs, by an impulse, see zd_run_jump() */
+    double ramp;                /* s, adaptive steps: time over which a speed follows its input; fixed steps: it is one step */
     int places;
     const zd_input_place *place;    /* (places,) */
     int derivations;            /* functions that recompute what the system derives from its data */

@@ -37,7 +37,7 @@ from .base import (
     required,
 )
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
-from .inputs import Inputs
+from .inputs import Following, Inputs
 from .known_events import KnownEvent
 from .measures import Outputs
 from .packed_layout import CONSTANT, DIAGONAL, PACKED, Packing
@@ -97,6 +97,7 @@ __all__ = [
     "WARNING_LIMITS",
     "Card",
     "CoreSystem",
+    "Following",
     "Function",
     "InLibrary",
     "Inputs",

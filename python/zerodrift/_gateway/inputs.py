@@ -31,6 +31,13 @@ class Bound(NamedTuple):
     keep: Any
 
 
+class Following(NamedTuple):
+    """Way in which speeds reach their inputs: by jumps, or over a time in s; 0: over one fixed step."""
+
+    jumps: bool = False
+    ramp: float = 0.0
+
+
 class Inputs:
     """Inputs of one run.
 
@@ -45,6 +52,8 @@ class Inputs:
     reactions : dict of str to (int, int), optional
         Measures of the last system in `bound`, and their components, that the core reads of each accepted state and writes to the
         places of their names.
+    follows : Following
+        Way in which speeds reach their inputs.
 
     Attributes
     ----------
@@ -54,7 +63,7 @@ class Inputs:
 
     def __init__(self, names: Sequence[str], initial: np.ndarray, lower: np.ndarray, upper: np.ndarray,
                  bound: Iterable[Bound], values: np.ndarray | None = None,
-                 reactions: Mapping[str, tuple[int, int]] | None = None) -> None:
+                 reactions: Mapping[str, tuple[int, int]] | None = None, follows: Following | None = None) -> None:
         self.names, self.lower, self.upper = tuple(names), lower, upper
         self.values = initial.copy() if values is None else values
         self._bound = tuple(bound)
@@ -67,11 +76,15 @@ class Inputs:
         functions = ffi.new("void (*[])(double *)", [ffi.cast("void (*)(double *)", address) for address, _ in derivations])
         data = ffi.new("double *[]", [each for _, each in derivations])
         k = len(names)
-        self._memory = rows, functions, data, measures, places
+        follows = follows or Following()
+        texts = [ffi.new("char[]", name.encode()) for name in names]
+        listed = ffi.new("const char *[]", texts)
+        self._memory = rows, functions, data, measures, texts, listed, places
         self.c = ffi.new("zd_inputs *", {
             "count": k, "value": doubles(self.values, k), "lower": doubles(lower, k), "upper": doubles(upper, k),
             "places": len(places), "place": rows, "derivations": len(derivations), "derive": functions, "data": data,
-            "measures": len(held), "measure": measures, "of": self._bound[-1].core.c if held else ffi.NULL})
+            "name": listed, "jumps": follows.jumps, "ramp": follows.ramp, "measures": len(held), "measure": measures,
+            "of": self._bound[-1].core.c if held else ffi.NULL})
 
     @property
     def at_places(self) -> np.ndarray:

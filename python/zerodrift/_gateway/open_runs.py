@@ -68,6 +68,16 @@ class OpenRun(Run):
         """Index of the terminal event at which it stopped."""
         return lib.zd_run_ended_by(self.c)
 
+    @property
+    def jumps(self) -> int:
+        """Number of jumps of speeds."""
+        return lib.zd_run_jump(self.c).count
+
+    def jump(self) -> tuple[float, np.ndarray, np.ndarray]:
+        """The last one: its time, impulses (m,) with the sign of (7), and their works (m,) in J."""
+        last, m = lib.zd_run_jump(self.c), self.sizes[2]
+        return last.t, *(np.array(ffi.unpack(each, m)) for each in (last.impulses, last.works))
+
     def accelerations(self) -> tuple[np.ndarray, np.ndarray]:
         """Accelerations (nv,) and multipliers (m,) at the present state."""
         _, nv, m = self.sizes

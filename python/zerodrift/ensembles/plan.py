@@ -21,7 +21,7 @@ from ..systems.base import BaseSystem, core_of
 from .runs import NoSystem, Runs, named
 
 # Arguments of `simulate` that are not options of an ensemble.
-OWN = ("system", "t_span", "p0", "v0", "outputs", "inputs", "control", "progress", "on_failure", "save_to")
+OWN = ("system", "t_span", "p0", "v0", "outputs", "inputs", "hold", "ramp", "control", "progress", "on_failure", "save_to")
 OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simulate).parameters.items() if name not in OWN}
 
 

@@ -20,6 +20,7 @@ class Declared(NamedTuple):
     lower: np.ndarray       # (k,) limits
     upper: np.ndarray
     of: WithInputs          # the system that has them
+    follows: _gateway.Following     # way in which speeds reach their inputs
 
     def bound(self, *cores: Any, values: np.ndarray | None = None) -> tuple[_gateway.Inputs, list[Any]]:
         """Inputs of one run, in given memory, and its own systems in the place of these; None stays."""
@@ -28,16 +29,50 @@ class Declared(NamedTuple):
         if values is not None:
             values[:] = self.of.initial
         inputs = _gateway.Inputs(self.names, np.array(self.of.initial), self.lower, self.upper, [each for each in found if each],
-                                 values, {name: (place.number, place.component or 0) for name, place in held.items()})
+                                 values, {name: (place.number, place.component or 0) for name, place in held.items()},
+                                 self.follows)
         return inputs, [each and each.core for each in found]
 
 
-def declared(given: Any, system: BaseSystem) -> Declared | None:
+class Speeds(NamedTuple):
+    """Arguments on inputs that are speeds."""
+
+    hold: Any = False
+    ramp: Any = None
+
+    def settings(self) -> dict[str, Any]:
+        """Arguments that differ from the default, by name."""
+        return {name: value for name, value in self._asdict().items() if value not in (None, False)}
+
+
+FOLLOWED = Speeds()
+
+
+def following(speeds: Speeds, names: Sequence[str], step: float | None) -> _gateway.Following:
+    """Check the arguments `hold` and `ramp` of a run with inputs of these names."""
+    jumps = _check.instance("hold", speeds.hold, bool, "True or False")
+    ramp = None if speeds.ramp is None else _check.number("ramp", speeds.ramp, above=0)
+    first = next((name for name in names if name.endswith(".speed")), None)
+    if first is None:
+        if jumps or ramp is not None:
+            raise WrongValue("hold and ramp must be left out if no input is a speed", "conflicting-arguments")
+        return _gateway.Following()
+    if ramp is not None and (jumps or step is not None):
+        raise WrongValue("ramp must be left out with hold=True, by which a speed jumps, and with fixed steps, over one of which "
+                         "it is followed", "conflicting-arguments")
+    if step is None and ramp is None and not jumps:
+        raise WrongValue(f"input {first!r} must be followed over a given time in adaptive steps, ramp=, or over one fixed step, "
+                         "step=, or jump, hold=True", "step-size")
+    return _gateway.Following(jumps, ramp or 0.0)
+
+
+def declared(given: Any, system: BaseSystem, speeds: Speeds, step: float | None) -> Declared | None:
     """Check the argument `inputs`: None, names, or a dict of names to limits (lower, upper), None for no limits.
 
     A system whose user functions read reactions has inputs, perhaps none by name: the core sets these.
     """
     if given is None and not system._held_reactions():
+        following(speeds, (), step)
         return None
     limits = {} if given is None else given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
     names = tuple(map(_name, limits))
@@ -45,7 +80,7 @@ def declared(given: Any, system: BaseSystem) -> Declared | None:
         raise WrongValue("inputs must name at least one input", "missing-argument")
     bounds = np.array([_limits(name, each) for name, each in zip(names, limits.values(), strict=True)]).reshape(-1, 2)
     lower, upper = (np.ascontiguousarray(column) for column in bounds.T)
-    return Declared(names, lower, upper, system._with_inputs(names))
+    return Declared(names, lower, upper, system._with_inputs(names), following(speeds, names, step))
 
 
 def _names(given: Any) -> Sequence[Any]:
@@ -75,11 +110,48 @@ def _limits(name: str, given: Any) -> tuple[float, float]:
     return float(bounds[0]), float(bounds[1])
 
 
+class Jump(NamedTuple):
+    """Impulses of motors whose speeds are inputs, when these or some of them jump.
+
+    Attributes
+    ----------
+    t : float
+        s
+    impulses : dict of str to float
+        Of each motor, in N m s or N s, with the sign of its torque or force.
+    works : dict of str to float
+        Of each motor, in J: the impulse times the mean of its speeds before and after.
+    work : float
+        J: of all motors, also of those whose speeds are not inputs: the change of the kinetic energy.
+    """
+
+    t: float
+    impulses: dict[str, float]
+    works: dict[str, float]
+    work: float
+
+
+class Drives:
+    """Motors with speeds that jump."""
+
+    def __init__(self, declared: Declared) -> None:
+        names = [name.removesuffix(".speed") for name in declared.names if name.endswith(".speed")]
+        constraints = [constraint.name for constraint in declared.of.system.constraints]
+        self._rows = {name: constraints.index(name) for name in names}
+
+    def jump(self, t: float, impulses: np.ndarray, works: np.ndarray) -> Jump:
+        """The jump with these impulses (m,) and works (m,) of all constraints."""
+        rows = self._rows.items()
+        return Jump(t, {name: float(-impulses[row]) for name, row in rows}, {name: float(works[row]) for name, row in rows},
+                    float(works.sum()))
+
+
 class History:
-    """Values of inputs over time, for a record: each from the time at which it was set."""
+    """Values of inputs over time, for a record: each from the time at which it was set; and jumps of speeds."""
 
     def __init__(self, t: float, values: np.ndarray) -> None:
         self._t, self._values = [t], [values.copy()]
+        self.jumps: list[Jump] = []
 
     def note(self, t: float, values: np.ndarray) -> None:
         """Note the values with which the run advances from t."""
@@ -92,7 +164,19 @@ class History:
 
     def columns(self, names: Sequence[str], t: np.ndarray) -> dict[str, np.ndarray]:
         """Values (len(t),) of each input by name."""
-        return {name: np.ascontiguousarray(values) for name, values in zip(names, self.at(t).T, strict=True)}
+        values = {name: np.ascontiguousarray(values) for name, values in zip(names, self.at(t).T, strict=True)}
+        return values | self._columns_of_jumps(t)
+
+    def _columns_of_jumps(self, t: np.ndarray) -> dict[str, np.ndarray]:
+        """Sums (len(t),) of impulses and works since the sample before."""
+        columns: dict[str, np.ndarray] = {}
+        for jump in self.jumps:
+            sample = np.searchsorted(t, jump.t, side="right")
+            for what, values in (("impulse", jump.impulses), ("impulse_work", jump.works)):
+                for name, value in values.items():
+                    column = columns.setdefault(f"{name}.{what}", np.zeros(len(t)))
+                    column[sample:sample + 1] += value
+        return columns
 
     def at(self, t: np.ndarray) -> np.ndarray:
         """Values (len(t), k) in the steps that led to these times."""

@@ -12,7 +12,7 @@ import numpy as np
 from .. import _check, _gateway
 from ..errors import WrongName, WrongValue
 from ..systems.base import BaseSystem, direct_core_of
-from .inputs import declared as declared_inputs
+from .inputs import Speeds
 from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
 from .run_state import restored, saved, unpacked
@@ -41,7 +41,7 @@ class ManyRuns:
         Number of runs.
     parameters : dict of str to float or array_like (runs,), optional
         Parameters of the system in each run.
-    t0, step, inputs, **settings
+    t0, step, inputs, hold, ramp, **settings
         As of `Run`, except `events`, `outputs`, `control`, `record` and `save_to`, which are not available: a controller is a
         loop that sets ``runs[name]`` between calls of `step`.
 
@@ -82,17 +82,18 @@ class ManyRuns:
     """
 
     def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, runs: int, parameters: Any = None, t0: float = 0.0,
-                 step: float | None = None, inputs: Any = None, **settings: Any) -> None:
+                 step: float | None = None, inputs: Any = None, hold: bool = False, ramp: float | None = None,
+                 **settings: Any) -> None:
         t0, count = _check.number("t0", t0), _check.count("runs", runs)
         first = [_first(name, each, count) for name, each in (("p0", p0), ("v0", v0))]
         ready = prepared(system, nominal_span(t0, step), *first, None, None, None, {"step": step, **known_settings(settings)},
-                         inputs=inputs, is_open=True)
+                         inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
         if count >= FEWEST_IN_LANES:
             ready = _in_lanes(ready)
         self.system, self.settings = ready.system, ready.settings
         self.inputs = np.zeros((count, len(ready.declared.names) if ready.declared else 0))
         self._places = {name: i for i, name in enumerate(ready.declared.names)} if ready.declared else {}
-        self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), inputs, self.inputs)
+        self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), self.inputs)
         self._parts, self._pool = _parts(count, 1 if ready.core.calls_python else processors()), None
         self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready], self._parts)
         self._readings: dict[int, Reading] = {}
@@ -306,12 +307,12 @@ def _mask(where: Any, count: int) -> np.ndarray:
     return mask
 
 
-def _of_each(ready: Prepared, count: int, tables: list[dict[str, Any]], states: list[tuple[Any, Any]], inputs: Any,
+def _of_each(ready: Prepared, count: int, tables: list[dict[str, Any]], states: list[tuple[Any, Any]],
              values: np.ndarray) -> list[Prepared]:
     """Arguments of each run, with its own parameters, start and inputs."""
     found = []
     for i in range(count):
-        mine = _with_parameters(ready, tables[i], inputs) if tables[i] else ready._replace(core=ready.source,
+        mine = _with_parameters(ready, tables[i]) if tables[i] else ready._replace(core=ready.source,
                                                                                             measured=ready.source_measured)
         p, v = states[i]
         mine = mine._replace(p0=mine.p0 if p is None else p, v0=mine.v0 if v is None else v)
@@ -329,9 +330,9 @@ def _in_lanes(ready: Prepared) -> Prepared:
     return ready._replace(source=of._core_in_lanes(vector))
 
 
-def _with_parameters(ready: Prepared, parameters: dict[str, Any], inputs: Any) -> Prepared:
+def _with_parameters(ready: Prepared, parameters: dict[str, Any]) -> Prepared:
     system = ready.system.with_parameters(parameters)
-    declared = declared_inputs(inputs, system)
+    declared = ready.declared and ready.declared._replace(of=system._with_inputs(ready.declared.names))
     of = declared.of.system if declared else system
     core = direct_core_of(of, ready.settings["vector"] or "baseline", ready.core_settings)
     if ready.source.has_lanes:

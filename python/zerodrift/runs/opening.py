@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import CostWarning, SingularSystem, WrongType, WrongValue, advised
+from ..errors import CostWarning, SingularSystem, WrongType, advised
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from . import evaluation_path, recording, settings
 from . import events as _events
 from . import outputs as _outputs
-from .inputs import Declared
+from .inputs import FOLLOWED, Declared, Speeds
 from .inputs import declared as declared_inputs
 from .settings import ARGUMENTS_OF_PLAN
 from .start import start_of
@@ -64,21 +64,22 @@ class Prepared(NamedTuple):
 
 
 def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: Any, outputs: Any, save_to: Any,
-             arguments: dict[str, Any], *, inputs: Any = None, is_open: bool = False, stacklevel: int = 2) -> Prepared:
+             arguments: dict[str, Any], *, inputs: Any = None, speeds: Speeds = FOLLOWED, is_open: bool = False,
+             stacklevel: int = 2) -> Prepared:
     """Check the arguments of a run; `arguments` are those of `settings.plan` from `t_eval` on.
 
     `is_open`: the run has no end; `span` only serves the checks of its start.
     """
     system, p0, v0 = start_of(system, p0, v0, span[0])
     core_of(system)
-    declared = declared_inputs(inputs, system)
+    declared = declared_inputs(inputs, system, speeds, arguments["step"])
     of = declared.of.system if declared else system
     plan = settings.plan(of, span, **arguments)
     plan.core_settings.is_open = is_open
     core = direct_core_of(of, plan.settings["vector"], plan.core_settings)
     plan.settings["vector"] = evaluation_path.unit(core, plan.core_settings)
     if declared:
-        _check_speeds(declared, plan.settings["step"])
+        plan.settings.update(speeds.settings())
         if declared.names:
             plan.settings["inputs"] = list(declared.names)
     if outputs is not None:
@@ -106,13 +107,6 @@ def with_own(ready: Prepared, of: BaseSystem, values: np.ndarray | None = None) 
     if ready.events is not None:
         watcher = _gateway.Watcher(core, ready.events, measured, is_own=inputs is not None)
     return ready._replace(core=core, measured=measured, inputs=inputs, recorded=recorded, watcher=watcher)
-
-
-def _check_speeds(declared: Declared, step: float | None) -> None:
-    """Check that speeds are inputs with fixed steps only, over one of which they are followed."""
-    for name in declared.names:
-        if step is None and name.endswith(".speed"):
-            raise WrongValue(f"input {name!r} needs fixed steps, over one of which it is followed: give step=", "step-size")
 
 
 def nominal_span(t0: float, step: Any) -> tuple[float, float]:

@@ -15,7 +15,7 @@ from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
 from .ending import Outcome, finish_file, on_collapse, solution_of, with_solution
-from .inputs import History
+from .inputs import Drives, History, Jump, Speeds
 from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
 from .run_state import restored, saved, unpacked
@@ -43,7 +43,16 @@ class Run:
         motors, actuators and loads of a mechanism, such as "drive.torque"; declared symbols of `symbolic`; numbers among the
         parameters of a `System`, and entries of vectors, as "u[0]"; parameters of a `native` system. A dict has
         limits (lower, upper) of each, or None. They begin with the number that the system has. Forces are constant within a step,
-        and their work is part of the energy balance. A speed is followed linearly over one fixed step.
+        and their work is part of the energy balance. A speed is followed linearly, from the one before: over one fixed step, or
+        over the time `ramp` in adaptive steps.
+    hold : bool
+        True: speeds that are inputs are constant in a step, too, and jump at its start. A jump is an impulse: velocities are
+        projected onto the constraints with the new speeds, orthogonally in the mass metric, (25b). Its work is part of the
+        energy balance, and `jump` has both. A start whose velocities do not fit a speed jumps to it in the first step, too;
+        without `hold`, it is an error that names the number that fits.
+    ramp : float, optional
+        Adaptive steps: time in s over which a speed follows its input. The motion so does not depend on the sizes of steps, one
+        of which ends with it. An input that changes meanwhile is followed from the present speed on.
     control : Every, or list of these, optional
         Controllers, see `every`: each is called before the step that begins at one of its instants.
     record : bool
@@ -66,6 +75,10 @@ class Run:
         Settings by name.
     inputs : ndarray (k,)
         Inputs in the order of their names, in N m, N, m/s or rad/s; writable. They hold from the next step on.
+    jump : Jump or None
+        With `hold`: the last jump of speeds; its time `t`, the dicts `impulses` (N m s, N s) and `works` (J) by the names of
+        motors, and `work`, that of all motors (J). The samples are those before it. A recorded solution has the sums since the
+        sample before, by ``sol["drive.impulse"]`` and ``sol["drive.impulse_work"]``.
 
     Raises
     ------
@@ -88,8 +101,6 @@ class Run:
     Forces of a mechanism may read reactions of the last accepted state by name, see `Mechanism.motor`: with fixed steps as a
     controller that is called before each of them.
 
-    Not available: speeds as inputs with adaptive steps; and jumps of a speed within no time, as an impulse.
-
     Examples
     --------
     >>> import zerodrift as zd
@@ -111,6 +122,17 @@ class Run:
     >>> run.advance_to(1.0)
     >>> round(run["pin.speed"], 6)
     1.0
+
+    A motor whose speed jumps, for an arm with the moment of inertia 1 kg m^2:
+
+    >>> m = zd.Mechanism("arm")
+    >>> arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    >>> drive = m.motor("drive", m.revolute("pin", m.ground, arm.start), speed=2.0)
+    >>> run = zd.Run(m, step=0.001, inputs=["drive.speed"], hold=True)
+    >>> run["drive.speed"] = 5.0
+    >>> run.step()
+    >>> round(run.jump.impulses["drive"], 9), round(run.jump.work, 9)      # I dw, and I dw (w + dw / 2)
+    (3.0, 10.5)
     """
 
     def __new__(cls, *given: Any, runs: int | None = None, **named: Any) -> Any:
@@ -125,11 +147,12 @@ class Run:
         return ManyRuns(*given, runs=runs, **named)
 
     def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = None,
-                 inputs: Any = None, control: Any = None, record: bool = False, save_to: Any = None, events: Any = None,
-                 outputs: Any = None, **settings: Any) -> None:
+                 inputs: Any = None, hold: bool = False, ramp: float | None = None, control: Any = None, record: bool = False,
+                 save_to: Any = None, events: Any = None, outputs: Any = None, **settings: Any) -> None:
         t0 = _check.number("t0", t0)
         arguments = {"step": step, **known_settings(settings)}
-        ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to, arguments, inputs=inputs, is_open=True)
+        ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to, arguments, inputs=inputs,
+                         speeds=Speeds(hold, ramp), is_open=True)
         self._begin(ready, controls(control))
         self._lock = recording.locked(ready.path)
         self._lock.__enter__()
@@ -142,12 +165,15 @@ class Run:
         self._controllers = of
         self._sampling = Sampling(of, ready.span[0], ready.settings["step"]) if of else None
         self._record, self._c_record, self._history, self._seconds = None, _gateway.NO_RECORD, None, 0.0
+        self._drives = Drives(ready.declared) if ready.declared and ready.declared.follows.jumps else None
         self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
         self._places = {name: i for i, name in enumerate(ready.inputs.names)} if ready.inputs else {}
         self._open(ready.created(_gateway.OpenRun))
 
     def _open(self, core: _gateway.OpenRun) -> None:
         self._core, self._c = core, core.c
+        self.jump: Jump | None = None
+        self._jumps = core.jumps
         self._reading = Reading(self._of, core, self._ready.measured)
 
     @classmethod
@@ -216,7 +242,7 @@ class Run:
         """
         if self._sampling is not None:
             self._sample(self.steps + _check.count("steps", steps, least=0), math.inf)
-        elif self._record is not None:
+        elif self._record is not None or self._drives is not None:
             self._go(_check.count("steps", steps, least=0), math.inf)
         elif status := _gateway.STEP(self._c, steps, self._c_record):
             self._attend(status)
@@ -267,8 +293,18 @@ class Run:
         if self._history is not None:
             self._history.note(core.t, self.inputs)
         status = core.aim(steps, t) or core.advance(self._record, SLICE)
+        self._note_jump()
         self._attend(status)
         self._seconds += time.perf_counter() - begin
+
+    def _note_jump(self) -> None:
+        """Note the jump of speeds in the first step of the last advance, if there was one."""
+        core = self._core
+        if self._drives is None or core.jumps == self._jumps:
+            return
+        self._jumps, self.jump = core.jumps, self._drives.jump(*core.jump())
+        if self._history is not None:
+            self._history.jumps.append(self.jump)
 
     def _attend(self, status: int) -> None:
         """Go on after a pause or with more memory; raise the error of a failure."""

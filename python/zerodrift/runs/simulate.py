@@ -11,6 +11,7 @@ from ..systems.base import BaseSystem
 from . import recording, settings
 from .control import called, controls
 from .ending import Outcome, finish_file, finished, solution_of
+from .inputs import Speeds
 from .keyboard import Keyboard
 from .opening import prepared
 from .progress import progress_of
@@ -49,6 +50,8 @@ def simulate(
     vector: str | None = None,
     on_failure: str = "raise",
     inputs: Any = None,
+    hold: bool = False,
+    ramp: float | None = None,
     control: Any = None,
 ) -> Solution:
     """Simulate the motion of a constrained multibody system.
@@ -144,6 +147,10 @@ def simulate(
         "return" returns that solution, with `success` False.
     inputs : sequence of str or measures, or dict, optional
         Numbers that `control` sets, as of `Run`. The solution has their values over time by name.
+    hold, ramp : bool, and float or None
+        As of `Run`: True makes the jump of a speed an impulse; time in s over which a speed is followed in adaptive steps. The
+        solution has the impulses since the sample before and their works, by ``sol["drive.impulse"]`` in N m s or N s, and
+        ``sol["drive.impulse_work"]`` in J.
     control : Every, or list of these, optional
         Controllers, see `every`: each is called with the run at exact multiples of its period, and sets inputs.
 
@@ -212,7 +219,7 @@ def simulate(
         "t_eval": t_eval, "save_every": save_every, "step": step, "rtol": rtol, "atol": atol, "first_step": first_step,
         "max_step": max_step, "max_move": max_move, "max_steps": max_steps, "formulation": formulation, "integrator": integrator,
         "stabilization": stabilization, "energy": energy, "correction": correction, "on_singular": on_singular, "direct": direct,
-        "vector": vector}, inputs=inputs)
+        "vector": vector}, inputs=inputs, speeds=Speeds(hold, ramp))
     of = controls(control)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     path = ready.path
@@ -244,6 +251,8 @@ def _drive(run: _gateway.Run, record: _gateway.Record, progress: Any, keyboard: 
                 record.grow()
             status = run.advance(record, SLICE)
             record.keep()
+            if controlled:
+                controlled._note_jump()
             if controlled and status == _gateway.DONE and controlled._goes_on():
                 status = _gateway.PAUSED
             _show(show, run.progress)
