@@ -26,7 +26,11 @@ ACCURATE = 1e-10                        # relative error of a difference that is
 
 
 class Compared(NamedTuple):
-    """A derivative (nv,) of vdot, the same by differences, the estimated error of these, and a size that counts as small."""
+    """Comparison of a derivative of vdot with differences.
+
+    `given` (nv,): the derivative; `expected` (nv,): by differences, with the estimated `error`; `small`: lower bound of the size
+    by which both are divided.
+    """
 
     given: np.ndarray
     expected: np.ndarray
@@ -35,7 +39,7 @@ class Compared(NamedTuple):
 
     @property
     def size(self) -> float:
-        """The size of the derivative."""
+        """Largest entry of both, at least `small`."""
         return float(max(np.abs(self.given).max(initial=self.small), np.abs(self.expected).max(initial=self.small)))
 
     @property
@@ -51,7 +55,7 @@ class Compared(NamedTuple):
 
 def derivatives_of_accelerations(system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray,
                                  random: np.random.Generator | None = None) -> list[Compared]:
-    """Both derivatives along all tangent directions of a state on the constraints, or along one random one.
+    """Comparisons of the derivatives of vdot along all tangent directions of a state on the constraints, or along a random one.
 
     The given one is that of `Derivatives`: from the Jacobian of the system, which Radau's method uses, where it has one,
     otherwise from its residuals. The other one needs nothing but accelerations and projections.

@@ -32,7 +32,7 @@ class Direction(NamedTuple):
     dparameters: Mapping[str, float] | None = None
 
     def size(self, scale: Scales, at: State) -> float:
-        """Its size in characteristic scales."""
+        """Largest entry of the direction in characteristic scales."""
         speed = np.maximum(scale.v, np.abs(at.v))
         sizes = [abs(self.dt), *(np.abs(each / by).max(initial=0.0) for each, by in ((self.dp, scale.p), (self.dv, speed))
                                  if each is not None)]
@@ -41,7 +41,7 @@ class Direction(NamedTuple):
         return float(max(sizes))
 
     def step(self, at: State, h: float) -> State:
-        """The terms that far along it."""
+        """Terms of the system at (t, p, v) and parameters moved by h times the direction."""
         p = at.p if self.dp is None else at.p + h * self.dp
         v = at.v if self.dv is None else at.v + h * self.dv
         system = at.system
@@ -52,13 +52,13 @@ class Direction(NamedTuple):
 
 
 def residuals(at: State, vdot: np.ndarray, lam: np.ndarray) -> np.ndarray:
-    """R of (2) and s of (6), one behind the other, (nv + m,)."""
+    """Residuals r of (2) and s of (6) in one array (nv + m,)."""
     return residuals_of(at.system, np.array([at.t]), at.p[None], at.v[None], vdot, lam)[0]
 
 
 def residuals_of(system: BaseSystem, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray,
                  lam: np.ndarray) -> np.ndarray:
-    """R of (2) and s of (6) at many states t (k,), p (k, nq), v (k, nv), with the same vdot and multipliers, (k, nv + m)."""
+    """Residuals r of (2) and s of (6), (k, nv + m), at states t (k,), p (k, nq), v (k, nv), with one vdot and lam."""
     core, nv, m = core_of(system), system.nv, system.m
     found = np.zeros((len(t), nv + m))
     most = max(1, LARGEST_ARRAY // (nv * (nv + m) or 1))
@@ -90,7 +90,7 @@ def of_residuals(at: State, vdot: np.ndarray, lam: np.ndarray, direction: Direct
 
 def of_residuals_along(at: State, vdot: np.ndarray, lam: np.ndarray, dp: np.ndarray, dv: np.ndarray,
                        dt: float = 0.0) -> np.ndarray:
-    """The same along k directions dp (k, nq), dv (k, nv), all with dt, (nv + m, k)."""
+    """Derivatives (nv + m, k) of r and s along k directions dp (k, nq), dv (k, nv), all with dt; vdot and lam are frozen."""
     def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
         return residuals_of(at.system, at.t + h * dt, at.p + h[:, None] * dp[which], at.v + h[:, None] * dv[which], vdot, lam)
 

@@ -42,7 +42,7 @@ def each(function: Function, sizes: np.ndarray, width: int) -> np.ndarray:
 
 
 def each_roughly(function: Function, sizes: np.ndarray, width: int) -> np.ndarray:
-    """The same by central differences of second order, 1e-8 relative: for the steps of an iteration."""
+    """Derivatives as of `each`, by differences of second order with relative errors of 1e-8: for the steps of an iteration."""
     h, which = ROUGH_STEP / np.maximum(sizes, 1e-300), np.arange(len(sizes))
     if not which.size:
         return np.zeros((0, width))
@@ -81,7 +81,7 @@ def along(function: Callable[[float], np.ndarray], size: float) -> np.ndarray:
 
 
 def with_error(function: Callable[[float], np.ndarray], size: float, small: float = 1e-300) -> tuple[np.ndarray, float]:
-    """The derivative of `along`, and the difference to that of lower order, which estimates its error."""
+    """Derivative as of `along`, and its difference from that of lower order, which estimates the error."""
     width = np.size(function(0.0))
 
     def values(_: np.ndarray, distances: np.ndarray) -> np.ndarray:
@@ -93,7 +93,7 @@ def with_error(function: Callable[[float], np.ndarray], size: float, small: floa
 
 def one_sided_with_error(function: Callable[[float], np.ndarray], size: float, side: float,
                          small: float = 1e-300) -> tuple[np.ndarray, float]:
-    """The same from values at h = 0 and on one side of it, 1 or -1: for functions that are not defined on the other."""
+    """Derivative and error as of `with_error`, by values at h = 0 and on one side of it, 1 or -1: the other may be undefined."""
     best, least = np.zeros(0), np.inf
     for step in STEPS:
         h = side * step / size

@@ -51,7 +51,7 @@ class Curve:
         self.system, self.parameter, self.t, self.size = system, parameter, t, size
 
     def balance(self, p: np.ndarray, value: float) -> Balance:
-        """The balance at a value, at the position near p that satisfies the constraints."""
+        """Balance of forces at a value of the parameter, at the position nearest to p that satisfies the constraints."""
         system = self.system.with_parameters({self.parameter: float(value)})
         return Balance(system, self.t, onto(system, self.t, p), {})
 
@@ -64,7 +64,7 @@ class Curve:
         return (ends[0] - ends[1]) / (2 * DIFFERENCE)
 
     def knot(self, here: Balance, value: float, eta: np.ndarray, slope: float) -> Knot:
-        """The point at a balance, with its tangent in the sense of a direction."""
+        """Point of the path at a balance; its tangent is on the same side as the direction (eta, slope)."""
         matrix = np.column_stack([here.stiffness, -self._by_parameter(here, value)])
         null = np.linalg.svd(matrix)[2][-1]
         found, m = here.V @ null[:-1] / here.tangent.scale, float(null[-1])
@@ -73,7 +73,7 @@ class Curve:
         return Knot(here, value, sign * found / length, sign * m / length)
 
     def step(self, knot: Knot, length: float) -> Knot | None:
-        """The point that far along the path; None where Newton's method does not find it near there."""
+        """Point of the path at a distance `length` along the tangent of a point; None if Newton's method finds none there."""
         at, value = knot.balance.at, knot.value + length * knot.slope * self.size
         try:
             here = self.balance(moved(at, length * knot.eta * knot.balance.tangent.scale), value)

@@ -52,7 +52,7 @@ def name_of(given: Any, what: str) -> str:
 
 
 def names_of(given: Any, what: str) -> list[str]:
-    """The names of one or several of them."""
+    """Names of one or several measures or variables, given as such or by name."""
     single = isinstance(given, str) or hasattr(given, "name")
     if not single and not isinstance(given, Iterable):
         raise WrongType(f"{what} must be measures or their names, not {_check.shown(given)}")

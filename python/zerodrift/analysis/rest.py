@@ -104,7 +104,7 @@ class Balance:
         return K, D
 
     def _along(self, displacements: np.ndarray, velocities: np.ndarray, differentiate: Callable[..., np.ndarray]) -> np.ndarray:
-        """The same derivatives along displacements (nv, i) and velocities (nv, j), (k, i + j)."""
+        """Derivatives (k, i + j) of the projected force along displacements (nv, i) and velocities (nv, j)."""
         at, system, lam, m = self.at, self.at.system, self.multipliers, self.at.system.m
         i, j = displacements.shape[1], velocities.shape[1]
         dp, dv = np.zeros((i + j, system.nq)), np.zeros((i + j, system.nv))

@@ -57,7 +57,11 @@ def free_velocities(at: State, speeds: Mapping[str, float]) -> np.ndarray:
 
 
 class Motion(NamedTuple):
-    """A state (t, p, v) and the efforts (j,) that act on it, with what a steady motion does not have, see `Flow.left`."""
+    """A state on the way to a steady motion.
+
+    `at`: terms at (t, p, v); `u` (j,): efforts that act there; `left`: its differences from a steady motion, see `Flow.left`;
+    `size`: the size of accelerations, to which they are compared.
+    """
 
     at: State
     u: np.ndarray
@@ -66,7 +70,7 @@ class Motion(NamedTuple):
 
     @property
     def is_steady(self) -> bool:
-        """Nothing is left."""
+        """The differences from a steady motion are rounding."""
         return bool(np.abs(self.left).max(initial=0.0) <= STEADY * max(self.size, 1e-300))
 
 

@@ -57,7 +57,7 @@ def unit_of(solution: Any, name: str) -> str:
 
 
 def to_csv(solution: Any, path: str | Path, names: Any = None) -> Path:
-    """As `Solution.to_csv` says."""
+    """Write measures of a solution to a CSV file, see `Solution.to_csv`."""
     path = Path(path)
     heading, values = _table(solution, names)
 
@@ -70,7 +70,7 @@ def to_csv(solution: Any, path: str | Path, names: Any = None) -> Path:
 
 
 def to_excel(solution: Any, path: str | Path, names: Any = None) -> Path:
-    """As `Solution.to_excel` says."""
+    """Write measures of a solution to an Excel file, see `Solution.to_excel`."""
     pandas, _ = (_imported(name) for name in ("pandas", "openpyxl"))
     path = Path(path)
     heading, values = _table(solution, names)

@@ -322,7 +322,7 @@ def _of_each(ready: Prepared, count: int, tables: list[dict[str, Any]], states: 
 
 
 def _in_lanes(ready: Prepared) -> Prepared:
-    """The same with functions for SIMD lanes, where the system has them and the settings admit lanes."""
+    """Arguments with functions for SIMD lanes, if the system has them and the settings admit lanes."""
     of: BaseSystem = ready.declared.of.system if ready.declared else ready.system
     vector = ready.settings["vector"]
     if vector is None or not ready.source.has_direct or not _gateway.lanes_serve(ready.source, ready.core_settings):

@@ -103,7 +103,7 @@ def _header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any]]:
 
 
 def _earlier_header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any]]:
-    """The same of a file whose description stands in its own header."""
+    """Header of a file of an earlier version, which contains the description: size of the header, samples, description."""
     try:
         _, rows, length = EARLIER_HEADER.unpack(file.read(EARLIER_HEADER.size))
         layout = json.loads(file.read(length))

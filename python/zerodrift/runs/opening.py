@@ -96,7 +96,7 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
 
 
 def with_own(ready: Prepared, of: BaseSystem, values: np.ndarray | None = None) -> Prepared:
-    """The same with what belongs to one run: inputs, whose memory may be given, and records of events and outputs."""
+    """Arguments with the memory of one run: inputs, in `values` if given, and records of events and outputs."""
     core, measured, inputs = ready.core, ready.measured, None
     if ready.declared:
         inputs, (core, measured) = ready.declared.bound(core, measured, values=values)

@@ -425,7 +425,7 @@ def system_of(given: Any, *state: Any) -> Any:
 
 
 def stateless_system_of(given: Any, *state: Any) -> Any:
-    """The same for a study, in which equations of motion must not read reactions of the last accepted state."""
+    """System of an argument of a study, in which equations of motion must not read reactions of the last accepted state."""
     system = system_of(given, *state)
     if isinstance(system, BaseSystem) and (names := system._held_reactions()):
         raise WrongValue(f"user functions must depend on t, positions and velocities in a study, and those of {system.name} read "
@@ -455,7 +455,7 @@ def core_of(system: Any) -> _gateway.CoreSystem:
 
 
 def direct_core_of(system: Any, vector: str, core_settings: Any) -> _gateway.CoreSystem:
-    """The same with the system's direct functions for a vector unit, where it has any that serve a run with this `zd_settings`.
+    """Core system with closed-form functions for a vector unit, if the system has any that a run with these settings uses.
 
     They are compiled at first use.
     """

@@ -22,7 +22,7 @@ class Precise:
         self.m = self.mh + self.mn
 
     def with_numbers(self, numbers: np.ndarray) -> Precise:
-        """The same functions with other numbers."""
+        """These functions with other numbers."""
         address = self._keep[1]
         return Precise(address, numbers, self.sizes, self._keep[0])
 

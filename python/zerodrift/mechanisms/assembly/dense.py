@@ -65,9 +65,10 @@ class Assembly:
 
     def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
                   staying: Sequence[Target] = ()) -> np.ndarray:
-        """Nearest positions that satisfy all constraints and held targets, and approach wished ones as nearly as possible.
+        """Positions (nq,) nearest to p that satisfy all constraints and held targets, and approach wished targets.
 
-        Coordinates that stay are as in the drawing with its joints closed, whatever the values of these targets.
+        Staying targets are kept at the values that their coordinates have in the drawing with its joints closed, where that is
+        possible; their own values are not used.
         """
         return self._found("assemble_positions", p, held, wished, staying)
 
@@ -76,7 +77,7 @@ class Assembly:
         return self._core.run("assembly_check", p, _targets(held)).outcome == core_assembly.ASSEMBLED
 
     def led_to(self, p: np.ndarray, held: Sequence[Target] = (), staying: Sequence[Target] = ()) -> np.ndarray:
-        """Positions that satisfy drives and held targets, from closed ones, such as those of another time."""
+        """Positions (nq,) that satisfy drives and held targets, followed from closed ones, such as those of another time."""
         return self._found("assembly_lead", p, held, (), staying)
 
     def nearby(self, p: np.ndarray, left_out: Collection[int] = ()) -> np.ndarray:

@@ -97,7 +97,7 @@ class AssemblyOfMany(Assembly):
         return self._nearest(drawn, self._track(closed, held), lambda p: self._residual(p, held)), []
 
     def led_to(self, p: np.ndarray, held: Sequence[Target] = (), staying: Sequence[Target] = ()) -> np.ndarray:
-        """Positions that satisfy drives and held targets, from closed ones, such as those of another time."""
+        """Positions (nq,) that satisfy drives and held targets, followed from closed ones, such as those of another time."""
         return self._track(p, [*held, *self._as_they_are(p, staying)])
 
     def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
@@ -233,7 +233,7 @@ class AssemblyOfMany(Assembly):
         return self._nearest_to_soft(p, lambda p: self._residual(p, [*held, *wished]), is_wish)
 
     def _nearest(self, drawn: np.ndarray, p: np.ndarray, system: Callable) -> np.ndarray:
-        """As with few bodies, but with Barzilai-Borwein step lengths: each step is only slightly shorter than the one before."""
+        """Positions that satisfy `system`, nearest to the drawing, by steps with lengths of Barzilai and Borwein."""
         distance, last, times = self._distance(p, drawn), None, 1.0
         for _ in range(NEARER):
             residual, rows = system(p)

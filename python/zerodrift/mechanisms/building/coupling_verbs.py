@@ -281,7 +281,7 @@ class _Follows:
 
     @property
     def written(self) -> Any:
-        """The same as a node of nodes; the attribute is missing if the profile is a user's callable."""
+        """Function that builds this constraint as a node of an expression graph; missing if the profile is a user's callable."""
         profile = self.profile.written
         return lambda equations, angle, follower: equations.difference(follower, profile(equations, angle))
 

@@ -81,7 +81,7 @@ class PeriodicSpline:
         return value
 
     def written(self, equations: Any, angle: Any) -> Any:
-        """As a node, of a node: the piece is chosen by its place, width and coefficients, so that one polynomial is computed."""
+        """Node of the value, from the node of an angle: the piece's numbers are chosen, so that one polynomial is computed."""
         graph, first = equations.graph, float(self.angles[0])
         turns = graph.call(equations.functions.floor, graph.sum([(angle, 1 / PERIOD), (graph.one, -first / PERIOD)]))
         within = graph.sum([(angle, 1), (turns, -PERIOD)])

@@ -90,7 +90,7 @@ class SpaceJointVerbs(Elements):
 
     def _fasten(self, kind: str, name: str, first: Point, second: Point, axis: Any = None, normal: Any = None, *,
                 length: float | None = None, damping: Any = 0.0, cut: Any = False) -> SpaceJoint:
-        """The same between two points."""
+        """Joint in space between two points, with the frame of its axis and normal in the drawing."""
         joint = BY_KIND[kind]
         if has_torque(joint.row):
             self._turning(name, kind, first.body, second.body)

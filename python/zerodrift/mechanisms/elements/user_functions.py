@@ -96,7 +96,7 @@ class Law:
         return function_of([by_name[name] for name in self._names], self.expression)
 
     def value(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> Any:
-        """Value at a time and values of its measures; a jet if these are jets."""
+        """Value at a time and values of its measures; with derivatives (`autodiff.Jet`) if these have them."""
         if self.constant is not None:
             return self.constant
         known = {**self._known(parameters), "t": t, **dict(zip(self._picked, x, strict=True))}
@@ -236,7 +236,7 @@ class InputLaw:
         return self.initial
 
     def jet(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> autodiff.Jet:
-        """The same with its derivatives."""
+        """Initial value with its derivatives, which are zero."""
         return autodiff.Jet(self.initial)
 
     value = number

@@ -37,7 +37,7 @@ class Call:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
 
     def held(self, numbers: Mapping[str, np.ndarray]) -> Call:
-        """The same with reactions from `numbers`, each (1,), which the core changes between steps."""
+        """Call with reactions read from `numbers`, arrays (1,) by name, which the core changes between steps."""
         other = copy.copy(self)
         other.parameters = Held(self.parameters, {name: numbers[name] for name in self.law.reactions.values()})
         return other
@@ -57,7 +57,7 @@ class Call:
         return self.law.written(equations, [(rates if is_rate else values)[place] for place, is_rate in self.picks])
 
     def said(self, leaves: Any, node: Any) -> Sequence[Any]:
-        """Node of the result, from the node of the residual or force; here of a holonomic constraint."""
+        """Node of what the core reads, from the node of the residual or force; here for a holonomic constraint."""
         return leaves.holonomic(node)
 
 
@@ -147,7 +147,7 @@ class Laws:
         return len(self.rows) - 1
 
     def held(self) -> tuple[Laws, dict[str, np.ndarray]]:
-        """The same for one run, and the memory of the reactions that user functions in Python read, each (1,)."""
+        """User functions of one run, and the arrays (1,), by name, of the reactions that those in Python read."""
         numbers = {name: np.zeros(1) for row in self.rows for name in row.law.reactions.values()}
         if not numbers:
             return self, numbers

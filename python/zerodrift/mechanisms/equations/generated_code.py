@@ -164,7 +164,7 @@ class Written:
         return core
 
     def with_jacobian(self, vector: str) -> MechanismCore | SpaceCore:
-        """The same with derivatives of its rates for a vector unit, if it has them."""
+        """Core system with the Jacobian of its rates for a vector unit, if that can be generated; otherwise the core system."""
         library = self._jacobian.library(vector) if self.is_compiled else None
         return self._compiled(None, vector, library) if library else self.core
 
@@ -174,13 +174,13 @@ class Written:
         return self._series.why_none
 
     def with_series(self, vector: str) -> MechanismCore | SpaceCore:
-        """The same with the Taylor series of its motion for a vector unit; raises UnsuitedIntegrator where there is none."""
+        """Core system with the Taylor series of its motion for a vector unit; raises UnsuitedIntegrator if there is none."""
         if self.why_no_series:
             raise UnsuitedIntegrator(f"the mechanism has no Taylor series: {self.why_no_series}")
         return self._compiled(None, vector, series=self._series.library(vector))
 
     def precise(self, vector: str) -> Precise | None:
-        """Functions in double-double arithmetic, of numbers with which frames are orthonormal in it; None: there are none."""
+        """Functions in double-double arithmetic, with numbers that make frames orthonormal to it; None: there are none."""
         library = self._precise.library(vector) if self.is_compiled else None
         if library is None:
             return None
@@ -193,7 +193,7 @@ class Written:
                                len(self._values) + self._code.constants, OF_DIRECT)
 
     def with_direct(self, direct: ClosedFormFunctions, vector: str) -> MechanismCore | SpaceCore:
-        """The same with closed-form functions for a vector unit, if it has them."""
+        """Core system with closed-form functions for a vector unit, if these can be generated; otherwise the core system."""
         return self._compiled(direct, vector) if self.is_compiled and direct.library(vector) else self.core
 
 

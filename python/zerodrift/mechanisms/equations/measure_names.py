@@ -59,7 +59,7 @@ def is_dynamic(name: str, element: Any) -> bool:
 
 
 def _in_space(owner: str, element: Any, quantity: str, component: list[str]) -> Reading | None:
-    """The same for an element in space, whose angular velocity is not the rate of a position."""
+    """Element and quantity of a measure in space, where an angular velocity is not the rate of a position; or None."""
     rates = rates_of(element)
     if quantity in quantities(element) and quantity != "position":
         return None if component else Reading((f"{owner}.{quantity}",), False)
@@ -90,7 +90,7 @@ def _points(element: Any) -> tuple[str, ...]:
 
 
 def reading_of_start(name: str, elements: Mapping[str, Any]) -> Reading | None:
-    """The same for values of a start, which include the rotation of a body in space, by its nine cosines."""
+    """Element and quantity of a value of a start, such as the rotation of a body in space; None for other names."""
     owner, _, quantity = name.partition(".")
     body = elements.get(owner)
     if quantity == "rotation" and isinstance(body, Body) and body.turns and body.dimension == 3:

@@ -97,7 +97,7 @@ def _positions(tables: Tables, wanted: Collection[str] | None) -> Iterator[Posit
 
 
 def _positions_in_space(tables: SpaceTables) -> Iterator[Position]:
-    """The same in space."""
+    """Measures of positions in space, with their rates."""
     for body in tables.drawing.of(Body):
         if body is tables.drawing.ground:
             continue

@@ -42,7 +42,7 @@ class SpaceTables(Tables):
         return SpaceInertias(self.drawing, self.numbers)
 
     def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[entries.OutputSpec] = ()) -> SpaceCore:     # type: ignore[override]
-        """Core system, without measures, or with these; their marker quantities follow those of the tables."""
+        """Core system of the tables, with the measures `observed` and their marker quantities; left out: without measures."""
         made = SpaceCore if max(self.inboard, default=-1) < 0 else SpaceTreeCore
         laws = self.laws if self.laws.rows else None
         return made(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)

@@ -38,7 +38,7 @@ class Tables:
     joints : list of Joint
         In the order of the core's table.
     carrier : list of int
-        The joint that carries each part; -1: it is free.
+        Inboard joint of each body; -1: the body is free.
     relation_names : list of str
         What each relation belongs to.
     """
@@ -72,7 +72,7 @@ class Tables:
         return Inertias(self.drawing, self.numbers)
 
     def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[OutputSpec] = ()) -> MechanismCore:
-        """Core system, without measures, or with these; their marker quantities follow those of the tables."""
+        """Core system of the tables, with the measures `observed` and their marker quantities; left out: without measures."""
         laws = self.laws if self.laws.rows else None
         return MechanismCore(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
 

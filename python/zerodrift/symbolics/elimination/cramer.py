@@ -16,7 +16,7 @@ from .steps import Elimination, Order
 
 
 class Joint(Elimination):
-    """`Elimination` along an order of one solve."""
+    """`Elimination` of all constraints in one solve, with divisions postponed as derived above."""
 
     def _inverse(self, B: Matrix) -> tuple[Matrix, int]:
         entries, self.delta = adjugate(self.do, B)
