@@ -32,15 +32,15 @@ def includes():
 
 def symbols(objects):
     """Who uses a function or table that another file defines, as pairs; and who defines each."""
-    defined, used = {}, defaultdict(set)
-    for unit, path in objects.items():
-        for line in subprocess.run(["nm", path], check=True, capture_output=True, text=True).stdout.splitlines():
-            *_, kind, name = line.split()
-            if kind == "U":
-                used[unit].add(name)
-            elif kind.isupper():
-                assert name not in defined, f"{unit} and {defined[name]} both define {name}"
-                defined[name] = unit
+    defined, used, units = {}, defaultdict(set), {str(path): unit for unit, path in objects.items()}
+    for line in subprocess.run(["nm", "-A", *objects.values()], check=True, capture_output=True, text=True).stdout.splitlines():
+        path, _, rest = line.partition(":")
+        (*_, kind, name), unit = rest.split(), units[path]
+        if kind == "U":
+            used[unit].add(name)
+        elif kind.isupper():
+            assert name not in defined, f"{unit} and {defined[name]} both define {name}"
+            defined[name] = unit
     return {(unit, defined[name]) for unit, names in used.items() for name in names & defined.keys()}
 
 
