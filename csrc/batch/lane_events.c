@@ -251,7 +251,8 @@ static int way_of(const zd_lane_search *search)
     return search->stage == ZD_LOCATES_END ? BY_SHORTER_STEP : search->stage == ZD_CUTS ? BY_CUT : BETWEEN;
 }
 
-/* Requests a state of the lane at a time within the step, if the lane needs one by this way; returns whether it does. */
+/* Requests a state of the lane at a time within the step, if its search needs one that is computed by `way`. Returns 1 if it does, 0
+ * otherwise. */
 static int request(zd_lane_group *self, int lane, int way)
 {
     zd_lanes *lanes = &self->lanes;

@@ -83,7 +83,7 @@ static double inverse_unit(const zd_embedding *self, const zd_point *point, int 
     return has_increments(self) ? point->inverse_unit[self->index[k]] : point->inverse_unit_p[self->index[k]];
 }
 
-/* Error of q_k at the point: of an entry of p zero or excessive, of an increment in units of its rounding. */
+/* Error of q_k at the point: of an entry of p, which must be equal, 0 or 2 NEARLY; of an increment, in units of its rounding. */
 static double mismatch(const zd_embedding *self, const zd_point *point, const double *q, int k)
 {
     const int i = self->index[k];

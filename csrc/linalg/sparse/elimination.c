@@ -141,7 +141,7 @@ ZD_INLINE void subtract_two(zd_two x, double *to)
     zd_store_two(zd_minus_two(zd_two_at(to), x), to);
 }
 
-/* to (2, 2) <- to - scale L B^T, of both of which there are the columns */
+/* to (2, 2) <- to - scale L B^T; l0, l1 are the columns of L, b0, b1 those of B */
 ZD_INLINE void subtract_rows(double scale, zd_two l0, zd_two l1, zd_two b0, zd_two b1, double *to)
 {
     subtract_two(zd_scaled_two(scale, zd_sum_of_two(zd_first_of(l0), b0, zd_first_of(l1), b1)), to);

@@ -63,7 +63,8 @@ static void read_place(const zd_space_quantity *quantity, const zd_space_pose *p
     pull(quantity, pose, u, to);
 }
 
-/* a turns with the first body: what pulls at Q acts on it as if it were held there, too. */
+/* Displacement along an axis a that turns with the first body: the reaction to the force at Q acts on the first body at Q, too, which the
+ * torque a x apart adds. */
 static void read_along(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 a, zd_vector3 apart, zd_space_reading *to)
 {
     to->value = zd_inner3(a, apart);

@@ -151,5 +151,5 @@ class CoordinateFrame(Frame):
 
 
 def frame_of(system: Any) -> Frame:
-    """The frame of a system."""
+    """Frame of a system: of its bodies if it is a mechanism, otherwise of its coordinates."""
     return BodyFrame(system) if hasattr(system, "_drawing") else CoordinateFrame(system)

@@ -94,7 +94,7 @@ class Trace:
         return place.pick(core.measure(place.number, np.zeros(len(self)), self.p, zeros))
 
     def derivative(self, name: Any) -> np.ndarray:
-        """The derivative of a measure by the traced one: a ratio of speeds, and of forces the other way round.
+        """Derivative of a measure with respect to the traced one: ratio of their speeds, inverse ratio of their forces.
 
         Parameters
         ----------

@@ -93,7 +93,7 @@ static void add_term(parts *to, zd_space_quantity quantity, double coefficient)
     zd_elements_add_term(&to->elements, to->quantities++, coefficient);
 }
 
-/* A row that advances does so with the joint's angle, its first coordinate. */
+/* Adds a constraint of a joint; on a screw the displacement also contains its angle, the first coordinate, times the pitch. */
 static void add_joint_row(parts *to, int j, int component)
 {
     const zd_space_joint *joint = to->joint + j;

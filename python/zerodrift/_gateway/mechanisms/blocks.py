@@ -49,7 +49,7 @@ class Texts:
         return float(self._offsets[word])
 
     def words(self) -> np.ndarray:
-        """Texts, the last word filled with zero bytes."""
+        """All texts as words of eight bytes, the last one filled with zero bytes."""
         return np.frombuffer(bytes(self._bytes) + b"\0" * (-len(self._bytes) % 8), "<f8")
 
 

@@ -73,7 +73,7 @@ class Point(Fixed):
         return self.body.pose.point(self.local_with(numbers))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``; none without a name."""
+        """Values of its parameters by the last word of their paths: "x" of ``P.x``; none without a name."""
         return {f"local.{axis}": float(value) for axis, value in zip("xyz", self.local_with(now), strict=False)}
 
     def __repr__(self) -> str:
@@ -150,7 +150,7 @@ class Body(Fixed):
                               numbers.vector(self.name, "com", self._com))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         mass, inertia, com = self.properties(now)
         return {"mass": mass, "inertia": inertia, "com.x": float(com[0]), "com.y": float(com[1])}
 
@@ -212,7 +212,7 @@ class Link(Body):
         return MassProperties(mass, numbers(self, "inertia", inertia), np.array([length / 2, 0.0]))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         mass, inertia, _ = self.properties(now)
         return {"mass": mass, "length": self.length_with(now), "inertia": inertia}
 
@@ -252,7 +252,7 @@ class Particle(Body):
         self.carrier = carrier
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         return {"mass": self.properties(now).mass}
 
     @property

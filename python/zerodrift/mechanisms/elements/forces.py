@@ -51,7 +51,7 @@ class Motor(Fixed):
         return self.drives not in ("torque", "force")
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         return {} if self.law.constant is None else {self.drives: self.law.constant}
 
     def __repr__(self) -> str:
@@ -90,7 +90,7 @@ class Actuator(Fixed):
         return self.drives == "length"
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         return {} if self.law.constant is None else {self.drives: self.law.constant}
 
     def __repr__(self) -> str:

@@ -91,7 +91,7 @@ class Joint(Fixed):
         return numbers(self, "length", drawn if self.length is None else self.length)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         length = {"length": self.length_with(now)} if self.row.takes_length else {}
         return length if self.coordinate is None else {**length, "damping": self.damping}
 
@@ -218,7 +218,7 @@ class Rolling(Joint):
         return numbers(self, "radius", self.radius)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         return {"radius": self.radius}
 
 
@@ -270,17 +270,17 @@ class Coupling(Fixed):
 
     @property
     def force(self) -> Measure:
-        """The force along the second measure, positive where it drives it up, in N; where that measure is in m."""
+        """Force in N along the second measure, if that is in m; positive if it increases the measure."""
         return self._effort("force")
 
     @property
     def torque(self) -> Measure:
-        """The torque along the second measure, positive where it drives it up, in N m; where that measure is in rad."""
+        """Torque in N m along the second measure, if that is in rad; positive if it increases the measure."""
         return self._effort("torque")
 
     @property
     def cam_torque(self) -> Measure:
-        """The torque on a cam, positive where it drives the cam's angle up, in N m."""
+        """Torque on a cam in N m, positive if it increases the cam's angle."""
         return self._effort("cam_torque")
 
     def _effort(self, effort: str) -> Measure:
@@ -290,7 +290,7 @@ class Coupling(Fixed):
         return Measure(f"{self.name}.{effort}")
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         return {} if self.ratio is None else {"ratio": self.ratio}
 
     def __repr__(self) -> str:

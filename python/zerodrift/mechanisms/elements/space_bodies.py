@@ -114,7 +114,7 @@ class SpaceBody(Body):
         return changed
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         mass, J, com = self.properties(now)
         entries = {f"inertia.{path}": float(J[AXES.index(path[0]), AXES.index(path[1])]) for path in PATHS}
         return {"mass": mass, **entries, **{f"com.{axis}": float(com[i]) for i, axis in enumerate(AXES)}}
@@ -163,7 +163,7 @@ class SpaceLink(SpaceBody, Link):
         return MassProperties(mass, self.tensor_with(numbers, J), np.array([length / 2, 0.0, 0.0]))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         found = super().numbers(now)
         return {"mass": found["mass"], "length": self.length_with(now), "thickness": self.thickness_with(now),
                 **{path: value for path, value in found.items() if path.startswith("inertia")}}

@@ -68,7 +68,7 @@ class SpaceJoint(Joint):
         return numbers(self, "length", float(np.linalg.norm(apart)) if self.length is None else self.length)
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         return {"pitch": now(self, "pitch", self.length)} if advances(self.row) else super().numbers(now)
 
     def semiaxes_with(self, numbers: Numbers) -> tuple[float, float, float]:
@@ -136,7 +136,7 @@ def is_on_plane(row: JointKind) -> bool:
 
 
 def is_blade(row: JointKind) -> bool:
-    """True if the joint holds a velocity across a direction of the second body."""
+    """True if the joint keeps a velocity across a direction of the second body zero, as the blade of a skate does."""
     return any(quantity == "glide" for quantity, _, _ in row.rows)
 
 
@@ -181,7 +181,7 @@ class SpaceRolling(BY_KIND["rolling"]):      # type: ignore[name-defined,misc]
         return tuple(numbers(self, f"semiaxes.{axis}", each) for axis, each in zip(AXES, self.semiaxes, strict=True))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         found = self.semiaxes_with(now)
         return {"radius": max(found)} if len({*found} - {0.0}) == 1 else {
             f"semiaxes.{axis}": each for axis, each in zip(AXES, found, strict=True)}

@@ -159,7 +159,7 @@ class TableForce(Fixed):
         return numbers(self, "length", self.values.get("length", drawn))
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
-        """Values of its parameters, by the quantity in their paths ``name.quantity``."""
+        """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""
         if self.law is not None:
             return {} if self.law.constant is None else {"value": self.law.constant}
         return {path: self.length_with(now) if path == "length" else self.values[path]

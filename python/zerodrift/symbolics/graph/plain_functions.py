@@ -26,7 +26,7 @@ NAMED = {function.__name__: function for function in FUNCTIONS}
 
 
 class Plain:
-    """Reader with a graph of these functions, in place of the `Reader` with SymPy's.
+    """Expression graph of sin, cos, floor and atan2 that works without SymPy, in place of a `Reader` of SymPy's expressions.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Plain:
         self.graph = Graph(self._slope)
 
     def read(self, what: str, expression: Any, known: Any) -> Node:
-        """Raise TypeError, as expressions need the `Reader` of SymPy."""
+        """Raise TypeError: expressions of SymPy are read by `Reader` alone."""
         raise WrongType(f"{what} is an expression, which takes a Reader: {expression}", "expression")
 
     def _slope(self, function: Function, k: int, arguments: tuple[Node, ...]) -> Node:
