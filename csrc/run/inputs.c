@@ -106,7 +106,7 @@ int zd_inputs_read(zd_run *run)
     if (!run->held.is_new) memset(run->held.has_changed, 0, (size_t)inputs->count);
     for (int i = 0; i < inputs->count; i++) run->held.has_changed[i] |= run->held.value[i] != inputs->value[i];
     memcpy(run->held.value, inputs->value, bytes);
-    run->held.has_ramp = zd_inputs_have_speeds(inputs) && !inputs->jumps && !inputs->ramp;
+    run->held.has_ramp = zd_inputs_have_speeds(inputs) && !inputs->jumps && inputs->ramp == 0;
     run->held.is_new = 1;
     return ZD_DONE;
 }
