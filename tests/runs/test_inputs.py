@@ -156,6 +156,42 @@ def test_numbers_among_the_parameters_of_a_system_are_inputs():
         zd.Run(system, step=0.01, inputs=["w"])
 
 
+def test_arrays_among_the_parameters_of_a_system_are_inputs():
+    gains = np.array([[2.0, 0.0], [1.0, -1.0]])
+    system = zd.System(2, mass=np.eye(2), force=lambda u, K: K @ u, parameters={"u": np.zeros(2), "K": gains}, p0=[0.0, 0.0])
+    run = zd.Run(system, step=0.01, inputs={"u": (-5.0, 5.0), "K": None}, record=True)
+    entries = zd.Run(system, step=0.01, inputs=["u[0]", "u[1]", "K[0, 0]", "K[0, 1]", "K[1, 0]", "K[1, 1]"])
+    many = zd.Run(system, runs=2, step=0.01, inputs=["u"])
+    many["u"] = [[3.0, -1.0], [0.0, 0.0]]
+    run["u"] = [3.0, -1.0]
+    entries["u[0]"], entries["u[1]"] = 3.0, -1.0
+    for each in (run, entries, many):
+        each.step(50)
+    assert np.allclose(run.p, [6.0 / 8, 4.0 / 8], rtol=1e-12)     # K u t^2 / 2
+    assert np.array_equal(many.p, [run.p, [0.0, 0.0]])
+    state = run.save()
+    run["K"] = 2 * gains
+    run["K[0, 1]"] = 0.5
+    entries["K"] = [[4.0, 0.5], [2.0, -2.0]]                        # all of its entries are inputs
+    for each in (run, entries):
+        each.step(50)
+    assert np.array_equal(run.p, entries.p)
+    assert run["K"].tolist() == [[4.0, 0.5], [2.0, -2.0]]
+    sol = run.solution()
+    assert sol["u"].tolist() == [[3.0, -1.0]] * 101
+    assert sol["K"][-1].tolist() == [4.0, 0.5, 2.0, -2.0]
+    assert sol["K[0, 1]"][[50, 51]].tolist() == [0.0, 0.5]
+    run.restore(state)
+    assert run["K"].tolist() == gains.tolist()
+    run["u"] = [6.0, 0.0]
+    with pytest.raises(zd.InputRefused, match=r"input 'u\[0\]' must be between -5 and 5, not 6"):
+        run.step()
+    with refused("shape", r"input 'u' must be set to real numbers of shape \(2,\)"):
+        run["u"] = [1.0, 2.0, 3.0]
+    with refused("duplicate-name", r"'u\[1\]' is named more often"):
+        zd.Run(system, step=0.01, inputs=["u", "u[1]"])
+
+
 @needs_compiler
 def test_parameters_of_a_native_system_are_inputs(tmp_path):
     library = compile_library(PENDULUM, tmp_path / "pendulum.so")

@@ -22,6 +22,13 @@ class Declared(NamedTuple):
     of: WithInputs          # the system that has them
     follows: _gateway.Following     # way in which speeds reach their inputs
 
+    def places(self) -> dict[str, int | np.ndarray]:
+        """Index of each input by its name, and indices of each array all of whose entries are inputs, in its shape."""
+        index: dict[str, Any] = {name: i for i, name in enumerate(self.names)}
+        arrays = self.of.system._arrays_of_inputs().items()
+        whole = {name: entries for name, entries in arrays if index.keys() >= set(entries.ravel().tolist())}
+        return index | {name: np.vectorize(index.get, otypes=[int])(entries) for name, entries in whole.items()}
+
     def bound(self, *cores: Any, values: np.ndarray | None = None) -> tuple[_gateway.Inputs, list[Any]]:
         """Inputs of one run, in given memory, and its own systems in the place of these; None stays."""
         held = self.of.reactions
@@ -75,10 +82,10 @@ def declared(given: Any, system: BaseSystem, speeds: Speeds, step: float | None)
         following(speeds, (), step)
         return None
     limits = {} if given is None else given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
-    names = tuple(map(_name, limits))
+    names, limits = _entries(limits, system)
     if not names and given is not None:
         raise WrongValue("inputs must name at least one input", "missing-argument")
-    bounds = np.array([_limits(name, each) for name, each in zip(names, limits.values(), strict=True)]).reshape(-1, 2)
+    bounds = np.array([_limits(name, each) for name, each in zip(names, limits, strict=True)]).reshape(-1, 2)
     lower, upper = (np.ascontiguousarray(column) for column in bounds.T)
     return Declared(names, lower, upper, system._with_inputs(names), following(speeds, names, step))
 
@@ -88,10 +95,24 @@ def _names(given: Any) -> Sequence[Any]:
     if not isinstance(names, Sequence):
         raise WrongType(f"inputs must be names, or a dict of names to limits, not {_check.shown(given)}")
     listed = list(map(_name, names))
-    for name in listed:
-        if listed.count(name) > 1:
-            raise WrongValue(f"each input must be named once, and {name!r} is named more often", "duplicate-name")
+    _check_once(listed)
     return listed
+
+
+def _check_once(names: Sequence[str]) -> None:
+    for name in names:
+        if names.count(name) > 1:
+            raise WrongValue(f"each input must be named once, and {name!r} is named more often", "duplicate-name")
+
+
+def _entries(limits: Mapping[Any, Any], system: BaseSystem) -> tuple[tuple[str, ...], list[Any]]:
+    """Names of inputs, arrays as their entries, and the limits of each."""
+    arrays, found = system._arrays_of_inputs(), []
+    for name, each in zip(map(_name, limits), limits.values(), strict=True):
+        found += [(entry, each) for entry in (arrays[name].ravel().tolist() if name in arrays else [name])]
+    names = tuple(name for name, _ in found)
+    _check_once(names)
+    return names, [each for _, each in found]
 
 
 def _name(given: Any) -> str:
@@ -149,8 +170,9 @@ class Drives:
 class History:
     """Values of inputs over time, for a record: each from the time at which it was set; and jumps of speeds."""
 
-    def __init__(self, t: float, values: np.ndarray) -> None:
+    def __init__(self, t: float, values: np.ndarray, places: Mapping[str, Any]) -> None:
         self._t, self._values = [t], [values.copy()]
+        self._arrays = {name: place for name, place in places.items() if np.ndim(place)}
         self.jumps: list[Jump] = []
 
     def note(self, t: float, values: np.ndarray) -> None:
@@ -163,9 +185,11 @@ class History:
                 self._values.append(values.copy())
 
     def columns(self, names: Sequence[str], t: np.ndarray) -> dict[str, np.ndarray]:
-        """Values (len(t),) of each input by name."""
-        values = {name: np.ascontiguousarray(values) for name, values in zip(names, self.at(t).T, strict=True)}
-        return values | self._columns_of_jumps(t)
+        """Values (len(t),) of each input by name, (len(t), size) of an array, and sums of jumps."""
+        at = self.at(t)
+        columns = {name: np.ascontiguousarray(values) for name, values in zip(names, at.T, strict=True)}
+        arrays = {name: at[:, place.ravel()] for name, place in self._arrays.items()}
+        return columns | arrays | self._columns_of_jumps(t)
 
     def _columns_of_jumps(self, t: np.ndarray) -> dict[str, np.ndarray]:
         """Sums (len(t),) of impulses and works since the sample before."""

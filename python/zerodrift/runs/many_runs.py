@@ -92,7 +92,7 @@ class ManyRuns:
             ready = _in_lanes(ready)
         self.system, self.settings = ready.system, ready.settings
         self.inputs = np.zeros((count, len(ready.declared.names) if ready.declared else 0))
-        self._places = {name: i for i, name in enumerate(ready.declared.names)} if ready.declared else {}
+        self._places = ready.declared.places() if ready.declared else {}
         self._ready = _of_each(ready, count, _tables(parameters, count), _check_states(ready, p0, v0, count), self.inputs)
         self._parts, self._pool = _parts(count, 1 if ready.core.calls_python else processors()), None
         self._core = _gateway.ManyOpenRuns([each.created(_gateway.OpenRun) for each in self._ready], self._parts)
@@ -178,7 +178,7 @@ class ManyRuns:
         return self._readings[i]
 
     def __setitem__(self, name: Any, values: Any) -> None:
-        """Set an input in every run, from the next step on: a number, or an array (runs,)."""
+        """Set an input in every run, from the next step on: a number, or an array (runs,); of an array, (runs, ...)."""
         name = getattr(name, "name", name)
         if name not in self._places:
             raise WrongName(f"nothing but inputs can be set, and {name!r} is none; {_check.closest(name, self._places)}"

@@ -40,8 +40,9 @@ class Run:
         Size of fixed steps in s; left out: adaptive steps.
     inputs : sequence of str or measures, or dict, optional
         Numbers that are set between steps, by ``run[name] = value`` or ``run.inputs[:] = values``: torques, forces and speeds of
-        motors, actuators and loads of a mechanism, such as "drive.torque"; declared symbols of `symbolic`; numbers among the
-        parameters of a `System`, and entries of vectors, as "u[0]"; parameters of a `native` system. A dict has
+        motors, actuators and loads of a mechanism, such as "drive.torque"; declared symbols of `symbolic`; numbers and arrays
+        among the parameters of a `System`, as "u", or entries of them, as "u[0]"; parameters of a `native` system, which are
+        numbers. An array is set as a whole, ``run["u"] = [1.0, 2.0]``, or by entries. A dict has
         limits (lower, upper) of each, or None. They begin with the number that the system has. Forces are constant within a step,
         and their work is part of the energy balance. A speed is followed linearly, from the one before: over one fixed step, or
         over the time `ramp` in adaptive steps.
@@ -167,7 +168,7 @@ class Run:
         self._record, self._c_record, self._history, self._seconds = None, _gateway.NO_RECORD, None, 0.0
         self._drives = Drives(ready.declared) if ready.declared and ready.declared.follows.jumps else None
         self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
-        self._places = {name: i for i, name in enumerate(ready.inputs.names)} if ready.inputs else {}
+        self._places = ready.declared.places() if ready.declared else {}
         self._open(ready.created(_gateway.OpenRun))
 
     def _open(self, core: _gateway.OpenRun) -> None:
@@ -182,7 +183,7 @@ class Run:
         run = object.__new__(cls)
         run._begin(ready, controllers)
         if ready.inputs:
-            run._history = History(run.t, run.inputs)
+            run._history = History(run.t, run.inputs, run._places)
         return run
 
     def _control(self) -> None:
@@ -212,7 +213,7 @@ class Run:
         self._record = ready.record()
         self._c_record = self._record.c
         if ready.inputs:
-            self._history = History(self.t, self.inputs)
+            self._history = History(self.t, self.inputs, self._places)
         if ready.path:
             recording.begin_file(self._record, self._core, ready.system, ready.span, ready.settings, ready.recorded)
 
@@ -386,7 +387,7 @@ class Run:
 
         Returns
         -------
-        float, or ndarray (2,) or (3,) of a measure that is a vector
+        float, or ndarray (2,) or (3,) of a measure that is a vector, or of the shape of an input that is an array
 
         Raises
         ------
@@ -394,10 +395,12 @@ class Run:
             If nothing has this name, or several variables have.
         """
         place = self._places.get(name)
-        return self._reading(name) if place is None else float(self.inputs[place])
+        if place is None:
+            return self._reading(name)
+        return float(self.inputs[place]) if type(place) is int else self.inputs[place]
 
-    def __setitem__(self, name: Any, value: float) -> None:
-        """Set an input, from the next step on.
+    def __setitem__(self, name: Any, value: Any) -> None:
+        """Set an input, from the next step on: a number; or an array of its shape, or a number for all of its entries.
 
         Raises
         ------
@@ -408,6 +411,9 @@ class Run:
             self.inputs[self._places[name]] = value
         except KeyError:
             self.inputs[self._place_of(name)] = value
+        except ValueError:
+            raise WrongValue(f"input {name!r} must be set to real numbers of shape {np.shape(self._places[name])}, not "
+                             f"{_check.shown(value)}", "shape") from None
 
     def _place_of(self, name: Any) -> int:
         """Index of an input, by its name or its measure."""

@@ -331,6 +331,10 @@ class BaseSystem:
         """Names of numbers that may be inputs."""
         return []
 
+    def _arrays_of_inputs(self) -> dict[str, np.ndarray]:
+        """Names of the numbers in each array that may be an input as a whole, in its shape."""
+        return {}
+
     def _is_scalar_measure(self, name: str) -> bool:
         return name in self._watching.number and self._measuring.measure_size(self._watching.number[name]) == 1
 

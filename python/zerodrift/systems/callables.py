@@ -151,12 +151,16 @@ class System(BaseSystem):
         memory = {owner: np.array(self.parameters[owner], dtype=float) for owner in sorted(owners)}
         views = {owner: array.view(Live) for owner, array in memory.items()}
         mine = self._with(views)._core.for_run()
-        places = [Place(name, False, _gateway.doubles(memory[owner], memory[owner].size) + int(index.strip("]") or 0))
-                  for name in names for owner, _, index in [name.partition("[")]]
+        index = {name: i for each in self._arrays_of_inputs().values() for i, name in enumerate(each.ravel().tolist())}
+        places = [Place(name, False, _gateway.doubles(memory[owner], memory[owner].size) + index.get(name, 0))
+                  for name in names for owner in [name.partition("[")[0]]]
         return Bound(mine, places, (), memory)
 
     def _names_of_inputs(self) -> list[str]:
-        return list(_numbers(self.parameters))
+        return [*_numbers(self.parameters), *self._arrays_of_inputs()]
+
+    def _arrays_of_inputs(self) -> dict[str, np.ndarray]:
+        return {name: _entries(name, value) for name, value in self.parameters.items() if _is_array(value)}
 
     def __repr__(self) -> str:
         return f"<zd.System {self.name}: {self._sizes_in_words()}>"
@@ -170,14 +174,24 @@ class Live(np.ndarray):
 
 
 def _numbers(parameters: dict[str, Any]) -> dict[str, float]:
-    """Numbers among parameters by name, and entries of vectors as "u[0]"."""
+    """Numbers among parameters by name, and entries of arrays as "u[0]" and "K[0, 1]"."""
     found: dict[str, float] = {}
     for name, value in parameters.items():
         if isinstance(value, int | float | np.number) and not isinstance(value, bool):
             found[name] = float(value)
-        elif isinstance(value, np.ndarray) and value.ndim == 1 and value.dtype.kind in "fiu":
-            found |= {f"{name}[{i}]": float(each) for i, each in enumerate(value)}
+        elif _is_array(value):
+            found |= dict(zip(_entries(name, value).ravel().tolist(), value.astype(float).ravel().tolist(), strict=True))
     return found
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, np.ndarray) and value.ndim > 0 and value.dtype.kind in "fiu"
+
+
+def _entries(name: str, array: np.ndarray) -> np.ndarray:
+    """Names of the entries of an array, in its shape."""
+    names = [f"{name}[{', '.join(map(str, index))}]" for index in np.ndindex(array.shape)]
+    return np.array(names, dtype=object).reshape(array.shape)
 
 
 def _rebuild(kind: type[System], given: dict[str, Any]) -> System:
