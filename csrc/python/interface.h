@@ -39,6 +39,7 @@ ZD_WRITTEN_IN_PYTHON int zd_refuse_in_python(void *evaluator, int term, double t
 ZD_WRITTEN_IN_PYTHON int zd_event_in_python(void *owner, int event, double t, const double *p, const double *v, const double *x,
                                             double *value);
 ZD_WRITTEN_IN_PYTHON int zd_law_in_python(void *owner, int law, double t, const double *x, const double *xdot, double *out);
+ZD_WRITTEN_IN_PYTHON int zd_interrupted_in_python(void *owner);
 ZD_WRITTEN_IN_PYTHON void zd_name_row_in_python(const void *names, int row, char *to, int size);
 ZD_WRITTEN_IN_PYTHON int zd_found_in_python(void *owner, int event, double t, const double *p, const double *v);
 

@@ -6,7 +6,7 @@ import pytest
 import zerodrift as zd
 from covering import draws
 from large_mechanisms import chain, chain_of_balls, four_bars, spatial_chain, star
-from zerodrift.mechanisms.assembly import sparse
+from zerodrift.mechanisms.assembly import assembly
 
 AGREES = 1e-12
 NEAREST = 1e-4      # steps towards the drawing end where they gain a millionth of the distance: a thousandth of a tenth is left,
@@ -23,7 +23,7 @@ def doubled(n):
 @pytest.fixture
 def few(monkeypatch):
     """Takes what is done for many rows from the first one on, once it is called."""
-    return lambda: monkeypatch.setattr(sparse, "MOST_DENSE", 0)
+    return lambda: monkeypatch.setattr(assembly, "MOST_DENSE", 0)
 
 
 @pytest.mark.parametrize(("make", "held"), [

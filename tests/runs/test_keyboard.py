@@ -14,6 +14,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from covering import draws
+from large_mechanisms import chain
 from support import assert_close, assert_same_bits, motion
 from watched import At, pendulum
 from zerodrift import _gateway
@@ -190,6 +191,17 @@ def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar):
             assert repr(outcome.solution)
             kept += 1
     assert kept or what == "reference"      # whose result exists only at the end
+
+
+@posix
+@pytest.mark.parametrize("links", [100, 1000])
+def test_ctrl_c_ends_an_assembly(links):
+    """With dense matrices and without: the end of a chain is held far beyond its reach, which takes a minute to be found."""
+    m = chain(links)
+    m.start({f"link{links - 1}.end.position.y": 2.0 * links})
+    system, begin = m.system("absolute"), time.perf_counter()
+    assert isinstance(pressed_after(0.2, lambda: system.p0), KeyboardInterrupt)
+    assert time.perf_counter() - begin < 8.0        # on a busy machine
 
 
 def test_another_handler_of_ctrl_c_is_left_alone(bar):

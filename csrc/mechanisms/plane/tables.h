@@ -93,7 +93,7 @@ void zd_plane_state(const zd_plane *mechanism, const double *poses, const double
  * value (count,); where the velocities of the two bodies begin that each touches, at (count, 2), or -1 for the ground; and what zd_measured
  * has as its row at these, row (count, 2, 3). The cost is in proportion to bodies and components;
  * `scratch` holds measures->scratch doubles. */
-void zd_plane_components(const zd_plane *mechanism, const double *p, const double *v, int count, const int *which, double *value,
+void zd_plane_components(const void *mechanism, const double *p, const double *v, int count, const int *which, double *value,
                              int *at, double *row, double *scratch);
 
 #endif

@@ -67,7 +67,7 @@ int zd_space_angles(const zd_space *space, int *place);
 /* Marker quantity of a coordinate of a joint, which its kind must have; `angles` is the number of angles of the joints before it. */
 zd_space_quantity zd_space_coordinate_quantity(const zd_space_joint *joint, int coordinate, int angles);
 /* As zd_plane_components(); row (count, 2, 6). */
-void zd_space_components(const zd_space *space, const double *p, const double *v, int count, const int *which, double *value, int *at,
+void zd_space_components(const void *mechanism, const double *p, const double *v, int count, const int *which, double *value, int *at,
                          double *row, double *scratch);
 /* Size in bytes of the data of the system; and a copy of these data with the run's own owner of user functions, compiled user functions
  * (NULL: none), and inputs of generated functions. The pointer to these inputs is the first member of the data. */

@@ -79,6 +79,12 @@ def zd_refuse_in_python(owner, term, t):
     return ffi.from_handle(owner).refuse(term, t)
 
 
+@ffi.def_extern(error=lib.ZD_CALLBACK, onerror=_keep_error)
+def zd_interrupted_in_python(owner):
+    """Nothing: Python raises KeyboardInterrupt here after Ctrl-C."""
+    return 0
+
+
 class Watcher:
     """Evaluation of the events of one run, called by the core; stores the states of their occurrences.
 

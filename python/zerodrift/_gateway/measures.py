@@ -94,34 +94,6 @@ class Measuring:
                           "not-available")
 
 
-class Components(NamedTuple):
-    """Components of measures at one state in absolute coordinates, without the zeros of their rows.
-
-    value : (k,)
-    at : (k, 2), where the velocities of the two bodies begin that each touches; -1: the ground.
-    row : (k, 2, largest number of velocities of a body), the derivative of each, of positions of its rate, by these.
-    """
-
-    value: np.ndarray
-    at: np.ndarray
-    row: np.ndarray
-
-
-def components(read: Any, mechanism: Any, core: Measuring, width: int, p: np.ndarray, v: np.ndarray,
-               which: Sequence[tuple[int, int]]) -> Components:
-    """Components given by (measure, component) indices; the measures must depend on positions or velocities only."""
-    for measure, _ in which:
-        if core.measure_depends(measure) == "accelerations":
-            raise core._lacks(measure)
-    k, numbers = len(which), np.array(which, dtype=np.int32).reshape(-1)
-    found = Components(np.zeros(k), np.zeros((k, 2), dtype=np.int32), np.zeros((k, 2, width)))
-    scratch = ffi.new("double[]", max(1, core.c.measures.scratch))
-    read(mechanism, doubles(p, core.nq), doubles(v, core.nv), k, ffi.from_buffer("int[]", numbers),
-         doubles(found.value, k, writable=True), ffi.from_buffer("int[]", found.at, require_writable=True),
-         doubles(found.row, found.row.size, writable=True), scratch)
-    return found
-
-
 class Outputs:
     """Measures that a run records: their numbers, of the system that is run, or of one with the same equations."""
 

@@ -10,7 +10,7 @@ import numpy as np
 from .. import _check
 from .._gateway.mechanisms.geometry import Component, Geometry
 from ..errors import SingularSystem, WrongValue
-from ..mechanisms.assembly.sparse import assembly_of
+from ..mechanisms.assembly.assembly import Assembly
 from ..mechanisms.assembly.start import Starting, size_of
 from ..mechanisms.building.start_verbs import targets
 from ..mechanisms.elements.forces import Actuator, Motor
@@ -108,7 +108,7 @@ class Motion:
             driven = _driven(self._drawing, tables, core)
             names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index]
                      for row in core.rows]
-            p = assembly_of(core, names, driven, assembly.length, 0.0).led_to(p, self._starting.targets(given, core))
+            p = Assembly(core, names, driven, assembly.length, 0.0).led_to(p, self._starting.targets(given, core))
         return assembly.core.poses(p)[0]
 
     # ---- the curve ----

@@ -5,6 +5,7 @@
 
 #include "../../../linalg/small.h"
 #include "steps.h"
+#include "target_rows.h"
 
 static const double MET = 1e-9;         /* relative to the largest prescribed or computed velocity: tolerance of velocities */
 static const double ZERO_ROW = 1e-9;    /* relative to the mechanism's length: length of a row of rounding errors */
@@ -146,7 +147,7 @@ static void normalize_rates(zd_assembly *self, int count)
 /* Largest |J x + r| of the first rows, which are left in self->right */
 static double find_left(zd_assembly *self, int count, const double *x)
 {
-    for (int k = 0; k < count; k++) self->right[k] = zd_dot(self->n, self->J + k * self->n, x) + self->r[k];
+    for (int k = 0; k < count; k++) self->right[k] = zd_assembly_row_times(self, k, x) + self->r[k];
     return zd_largest(count, self->right);
 }
 

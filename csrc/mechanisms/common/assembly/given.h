@@ -28,6 +28,17 @@ typedef struct zd_target {
     int role;
 } zd_target;
 
+/* Components of measures of positions, which (count, 2) <- measure and component, as zd_plane_components() finds them */
+typedef void (*zd_components)(const void *mechanism, const double *p, const double *v, int count, const int *which, double *value, int *at,
+                              double *row, double *scratch);
+
+/* Mechanism of many free bodies with mass, which is assembled without dense matrices */
+typedef struct zd_many_bodies {
+    const void *mechanism;
+    zd_components components;
+    int width;                  /* velocities of a body, at most */
+} zd_many_bodies;
+
 typedef struct zd_assembly_given {
     const zd_system *system;    /* in absolute coordinates, with the measures of the targets */
     const double *inputs;       /* (2 inputs + 1,) or NULL */
@@ -37,6 +48,9 @@ typedef struct zd_assembly_given {
     int targets;
     const zd_target *target;    /* (targets,) */
     const double *aside;        /* (nv,) random displacement of about one: at a dead centre no step leads away from it; NULL: none */
+    const zd_many_bodies *many; /* NULL: dense matrices */
+    int (*interrupted)(void *owner);    /* nonzero: the assembly ends with ZD_CALLBACK; NULL: it is not interrupted */
+    void *owner;
     double *residual, *size;    /* (m + targets,): of the conditions that are not met, by sizes, and these sizes; NULL: not wanted */
 } zd_assembly_given;
 

@@ -12,13 +12,13 @@ static const double NUDGE = 1e-3;           /* length of a perturbation, in the 
 static const double FIRST_DAMPING = 1e-2, LEAST_DAMPING = 1e-12, MOST_DAMPING = 1e12;
 static const double SOLVED = 1e-12;         /* sum of squares below which Newton's method goes on */
 static const double LEAST_GAIN = 1e-14;     /* relative to the sum of squares: gain below which a minimization ends */
-enum { ATTEMPTS = 200, HALVINGS = 20, NEARER = 50, ITERATIONS = 40, PARTS = 200, POWERS = 200 };
+enum { ATTEMPTS = 200, HALVINGS = 20, NEARER = 50, ITERATIONS = 40, PARTS = 200 };
 
 int zd_assembly_newton(zd_assembly *self, const zd_conditions *of, double *p)
 {
     double best = zd_assembly_find(self, of, p);
     for (int i = 0; i < ITERATIONS && best >= 1e-15 && best < INFINITY; i++) {
-        zd_assembly_solve(self, self->rows, self->r, self->weight, self->step);
+        zd_assembly_solve(self, self->rows, self->r, self->metric, self->step);
         for (int j = 0; j < self->n; j++) self->step[j] = -self->step[j];
         zd_assembly_move(self, p, LONGEST, self->step, self->tried);
         const double error = zd_assembly_find(self, of, self->tried);
@@ -31,54 +31,12 @@ int zd_assembly_newton(zd_assembly *self, const zd_conditions *of, double *p)
 
 /* ---- least squares ---- */
 
-static int fewer(const zd_assembly *self) { return self->rows < self->n ? self->rows : self->n; }
-
-/* The product of J with its transpose, or of its transpose with it, whichever has fewer rows; returns its largest eigenvalue. */
-static double square_rows(zd_assembly *self)
-{
-    const int m = self->rows, n = self->n, k = fewer(self);
-    double *S = self->square, *x = self->factors + k * k, *y = x + k, largest = 0;
-    memset(S, 0, (size_t)(k * k) * sizeof *S);
-    for (int i = 0; k == m && i < m; i++)
-        for (int j = 0; j <= i; j++) S[i * k + j] = S[j * k + i] = zd_dot(n, self->J + i * n, self->J + j * n);
-    for (int i = 0; k < m && i < m; i++)
-        for (int j = 0; j < n; j++) zd_add_scaled(n, S + j * k, self->J[i * n + j], self->J + i * n);
-    for (int i = 0; i < k; i++) x[i] = 1 + 1.0 / (i + 2);       /* a vector that is orthogonal to none of interest */
-    for (int i = 0; i < POWERS; i++) {
-        for (int j = 0; j < k; j++) y[j] = zd_dot(k, S + j * k, x);
-        largest = sqrt(zd_dot(k, y, y));
-        for (int j = 0; j < k; j++) x[j] = largest > 0 ? y[j] / largest : 0;
-    }
-    return largest;
-}
-
-/* step <- -J^T (J J^T + mu)^-1 r = -(J^T J + mu)^-1 J^T r; returns whether that can be computed. */
-static int damped_step(zd_assembly *self, double mu)
-{
-    const int m = self->rows, n = self->n, k = fewer(self);
-    double *A = self->factors, *y = A + k * k, *x = self->step;
-    zd_copy_all(k * k, self->square, A);
-    for (int i = 0; i < k; i++) A[i * k + i] += mu;
-    if (zd_cholesky(k, A, A) < k) return 0;
-    memset(x, 0, (size_t)n * sizeof *x);
-    if (k == m) {
-        zd_forward(m, A, self->r, y);
-        zd_backward(m, A, y, y);
-    }
-    for (int i = 0; i < m; i++) zd_add_scaled(n, x, k == m ? -y[i] : -self->r[i], self->J + i * n);
-    if (k < m) {
-        zd_forward(n, A, x, x);
-        zd_backward(n, A, x, x);
-    }
-    return 1;
-}
-
 /* A damped step from p to self->tried with a smaller sum of squares, which is returned; INFINITY: there is none. */
 static double find_damped(zd_assembly *self, const zd_conditions *of, const double *p, double size, double *damping)
 {
-    const double largest = fmax(square_rows(self), 1);
+    const double unit = self->solver->prepare(self);
     for (; *damping < MOST_DAMPING && !self->status; *damping *= 4) {
-        if (!damped_step(self, *damping * largest)) continue;
+        if (!self->solver->damp(self, *damping * unit)) continue;
         zd_assembly_move(self, p, LONGEST, self->step, self->tried);
         zd_assembly_find(self, of, self->tried);
         const double tried = zd_dot(self->rows, self->r, self->r);
@@ -127,7 +85,7 @@ void zd_assembly_approach_drawing(zd_assembly *self, const zd_conditions *of, do
     double *step = self->x, *nearer = self->polished, distance = find_way(self, p, step);
     for (int i = 0; i < NEARER; i++) {
         zd_assembly_find(self, of, p);
-        for (int k = 0; k < self->rows; k++) self->r[k] += zd_dot(self->n, self->J + k * self->n, step);
+        for (int k = 0; k < self->rows; k++) self->r[k] += zd_assembly_row_times(self, k, step);
         zd_assembly_solve(self, self->rows, self->r, self->weight, self->step);
         for (int j = 0; j < self->n; j++) self->step[j] = step[j] - self->step[j];
         zd_assembly_move(self, p, TRACKED, self->step, nearer);

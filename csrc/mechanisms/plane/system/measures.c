@@ -82,9 +82,10 @@ static int act_on_body(const zd_plane *self, int body, double scale, zd_plane_wr
     return self->tree.link[body].coordinate;
 }
 
-void zd_plane_components(const zd_plane *self, const double *p, const double *v, int count, const int *which, double *value,
+void zd_plane_components(const void *mechanism, const double *p, const double *v, int count, const int *which, double *value,
                              int *at, double *row, double *scratch)
 {
+    const zd_plane *self = mechanism;
     const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
     zd_plane_tree_turn(&self->tree, p, frame.sines);
     zd_plane_tree_place(&self->tree, p, frame.sines, frame.pose);

@@ -88,9 +88,10 @@ static int act_on_body(const zd_space *self, const zd_space_frame *frame, int bo
     return self->body[body].v;
 }
 
-void zd_space_components(const zd_space *self, const double *p, const double *v, int count, const int *which, double *value, int *at,
+void zd_space_components(const void *mechanism, const double *p, const double *v, int count, const int *which, double *value, int *at,
                          double *row, double *scratch)
 {
+    const zd_space *self = mechanism;
     const zd_space_frame frame = zd_space_frame_of(self, scratch);
     zd_space_frame_place(self, &frame, p);
     zd_space_frame_move(self, &frame, v);

@@ -49,10 +49,13 @@ class CoreAssembly:
         Owner of each holonomic constraint, a key of ROWS.
     length : float
         Characteristic length in m.
+    is_of_many : bool
+        True for sparse matrices, at a cost proportional to the bodies, all of which must be free and have mass.
     """
 
-    def __init__(self, core: Any, rows: Sequence[str], length: float, t: float) -> None:
-        self.core, self.length, self.t = core, length, t
+    def __init__(self, core: Any, rows: Sequence[str], length: float, t: float, *, is_of_many: bool = False) -> None:
+        self.core, self.length, self.t, self.error = core, length, t, None
+        self._many = core.many_bodies() if is_of_many else ffi.NULL
         self._rows = ffi.new("int[]", [ROWS[row] for row in rows])
         self._is_angle = ffi.new("int[]", [int(coordinate.kind == "angle") for coordinate in core.motions])
         self._aside = np.random.default_rng(0).standard_normal(core.nv)
@@ -76,14 +79,16 @@ class CoreAssembly:
         if left_out:
             rows = ffi.new("int[]", [ROWS["left out"] if i in left_out else row for i, row in enumerate(self._rows)])
         residual, size = np.zeros((2, core.m + len(targets)))
+        handle, self.error = ffi.new_handle(self), None
         target, inputs = ffi.new("zd_target[]", list(targets)), core.initial_inputs()
         given = ffi.new("zd_assembly_given *", {
             "system": core.c, "inputs": inputs, "t": self.t, "length": self.length, "is_angle": self._is_angle, "row": rows,
-            "targets": len(targets), "target": target, "aside": doubles(self._aside, core.nv),
+            "targets": len(targets), "target": target, "aside": doubles(self._aside, core.nv), "many": self._many,
+            "interrupted": lib.zd_interrupted_in_python, "owner": handle,
             "residual": doubles(residual, residual.size, writable=True), "size": doubles(size, size.size, writable=True)})
         outcome = getattr(lib, f"zd_{operation}")(given, *arrays)
         if outcome < 0:
-            raise core.error or error_of(outcome, "the system's evaluation failed")
+            raise self.error or core.error or error_of(outcome, "the system's evaluation failed")
         return Outcome(outcome, found, residual, size)
 
 

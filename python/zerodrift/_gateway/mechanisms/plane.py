@@ -12,7 +12,7 @@ import numpy as np
 from ..._core import ffi, lib
 from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
-from ..measures import Components, components, given
+from ..measures import given
 from ..systems import CoreSystem
 from . import element_tables
 from .assembly import displaced, displacement
@@ -208,9 +208,9 @@ class MechanismCore(CoreSystem):
         mine._owner = owner
         return mine
 
-    def components(self, p: np.ndarray, v: np.ndarray, which: Sequence[tuple[int, int]]) -> Components:
-        """Components of measures, in absolute coordinates: see `Components`."""
-        return components(lib.zd_plane_components, self._mechanism, self, 3, p, v, which)
+    def many_bodies(self) -> Any:
+        """Components of measures for the assembly of many free bodies."""
+        return ffi.new("zd_many_bodies *", (self._mechanism, ffi.addressof(lib, "zd_plane_components"), 3))
 
     def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> MechanismCore:
         mine = copy.copy(self)

@@ -12,7 +12,6 @@ import numpy as np
 from ..._core import ffi, lib
 from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
-from ..measures import Components, components
 from ..systems import CoreSystem
 from . import element_tables
 from .assembly import displaced, displacement
@@ -215,9 +214,9 @@ class SpaceCore(CoreSystem):
         mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
         return mine
 
-    def components(self, p: np.ndarray, v: np.ndarray, which: Sequence[tuple[int, int]]) -> Components:
-        """Components of measures: see `Components`."""
-        return components(lib.zd_space_components, self._mechanism, self, 6, p, v, which)
+    def many_bodies(self) -> Any:
+        """Components of measures for the assembly of many free bodies."""
+        return ffi.new("zd_many_bodies *", (self._mechanism, ffi.addressof(lib, "zd_space_components"), 6))
 
     @property
     def lane_numbers(self) -> Any:

@@ -88,15 +88,25 @@ class _Coordinates:
 
     def unforced(self, forced: Forced) -> list[Coordinate]:
         ways: set[int] = set()
+        numbers = self._numbers()
         alone: set[int] = set()             # numbers of held or driven coordinates
         for name in forced.measures:
-            own = [i for i, each in enumerate(self.coordinates) if _is_of(name, each)]
+            own = numbers.get(name, ())
             alone |= set(own)
             ways |= set() if own else self._way_of(name)
         for element in forced.elements:
             ways |= self._way_of_element(element)
         moving = self.reach.moving_with(ways, {self.coordinates[i].body for i in alone}, self._couplings())
         return [each for i, each in enumerate(self.coordinates) if i not in alone and each.body not in moving]
+
+    def _numbers(self) -> dict[str, list[int]]:
+        """Numbers of the coordinates by the measures that are theirs or their rates."""
+        numbers: dict[str, list[int]] = {}
+        for i, each in enumerate(self.coordinates):
+            for name in (each.position, each.rate):
+                for measure in (name, f"{name}.{each.axis}"):
+                    numbers.setdefault(measure, []).append(i)
+        return numbers
 
     def _couplings(self) -> Iterator[set[int]]:
         for each in (*self.drawing.of(Coupling), *(each for each in self.drawing.of(Actuator) if each.prescribes)):
@@ -159,13 +169,6 @@ def swings(tables: Tables, coordinates: Iterable[Coordinate], first: int) -> tup
             observed.append(OutputSpec(name, unit, quantity, first + len(quantities), len(cosines)))
         quantities += cosines
     return quantities, observed
-
-
-def _is_of(name: str, coordinate: Coordinate) -> bool:
-    """True if a held measure is this coordinate or its rate."""
-    base, _, axis = name.rpartition(".")
-    return name in (coordinate.position, coordinate.rate) or (
-        base in (coordinate.position, coordinate.rate) and axis == coordinate.axis)
 
 
 def _is_rate(name: str, drawing: Drawing) -> bool:

@@ -7,8 +7,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from ...errors import CorrectionFailed, InconsistentStart
-from .dense import NUDGE, RANK, Assembly, Target, nullspace
-from .sparse import is_of_many
+from .assembly import NUDGE, RANK, Assembly, Target, is_of_many, nullspace
 
 NUDGED = "zd.assemble(m, nudge=True) starts beside it"
 OTHERWISE = "start a little aside, or drive another joint"

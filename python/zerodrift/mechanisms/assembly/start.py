@@ -21,11 +21,10 @@ from ..equations.measure_tables import read
 from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import Tables
 from ..equations.tree import loop
-from .dense import Assembly, Target
+from .assembly import Assembly, Target, is_of_many
 from .free_coordinates import Coordinate, bodies_of, names_of, swings, unforced
 from .nudge import aside, way_out
 from .space_advice import of_angles
-from .sparse import assembly_of, is_of_many
 
 MASSLESS = 1e-13        # of the largest mass: bound below which a motion has none
 
@@ -123,7 +122,7 @@ class Starting:
         left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
         linear = {each.name for each in self.drawing.of(Coupling) if each.law is None}
         couplings = {i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in linear}
-        return assembly_of(core, names, left_out, size_of(self.drawing, self.numbers), t, couplings)
+        return Assembly(core, names, left_out, size_of(self.drawing, self.numbers), t, couplings)
 
     def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
         p, _ = assembly.core.state(self._drawn(tables))
@@ -203,7 +202,7 @@ class Starting:
     def _left_open(self, assembly: Assembly, p: np.ndarray) -> str:
         """Names of the joints that stay open with all gaps as small as possible."""
         p = assembly.least_open(p)
-        Phi = assembly.core.evaluate(assembly.t, p, np.zeros(assembly.core.nv))["Phi"]
+        Phi = assembly.core.evaluate_stored(assembly.t, p, np.zeros(assembly.core.nv))["Phi"]
         open_by: dict[str, float] = {}
         for row, name, value in zip(assembly.core.rows, assembly.rows, Phi, strict=False):
             if row.owner == "joint":

@@ -10,9 +10,8 @@ import numpy as np
 from ..._gateway import Variable
 from ..._gateway.sparse_state import nearest_velocities, redundant_rows
 from ..assembly import space_advice
-from ..assembly.dense import Assembly
+from ..assembly.assembly import Assembly, is_of_many
 from ..assembly.nudge import nudged
-from ..assembly.sparse import is_of_many
 from ..assembly.start import Starting
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor

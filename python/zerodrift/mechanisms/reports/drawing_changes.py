@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..assembly.dense import Assembly
+from ..assembly.assembly import Assembly
 
 NAMED = 1e-3            # of the mechanism's length, or rad: smaller differences come from rounded numbers
 MOST_NAMED = 8          # bodies or joints in a line, at most

@@ -18,6 +18,7 @@ from .contradictions import contradiction, unit_of
 
 NUDGE = 1e-3            # step from a singular pose to nearby ones, in rad or parts of the mechanism's length
 RANK = 1e-9             # of the largest singular value: bound below which rows are redundant
+MOST_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
 
 
 class Target(NamedTuple):
@@ -27,6 +28,12 @@ class Target(NamedTuple):
     measure: int
     component: int
     value: float
+
+
+def is_of_many(core: MechanismCore) -> bool:
+    """True if matrices are too large to be dense."""
+    has_diagonal_mass = core.packing is not None and core.stored("M") == (core.nv,)
+    return has_diagonal_mass and max(core.nv, core.m) > MOST_DENSE
 
 
 class Assembly:
@@ -53,7 +60,7 @@ class Assembly:
         owners = ["joint" if core.rows[row].owner == "joint" else "left out" if row in left_out
                   else "coupling" if row in couplings else "drive" for row in range(core.mh)]
         self.is_joint = np.array([owners[row] == "joint" for row in self.kept], dtype=bool)
-        self._core = CoreAssembly(core, owners, length, t)
+        self._core = CoreAssembly(core, owners, length, t, is_of_many=is_of_many(core))
         angles = np.array([coordinate.kind == "angle" for coordinate in core.motions])
         self.scale = np.where(angles, 1.0, length)      # of coordinates: steps are in rad and parts of the length
 
