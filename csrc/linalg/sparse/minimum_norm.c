@@ -17,7 +17,7 @@
 #include "few_columns.h"
 #include "ordering.h"
 
-static const double RANK = 1e-9;        /* of rows of length one: bound of redundant ones */
+static const double RANK = 1e-9;        /* relative to rows of length one: bound of redundant ones */
 
 enum kind { MET, SQUARED, KINDS };
 

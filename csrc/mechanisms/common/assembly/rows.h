@@ -16,7 +16,7 @@ typedef struct zd_assembly {
     void *block;            /* memory of all arrays */
     const zd_assembly_solver *solver;
     void *solver_data;
-    const zd_layout *layout;    /* of many bodies; NULL: dense matrices */
+    const zd_layout *layout;    /* stored entries of many bodies; NULL: dense matrices */
     int n, m, most, widest; /* velocities; constraints; constraints and targets; components of a measure, at most */
     int status;             /* first failure of the system */
     double work;            /* estimated number of operations since the last check for an interruption */
