@@ -6,6 +6,7 @@ import signal
 import sys
 import threading
 import time
+import traceback
 from pathlib import Path
 
 import numpy as np
@@ -194,14 +195,19 @@ def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar):
 
 
 @posix
-@pytest.mark.parametrize("links", [100, 1000])
+@pytest.mark.parametrize("links", [100, 2000])
 def test_ctrl_c_ends_an_assembly(links):
-    """With dense matrices and without: the end of a chain is held far beyond its reach, which takes a minute to be found."""
+    """With dense matrices and without: the core finds in seconds that the end of a chain is held beyond its reach."""
     m = chain(links)
     m.start({f"link{links - 1}.end.position.y": 2.0 * links})
-    system, begin = m.system("absolute"), time.perf_counter()
-    assert isinstance(pressed_after(0.2, lambda: system.p0), KeyboardInterrupt)
-    assert time.perf_counter() - begin < 8.0        # on a busy machine
+    heard = []
+    for seconds in (0.3, 0.6, 1.2):     # Python prepares the conditions first, for longer on a busy machine
+        outcome = pressed_after(seconds, lambda: m.system("absolute").p0)
+        assert isinstance(outcome, KeyboardInterrupt)
+        heard = [frame.name for frame in traceback.extract_tb(outcome.__traceback__)]
+        if "zd_interrupted_in_python" in heard:
+            break
+    assert "zd_interrupted_in_python" in heard
 
 
 def test_another_handler_of_ctrl_c_is_left_alone(bar):

@@ -129,8 +129,8 @@ static void count_rows(elimination *self, size_t *most)
             for (int child = b->child; child >= 0; child = self->block[child].sibling) rows += self->block[child].passed[kind].most;
             const size_t entries = (size_t)rows * (size_t)(b->size + b->width);
             most[kind] = entries > most[kind] ? entries : most[kind];
-            const int passed = kind == MET ? b->size + b->width : b->width;
-            b->passed[kind].most = b->width == 1 ? 0 : rows < passed ? rows : passed;
+            const int passable = kind == MET ? b->size + b->width : b->width;
+            b->passed[kind].most = b->width == 1 ? 0 : rows < passable ? rows : passable;
         }
     }
 }
