@@ -115,7 +115,7 @@ def test_large_angles_are_reached_by_turning_and_count_turns():
 def test_what_cannot_be_held_is_named_with_what_remains():
     m = linkage()
     m.start({"coupler.end.position": (9.0, 0.0)})
-    with pytest.raises(zd.InconsistentStart, match=r"cannot be met together; nearest to it there are left: "
+    with pytest.raises(zd.InconsistentStart, match=r"cannot be met together; the nearest positions miss "
                                                    r"'coupler.end.position.x' by 6\.\d+ m, .* by 0\.\d+ m; "
                                                    r"in the loop of ground, crank, coupler, rocker, through A, B, C, D \[zd"):
         _ = m.system().p0

@@ -22,6 +22,8 @@ from .solution import Solution
 SMALLEST_PIVOT, LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION, ENERGY_ROUNDING = _gateway.WARNING_LIMITS
 TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
               "of step")
+TOO_LOOSE = ("the tolerances are too loose for what happens in some steps; take a smaller rtol and atol, or max_step where "
+             "something acts for a short time")
 CATEGORIES = (AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning)
 
 
@@ -100,7 +102,7 @@ def instability(stats: Mapping[str, Any], integrator: Any) -> Iterator[str]:
         yield (f"{too_long} of {steps} steps, with an omega h of up to {stats['omega_h']:.3g}, were longer "
                f"than {integrator!r} {limit}; take shorter ones{', or an implicit method' if stable else ''}")
     if stats["stiff"]:
-        yield (f"the problem is stiff for {integrator!r}: stability, not the error asked for, held down many "
+        yield (f"the problem is stiff for {integrator!r}: stability, not the tolerance, limited many "
                f"of its {steps} steps; an implicit method, as 'radau', takes longer ones")
 
 
@@ -108,7 +110,12 @@ def _other_branch(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     """The step that led to another assembly branch. The check may take as long as a run; a jump changes the energy."""
     if (at := branches.changed_at(solution)) is not None:
         yield AccuracyWarning, (f"in the step from t = {at:.6g} a correction led to another assembly branch, which no motion "
-                                f"reaches from there: {TOO_COARSE}")
+                                f"reaches from there: {_advice(solution)}")
+
+
+def _advice(solution: Solution) -> str:
+    """Advice on inaccurate steps, fixed or adaptive."""
+    return TOO_LOOSE if solution.settings["step"] is None else TOO_COARSE
 
 
 def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
@@ -116,7 +123,7 @@ def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     if not found and not solution.stats["too_long"] and solution.stats["unresolved"]:
         found = [_unresolved_part(solution)]        # otherwise the same has been said of the whole mechanism
     for sentence in found:
-        yield AccuracyWarning, f"{sentence}: {TOO_COARSE}"
+        yield AccuracyWarning, f"{sentence}: {_advice(solution)}"
     if found or solution.stats["too_long"] or solution.stats["energy_skipped"]:
         yield from _other_branch(solution)
 

@@ -292,9 +292,9 @@ def _view(value: Any) -> Any:
     return value.view(np.ndarray) if isinstance(value, np.ndarray) else value
 
 
-def arguments(name: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
-    """The names of the arguments that a callable wants."""
-    wants, there_is = [], f"there is {', '.join(allowed)}"
+def arguments(name: str, given: Callable[..., Any], allowed: list[str], more: str = "") -> list[str]:
+    """Names of the arguments that a callable takes, all of them `allowed`; errors list these, and then `more`."""
+    wants, there_is = [], f"there is {', '.join(allowed)}{more}"
     for argument in _signature(name, given, there_is):
         if argument.kind in (argument.VAR_POSITIONAL, argument.VAR_KEYWORD):
             raise WrongType(f"{name} has {str(argument)!r}, and must name what it asks for; {there_is}", "user-function")

@@ -129,8 +129,8 @@ class Assembly:
         residuals = ", ".join(f"{names[i]!r} by {apart[i]:.3g} {unit_of(names[i])}".rstrip() for i in worst[:4])
         turns = [target for target in held if unit_of(target.name) == "rad" and abs(target.value) > 2 * np.pi]
         hint = f". Angles are in rad: {turns[0].value:g} degrees are {np.radians(turns[0].value):.4g}" if turns else ""
-        return InconsistentStart(f"what the start holds and what is driven cannot be met together; nearest to it there are left: "
-                                 f"{residuals}{hint}")
+        return InconsistentStart("the values that the start holds and the drives cannot be met together; the nearest positions "
+                                 f"miss {residuals}{hint}")
 
     # ---- velocities ----
 

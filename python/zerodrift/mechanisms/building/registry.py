@@ -15,7 +15,7 @@ from ..elements.forces import Motor
 from ..elements.joints import Joint
 from ..elements.space_bodies import SpaceGround
 from ..elements.user_functions import Law
-from ..equations.measure_names import is_dynamic, reading
+from ..equations.measure_names import is_dynamic, readable, reading
 
 
 class Elements:
@@ -173,8 +173,9 @@ class Elements:
                 held.append(measure)
                 continue
             if read is None or len(read.quantities) != 1:
-                raise WrongValue(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is none",
-                                 "wrong-measure")
+                known = "" if read else f"; {_check.closest(measure, readable(self._elements[measure.partition('.')[0]]))}"
+                raise WrongValue(f"{what} must depend on scalar measures of positions and velocities, and {measure!r} is "
+                                 f"none{known}", "wrong-measure")
             if read.is_rate and positions:
                 raise WrongValue(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity",
                                  "wrong-measure")

@@ -103,7 +103,7 @@ class Table:
         value = float(autodiff.value(at))
         if not self.x[0] - self._allowed <= value <= self.x[-1] + self._allowed:
             raise WrongValue(f"the table goes from {self.argument} = {self.x[0]:g} to {self.x[-1]:g}, "
-                             f"and its value at {value:g} was requested", "out-of-range")
+                             f"and its value at {value:g} was requested: add points beyond its ends", "out-of-range")
         piece = min(max(int(np.searchsorted(self.x, value, side="right")) - 1, 0), self.x.size - 2)
         s, result = at - float(self.x[piece]), 0.0
         for coefficient in self.coefficients[:, piece]:

@@ -252,7 +252,7 @@ def _of(what: str, of: Any) -> Mapping[str, Any]:
 
 def _wanted(what: str, given: Callable[..., Any], allowed: list[str]) -> list[str]:
     """Names of the arguments of a callable; a NumPy function, such as np.sin, is one of t."""
-    return ["t"] if isinstance(given, np.ufunc) else arguments(what, given, allowed)
+    return ["t"] if isinstance(given, np.ufunc) else arguments(what, given, allowed, ", and what of= binds to measures")
 
 
 def _floor(x: Any) -> float:
