@@ -170,6 +170,40 @@ def test_joints_that_are_drawn_open_close(few):
     assert np.abs(drawn().v0 - v0).max() <= NEAREST
 
 
+def test_a_truss_that_is_drawn_open_closes():
+    """Two diagonals in each of 70 bays: bars are redundant, and each is drawn a hundredth aside."""
+    rng, pins, bars = np.random.default_rng(0), {}, []
+    m = zd.Mechanism("truss", gravity=(0, -9.81))
+    for i in range(70):
+        for a, b in (((i, 0), (i + 1, 0)), ((i, 1), (i + 1, 1)), ((i, 0), (i + 1, 1)), ((i + 1, 0), (i, 1)),
+                     ((i + 1, 0), (i + 1, 1))):
+            aside = 0.01 * rng.standard_normal(2)
+            bar = m.link(f"bar{len(bars)}", a + aside, b + aside, mass=1.0)
+            bars.append((a, b))
+            for node, end in ((a, bar.start), (b, bar.end)):
+                if node in pins:
+                    m.revolute(f"pin{len(bars)}-{node[0]}-{node[1]}", pins[node], end)
+                pins.setdefault(node, end)
+    m.revolute("support", m.ground, pins[0, 0])
+    p0 = m.system("absolute").p0.reshape(-1, 3)
+    assert p0.size > 1000
+    half = np.linalg.norm(np.diff(bars, axis=1)[:, 0], axis=1) / 2
+    along = half[:, None] * np.stack([np.cos(p0[:, 2]), np.sin(p0[:, 2])], axis=1)
+    places = {node: [] for node in pins}
+    for (a, b), start, end in zip(bars, p0[:, :2] - along, p0[:, :2] + along, strict=True):
+        places[a].append(start)
+        places[b].append(end)
+    assert max(np.ptp(at, axis=0).max() for at in places.values()) < 1e-10
+    assert max(np.abs(at[0] - node).max() for node, at in places.items()) < 0.1
+
+
+def test_joints_of_a_long_chain_that_cannot_close_are_named():
+    m = chain(400)
+    m.rod("rod", m["link0"].end, m["link2"].end, length=2.5)     # two links reach 2 m
+    with pytest.raises(zd.CorrectionFailed, match=r"cannot all close: .*'rod' by "):
+        m.system("absolute").p0.any()
+
+
 def test_of_many_contradictions_some_are_named():
     """The hinges allow nothing of what is held."""
     m, n = spatial_chain(200), 200
