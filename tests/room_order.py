@@ -20,6 +20,7 @@ ORDER = (
     ("simulate", "operations"),
     ("batch/lanes",),
     ("batch",),
+    ("batch/open",),
 )
 
 

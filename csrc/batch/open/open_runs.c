@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../run/run.h"
+#include "../../run/run.h"
 
 static const double SLICE = 3600;       /* s: a slice that does not end */
 

@@ -7,9 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../run/inputs.h"
-#include "../step/clock.h"
-#include "side_by_side.h"
+#include "../../step/clock.h"
+#include "lane_inputs.h"
+#include "../side_by_side.h"
 
 /* ---- creation ---- */
 
@@ -45,6 +45,7 @@ static zd_open_lanes *lay_out(zd_arena *arena, const zd_open_runs *runs, int64_t
     self->numbers = (size_t)(self->lanes.states * functions->lanes);
     self->image = zd_take_doubles(arena, (size_t)groups * self->numbers);
     self->place = zd_take(arena, (size_t)count * sizeof *self->place);
+    self->inputs = zd_lane_inputs_take(arena, runs, first, count);
     self->goal = zd_take(arena, (size_t)functions->lanes * sizeof *self->goal);
     return here;
 }
@@ -108,7 +109,7 @@ static int enter(zd_open_lanes *self, int64_t group)
         const int64_t i = run_of(self, group, lane);
         if (i >= self->first + self->count) break;
         if (!self->place[i - self->first].is_in && !self->place[i - self->first].is_slow && self->runs->status[i] >= 0
-            && zd_lane_may_enter(self, self->runs->run[i])) {
+            && zd_lane_may_enter(self, self->runs->run[i]) && zd_lane_inputs_fit(self, i)) {
             zd_lane_enter(self, lane, i);
             are_new = 1;
         }
@@ -120,11 +121,6 @@ static int enter(zd_open_lanes *self, int64_t group)
 
 /* ---- inputs ---- */
 
-static void load_numbers(const zd_lanes *lanes, int lane, int64_t count, const double *from, double *to)
-{
-    for (int64_t i = 0; i < count; i++) zd_lane_set(lanes, to, i, lane, from[i]);
-}
-
 /* Reads the inputs of the runs in lanes; those that have new ones get new accelerations. A run with refused inputs leaves. */
 static void read_inputs(zd_open_lanes *self, int64_t group)
 {
@@ -133,20 +129,12 @@ static void read_inputs(zd_open_lanes *self, int64_t group)
     for (int lane = 0; lane < lanes->lanes; lane++) {
         const int64_t i = run_of(self, group, lane);
         if (!is_in_lane(self, i)) continue;
-        zd_run *run = self->runs->run[i];
-        const int status = zd_inputs_read(run);
-        self->place[i - self->first].has_new = !status && run->held.is_new;
-        if (!status && !run->held.is_new) continue;
-        if (status) {
-            lanes->leaves[lane] = 1;
-            leave(self, lane, i);
-            self->runs->status[i] = status;
-            continue;
-        }
-        zd_inputs_write(run);
-        load_numbers(lanes, lane, self->runs->doubles, self->runs->data[i], lanes->data);
-        if (lanes->inputs) load_numbers(lanes, lane, 2 * run->motion.system.inputs + 1, run->motion.point->inputs, lanes->inputs);
-        are_new = 1;
+        const int is_new = zd_lane_inputs_read(self, lane, i);
+        are_new |= is_new > 0;
+        if (is_new >= 0) continue;
+        lanes->leaves[lane] = 1;
+        leave(self, lane, i);
+        self->runs->status[i] = ZD_BAD_INPUT;
     }
     if (are_new) self->functions->renew(lanes);
 }
@@ -258,7 +246,6 @@ static void advance_group(zd_open_lanes *self, int64_t group, int64_t steps, dou
     for (int lane = 0; lane < lanes->lanes; lane++) {
         const int64_t i = run_of(self, group, lane);
         if (i >= self->first + self->count) break;
-        self->place[i - self->first].has_new = 0;
         if (!is_in_lane(self, i)) advance_run(self, i, steps - (self->runs->run[i]->loop.step - made[lane]), t);
         else write_state(self, lane, i);
     }

@@ -5,8 +5,9 @@
 
 #include <math.h>
 
-#include "../paths/choose.h"
-#include "../step_limits.h"
+#include "../../paths/choose.h"
+#include "../../step_limits.h"
+#include "lane_inputs.h"
 
 int zd_lane_may_enter(const zd_open_lanes *self, const zd_run *run)
 {
@@ -63,6 +64,7 @@ void zd_lane_enter(zd_open_lanes *self, int lane, int64_t i)
     zd_lanes *lanes = &self->lanes;
     zd_run *run = self->runs->run[i];
     const zd_statistics *statistics = &run->motion.statistics;
+    const int is_behind = zd_lane_inputs_enter(self, i);
     zd_lanes_load(lanes, lane, run, self->runs->data[i], self->runs->doubles);
     lanes->t[lane] = lanes->t_before[lane] = lanes->t_sample[lane] = run->stepper.t;
     lanes->next_t[lane] = INFINITY;
@@ -74,7 +76,7 @@ void zd_lane_enter(zd_open_lanes *self, int lane, int64_t i)
     lanes->part_error[lane] = statistics->part_error;
     lanes->part[lane] = (double)statistics->part;
     self->runs->status[i] = ZD_DONE;
-    self->place[i - self->first] = (zd_lane_place){.is_in = 1};
+    self->place[i - self->first] = (zd_lane_place){.is_in = 1, .is_behind = (unsigned char)is_behind};
 }
 
 static void store_statistics(zd_lanes *lanes, int lane, double steps, zd_run *run)
@@ -111,10 +113,9 @@ int zd_lane_put_back(zd_open_lanes *self, int lane, int64_t i, double t, double 
 {
     zd_lanes *lanes = &self->lanes;
     zd_run *run = self->runs->run[i];
-    if ((int64_t)steps == run->loop.step) {         /* it is there, with all that it has kept */
-        run->held.is_new |= self->place[i - self->first].has_new;
-        return ZD_DONE;
-    }
+    const int has_moved = (int64_t)steps != run->loop.step;
+    zd_lane_inputs_put_back(self, i, has_moved);
+    if (!has_moved) return ZD_DONE;         /* it is there, with all that it has kept */
     store_statistics(lanes, lane, steps, run);
     store_checks(lanes, lane, steps, run);
     return move_to(lanes, lane, t, steps, y, run);
