@@ -199,6 +199,19 @@ def test_constants_that_follow_from_inputs_are_computed_for_each_lane():
     assert len(np.unique(pair.many.p)) == 16
 
 
+@pytest.mark.parametrize("how", ["reset", "restore"])
+def test_runs_in_lanes_keep_their_states_while_others_are_put_back(how):
+    many = zd.Run(cart_pole().system(compiled=True), runs=16, step=0.02, inputs=["drive.force"])
+    first, where = many.save(), np.arange(16) % 3 == 0
+    many["drive.force"] = np.arange(16.0)
+    many.step(5)
+    p, v = many.p, many.v
+    many.reset(where=where) if how == "reset" else many.restore(first[0], where=where)
+    assert many.t.tolist() == np.where(where, 0.0, 5 * 0.02).tolist()
+    assert np.array_equal(many.p[~where], p[~where])
+    assert np.array_equal(many.v[~where], v[~where])
+
+
 def test_a_state_from_a_lane_continues_in_one_run():
     system = cart_pole().system(compiled=True)
     many = zd.Run(system, runs=16, step=0.02, inputs=["drive.force"])

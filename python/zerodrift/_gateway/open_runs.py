@@ -147,7 +147,7 @@ class ManyOpenRuns:
         self._parts, self._ends = list(parts), np.cumsum([k for _, k in parts])
         self.lanes = [ffi.gc(lanes, lib.zd_open_lanes_free) if lanes else lanes
                       for lanes in (lib.zd_open_lanes_create(self.c, *part) for part in parts)]
-        self.read()
+        lib.zd_open_runs_read(self.c, 0, count)
 
     def _lanes_of(self, i: int) -> Any:
         return self.lanes[np.searchsorted(self._ends, i, side="right")]
@@ -160,11 +160,12 @@ class ManyOpenRuns:
         return run
 
     def replace(self, i: int, run: OpenRun) -> None:
-        """Replace one of the runs."""
+        """Replace one of the runs, and store its present state."""
         self._runs[i], self._pointers[i], self.status[i] = run, run.c, 0
         if lanes := self._lanes_of(i):
             self._numbers[i] = run.lane_numbers
             lib.zd_open_lanes_forget(lanes, i)
+        lib.zd_open_runs_read(self.c, i, 1)
 
     def advance(self, part: int, steps: int, t: float) -> None:
         """Advance the runs of one part; the interpreter lock is released meanwhile."""
@@ -172,7 +173,3 @@ class ManyOpenRuns:
             lib.zd_open_lanes_advance(lanes, steps, t)
         else:
             lib.zd_open_runs_advance(self.c, *self._parts[part], steps, t)
-
-    def read(self) -> None:
-        """Store the present states."""
-        lib.zd_open_runs_read(self.c, 0, len(self._runs))

@@ -222,7 +222,6 @@ class ManyRuns:
             if ready.inputs:
                 ready.inputs.restore(found.inputs, found.places)
             self._become(i, ready, run)
-        self._core.read()
 
     def _renewed(self, i: int) -> Prepared:
         """Arguments of a run, with memory of its own for inputs besides that of their values."""
@@ -255,7 +254,6 @@ class ManyRuns:
             ready = self._renewed(i)
             start = ready._replace(p0=ready.p0 if p is None else p, v0=ready.v0 if v is None else v)
             self._become(i, ready, start.created(_gateway.OpenRun))
-        self._core.read()
 
 
 def _parts(count: int, threads: int) -> list[tuple[int, int]]:
