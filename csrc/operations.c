@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "linalg/norms.h"
+#include "motion/derivatives.h"
 #include "paths/spread.h"
 #include "point/point.h"
 #include "point/quaternions.h"
@@ -74,6 +75,32 @@ int zd_evaluate_states(const zd_system *system, int want, int64_t states, const 
         for (int row = 0; zd_term_at(row); row++)
             if (want & zd_term_at(row)->term) *zd_term_in(&at, row) += zd_term_size(system, row);
     }
+    return status;
+}
+
+int zd_residuals_along(const zd_system *system, int parts, double t, const double *p, const double *v, const double *vdot,
+                       const double *lambda, int is_rough, int64_t directions, const double *dt, const double *dp, const double *dv,
+                       const double *sizes, double *derivatives)
+{
+    const enum zd_accuracy accuracy = is_rough ? ZD_CENTRAL : ZD_ACCURATE;
+    const int64_t nq = system->nq, nv = system->nv;
+    zd_statistics statistics = {0};
+    zd_arena counting = {0};
+    zd_residual_state_take(&counting, system, &statistics, accuracy);
+    zd_point_take(&counting, system, &statistics);
+    zd_memory *memory = zd_memory_create(counting.used);
+    if (!memory) return ZD_NO_MEMORY;
+    zd_arena arena = zd_arena_in(memory);
+    zd_residual_state state = zd_residual_state_take(&arena, system, &statistics, accuracy);
+    zd_point *point = zd_point_take(&arena, system, &statistics);
+    zd_point_move(point, t, p, v);
+    zd_residual_state_begin(&state, parts, point, vdot, lambda);
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < directions && !status; i++) {
+        const zd_direction direction = {.t = dt[i], .p = dp + i * nq, .v = dv + i * nv};
+        if (sizes[i] > 0) status = zd_residual_derivatives(&state, &direction, 1 / sizes[i], accuracy, derivatives + i * state.width);
+    }
+    zd_memory_free(memory);
     return status;
 }
 

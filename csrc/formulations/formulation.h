@@ -48,9 +48,11 @@ typedef struct zd_formulation {
     int (*entries)(const void *self, zd_entries *entries);
     int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
     /* For the Jacobian of the rate; NULL if the state is (p, v) or settle() is NULL. T (size, nq + nv) <- derivatives of p and v with
-     * respect to each entry of the state, at the point; Psi_p (m, nq): derivatives of (5) with respect to p. A nonzero return: they are
-     * not available there. pick(): ydot (size,) <- rate of the state, from the rates of p and v. */
-    int (*tangents)(void *self, zd_point *point, const double *Psi_p, double *T);
+     * respect to each entry of the state, at the point: first those of p with respect to its first entries, the coordinates, whose number
+     * is *positions; then all others, with the derivatives Psi_along (positions, m) of (5) along these p. A nonzero return: they are not
+     * available there. pick(): ydot (size,) <- rate of the state, from the rates of p and v. */
+    int (*tangents_of_p)(void *self, zd_point *point, double *T, int *positions);
+    int (*tangents_of_v)(void *self, zd_point *point, const double *Psi_along, double *T);
     void (*pick)(const void *self, const zd_point *point, const double *pdot, const double *vdot, double *ydot);
 } zd_formulation;
 

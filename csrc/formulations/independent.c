@@ -101,12 +101,17 @@ static int rate(void *memory, zd_point *point, double *ydot)
     return zd_minimal_rate(&self->minimal, point, ydot + embedding->k);      /* (19), (22) */
 }
 
-static int tangents(void *memory, zd_point *point, const double *Psi_p, double *T)
+static int tangents_of_p(void *memory, zd_point *point, double *T, int *positions)
 {
     independent *self = memory;
-    if (self->minimal.many) return ZD_SINGULAR;
-    int status = zd_embedding_tangents(&self->embedding, point, point->system->nq + point->system->nv, T);
-    return status ? status : zd_minimal_tangents(&self->minimal, point, Psi_p, self->embedding.k, T);
+    *positions = self->embedding.k;
+    return self->minimal.many ? ZD_SINGULAR : zd_embedding_tangents(&self->embedding, point, point->system->nq + point->system->nv, T);
+}
+
+static int tangents_of_v(void *memory, zd_point *point, const double *Psi_along, double *T)
+{
+    independent *self = memory;
+    return zd_minimal_tangents(&self->minimal, point, Psi_along, self->embedding.k, T);
 }
 
 static void pick(const void *memory, const zd_point *point, const double *pdot, const double *vdot, double *ydot)
@@ -170,6 +175,7 @@ const zd_formulation zd_independent = {
     .may_have_entries = may_have_entries,
     .entries = entries,
     .rate = rate,
-    .tangents = tangents,
+    .tangents_of_p = tangents_of_p,
+    .tangents_of_v = tangents_of_v,
     .pick = pick,
 };

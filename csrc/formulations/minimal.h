@@ -38,8 +38,8 @@ int zd_minimal_express(zd_minimal *self, zd_point *point, double *u);
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot);
 int zd_minimal_settle(void *self, zd_point *point);
 /* T (positions + size, nq + nv): its first rows hold the dp of each coordinate of the state and get their dv; the rows of u follow.
- * Psi_p: see tangents(). */
-int zd_minimal_tangents(zd_minimal *self, zd_point *point, const double *Psi_p, int positions, double *T);
+ * Psi_along: see tangents_of_v(). */
+int zd_minimal_tangents(zd_minimal *self, zd_point *point, const double *Psi_along, int positions, double *T);
 /* True if a system's u are entries of v; and, once they have been selected, their indices. */
 int zd_minimal_may_have_entries(const zd_system *system);
 int zd_minimal_entries(const void *self, zd_entries *entries);

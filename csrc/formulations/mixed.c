@@ -48,12 +48,19 @@ static int rate(void *memory, zd_point *point, double *ydot)
     return zd_minimal_rate(self, point, ydot + point->system->nq);
 }
 
-static int tangents(void *self, zd_point *point, const double *Psi_p, double *T)
+static int tangents_of_p(void *self, zd_point *point, double *T, int *positions)
 {
+    (void)self;
     const int nq = point->system->nq, width = nq + point->system->nv;
     for (int i = 0; i < nq; i++)
         for (int j = 0; j < nq; j++) T[i * width + j] = i == j;
-    return zd_minimal_tangents(self, point, Psi_p, nq, T);
+    *positions = nq;
+    return ZD_DONE;
+}
+
+static int tangents_of_v(void *self, zd_point *point, const double *Psi_along, double *T)
+{
+    return zd_minimal_tangents(self, point, Psi_along, point->system->nq, T);
 }
 
 static void pick(const void *memory, const zd_point *point, const double *pdot, const double *vdot, double *ydot)
@@ -90,6 +97,7 @@ const zd_formulation zd_mixed = {
     .may_have_entries = zd_minimal_may_have_entries,
     .entries = zd_minimal_entries,
     .rate = rate,
-    .tangents = tangents,
+    .tangents_of_p = tangents_of_p,
+    .tangents_of_v = tangents_of_v,
     .pick = pick,
 };

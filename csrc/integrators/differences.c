@@ -27,6 +27,14 @@ static double increment(const zd_differences *self, int i, double y, double chan
     return 0x1p-26 * (size > 0 ? size : 1);
 }
 
+void zd_differences_increments(const zd_differences *self, const double *y, double *increment_of)
+{
+    for (int i = 0; i < self->size; i++) {
+        const volatile double varied = y[i] + increment(self, i, y[i], 0);
+        increment_of[i] = varied - y[i];
+    }
+}
+
 void zd_differences_choose_units(zd_differences *self)
 {
     for (int i = 0; i < self->size; i++) {

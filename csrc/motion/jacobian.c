@@ -1,4 +1,7 @@
-/* Derivatives of the rate, as implicit integrators want them, from the system's own J, those of (pdot, vdot) by (p, v).
+/* Derivatives of the rate with respect to the state, for implicit integrators. Those of (pdot, vdot) and the power along a direction of
+ * (p, v) come from the system's own J where it has one, else from the derivatives of the residuals, with vdot and lambda at the state:
+ *
+ *     M dvdot + C^T dlambda = -dr,    C dvdot = -ds          (8), with the factors at the state
  *
  * Where the state y is (p, v), that is all. In independent velocities (p, v) = (g(q), D u + particular(-Phi_t)), and of their rates the state
  * has some entries: with T = d(p, v)/dy,
@@ -6,8 +9,8 @@
  *     d(ydot)/dy = pick(J T),     Phi_p dp = 0 with dq given          (18); of (17), all p are q
  *                                 C dv = -Psi_p dp with du given      (14), of Psi = C v + Phi_t, (5)
  *
- * The formulation solves for these, and with unit quaternions knows what of dp and pdot is the increments'. Psi_p comes from the system, too:
- * from J it follows only of holonomic rows where pdot = v, as C d(vdot)/dv = -2 Psi_p.
+ * The formulation solves for these, and with unit quaternions knows what of dp and pdot is the increments'. Psi_p dp comes from the system
+ * or from the same residuals: from J it follows only of holonomic rows where pdot = v, as C d(vdot)/dv = -2 Psi_p.
  */
 #include <string.h>
 
@@ -15,19 +18,164 @@
 #include "../linalg/small.h"
 #include "motion.h"
 
-zd_chain zd_chain_take(const zd_motion *motion, zd_arena *arena)
+static int jacobian(void *context, double t, const double *y, const double *increment, double *J);
+
+static size_t larger(size_t a, size_t b) { return a > b ? a : b; }
+
+void zd_motion_take_jacobian(zd_motion *motion, zd_arena *arena)
 {
     const zd_system *system = &motion->system;
-    const size_t width = (size_t)(system->nq + system->nv), size = (size_t)motion->formulation_size;
-    if (!system->jacobian) return (zd_chain){.scratch = NULL};
-    zd_chain chain = {.scratch = zd_take_doubles(arena, (size_t)system->jacobian->scratch)};
-    if (!motion->formulation->tangents || !system->jacobian->constraints) return chain;
-    chain.J = zd_take_doubles(arena, (width + 1) * width);
-    chain.Psi_p = zd_take_doubles(arena, (size_t)(zd_constraints(system) * system->nq));
-    chain.T = zd_take_doubles(arena, size * width);
-    chain.rates = zd_take_doubles(arena, width + 1);
-    chain.picked = zd_take_doubles(arena, size);
-    return chain;
+    const size_t nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)zd_constraints(system), width = nq + nv;
+    const size_t size = (size_t)motion->formulation_size;
+    const int has_tangents = motion->formulation->tangents_of_p != NULL;
+    const int has_own = has_tangents && system->jacobian && system->jacobian->constraints;
+    motion->chain = (zd_chain){
+        .residuals = zd_residual_state_take(arena, system, &motion->statistics, ZD_FOR_ITERATIONS),
+        .lambda = zd_take_doubles(arena, m),
+        .changes = zd_take_doubles(arena, width + m + 1),
+        .right = zd_take_doubles(arena, nv + m),
+        .solved = zd_take_doubles(arena, nv + m),
+        .unit = zd_take_doubles(arena, width),
+        .scratch = system->jacobian ? zd_take_doubles(arena, (size_t)system->jacobian->scratch) : NULL,
+        .J = has_own ? zd_take_doubles(arena, (width + 1) * width) : NULL,
+        .Psi_p = has_own ? zd_take_doubles(arena, m * nq + 1) : NULL,
+        .Psi_along = has_tangents ? zd_take_doubles(arena, size * m) : NULL,
+        .T = has_tangents ? zd_take_doubles(arena, size * width) : NULL,
+        .rates = zd_take_doubles(arena, width + 1),
+        .picked = zd_take_doubles(arena, larger(size, width)),
+    };
+    motion->rate.jacobian = jacobian;
+}
+
+/* ---- derivatives along one direction ---- */
+
+/* The multipliers with which r = 0 that belong to the independent constraints alone, as the rate does */
+static void find_multipliers(zd_motion *motion)
+{
+    zd_point *point = motion->point;
+    const zd_chain *chain = &motion->chain;
+    const int m = zd_constraints(point->system);
+    if (zd_rank_is_full(point)) {
+        zd_copy_all(m, point->lambda, chain->lambda);
+        return;
+    }
+    zd_selection *selection = point->rank->selection;
+    zd_point_force(point, point->force);
+    for (int a = 0; a < point->rows; a++) selection->rhs[a] = point->terms.xi ? point->terms.xi[selection->row_at[a]] : 0;
+    motion->statistics.solves++;
+    motion->formulation->solve(motion->solver, point->force, selection->rhs, chain->solved, selection->lambda);
+    memset(chain->lambda, 0, (size_t)m * sizeof(double));
+    for (int a = 0; a < point->rows; a++) chain->lambda[selection->row_at[a]] = selection->lambda[a];
+}
+
+/* Moves the point to the state; accelerations, multipliers and factors there */
+static int move_there(zd_motion *motion, double t, const double *y)
+{
+    zd_point *point = motion->point;
+    int status = motion->formulation->enter(motion->solver, point, t, y);
+    motion->state = y;
+    if (!status) status = zd_motion_accelerate(motion);
+    if (!status) status = zd_motion_factor(motion);
+    if (!status && motion->balance.input) status = zd_point_need(point, ZD_PHI_T);
+    if (status) return status;
+    return zd_constraints(point->system) && point->rank->lost ? ZD_SINGULAR : ZD_DONE;
+}
+
+/* At the point, for differentiate() */
+static void begin(zd_motion *motion)
+{
+    zd_point *point = motion->point;
+    zd_chain *chain = &motion->chain;
+    find_multipliers(motion);
+    const int power = motion->balance.input ? ZD_RESIDUAL_POWER : 0;
+    zd_residual_state_begin(&chain->residuals, ZD_RESIDUAL_R | ZD_RESIDUAL_S | ZD_RESIDUAL_PDOT | power, point, point->vdot, chain->lambda);
+}
+
+/* chain.rates <- derivatives of pdot, vdot and power along a direction (nq + nv,) */
+static int differentiate(zd_motion *motion, const double *direction, double increment)
+{
+    const zd_chain *chain = &motion->chain;
+    const zd_point *point = motion->point;
+    const int nq = motion->system.nq, nv = motion->system.nv, m = zd_constraints(&motion->system);
+    double *rhs = chain->right + nv, *vdot = chain->solved, *lambda = vdot + nv;
+    const zd_direction along = {.p = direction, .v = direction + nq};
+    int status = zd_residual_derivatives(&motion->chain.residuals, &along, increment, ZD_FOR_ITERATIONS, chain->changes);
+    if (status) return status;
+    for (int i = 0; i < nv; i++) chain->right[i] = -chain->changes[i];
+    for (int k = 0; k < point->rows; k++) rhs[k] = -chain->changes[nv + zd_rank_row(point, k)];
+    motion->statistics.solves++;
+    motion->formulation->solve(motion->solver, chain->right, rhs, vdot, motion->balance.input ? lambda : NULL);    /* (8) */
+    memcpy(chain->rates, chain->changes + nv + m, (size_t)nq * sizeof(double));
+    memcpy(chain->rates + nq, vdot, (size_t)nv * sizeof(double));
+    if (!motion->balance.input) return ZD_DONE;
+    chain->rates[nq + nv] = chain->changes[nv + m + nq];
+    for (int k = 0; k < point->rows && point->terms.Phi_t; k++) chain->rates[nq + nv] += lambda[k] * point->terms.Phi_t[zd_rank_row(point, k)];
+    return ZD_DONE;
+}
+
+/* ---- tangents ---- */
+
+/* chain.Psi_along by the Psi_p of the system */
+static int apply_Psi_p(zd_motion *motion, int positions)
+{
+    const zd_chain *chain = &motion->chain;
+    const zd_point *point = motion->point;
+    const zd_system *system = &motion->system;
+    const int nq = system->nq, m = zd_constraints(system), width = nq + system->nv;
+    motion->statistics.evaluations++;
+    int status = system->jacobian->constraints(system->data, point->terms.inputs, point->t, point->p, point->v, chain->Psi_p, chain->scratch);
+    for (int i = 0; i < positions && !status; i++)
+        for (int k = 0; k < m; k++) chain->Psi_along[i * m + k] = zd_dot(nq, chain->Psi_p + k * nq, chain->T + i * width);
+    return status;
+}
+
+/* The same by the residuals */
+static int differentiate_Psi(zd_motion *motion, int positions, const double *increment)
+{
+    zd_chain *chain = &motion->chain;
+    zd_point *point = motion->point;
+    const int m = zd_constraints(&motion->system), width = motion->system.nq + motion->system.nv;
+    int status = ZD_DONE;
+    zd_residual_state_begin(&chain->residuals, ZD_RESIDUAL_PSI, point, point->vdot, point->lambda);
+    for (int i = 0; i < positions && !status; i++) {
+        const zd_direction along = {.p = chain->T + i * width};
+        status = zd_residual_derivatives(&chain->residuals, &along, increment[i], ZD_FOR_ITERATIONS, chain->Psi_along + i * m);
+    }
+    return status;
+}
+
+/* T at the point, which is at the state */
+static int find_tangents(zd_motion *motion, const double *increment)
+{
+    const zd_chain *chain = &motion->chain;
+    const zd_formulation *formulation = motion->formulation;
+    const int m = zd_constraints(&motion->system);
+    int positions;
+    if (!formulation->tangents_of_p) return ZD_SINGULAR;
+    int status = formulation->tangents_of_p(motion->solver, motion->point, chain->T, &positions);
+    if (!status && m) status = chain->Psi_p ? apply_Psi_p(motion, positions) : differentiate_Psi(motion, positions, increment);
+    return status ? status : formulation->tangents_of_v(motion->solver, motion->point, chain->Psi_along, chain->T);
+}
+
+/* ---- the Jacobian of the rate ---- */
+
+/* Column j of J <- pick(chain.rates) */
+static void write_column(const zd_motion *motion, int j, double *J)
+{
+    const zd_chain *chain = &motion->chain;
+    const int size = motion->rate.size, entries = motion->formulation_size, width = motion->system.nq + motion->system.nv;
+    const int picks = motion->formulation->settle != NULL;
+    if (picks) motion->formulation->pick(motion->solver, motion->point, chain->rates, chain->rates + motion->system.nq, chain->picked);
+    const double *column = picks ? chain->picked : chain->rates;
+    for (int i = 0; i < entries; i++) J[i * size + j] = column[i];
+    if (size > entries) J[entries * size + j] = chain->rates[width];        /* derivative of the energy input */
+}
+
+/* On the energy input no rate depends. */
+static void clear_last_column(const zd_motion *motion, double *J)
+{
+    const int size = motion->rate.size, entries = motion->formulation_size;
+    for (int i = 0; i < size && size > entries; i++) J[i * size + entries] = 0;
 }
 
 /* J (rows, columns) -> J (rows, rows): columns of zeros for entries of the state on which no rate depends */
@@ -45,56 +193,65 @@ static int evaluate(zd_motion *motion, const double *p, const double *v, double 
 {
     const zd_system *system = &motion->system;
     motion->statistics.evaluations++;
-    return system->jacobian->evaluate(system->data, motion->rate.inputs, t, p, v, J, motion->chain.scratch);
+    return system->jacobian->evaluate(system->data, motion->rate.inputs, t, p, v, J, motion->chain.scratch) ? ZD_SINGULAR : ZD_DONE;
 }
 
-/* T at the point, after it has been moved to the state */
-static int find_tangents(zd_motion *motion, double t, const double *y)
-{
-    const zd_system *system = &motion->system;
-    const zd_chain *chain = &motion->chain;
-    zd_point *point = motion->point;
-    if (!system->jacobian->constraints) return ZD_SINGULAR;
-    int status = motion->formulation->enter(motion->solver, point, t, y);
-    motion->state = y;
-    if (status) return status;
-    if (zd_constraints(system)) {
-        motion->statistics.evaluations++;
-        status = system->jacobian->constraints(system->data, point->terms.inputs, t, point->p, point->v, chain->Psi_p, chain->scratch);
-    }
-    return status ? status : motion->formulation->tangents(motion->solver, point, chain->Psi_p, chain->T);
-}
-
-/* J <- pick(J T), column by column */
-static int apply_chain(zd_motion *motion, double t, const double *y, double *J)
+/* J <- pick(J T), column by column, of the system's own */
+static int apply_chain(zd_motion *motion, double t, const double *y, const double *increment, double *J)
 {
     const zd_chain *chain = &motion->chain;
     const zd_point *point = motion->point;
-    const int nq = motion->system.nq, width = nq + motion->system.nv, size = motion->rate.size, entries = motion->formulation_size;
-    int status = find_tangents(motion, t, y);
+    const int width = motion->system.nq + motion->system.nv, entries = motion->formulation_size;
+    if (!chain->J) return ZD_SINGULAR;
+    int status = motion->formulation->enter(motion->solver, motion->point, t, y);
+    motion->state = y;
+    if (!status) status = find_tangents(motion, increment);
     if (!status) status = evaluate(motion, point->p, point->v, t, chain->J);
-    if (status) return status;
-    for (int j = 0; j < entries; j++) {
-        for (int i = 0; i < width + size - entries; i++) chain->rates[i] = zd_dot(width, chain->J + i * width, chain->T + j * width);
-        motion->formulation->pick(motion->solver, point, chain->rates, chain->rates + nq, chain->picked);
-        for (int i = 0; i < entries; i++) J[i * size + j] = chain->picked[i];
-        if (size > entries) J[entries * size + j] = chain->rates[width];        /* derivative of the energy input */
+    for (int j = 0; j < entries && !status; j++) {
+        for (int i = 0; i < width + motion->rate.size - entries; i++)
+            chain->rates[i] = zd_dot(width, chain->J + i * width, chain->T + j * width);
+        write_column(motion, j, J);
     }
-    for (int i = 0; i < size && size > entries; i++) J[i * size + entries] = 0;
-    return ZD_DONE;
+    clear_last_column(motion, J);
+    return status;
 }
 
-int zd_motion_jacobian(void *context, double t, const double *y, double *J)
+static int take_own(zd_motion *motion, double t, const double *y, const double *increment, double *J)
+{
+    const int nq = motion->system.nq;
+    if (motion->formulation->settle) return apply_chain(motion, t, y, increment, J);
+    int status = evaluate(motion, y, y + nq, t, J);
+    if (!status) widen(motion->rate.size, nq + motion->system.nv, J);
+    return status;
+}
+
+/* By the residuals */
+static int take_by_residuals(zd_motion *motion, double t, const double *y, const double *increment, double *J)
+{
+    const zd_chain *chain = &motion->chain;
+    const int width = motion->system.nq + motion->system.nv, settles = motion->formulation->settle != NULL;
+    int status = move_there(motion, t, y);
+    if (!status && settles) status = find_tangents(motion, increment);
+    if (!status) begin(motion);
+    memset(chain->unit, 0, (size_t)width * sizeof(double));
+    for (int j = 0; j < motion->formulation_size && !status; j++) {
+        if (!settles) chain->unit[j] = 1;
+        status = differentiate(motion, settles ? chain->T + j * width : chain->unit, increment[j]);
+        if (!settles) chain->unit[j] = 0;
+        if (!status) write_column(motion, j, J);
+    }
+    clear_last_column(motion, J);
+    return status;
+}
+
+static int jacobian(void *context, double t, const double *y, const double *increment, double *J)
 {
     zd_motion *motion = context;
-    const int nq = motion->system.nq, size = motion->rate.size;
+    const int size = motion->rate.size;
     int status = ZD_SINGULAR;
     if (motion->is_stabilized || motion->corrections_size) return status;
-    if (motion->formulation->settle) status = apply_chain(motion, t, y, J);
-    else {
-        status = evaluate(motion, y, y + nq, t, J);
-        if (!status) widen(size, nq + motion->system.nv, J);
-    }
+    if (motion->system.jacobian) status = take_own(motion, t, y, increment, J);
+    if (status) status = take_by_residuals(motion, t, y, increment, J);
     if (status) return status;
     return zd_is_finite(size * size, J) ? ZD_DONE : ZD_NOT_FINITE;
 }

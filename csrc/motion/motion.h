@@ -7,6 +7,7 @@
 #include "../formulations/formulation.h"
 #include "../step_limits.h"
 #include "correction.h"
+#include "derivatives.h"
 
 /* An enabled correction. */
 typedef struct zd_active {
@@ -28,8 +29,9 @@ typedef struct zd_rate {
     const zd_system *system;
     const double *inputs;   /* (2 inputs + 1,): of the system; NULL without inputs */
     const double *vdot;     /* (nv,): acceleration at the start of a step, if known; otherwise NULL */
-    /* J (size, size) <- derivatives with respect to the state; nonzero: not available at this state. NULL: never available. */
-    int (*jacobian)(void *context, double t, const double *y, double *J);
+    /* J (size, size) <- derivatives with respect to the state; increment (size,): changes of its entries for differences. Nonzero: not
+     * available at this state. NULL: never available. */
+    int (*jacobian)(void *context, double t, const double *y, const double *increment, double *J);
     /* For states in independent velocities: (p, v) (nq + nv,) of a state, and the formulation's part of the state of (p, v). NULL: the state
      * begins with p and v. */
     int (*expand)(void *context, double t, const double *y, double *whole);
@@ -122,11 +124,17 @@ typedef struct zd_path {
     double *D;              /* (m, nv - m): at the point, derivatives of dependent by independent velocities */
 } zd_path;
 
-/* Memory for the Jacobian of the rate, by the chain rule from the system's own derivatives. */
+/* Memory for the Jacobian of the rate. */
 typedef struct zd_chain {
+    zd_residual_state residuals;    /* where the system has no Jacobian of its own; also the four fields that follow */
+    double *lambda;         /* (m,): multipliers of the independent constraints, zero for the redundant ones */
+    double *changes;        /* (nv + m + nq + 1,): derivatives of residuals, A v and power along one direction */
+    double *right, *solved; /* (nv + m,), (nv + m,): right side, and derivatives of vdot and lambda */
+    double *unit;           /* (nq + nv,): direction along one entry of a state (p, v) */
     double *scratch;        /* work array of the system's functions */
-    double *J;              /* (nq + nv + 1, nq + nv): the system's; this and all fields below are for states in independent velocities */
-    double *Psi_p;          /* (m, nq): derivatives of (5) with respect to p */
+    double *J;              /* (nq + nv + 1, nq + nv): the system's */
+    double *Psi_p;          /* (m, nq): derivatives of (5) with respect to p, the system's; NULL: not provided */
+    double *Psi_along;      /* (size, m): the same along the first rows of T; this and T are for states in independent velocities */
     double *T;              /* (size, nq + nv): derivatives of p and v with respect to each entry of the formulation's part of the state */
     double *rates;          /* (nq + nv + 1,): derivatives of pdot, vdot and power with respect to one entry */
     double *picked;         /* (size,): the independent entries of `rates` */
@@ -214,9 +222,8 @@ int zd_motion_leave(zd_motion *motion, double *y);  /* by the formulation */
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);     /* after a move of the point there */
 void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* rates of the corrections' part of the state */
 
-/* jacobian.c: derivatives of the rate from the system's own, for (8) with a regular M, from which those of all formulations follow. */
-zd_chain zd_chain_take(const zd_motion *motion, zd_arena *arena);
-int zd_motion_jacobian(void *motion, double t, const double *y, double *J);
+/* jacobian.c: memory for the derivatives of the rate, which are then available. */
+void zd_motion_take_jacobian(zd_motion *motion, zd_arena *arena);
 
 static inline void zd_count_position_iterations(zd_motion *motion, int iterations)
 {

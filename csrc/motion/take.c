@@ -54,10 +54,8 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .context = motion,
         .size = motion->formulation_size + zd_has_input(system),
         .system = &motion->system,
-        .jacobian = system->jacobian ? zd_motion_jacobian : NULL,
     };
     zd_motion_describe_rate(motion);
-    motion->chain = zd_chain_take(motion, arena);
 }
 
 void zd_motion_describe_rate(zd_motion *motion)

@@ -70,6 +70,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     zd_motion_take(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card));
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
+    if (integrator->takes_jacobian) zd_motion_take_jacobian(motion, arena);
     if (zd_takes_direct(settings)) zd_direct_take(motion, arena, settings->vector);
     motion->tally = &run->tally;
     zd_variables dependent = zd_variables_of(motion, integrator, independent);

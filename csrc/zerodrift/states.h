@@ -35,6 +35,21 @@ int zd_measure_states(const zd_system *system, const double *inputs, int measure
 int zd_evaluate_states(const zd_system *system, int want, int64_t states, const double *t, const double *p, const double *v,
                        const zd_terms *first);
 
+enum zd_residual_part {
+    ZD_RESIDUAL_R = 1,      /* (nv,) M vdot + d - f + C^T lambda, of (2) */
+    ZD_RESIDUAL_S = 2,      /* (m,) C vdot - xi, of (6) */
+    ZD_RESIDUAL_PSI = 4,    /* (m,) C v + Phi_t, of (5) */
+    ZD_RESIDUAL_PDOT = 8,   /* (nq,) A v, (1) */
+    ZD_RESIDUAL_POWER = 16  /* the power in (28), lambda^T Phi_t included */
+};
+
+/* Derivatives of residuals, with vdot and lambda held: those of the parts one behind the other, (directions, their entries), along directions
+ * dt (directions,), dp (directions, nq), dv (directions, nv) of these sizes (directions,) in characteristic scales, zero where nothing
+ * changes along one: the system's own, or by differences to 1e-12, is_rough: to 1e-8. */
+int zd_residuals_along(const zd_system *system, int parts, double t, const double *p, const double *v, const double *vdot,
+                       const double *lambda, int is_rough, int64_t directions, const double *dt, const double *dp, const double *dv,
+                       const double *sizes, double *derivatives);
+
 /* Values, rates, Jacobians and biases, all requested, of several measures of positions or velocities at many states; their components follow
  * one another, (states, size of all) of each, of Jacobians (states, size of all, nv). */
 int zd_measure_rates(const zd_system *system, const double *inputs, int count, const int *measures, int64_t states, const double *t,

@@ -15,6 +15,7 @@ static double state[1000];
 static void lay_out(zd_arena *arena, const zd_system *system, const zd_system *independent, int is_mixed)
 {
     zd_motion_take(&motion, arena, system, independent, is_mixed ? &zd_mixed : &zd_independent, NULL);
+    zd_motion_take_jacobian(&motion, arena);
     motion.tally = &tally;
 }
 
@@ -52,4 +53,10 @@ int size(void) { return motion.rate.size; }
 const double *start(void) { return state; }
 
 int rate(double t, const double *y, double *ydot) { return motion.rate.evaluate(motion.rate.context, t, y, ydot); }
-int jacobian(double t, const double *y, double *J) { return motion.rate.jacobian(motion.rate.context, t, y, J); }
+
+int jacobian(double t, const double *y, double *J)
+{
+    static double increment[1000];
+    for (int i = 0; i < motion.rate.size; i++) increment[i] = 0x1p-26;
+    return motion.rate.jacobian(motion.rate.context, t, y, increment, J);
+}

@@ -30,11 +30,13 @@ void zd_radau_matrices_resize(zd_radau_matrices *self, int size, int pairs)
 }
 
 /* From the rate's own derivatives, where they are known. */
-static int take_J(const zd_radau_matrices *self, const zd_rate *rate, double t, const double *y, double *J)
+static int take_J(zd_radau_matrices *self, const zd_rate *rate, double t, const double *y, double *J)
 {
     const int n = self->size;
     const double *unit = self->differences.unit;
-    int status = rate->jacobian(rate->context, t, y, J);
+    double *increment = self->differences.varied;
+    zd_differences_increments(&self->differences, y, increment);
+    int status = rate->jacobian(rate->context, t, y, increment, J);
     if (status) return status;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) J[i * n + j] *= unit[j] * self->inverse_unit[i];
@@ -44,7 +46,7 @@ static int take_J(const zd_radau_matrices *self, const zd_rate *rate, double t, 
 int zd_radau_evaluate_J(zd_radau_matrices *self, const zd_rate *rate, double t, double h, double *y, double *f, int knows_f, double *J)
 {
     int status = rate->jacobian ? take_J(self, rate, t, y, J) : ZD_SINGULAR;
-    if (!status) return ZD_DONE;
+    if (!status || status == ZD_CALLBACK) return status;
     status = knows_f ? ZD_DONE : rate->evaluate(rate->context, t, y, f);
     return status ? status : zd_differences_make(&self->differences, rate, t, h, 1, y, f, J);
 }

@@ -258,6 +258,25 @@ class CoreSystem(Measuring):
         return {name: self.packing.expand(name, array.reshape(k, -1)) if self.packing and name in PACKED
                 else array.reshape(k, *self.layout[name]) for name, array in arrays.items()}
 
+    def residuals_along(self, parts: str, at: tuple[float, np.ndarray, np.ndarray], vdot: np.ndarray, lam: np.ndarray,
+                        directions: tuple[np.ndarray, ...], *, is_rough: bool = False) -> np.ndarray:
+        """Derivatives (k, entries of the parts) of residuals at (t, p, v) along k directions, with vdot and lambda held.
+
+        Parts are "r" of (2) (nv,), "s" of (6) (m,), or both, or "Psi" of (5) (m,). Directions are dt (k,), dp (k, nq), dv (k, nv),
+        and their sizes (k,) in characteristic scales, zero where nothing changes.
+        """
+        core, (t, p, v), (dt, dp, dv, sizes) = self.for_run(), at, directions
+        bits = {"r": lib.ZD_RESIDUAL_R, "s": lib.ZD_RESIDUAL_S, "rs": lib.ZD_RESIDUAL_R | lib.ZD_RESIDUAL_S, "Psi": lib.ZD_RESIDUAL_PSI}
+        k, width = len(dt), {"r": self.nv, "s": self.m, "rs": self.nv + self.m, "Psi": self.m}[parts]
+        found = np.zeros((k, width))
+        status = lib.zd_residuals_along(
+            core.c, bits[parts], t, doubles(p, self.nq), doubles(v, self.nv), doubles(vdot, self.nv), doubles(lam, self.m), is_rough,
+            k, doubles(dt, k), doubles(dp, k * self.nq), doubles(dv, k * self.nv), doubles(sizes, k),
+            doubles(found, found.size, writable=True))
+        if status:
+            raise core.error or error_of(status, "the system's evaluation failed")
+        return found
+
     def _evaluated(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """Stored entries of these terms at all states, concatenated."""
         core, terms, k = self.for_run(), ffi.new("zd_terms *"), len(t)

@@ -3,8 +3,8 @@
 The residuals are r = M vdot + d - f + C^T lambda of (2) and s = C vdot - xi of (6), with vdot and lambda frozen. The derivative
 of the acceleration follows from theirs by one solve with the leading matrix; of redundant constraints it is unique along
 tangent directions. Systems with a Jacobian of their own (symbolic and compiled ones) give the derivative of the acceleration
-exactly; of all others the residuals are differenced with the step control of `differences`, 1e-12 for functions that are smooth
-on their characteristic scale; all directions and steps are evaluated at once.
+exactly; of all others the core differences the residuals, 1e-12 for functions that are smooth on their characteristic scale, by
+the same function that gives Radau's method its Jacobian.
 """
 
 from __future__ import annotations
@@ -19,8 +19,6 @@ from . import differences
 from .quantities import rates_of
 from .state import Scales, State, scales, state
 from .tangent import Tangent, multipliers
-
-LARGEST_ARRAY = 1 << 22     # entries of the matrices of states that are evaluated at once
 
 
 class Direction(NamedTuple):
@@ -53,33 +51,13 @@ class Direction(NamedTuple):
 
 def residuals(at: State, vdot: np.ndarray, lam: np.ndarray) -> np.ndarray:
     """Residuals r of (2) and s of (6) in one array (nv + m,)."""
-    return residuals_of(at.system, np.array([at.t]), at.p[None], at.v[None], vdot, lam)[0]
-
-
-def residuals_of(system: BaseSystem, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray,
-                 lam: np.ndarray) -> np.ndarray:
-    """Residuals r of (2) and s of (6), (k, nv + m), at states t (k,), p (k, nq), v (k, nv), with one vdot and lam."""
-    core, nv, m = core_of(system), system.nv, system.m
-    found = np.zeros((len(t), nv + m))
-    most = max(1, LARGEST_ARRAY // (nv * (nv + m) or 1))
-    names = ("d", "f", *(("M",) if np.any(vdot) else ()), *(("C", "xi") if m else ()))
-    for first in range(0, len(t), most):
-        part = slice(first, first + most)
-        terms = core.evaluate_states(names, t[part], np.ascontiguousarray(p[part]), np.ascontiguousarray(v[part]))
-        r, s = found[part, :nv], found[part, nv:]
-        r += terms.get("d", 0.0) - terms.get("f", 0.0)
-        if "M" in terms:
-            r += terms["M"] @ vdot
-        if m:
-            r += lam @ terms["C"]
-            s += terms["C"] @ vdot - terms.get("xi", 0.0)
-    return found
+    return np.concatenate([at.M @ vdot - at.force + lam @ at.C, at.C @ vdot - at.xi])
 
 
 def of_residuals(at: State, vdot: np.ndarray, lam: np.ndarray, direction: Direction) -> tuple[np.ndarray, np.ndarray]:
     """Directional derivatives of r (nv,) and s (m,), with vdot and the multipliers frozen."""
-    size = direction.size(scales(at.system, at.p), at)
     if direction.dparameters:
+        size = direction.size(scales(at.system, at.p), at)
         found = differences.along(lambda h: residuals(direction.step(at, h), vdot, lam), size)
     else:
         dp, dv = (np.zeros((1, n)) if each is None else each[None] for each, n in ((direction.dp, at.system.nq),
@@ -88,13 +66,13 @@ def of_residuals(at: State, vdot: np.ndarray, lam: np.ndarray, direction: Direct
     return found[:at.system.nv], found[at.system.nv:]
 
 
-def of_residuals_along(at: State, vdot: np.ndarray, lam: np.ndarray, dp: np.ndarray, dv: np.ndarray,
-                       dt: float = 0.0) -> np.ndarray:
-    """Derivatives (nv + m, k) of r and s along k directions dp (k, nq), dv (k, nv), all with dt; vdot and lam are frozen."""
-    def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
-        return residuals_of(at.system, at.t + h * dt, at.p + h[:, None] * dp[which], at.v + h[:, None] * dv[which], vdot, lam)
-
-    return differences.each(residual, sizes_of(at, dp, dv, dt), at.system.nv + at.system.m).T
+def of_residuals_along(at: State, vdot: np.ndarray, lam: np.ndarray, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0,
+                       parts: str = "rs", *, is_rough: bool = False) -> np.ndarray:
+    """Derivatives (nv + m, k) of r and s, or of `parts` of the residuals, along k directions dp (k, nq), dv (k, nv), all with dt."""
+    directions = (np.full(len(dp), float(dt)), dp, dv, sizes_of(at, dp, dv, dt))
+    p, v, vdot, lam = (np.ascontiguousarray(each, dtype=float) for each in (at.p, at.v, vdot, lam))
+    return core_of(at.system).residuals_along(parts, (float(at.t), p, v), vdot, lam, tuple(map(np.ascontiguousarray, directions)),
+                                              is_rough=is_rough).T
 
 
 def sizes_of(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> np.ndarray:

@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
 from ..errors import ZerodriftError
 from ..systems.base import BaseSystem
 from . import differences
-from .derivatives import residuals_of, sizes_of
+from .derivatives import of_residuals_along, sizes_of
 from .quantities import rates_of
 from .retraction import moved, onto, rows_of
 from .state import scales, state
@@ -99,30 +99,36 @@ class Balance:
     def _both(self) -> tuple[np.ndarray, np.ndarray]:
         V = self.V
         if self.is_rough:
-            return self._along(V, np.zeros((len(V), 0)), differences.each_roughly), np.zeros((0, 0))
-        K, D = np.split(self._along(V, V, differences.each), 2, axis=1)
+            return self._along(V, np.zeros((len(V), 0))), np.zeros((0, 0))
+        K, D = np.split(self._along(V, V), 2, axis=1)
         return K, D
 
-    def _along(self, displacements: np.ndarray, velocities: np.ndarray, differentiate: Callable[..., np.ndarray]) -> np.ndarray:
+    def _along(self, displacements: np.ndarray, velocities: np.ndarray) -> np.ndarray:
         """Derivatives (k, i + j) of the projected force along displacements (nv, i) and velocities (nv, j)."""
         at, system, lam, m = self.at, self.at.system, self.multipliers, self.at.system.m
         i, j = displacements.shape[1], velocities.shape[1]
         dp, dv = np.zeros((i + j, system.nq)), np.zeros((i + j, system.nv))
         dp[:i], dv[i:] = (at.A @ displacements).T, velocities.T
+        found = of_residuals_along(at, at.v, lam[:m], dp, dv, parts="r", is_rough=self.is_rough)
+        return self.V.T @ (found + self._of_held(dp, dv) if self.names else found)
 
-        def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+    def _of_held(self, dp: np.ndarray, dv: np.ndarray) -> np.ndarray:
+        """Derivatives (nv, k) of the generalized forces that hold quantities."""
+        at, lam = self.at, self.multipliers[self.at.system.m:]
+
+        def force(which: np.ndarray, h: np.ndarray) -> np.ndarray:
             t, p = np.full(len(h), at.t), at.p + h[:, None] * dp[which]
-            r = residuals_of(system, t, p, h[:, None] * dv[which], at.v, lam[:m])[:, :system.nv]
-            return r + lam[m:] @ rates_of(system, tuple(self.names), "hold", t, p)["row"] if self.names else r
+            return lam @ rates_of(at.system, tuple(self.names), "hold", t, p)["row"]
 
-        return self.V.T @ differentiate(residual, sizes_of(at, dp, dv), system.nv).T
+        differentiate = differences.each_roughly if self.is_rough else differences.each
+        return differentiate(force, sizes_of(at, dp, dv), at.system.nv).T
 
     def family(self) -> np.ndarray:
         """Displacements (nv, j) along which a balance stays one, beyond what nonholonomic constraints allow."""
         W = self.tangent.displacements
         if not self.at.system.mn or W.shape[1] == self.V.shape[1]:
             return np.zeros((len(W), 0))
-        _, values, vectors = np.linalg.svd(self._along(W, W[:, :0], differences.each_roughly))
+        _, values, vectors = np.linalg.svd(self._along(W, W[:, :0]))
         rank = int((values > ROUGHLY_FLAT * max(values.max(initial=0.0), 1e-300)).sum())
         return W @ vectors[rank:].T
 
