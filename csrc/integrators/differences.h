@@ -1,4 +1,6 @@
-/* df/dy of a rate by finite differences, for implicit methods, in units that make the entries of a state comparable. */
+/* df/dy of a rate by finite differences, for implicit methods, in units that make the entries of a state comparable: for the trapezoidal
+ * rule; and for Radau's method where motion/jacobian.c has no derivatives of the rate, which are Baumgarte's terms and the corrections' own
+ * entries of the state, states at a bifurcation, and in independent velocities the system's own complement D and large structures. */
 #ifndef ZD_DIFFERENCES_H
 #define ZD_DIFFERENCES_H
 

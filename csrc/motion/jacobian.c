@@ -109,7 +109,8 @@ static int differentiate(zd_motion *motion, const double *direction, double incr
     memcpy(chain->rates + nq, vdot, (size_t)nv * sizeof(double));
     if (!motion->balance.input) return ZD_DONE;
     chain->rates[nq + nv] = chain->changes[nv + m + nq];
-    for (int k = 0; k < point->rows && point->terms.Phi_t; k++) chain->rates[nq + nv] += lambda[k] * point->terms.Phi_t[zd_rank_row(point, k)];
+    for (int k = 0; k < point->rows && point->terms.Phi_t; k++)
+        chain->rates[nq + nv] += lambda[k] * point->terms.Phi_t[zd_rank_row(point, k)];
     return ZD_DONE;
 }
 

@@ -18,7 +18,6 @@ import numpy as np
 
 from ..errors import SingularSystem
 from ..systems.base import core_of
-from . import differences
 from .state import State, scales
 
 DEPENDENT = 1e-9        # of the largest singular value of scaled rows: what counts as dependent; rounding leaves 1e-13
@@ -99,12 +98,11 @@ class Tangent:
         at, W = self.at, self.displacements
         if not at.system.m:
             return np.zeros_like(W)
-        dp, sizes = (at.A @ W).T, np.abs(W / self.scale[:, None]).max(axis=0, initial=0.0)
-
-        def residual(which: np.ndarray, h: np.ndarray) -> np.ndarray:
-            return _velocity_residual(at, at.p + h[:, None] * dp[which])
-
-        return -self.solve_rows(differences.each(residual, sizes, at.system.m).T)
+        k, sizes = W.shape[1], np.abs(W / self.scale[:, None]).max(axis=0, initial=0.0)
+        directions = np.zeros(k), np.ascontiguousarray((at.A @ W).T), np.zeros((k, len(W))), sizes
+        p, v = np.ascontiguousarray(at.p, dtype=float), np.ascontiguousarray(at.v, dtype=float)
+        changes = core_of(at.system).residuals_along("Psi", (float(at.t), p, v), np.zeros(len(W)), np.zeros(at.system.m), directions)
+        return -self.solve_rows(changes.T)
 
     def solve_rows(self, right: np.ndarray) -> np.ndarray:
         """Minimum-norm x, in scaled velocities, with C x = right."""
@@ -126,12 +124,6 @@ class Tangent:
         """N (nq + nv, k): basis of the tangent space in (p, v)."""
         nv = self.at.system.nv
         return np.vstack([self.at.A @ self.quasi[:nv], self.quasi[nv:]])
-
-
-def _velocity_residual(at: State, p: np.ndarray) -> np.ndarray:
-    """C v + Phi_t (k, m) at other positions (k, nq)."""
-    terms = core_of(at.system).evaluate_states(("C", "Phi_t"), np.full(len(p), at.t), p, np.tile(at.v, (len(p), 1)))
-    return terms["C"] @ at.v + terms.get("Phi_t", 0.0)
 
 
 def multipliers(at: State, right: np.ndarray, rows: np.ndarray | None = None) -> np.ndarray:
