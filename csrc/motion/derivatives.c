@@ -28,15 +28,28 @@ zd_residual_state zd_residual_state_take(zd_arena *arena, const zd_system *syste
     };
 }
 
+/* Terms that the requested parts need besides A */
+static int find_needs(const zd_residual_state *self)
+{
+    const int parts = self->parts, uses_C = ZD_RESIDUAL_R | ZD_RESIDUAL_S | ZD_RESIDUAL_PSI;
+    return (parts & ZD_RESIDUAL_R ? ZD_BIAS | ZD_FORCE | (self->moves ? ZD_M : 0) : 0) | (parts & ZD_RESIDUAL_S ? ZD_XI : 0)
+           | (parts & uses_C ? ZD_C : 0) | (parts & (ZD_RESIDUAL_PSI | ZD_RESIDUAL_POWER) ? ZD_PHI_T : 0)
+           | (parts & ZD_RESIDUAL_POWER ? ZD_POWER : 0);
+}
+
 void zd_residual_state_begin(zd_residual_state *self, int parts, zd_point *point, const double *vdot, const double *lambda)
 {
     const zd_system *system = self->varied->system;
     const int m = zd_constraints(system);
     self->parts = parts;
-    self->width = (parts & ZD_RESIDUAL_R ? system->nv : 0) + (parts & ZD_RESIDUAL_S ? m : 0) + (parts & ZD_RESIDUAL_PSI ? m : 0)
-                + (parts & ZD_RESIDUAL_PDOT ? system->nq : 0) + (parts & ZD_RESIDUAL_POWER ? 1 : 0);
+    self->s_at = parts & ZD_RESIDUAL_R ? system->nv : 0;
+    self->Psi_at = self->s_at + (parts & ZD_RESIDUAL_S ? m : 0);
+    self->pdot_at = self->Psi_at + (parts & ZD_RESIDUAL_PSI ? m : 0);
+    self->power_at = self->pdot_at + (parts & ZD_RESIDUAL_PDOT ? system->nq : 0);
+    self->width = self->power_at + (parts & ZD_RESIDUAL_POWER ? 1 : 0);
     self->point = point, self->vdot = vdot, self->lambda = lambda;
     self->moves = vdot && zd_max_abs(system->nv, vdot) != 0;
+    self->needs = find_needs(self);
     self->knows_here = 0;
     self->varied->known &= self->varied->constant;      /* inputs may have been set */
     self->varied->terms.inputs = point->terms.inputs;
@@ -44,39 +57,61 @@ void zd_residual_state_begin(zd_residual_state *self, int parts, zd_point *point
 
 /* ---- residuals ---- */
 
-/* The parts in an array, those that are not requested as NULL */
-static zd_derivatives places(const zd_residual_state *self, double *x)
+/* r (n,) <- M vdot - force + C^T lambda of dense matrices; vdot NULL: 0 */
+ZD_INLINE void write_dense_dynamics(const int n, const int m, const zd_terms *terms, const double *vdot, const double *lambda,
+                                    const double *force, double *r)
 {
-    const zd_system *system = self->varied->system;
-    const int m = zd_constraints(system), sizes[] = {system->nv, m, m, system->nq, 1};
-    double *at[5];
-    for (int i = 0; i < 5; i++) {
-        at[i] = self->parts >> i & 1 ? x : NULL;
-        x += at[i] ? sizes[i] : 0;
-    }
-    return (zd_derivatives){.dynamics = at[0], .accelerations = at[1], .velocities = at[2], .rates = at[3], .power = at[4]};
+    for (int i = 0; i < n; i++) r[i] = (vdot ? zd_dot(n, terms->M + i * n, vdot) : 0) - force[i];
+    for (int k = 0; k < m; k++) zd_add_scaled(n, r, lambda[k], terms->C + k * n);
 }
 
 static void write_dynamics(const zd_residual_state *self, const zd_point *point, double *r)
 {
-    const int n = point->system->nv;
+    const int n = point->system->nv, m = zd_constraints(point->system);
     zd_point_force(point, point->force);
+    if (!point->layout) {
+        ZD_SIZED(write_dense_dynamics, n, m, &point->terms, self->moves ? self->vdot : NULL, self->lambda, point->force, r);
+        return;
+    }
     if (self->moves) zd_times_M(point, point->terms.M, self->vdot, r);
     else memset(r, 0, (size_t)n * sizeof *r);
     for (int i = 0; i < n; i++) r[i] -= point->force[i];
-    for (int k = 0; k < zd_constraints(point->system); k++) {
+    for (int k = 0; k < m; k++) {
         const zd_row_of_C row = zd_point_row(point, k);
         for (int j = 0; j < row.count; j++) r[zd_column(&row, j)] += self->lambda[k] * row.x[j];
     }
 }
 
-/* y (m,) <- C x + sign times the term, which may be absent */
-static void write_rows(const zd_point *point, const double *x, double sign, const double *term, double *y)
+/* y (m,) <- C x of a dense C */
+ZD_INLINE void multiply_dense(const int n, const int m, const double *C, const double *x, double *y)
 {
-    for (int k = 0; k < zd_constraints(point->system); k++) {
-        const zd_row_of_C row = zd_point_row(point, k);
-        y[k] = (x ? zd_row_times(&row, x) : 0) + (term ? sign * term[k] : 0);
+    for (int k = 0; k < m; k++) y[k] = zd_dot(n, C + k * n, x);
+}
+
+/* y (m,) <- C x; x NULL: 0 */
+static void multiply_by_C(const zd_point *point, const double *x, double *y)
+{
+    const int n = point->system->nv, m = zd_constraints(point->system);
+    if (x && !point->layout) {
+        ZD_SIZED(multiply_dense, n, m, point->terms.C, x, y);
+        return;
     }
+    for (int k = 0; k < m; k++) {
+        const zd_row_of_C row = x ? zd_point_row(point, k) : (zd_row_of_C){0};
+        y[k] = x ? zd_row_times(&row, x) : 0;
+    }
+}
+
+static void write_accelerations(const zd_residual_state *self, const zd_point *point, double *s)
+{
+    multiply_by_C(point, self->moves ? self->vdot : NULL, s);
+    for (int k = 0; point->terms.xi && k < zd_constraints(point->system); k++) s[k] -= point->terms.xi[k];
+}
+
+static void write_velocities(const zd_point *point, double *Psi)
+{
+    multiply_by_C(point, point->v, Psi);
+    for (int k = 0; point->terms.Phi_t && k < zd_constraints(point->system); k++) Psi[k] += point->terms.Phi_t[k];
 }
 
 static double power_of(const zd_point *point, const double *lambda)
@@ -89,17 +124,14 @@ static double power_of(const zd_point *point, const double *lambda)
 /* to (width,) <- residuals at a point */
 static int evaluate(const zd_residual_state *self, zd_point *point, double *to)
 {
-    const zd_derivatives of = places(self, to);
-    const int want = (of.dynamics ? ZD_BIAS | ZD_FORCE | (self->moves ? ZD_M : 0) : 0) | (of.accelerations ? ZD_XI : 0)
-                   | (of.dynamics || of.accelerations || of.velocities ? ZD_C : 0)
-                   | (of.velocities || of.power ? ZD_PHI_T : 0) | (of.power ? ZD_POWER : 0);
-    int status = of.rates ? zd_point_need_times_A(point, want) : zd_point_need(point, want);
+    const int parts = self->parts, needs_A = parts & ZD_RESIDUAL_PDOT;
+    int status = needs_A ? zd_point_need_times_A(point, self->needs) : zd_point_need(point, self->needs);
     if (status) return status;
-    if (of.dynamics) write_dynamics(self, point, of.dynamics);
-    if (of.accelerations) write_rows(point, self->moves ? self->vdot : NULL, -1, point->terms.xi, of.accelerations);
-    if (of.velocities) write_rows(point, point->v, 1, point->terms.Phi_t, of.velocities);
-    if (of.rates) zd_point_rate(point, point->v, of.rates);
-    if (of.power) *of.power = power_of(point, self->lambda);
+    if (parts & ZD_RESIDUAL_R) write_dynamics(self, point, to);
+    if (parts & ZD_RESIDUAL_S) write_accelerations(self, point, to + self->s_at);
+    if (parts & ZD_RESIDUAL_PSI) write_velocities(point, to + self->Psi_at);
+    if (needs_A) zd_point_rate(point, point->v, to + self->pdot_at);
+    if (parts & ZD_RESIDUAL_POWER) to[self->power_at] = power_of(point, self->lambda);
     return ZD_DONE;
 }
 
@@ -109,8 +141,10 @@ static int evaluate_along(zd_residual_state *self, const zd_direction *direction
     const zd_point *from = self->point;
     const int nq = from->system->nq, nv = from->system->nv;
     double *p = self->x, *v = p + nq;
-    for (int i = 0; i < nq; i++) p[i] = from->p[i] + (direction->p ? h * direction->p[i] : 0);
-    for (int i = 0; i < nv; i++) v[i] = from->v[i] + (direction->v ? h * direction->v[i] : 0);
+    zd_copy_all(nq, from->p, p);
+    zd_copy_all(nv, from->v, v);
+    if (direction->p) ZD_SIZED(zd_add_scaled, nq, p, h, direction->p);
+    if (direction->v) ZD_SIZED(zd_add_scaled, nv, v, h, direction->v);
     zd_point_move(self->varied, from->t + h * direction->t, p, v);
     return evaluate(self, self->varied, to);
 }
@@ -122,7 +156,8 @@ static int difference_once(zd_residual_state *self, const zd_direction *directio
     int status = self->knows_here ? ZD_DONE : evaluate(self, self->point, self->here);
     self->knows_here = !status;
     if (!status) status = evaluate_along(self, direction, step, to);
-    for (int i = 0; i < self->width && !status; i++) to[i] = (to[i] - self->here[i]) / step;
+    const double inverse = 1 / step;
+    for (int i = 0; i < self->width && !status; i++) to[i] = (to[i] - self->here[i]) * inverse;
     return status;
 }
 
@@ -188,17 +223,27 @@ static int difference_accurately(zd_residual_state *self, const zd_direction *di
     return ZD_DONE;
 }
 
-int zd_residual_derivatives(zd_residual_state *self, const zd_direction *direction, double step, enum zd_accuracy accuracy, double *to)
+/* The system's own; nonzero: not available there */
+static int evaluate_own(const zd_residual_state *self, const zd_direction *direction, double *to)
 {
     const zd_system *system = self->varied->system;
-    if (system->residuals) {
-        const zd_derivatives of = places(self, to);
-        const zd_point *point = self->point;
-        self->varied->statistics->evaluations++;
-        const int status = system->residuals->evaluate(system->data, point->terms.inputs, point->t, point->p, point->v, self->vdot,
-                                                       self->lambda, 1, direction, &of, self->scratch);
-        if (!status) return ZD_DONE;
-    }
+    const zd_point *point = self->point;
+    const int parts = self->parts;
+    const zd_derivatives of = {
+        .dynamics = parts & ZD_RESIDUAL_R ? to : NULL,
+        .accelerations = parts & ZD_RESIDUAL_S ? to + self->s_at : NULL,
+        .velocities = parts & ZD_RESIDUAL_PSI ? to + self->Psi_at : NULL,
+        .rates = parts & ZD_RESIDUAL_PDOT ? to + self->pdot_at : NULL,
+        .power = parts & ZD_RESIDUAL_POWER ? to + self->power_at : NULL,
+    };
+    self->varied->statistics->evaluations++;
+    return system->residuals->evaluate(system->data, point->terms.inputs, point->t, point->p, point->v, self->vdot, self->lambda, 1,
+                                       direction, &of, self->scratch);
+}
+
+int zd_residual_derivatives(zd_residual_state *self, const zd_direction *direction, double step, enum zd_accuracy accuracy, double *to)
+{
+    if (self->varied->system->residuals && !evaluate_own(self, direction, to)) return ZD_DONE;
     if (accuracy == ZD_FOR_ITERATIONS) return difference_once(self, direction, step, to);
     return accuracy == ZD_CENTRAL ? difference_centrally(self, direction, step, to) : difference_accurately(self, direction, step, to);
 }

@@ -34,7 +34,7 @@ void zd_motion_take_jacobian(zd_motion *motion, zd_arena *arena)
         .lambda = zd_take_doubles(arena, m),
         .changes = zd_take_doubles(arena, width + m + 1),
         .right = zd_take_doubles(arena, nv + m),
-        .solved = zd_take_doubles(arena, nv + m),
+        .lambda_along = zd_take_doubles(arena, m),
         .unit = zd_take_doubles(arena, width),
         .scratch = system->jacobian ? zd_take_doubles(arena, (size_t)system->jacobian->scratch) : NULL,
         .J = has_own ? zd_take_doubles(arena, (width + 1) * width) : NULL,
@@ -63,7 +63,7 @@ static void find_multipliers(zd_motion *motion)
     zd_point_force(point, point->force);
     for (int a = 0; a < point->rows; a++) selection->rhs[a] = point->terms.xi ? point->terms.xi[selection->row_at[a]] : 0;
     motion->statistics.solves++;
-    motion->formulation->solve(motion->solver, point->force, selection->rhs, chain->solved, selection->lambda);
+    motion->formulation->solve(motion->solver, point->force, selection->rhs, chain->right, selection->lambda);
     memset(chain->lambda, 0, (size_t)m * sizeof(double));
     for (int a = 0; a < point->rows; a++) chain->lambda[selection->row_at[a]] = selection->lambda[a];
 }
@@ -87,8 +87,17 @@ static void begin(zd_motion *motion)
     zd_point *point = motion->point;
     zd_chain *chain = &motion->chain;
     find_multipliers(motion);
-    const int power = motion->balance.input ? ZD_RESIDUAL_POWER : 0;
-    zd_residual_state_begin(&chain->residuals, ZD_RESIDUAL_R | ZD_RESIDUAL_S | ZD_RESIDUAL_PDOT | power, point, point->vdot, chain->lambda);
+    const int pdot = zd_has_A(&motion->system) ? ZD_RESIDUAL_PDOT : 0, power = motion->balance.input ? ZD_RESIDUAL_POWER : 0;
+    zd_residual_state_begin(&chain->residuals, ZD_RESIDUAL_R | ZD_RESIDUAL_S | pdot | power, point, point->vdot, chain->lambda);
+}
+
+/* Derivative of the power, with that of the multipliers */
+static double power_along(const zd_motion *motion, const double *lambda)
+{
+    const zd_point *point = motion->point;
+    double sum = motion->chain.changes[motion->chain.residuals.power_at];
+    for (int k = 0; k < point->rows && point->terms.Phi_t; k++) sum += lambda[k] * point->terms.Phi_t[zd_rank_row(point, k)];
+    return sum;
 }
 
 /* chain.rates <- derivatives of pdot, vdot and power along a direction (nq + nv,) */
@@ -96,21 +105,17 @@ static int differentiate(zd_motion *motion, const double *direction, double incr
 {
     const zd_chain *chain = &motion->chain;
     const zd_point *point = motion->point;
-    const int nq = motion->system.nq, nv = motion->system.nv, m = zd_constraints(&motion->system);
-    double *rhs = chain->right + nv, *vdot = chain->solved, *lambda = vdot + nv;
+    const int nq = motion->system.nq, nv = motion->system.nv, has_A = zd_has_A(&motion->system);
+    double *right = chain->right, *rhs = right + nv, *vdot = chain->rates + nq, *lambda = motion->balance.input ? chain->lambda_along : NULL;
     const zd_direction along = {.p = direction, .v = direction + nq};
     int status = zd_residual_derivatives(&motion->chain.residuals, &along, increment, ZD_FOR_ITERATIONS, chain->changes);
     if (status) return status;
-    for (int i = 0; i < nv; i++) chain->right[i] = -chain->changes[i];
+    for (int i = 0; i < nv; i++) right[i] = -chain->changes[i];
     for (int k = 0; k < point->rows; k++) rhs[k] = -chain->changes[nv + zd_rank_row(point, k)];
     motion->statistics.solves++;
-    motion->formulation->solve(motion->solver, chain->right, rhs, vdot, motion->balance.input ? lambda : NULL);    /* (8) */
-    memcpy(chain->rates, chain->changes + nv + m, (size_t)nq * sizeof(double));
-    memcpy(chain->rates + nq, vdot, (size_t)nv * sizeof(double));
-    if (!motion->balance.input) return ZD_DONE;
-    chain->rates[nq + nv] = chain->changes[nv + m + nq];
-    for (int k = 0; k < point->rows && point->terms.Phi_t; k++)
-        chain->rates[nq + nv] += lambda[k] * point->terms.Phi_t[zd_rank_row(point, k)];
+    motion->formulation->solve(motion->solver, right, rhs, vdot, lambda);     /* (8) */
+    zd_copy_all(nq, has_A ? chain->changes + chain->residuals.pdot_at : along.v, chain->rates);
+    if (lambda) chain->rates[nq + nv] = power_along(motion, lambda);
     return ZD_DONE;
 }
 

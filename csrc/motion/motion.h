@@ -129,7 +129,8 @@ typedef struct zd_chain {
     zd_residual_state residuals;    /* where the system has no Jacobian of its own; also the four fields that follow */
     double *lambda;         /* (m,): multipliers of the independent constraints, zero for the redundant ones */
     double *changes;        /* (nv + m + nq + 1,): derivatives of residuals, A v and power along one direction */
-    double *right, *solved; /* (nv + m,), (nv + m,): right side, and derivatives of vdot and lambda */
+    double *right;          /* (nv + m,): right side for the derivatives of vdot and lambda */
+    double *lambda_along;   /* (m,): derivatives of lambda along one direction, of a system with energy input */
     double *unit;           /* (nq + nv,): direction along one entry of a state (p, v) */
     double *scratch;        /* work array of the system's functions */
     double *J;              /* (nq + nv + 1, nq + nv): the system's */
