@@ -86,7 +86,7 @@ def test_rows_between_long_steps_of_stiff_systems(variables):
         options = {"rtol": rtol, "atol": rtol, "integrator": "radau"}
         exact = zd.simulate(system, 0.3, formulation="schur", t_eval=times, **options)
         sol = zd.simulate(system, 0.3, formulation=variables, t_eval=times, **options)
-        assert np.abs(sol.p - exact.p).max() < 10 * rtol
+        assert np.abs(sol.p - exact.p).max() < 3 * rtol
         assert np.abs(sol.velocity_violation).max() <= 1e-12 * np.abs(sol.v).max()
         p, v = zd.simulate(system, 0.3, formulation=variables, **options)(times)
         assert np.abs(p - sol.p).max() < rtol
@@ -171,14 +171,14 @@ def without_jacobian(system, monkeypatch):
 @pytest.mark.parametrize("energy", [None, True])
 def test_expressions_bring_their_jacobian(stiff_governor, formulation, energy, monkeypatch):
     """The run is the one by differences, except what an iteration leaves; and each Jacobian takes fewer evaluations: of a state
-    (p, v) one instead of six or, with the energy that comes in, seven; in independent velocities two, and what finds p and v.
+    (p, v) one instead of six; in independent velocities two instead of four, while p and v are found by many more.
     """
     options = {"rtol": 1e-6, "atol": 1e-6, "integrator": "radau", "formulation": formulation, "energy": energy}
     found = zd.simulate(stiff_governor, 1.0, **options)
     other = zd.simulate(without_jacobian(stiff_governor, monkeypatch), 1.0, **options)
     assert abs(found.stats["steps"] - other.stats["steps"]) < 0.1 * other.stats["steps"]
     assert np.abs(found.p[-1] - other.p[-1]).max() < 2e-6
-    assert found.stats["evaluations"] < 0.98 * other.stats["evaluations"]
+    assert found.stats["evaluations"] < 0.99 * other.stats["evaluations"]
 
 
 def test_what_changes_the_constraints_takes_differences(stiff_governor, monkeypatch):

@@ -96,9 +96,9 @@ static void remember(radau *self, double t, double h, const zd_rate *rate)
 static int solve_step(radau *self, double *y, int with_new_J, zd_statistics *statistics)
 {
     zd_radau_newton *it = &self->newton;
-    it->by_stages = 0;
     int status = with_new_J ? zd_radau_make_J(&it->matrices, it->rate, it->t0, it->h, y, self->f0) : ZD_DONE;
-    if (with_new_J) it->contraction = 1;
+    if (with_new_J || it->by_stages) it->contraction = 1;       /* of other matrices; with one J for each stage it is much smaller */
+    it->by_stages = 0;
     if (!status) status = zd_radau_factor(&it->matrices, it->h);
     if (status) return status;
     start(self);
