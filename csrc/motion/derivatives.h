@@ -13,8 +13,8 @@
 
 enum zd_accuracy {
     ZD_FOR_ITERATIONS,      /* differences of first order, one evaluation for each direction: 1e-8 */
-    ZD_CENTRAL,             /* of second order: 1e-8, with steps that leave less rounding */
-    ZD_ACCURATE             /* of eighth order, compared with those of sixth: 1e-12 */
+    ZD_CENTRAL,             /* differences of second order, with steps that leave less rounding: 1e-8 */
+    ZD_ACCURATE             /* differences of eighth order, compared with those of sixth: 1e-12 */
 };
 
 /* Residuals at a state, and memory for their differences. */

@@ -126,7 +126,7 @@ typedef struct zd_path {
 
 /* Memory for the Jacobian of the rate. */
 typedef struct zd_chain {
-    zd_residual_state residuals;    /* where the system has no Jacobian of its own; also the four fields that follow */
+    zd_residual_state residuals;    /* and the four fields that follow: for systems without a Jacobian of their own */
     double *lambda;         /* (m,): multipliers of the independent constraints, zero for the redundant ones */
     double *changes;        /* (nv + m + nq + 1,): derivatives of residuals, A v and power along one direction */
     double *right;          /* (nv + m,): right side for the derivatives of vdot and lambda */

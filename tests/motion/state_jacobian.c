@@ -6,15 +6,17 @@
 #include "../../csrc/point/quaternions.h"
 #include "../../csrc/point/units.h"
 
-extern const zd_formulation zd_mixed, zd_independent;
+extern const zd_formulation zd_independent, zd_mixed, zd_schur;
+
+static const zd_formulation *const formulations[] = {&zd_independent, &zd_mixed, &zd_schur};
 
 static zd_motion motion;
 static zd_tally tally;
 static double state[1000];
 
-static void lay_out(zd_arena *arena, const zd_system *system, const zd_system *independent, int is_mixed)
+static void lay_out(zd_arena *arena, const zd_system *system, const zd_system *independent, int formulation)
 {
-    zd_motion_take(&motion, arena, system, independent, is_mixed ? &zd_mixed : &zd_independent, NULL);
+    zd_motion_take(&motion, arena, system, independent, formulations[formulation], NULL);
     zd_motion_take_jacobian(&motion, arena);
     motion.tally = &tally;
 }
@@ -27,14 +29,14 @@ static int place(double t, const double *p, const double *v)
 }
 
 /* At a place where all rows count that ever do; the memory is never given back. */
-int begin(const zd_system *system, int is_mixed, double t, const double *p, const double *v)
+int begin(const zd_system *system, int formulation, double t, const double *p, const double *v)
 {
     zd_system independent = *system;
     for (int turn = 0; turn < 2; turn++) {
         zd_arena counting = {NULL, 0};
-        lay_out(&counting, system, &independent, is_mixed);
+        lay_out(&counting, system, &independent, formulation);
         zd_arena arena = {zd_allocate(counting.used), 0};
-        lay_out(&arena, system, &independent, is_mixed);
+        lay_out(&arena, system, &independent, formulation);
         int status = place(t, p, v);
         if (!status && zd_constraints(system)) status = zd_redundancy_prepare(motion.point);
         if (!status && zd_constraints(system)) status = zd_motion_find_rows(&motion);

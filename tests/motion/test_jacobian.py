@@ -13,7 +13,11 @@ import zerodrift as zd
 from core_objects import CC, CSRC, needs_compiler
 from random_symbolic import random_system
 from support import ROOT, along, assert_close, consistent_states
+from zerodrift.analysis.derivatives import Derivatives, jacobian
+from zerodrift.analysis.state import state as terms_at
+from zerodrift.analysis.tangent import Tangent
 
+FORMULATIONS = ("independent", "mixed", "schur")        # in the order of state_jacobian.c
 ROOMS = ("motion", "formulations", "point", "constraints", "linalg")
 pytestmark = needs_compiler
 
@@ -36,12 +40,13 @@ def pointer(array):
 
 
 class Integrated:
-    """Variables of a system that a formulation integrates, from a given state on."""
+    """Variables of a system, its own Jacobian with it or not, that a formulation integrates, from a given state on."""
 
-    def __init__(self, core, system, formulation, t, p, v):
-        self.core, self.t, self.system = core, ctypes.c_double(t), system._with_jacobian(system._core)
+    def __init__(self, core, system, formulation, t, p, v, *, has_own=True):
+        self.core, self.t = core, ctypes.c_double(t)
+        self.system = system._with_jacobian(system._core) if has_own else system._core
         address = ctypes.c_void_p(int(ffi.cast("uintptr_t", self.system.c)))
-        assert core.begin(address, formulation == "mixed", self.t, pointer(np.array(p)), pointer(np.array(v))) == 0
+        assert core.begin(address, FORMULATIONS.index(formulation), self.t, pointer(np.array(p)), pointer(np.array(v))) == 0
         self.y = np.array(core.start()[:core.size()])
 
     def rate(self, y):
@@ -56,10 +61,12 @@ class Integrated:
         assert self.core.jacobian(self.t, pointer(self.y), pointer(J)) == 0
         return J
 
+    def by_differences(self):
+        return np.transpose([along(self.rate, (self.y, direction)) for direction in np.eye(len(self.y))])
+
     def assert_is_exact(self):
         """Beside differences."""
-        by_differences = np.transpose([along(self.rate, (self.y, direction)) for direction in np.eye(len(self.y))])
-        assert_close(self.jacobian(), by_differences, 10 * tol.DIFFERENCE)
+        assert_close(self.jacobian(), self.by_differences(), 10 * tol.DIFFERENCE)
 
 
 both = pytest.mark.parametrize("kind", ["mixed", "independent"])
@@ -111,3 +118,42 @@ def test_with_unit_quaternions(core, kind, upper, coordinates):
     system = pendulums(upper).system(coordinates, compiled=True)
     for t, p, v in consistent_states(system, count=2):
         Integrated(core, system, kind, t, p, v).assert_is_exact()
+
+
+# ---- systems without a Jacobian of their own: derivatives of the residuals, for Radau's method and for the analyses ----
+
+
+def bushed_crank(*, compiled=False):
+    """Two links whose pin gives: stiff, but not beyond differences."""
+    m = zd.Mechanism("crank", gravity=(0, -9.81))
+    crank, rod = m.link("crank", (0, 0), (0.1, 0), mass=0.5), m.link("rod", (0.1, 0), (0.4, 0.1), mass=0.3)
+    m.revolute("main", m.ground, crank.start)
+    m.bushing("pin", crank.end, rod.start, stiffness=1e5, damping=1e2)
+    m.slot("cylinder", m.ground, rod.end, axis=(1, 0))
+    return m.system("absolute", compiled=compiled)
+
+
+def four_bar(*, compiled=False):
+    return zd.models.four_bar().system("absolute", compiled=compiled)
+
+
+def disc(*, compiled=False):
+    """On a plane that it rolls on: rows that are nonholonomic, and a kinematic matrix."""
+    return zd.models.rolling_disc().system("joint", compiled=compiled)
+
+
+@pytest.mark.parametrize("make", [four_bar, bushed_crank, disc])
+def test_radau_and_the_analyses_use_one_derivative(core, make):
+    """Derivatives of residuals: by differences of first order for Radau's iteration, 1e-6, of eighth for `check` and `linearize`.
+    Beside differences of rates, and beside the compiled Jacobian of the same mechanism.
+    """
+    system, exact = make(), make(compiled=True)
+    for t, p, v in consistent_states(system, count=1):
+        for formulation in FORMULATIONS:
+            found = Integrated(core, system, formulation, t, p, v, has_own=False)
+            assert_close(found.jacobian(), found.by_differences(), 1e-6, what=formulation)
+        tangent = Tangent(terms_at(system, t, p, v))
+        assert jacobian(tangent.at) is None
+        dp, dv = np.split(tangent.basis.T, [system.nq], axis=1)
+        along_tangents = Derivatives(tangent, *zd.acceleration(system, p, v, t)).of_accelerations(dp, dv)
+        assert_close(along_tangents, jacobian(terms_at(exact, t, p, v)) @ np.hstack([dp, dv]).T, tol.DIFFERENCE)

@@ -97,7 +97,7 @@ static int solve_step(radau *self, double *y, int with_new_J, zd_statistics *sta
 {
     zd_radau_newton *it = &self->newton;
     int status = with_new_J ? zd_radau_make_J(&it->matrices, it->rate, it->t0, it->h, y, self->f0) : ZD_DONE;
-    if (with_new_J || it->by_stages) it->contraction = 1;       /* of other matrices; with one J for each stage it is much smaller */
+    if (with_new_J || it->by_stages) it->contraction = 1;       /* one J for each stage contracts much better */
     it->by_stages = 0;
     if (!status) status = zd_radau_factor(&it->matrices, it->h);
     if (status) return status;
@@ -242,7 +242,7 @@ const zd_integrator zd_radau = {
         .description = "Order five, stable for steps of any size, and parts that are too fast for a step are damped: for stiff systems, "
                        "at steps chosen by an error estimate of order three. Its equations are solved by Newton's iteration with a "
                        "Jacobian, which is kept while it serves: that of the equations where these are expressions that are compiled, else "
-                       "one by differences; near bifurcations, where rates change abruptly, "
+                       "from derivatives of the residuals, as linearization has them; near bifurcations, where rates change abruptly, "
                        "a step of fixed size may not be solved, and stops the run.",
         .reference = "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II: Stiff and Differential-Algebraic Problems, "
                      "2nd edition, Springer, 1996, section IV.8",

@@ -262,15 +262,16 @@ class CoreSystem(Measuring):
                         directions: tuple[np.ndarray, ...], *, is_rough: bool = False) -> np.ndarray:
         """Derivatives (k, entries of the parts) of residuals at (t, p, v) along k directions, with vdot and lambda held.
 
-        Parts are "r" of (2) (nv,), "s" of (6) (m,), or both, or "Psi" of (5) (m,). Directions are dt (k,), dp (k, nq), dv (k, nv),
-        and their sizes (k,) in characteristic scales, zero where nothing changes.
+        Parts are "r" of (2) (nv,), "s" of (6) (m,), or both, or "Psi" of (5) (m,). Directions are dt (k,), dp (k, nq),
+        dv (k, nv), and their sizes (k,) in characteristic scales, zero where nothing changes.
         """
         core, (t, p, v), (dt, dp, dv, sizes) = self.for_run(), at, directions
-        bits = {"r": lib.ZD_RESIDUAL_R, "s": lib.ZD_RESIDUAL_S, "rs": lib.ZD_RESIDUAL_R | lib.ZD_RESIDUAL_S, "Psi": lib.ZD_RESIDUAL_PSI}
-        k, width = len(dt), {"r": self.nv, "s": self.m, "rs": self.nv + self.m, "Psi": self.m}[parts]
+        r, s, Psi = (lib.ZD_RESIDUAL_R, self.nv), (lib.ZD_RESIDUAL_S, self.m), (lib.ZD_RESIDUAL_PSI, self.m)
+        bits, width = {"r": r, "s": s, "rs": (r[0] | s[0], self.nv + self.m), "Psi": Psi}[parts]
+        k = len(dt)
         found = np.zeros((k, width))
         status = lib.zd_residuals_along(
-            core.c, bits[parts], t, doubles(p, self.nq), doubles(v, self.nv), doubles(vdot, self.nv), doubles(lam, self.m), is_rough,
+            core.c, bits, t, doubles(p, self.nq), doubles(v, self.nv), doubles(vdot, self.nv), doubles(lam, self.m), is_rough,
             k, doubles(dt, k), doubles(dp, k * self.nq), doubles(dv, k * self.nv), doubles(sizes, k),
             doubles(found, found.size, writable=True))
         if status:

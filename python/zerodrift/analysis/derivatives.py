@@ -68,7 +68,7 @@ def of_residuals(at: State, vdot: np.ndarray, lam: np.ndarray, direction: Direct
 
 def of_residuals_along(at: State, vdot: np.ndarray, lam: np.ndarray, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0,
                        parts: str = "rs", *, is_rough: bool = False) -> np.ndarray:
-    """Derivatives (nv + m, k) of r and s, or of `parts` of the residuals, along k directions dp (k, nq), dv (k, nv), all with dt."""
+    """Derivatives (nv + m, k) of r and s, or of other parts, along k directions dp (k, nq), dv (k, nv), all with dt."""
     directions = (np.full(len(dp), float(dt)), dp, dv, sizes_of(at, dp, dv, dt))
     p, v, vdot, lam = (np.ascontiguousarray(each, dtype=float) for each in (at.p, at.v, vdot, lam))
     return core_of(at.system).residuals_along(parts, (float(at.t), p, v), vdot, lam, tuple(map(np.ascontiguousarray, directions)),

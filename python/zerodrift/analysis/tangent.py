@@ -101,8 +101,8 @@ class Tangent:
         k, sizes = W.shape[1], np.abs(W / self.scale[:, None]).max(axis=0, initial=0.0)
         directions = np.zeros(k), np.ascontiguousarray((at.A @ W).T), np.zeros((k, len(W))), sizes
         p, v = np.ascontiguousarray(at.p, dtype=float), np.ascontiguousarray(at.v, dtype=float)
-        changes = core_of(at.system).residuals_along("Psi", (float(at.t), p, v), np.zeros(len(W)), np.zeros(at.system.m), directions)
-        return -self.solve_rows(changes.T)
+        core, rest = core_of(at.system), (np.zeros(len(W)), np.zeros(at.system.m))
+        return -self.solve_rows(core.residuals_along("Psi", (float(at.t), p, v), *rest, directions).T)
 
     def solve_rows(self, right: np.ndarray) -> np.ndarray:
         """Minimum-norm x, in scaled velocities, with C x = right."""
