@@ -74,7 +74,7 @@ class OpenRun(Run):
         return lib.zd_run_jump(self.c).count
 
     def jump(self) -> tuple[float, np.ndarray, np.ndarray]:
-        """The last one: its time, impulses (m,) with the sign of (7), and their works (m,) in J."""
+        """Last jump of speeds: time in s, impulses (m,) of the constraints with the sign of (7), and their works (m,) in J."""
         last, m = lib.zd_run_jump(self.c), self.sizes[2]
         return last.t, *(np.array(ffi.unpack(each, m)) for each in (last.impulses, last.works))
 

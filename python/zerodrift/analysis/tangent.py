@@ -44,7 +44,7 @@ def row_lengths(rows: np.ndarray) -> np.ndarray:
 
 
 def null_space(rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Orthonormal basis (nv, r), in scaled velocities, of the velocities that are allowed by rows (m, nv); returned unscaled."""
+    """Basis (nv, r) of the velocities x with rows x = 0, rows (m, nv); it is orthonormal in scaled velocities, x / scale."""
     nv = rows.shape[1]
     if not len(rows):
         return np.diag(scale)
@@ -54,7 +54,7 @@ def null_space(rows: np.ndarray, scale: np.ndarray) -> np.ndarray:
 
 
 def mass_orthonormal(Z: np.ndarray, M: np.ndarray) -> np.ndarray:
-    """The same space as Z (nv, r) with a basis that is orthonormal in the metric of M.
+    """Basis of the space of the columns of Z (nv, r) that is orthonormal in the metric of M.
 
     Raises
     ------

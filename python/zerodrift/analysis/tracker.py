@@ -57,7 +57,7 @@ class Tracker:
         self.system, self.names, self._rest = system, names, np.zeros(system.nv)
 
     def target(self, t: float, p: np.ndarray) -> Target:
-        """The target that a position meets."""
+        """Target whose values are those of the prescribed quantities at a position p (nq,)."""
         at = state(self.system, t, p, self._rest)
         return Target(t, {name: find(at, name, "prescribed").value for name in self.names})
 

@@ -68,8 +68,9 @@ class LiveView:
         return self._page({"core": _encoded(gzip.compress(wasm.core(), 9))})
 
     def linked(self, *scripts: str) -> str:
-        """The page without core and player, which it takes from scripts of these addresses: `player`, and before it one that sets
-        ``globalThis.zerodriftCore`` to the core in base 64.
+        """Page that loads core and player from these addresses of scripts, for sites with several pages.
+
+        The first script sets ``globalThis.zerodriftCore`` to the core in base 64, the second is `player`.
         """
         return self._page({}, "".join(f'<script src="{html.escape(each, quote=True)}"></script>' for each in scripts))
 

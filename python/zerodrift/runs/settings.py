@@ -312,7 +312,7 @@ def disagreement(settings: dict[str, Any]) -> str:
 
 
 def given(*chosen: Any) -> dict[str, Any]:
-    """Parameters of methods that are given as settings, as the core's settings name them."""
+    """Parameters of the methods among `chosen` that are settings instead of names, by the field of `zd_settings`."""
     rows = [each for each in chosen if isinstance(each, RowSettings)]
     methods = {f"of_{each.table.removesuffix('s')}": each._values() for each in rows if each.table != "corrections"}
     return methods | {"correction": {each.card.name: each._values() for each in rows if each.table == "corrections"}}

@@ -13,7 +13,7 @@ import numpy as np
 
 
 class Varies(Exception):
-    """A decision depends on a number that differs between the mechanisms."""
+    """Raised if a comparison has different results for the mechanisms of a `Column`, so that they take different branches."""
 
 
 class Column:
