@@ -27,6 +27,7 @@ def test_each_run_has_the_bits_that_it_has_alone(compiled, runs):
     system, force = cart_pole().system(compiled=compiled), np.random.default_rng(1).uniform(-10, 10, (10, runs))
     p0 = np.random.default_rng(2).uniform(-0.1, 0.1, (runs, 2))
     many = zd.Run(system, p0, runs=runs, step=0.02, inputs=["drive.force"])
+    before = many["hinge.force"]
     for values in force:
         many["drive.force"] = values
         many.step(3)
@@ -39,6 +40,7 @@ def test_each_run_has_the_bits_that_it_has_alone(compiled, runs):
         assert np.array_equal(many.v[i], one.v)
         assert many.t[i] == one.t
         assert many["hinge.force"][i].tolist() == pytest.approx(one["hinge.force"].tolist(), rel=1e-12)
+        assert not np.array_equal(many["hinge.force"][i], before[i])
 
 
 def test_parameters_differ_between_runs():

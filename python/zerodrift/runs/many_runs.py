@@ -171,10 +171,11 @@ class ManyRuns:
         return np.array([self._reading(i)(name) for i in range(len(self))])
 
     def _reading(self, i: int) -> Reading:
+        run = self._core[i]         # which brings it to its present state
         if i not in self._readings:
             ready = self._ready[i]
             of = ready.declared.of.system if ready.declared else ready.system
-            self._readings[i] = Reading(of, self._core[i], ready.measured)
+            self._readings[i] = Reading(of, run, ready.measured)
         return self._readings[i]
 
     def __setitem__(self, name: Any, values: Any) -> None:
