@@ -20,7 +20,7 @@ def spread(values, count):
 
 
 def draws(few, many):
-    """Number of random draws or of repetitions: `few`, or `many` with ZERODRIFT_PRODUCTS=1."""
+    """Number of random draws or of repetitions, or the end of a run: `few`, or `many` with ZERODRIFT_PRODUCTS=1."""
     return many if WHOLE else few
 
 

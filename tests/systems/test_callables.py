@@ -57,7 +57,7 @@ def test_kinematics_enter_the_derived_terms():
         potential=lambda p: 9.81 * p[1], p0=[1.0, 0.0])
     assert zd.check(turning)
     for formulation in FORMULATIONS:
-        a, b = (zd.simulate(system, 0.3, step=0.001, formulation=formulation, save_every=100) for system in (plain, turning))
+        a, b = (zd.simulate(system, 0.1, step=0.001, formulation=formulation, save_every=50) for system in (plain, turning))
         assert_close(a.p, b.p, 1e-8)
         assert_close(a.multipliers, b.multipliers, 1e-6)
 
