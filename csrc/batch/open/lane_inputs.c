@@ -14,7 +14,7 @@ static int64_t position_in(const double *block, int64_t size, const double *plac
     return block && at >= begin && at < begin + (uintptr_t)size * sizeof *place ? (int64_t)((at - begin) / sizeof *place) : -1;
 }
 
-/* Where lanes read the input of a place; neither: only the run itself does. */
+/* Source from which lanes read the input of a place; neither: only the run itself reads it. */
 static zd_lane_input_place place_of(const zd_run *run, const double *data, int64_t doubles, const zd_input_place *place)
 {
     return (zd_lane_input_place){

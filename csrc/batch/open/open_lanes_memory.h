@@ -11,7 +11,7 @@ typedef struct zd_lane_place {
     unsigned char is_slow;  /* true: no step of the last advance, made individually, was in closed form */
 } zd_lane_place;
 
-/* Where lanes read an input: a number of their data, of their inputs, or -1. */
+/* Source from which lanes read an input: a number of their data, of their inputs, or -1. */
 typedef struct zd_lane_input_place {
     int input;
     int64_t in_data, in_inputs;
