@@ -7,6 +7,7 @@
  */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "../constraints/limits.h"
 #include "../paths/choose.h"
@@ -115,9 +116,10 @@ void zd_speeds_say(const zd_run *run, char *to, size_t size)
     int worst = 0;
     for (int i = 1; i < inputs->count; i++)
         if (fabs(run->held.value[i] - inputs->value[i]) > fabs(run->held.value[worst] - inputs->value[worst])) worst = i;
-    snprintf(to, size, "the start violates the constraints: input %d '%s' must begin with %.9g, which fits the velocities of the start, not "
-             "with %.9g; hold=True makes the difference an impulse", worst, inputs->name ? inputs->name[worst] : "",
-             run->held.value[worst], inputs->value[worst]);
+    snprintf(to, size, "the start violates the constraints: input %d must begin with %.9g, which fits the velocities of the start, not with "
+             "%.9g", worst, run->held.value[worst], inputs->value[worst]);
+    const size_t said = strlen(to);
+    if (inputs->name) snprintf(to + said, size - said, "; it is '%s', and hold=True makes the difference an impulse", inputs->name[worst]);
 }
 
 int zd_speeds_fit(zd_run *run, double *Psi)
