@@ -23,7 +23,7 @@ def compiled(files: CoreFiles, command: Sequence[str], options: Sequence[str], *
     Raises
     ------
     CompilationFailed
-        With the first message of the compiler.
+        With the first error of the compiler.
     """
     key = f"core-{cache.digest_of(list(command), list(options), list(join), files.texts, dict(more))}"
     found = cache.get(key)
@@ -50,8 +50,9 @@ def _made(sources: Sequence[str], here: Path, compiling: Sequence[str], join: Se
 
 
 def run(line: Sequence[str], here: Path) -> None:
-    """Run a command in a folder; its first message is that of the error."""
+    """Run a command in a folder; the first error that it prints is that of the exception."""
     result = subprocess.run(line, cwd=here, capture_output=True, text=True, check=False)
     if result.returncode:
         told = result.stderr.strip().splitlines() or ["it says nothing"]
-        raise CompilationFailed(f"{Path(line[0]).name} must compile the core, and failed: {told[0]}")
+        first = next((each for each in told if "error:" in each), told[0])      # warnings may precede it
+        raise CompilationFailed(f"{Path(line[0]).name} must compile the core, and failed: {first}")
