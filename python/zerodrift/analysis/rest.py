@@ -60,9 +60,14 @@ class Balance:
     @functools.cached_property
     def rounding(self) -> float:
         """The size of the force that counts as zero: from its terms, and from the rounding of positions times the stiffness."""
-        terms = np.abs(self.V.T) @ (np.abs(self.at.force) + np.abs(self.rows.T) @ np.abs(self.multipliers))
         unit = float(np.abs(self.reach).max(initial=0.0)) or 1.0
-        return BALANCED * float(math.sqrt(terms @ terms) + np.abs(self.stiffness).max(initial=0.0) / max(unit, 1e-300))
+        return BALANCED * float(self.magnitude + np.abs(self.stiffness).max(initial=0.0) / max(unit, 1e-300))
+
+    @functools.cached_property
+    def magnitude(self) -> float:
+        """Sum of the magnitudes of the forces, those of the constraints included, along the basis."""
+        terms = np.abs(self.V.T) @ (np.abs(self.at.force) + np.abs(self.rows.T) @ np.abs(self.multipliers))
+        return math.sqrt(terms @ terms)
 
     @functools.cached_property
     def curvature(self) -> tuple[np.ndarray, np.ndarray]:
@@ -71,9 +76,13 @@ class Balance:
 
     @functools.cached_property
     def flat(self) -> float:
-        """The curvature that counts as zero: away from a balance the stiffness is symmetric up to the unbalanced force only."""
-        K = self.stiffness
-        return self.zero * float(np.abs(K).max(initial=0.0)) + float(np.abs(K - K.T).max(initial=0.0))
+        """The curvature that counts as zero.
+
+        Away from a balance the stiffness is symmetric up to the unbalanced force only; where it is zero in all directions, the
+        rounding of the forces remains.
+        """
+        K, rounding = self.stiffness, BALANCED * self.magnitude * float(np.abs(self.reach).max(initial=0.0))
+        return self.zero * float(np.abs(K).max(initial=0.0)) + float(np.abs(K - K.T).max(initial=0.0)) + rounding
 
     @property
     def is_stable(self) -> bool:
