@@ -57,60 +57,61 @@ def native(
 ) -> BaseSystem:
     """A system whose terms a compiled function evaluates, at the speed of the built-in ones.
 
-    The function is a ``zd_evaluate`` of the header ``zerodrift/system.h`` in `get_include()`, which says what it is handed and
-    what it is to write::
+    The function is a ``zd_evaluate`` of the header ``zerodrift/system.h`` in `get_include()`, which describes its arguments and the
+    terms that it writes::
 
         int f(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 
-    It has to be pure: several threads may call it at once. A shared library has to say which version of the interface it was
+    It must be pure, as several threads may call it at once. A shared library must state the version of the interface that it was
     compiled with, in a line ``const int zd_interface_version = ZD_INTERFACE_VERSION;``.
 
     Parameters
     ----------
     function : str, Path, int, function pointer of ctypes or cffi, numba.cfunc, scipy.LowLevelCallable
-        The function, whose signature is checked; or the path of a shared library that has it; or its bare address.
+        The function, whose signature is checked; or the path of a shared library that contains it; or its address.
     coordinates : int or sequence of str, optional
-        How many coordinates there are, or their names. Left out: `function` is a library that describes the system itself, in a
+        Number of coordinates, or their names. Left out: `function` is a library that describes the system itself, in a
         ``const zd_kind zd_kind_SYMBOL``; then only `symbol` and `parameters` are given.
     terms : sequence of str
-        The terms that the function writes, named as those of `zerodrift.System.evaluate`: always M, and as the constraints need
-        Phi, C, xi; the others are absent where they are not named.
+        Terms that the function writes, by their names in `zerodrift.System.evaluate`: always M, and Phi, C and xi as the
+        constraints need them. Terms that are not named are absent.
     symbol : str, optional
         Name of the function in the library.
     version : int, optional
         The ``ZD_INTERFACE_VERSION`` that the function was compiled with. Needed with an address; a library says it itself.
     velocities, constraints, nonholonomic : int or sequence of str
-        How many, or their names. As many velocities as coordinates, unless there is a kinematic matrix A.
+        Numbers of these, or their names. Left out: as many velocities as coordinates, and no constraints. Numbers of velocities
+        and coordinates differ only with a kinematic matrix A.
     parameters : mapping of str to float
-        What the function is handed as ``data``: an array of doubles, in this order. Of a ``zd_kind``: its parameters.
+        Numbers that the function receives as ``data``, an array of doubles in this order; or the parameters of a ``zd_kind``.
     quaternions : sequence of int or str
-        As of `zerodrift.System`: where unit quaternions begin in p. They need a kinematic matrix A.
+        As in `zerodrift.System`: entries of p at which unit quaternions begin. They need a kinematic matrix A.
     structure : Structure
-        Of which bodies the system consists, and which constraints join which. The function then writes A, M and C packed, as
-        `zerodrift.Structure` says, whose `offsets` tell where each block and group begins.
+        Bodies of the system, and those that each group of constraints joins. The function then writes A, M and C packed, as
+        `zerodrift.Structure` describes; its `offsets` are the beginnings of blocks and groups.
     units : sequence of str
-        As of `zerodrift.System`: the unit of each coordinate, and with a kinematic matrix of each velocity, too.
+        As in `zerodrift.System`: unit of each coordinate, and with a kinematic matrix of each velocity, too.
     p0, v0 : array_like (nq,), (nv,)
-        The start. Given, the function is tried there: whether it writes all of its terms, and nothing else.
+        Start. If it is given, the function is called there once, to check that it writes all of its terms and nothing else.
     scratch : int
-        Doubles that the function may keep things in while t and p stay, at ``out->scratch``.
+        Number of doubles at ``out->scratch``, which the function may use; they are kept while t and p are unchanged.
     name : str
         For tables and plots.
 
     Returns
     -------
     system
-        Everything a `zerodrift.System` is good for. It can be pickled where another process can find the function: in the same
+        It serves wherever a `zerodrift.System` does. It can be pickled if another process can find the function: in the same
         library at the same path, or by its name in a module.
 
     Raises
     ------
     TypeError, ValueError, FileNotFoundError
-        If the function is of another type or version, is not there, or does not write what it is said to.
+        If the function is of another type or version, cannot be found, or writes other terms than those named.
 
     Notes
     -----
-    With numba, a system of one coordinate ``x`` that a spring pulls::
+    A mass on a spring, with numba::
 
         import numba
         from zerodrift.compiled import BIT, SLOT
