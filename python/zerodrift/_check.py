@@ -83,8 +83,9 @@ def closest(name: Any, known: Iterable[str], most: int = 5) -> str:
 
     close = difflib.get_close_matches(str(name).lower(), {each.lower() for each in known}, n=most, cutoff=0.5)
     found = [each for lower in close for each in known if each.lower() == lower]
-    return f"the closest of {len(known)} names are {', '.join(found)}" if found else (
-        f"there are {', '.join(known[:most])} and {len(known) - most} more")
+    if not found:
+        return f"there are {', '.join(known[:most])} and {len(known) - most} more"
+    return f"the closest of {len(known)} names {'is' if len(found) == 1 else 'are'} {', '.join(found)}"
 
 
 def names(name: str, value: Any, prefix: str, *, least: int = 1) -> list[str]:

@@ -65,7 +65,7 @@ def test_a_name_is_what_it_names(machine, add):
 @pytest.mark.parametrize("name", ["sahft", "kne", "arm.and", "arm.start.x", "", "Q"])
 def test_a_name_that_there_is_not_is_answered_with_close_ones(machine, name):
     closest = {"sahft": "shaft", "kne": "knee", "arm.and": "arm.end, ", "arm.start.x": "arm.start"}
-    close = f"the closest of 13 names are {closest[name]}" if name in closest else "there are ground, base, arm, "
+    close = f"the closest of 13 names (is|are) {closest[name]}" if name in closest else "there are ground, base, arm, "
     with refused("wrong-name", f"joint of motor 'drive' names '{name}', which is not an element of 'machine'; {close}"):
         machine.motor("drive", name, speed=1.0)
 

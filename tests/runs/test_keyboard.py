@@ -1,6 +1,7 @@
 """Ctrl-C at any moment: it is heard at once, and nothing is lost that was computed."""
 
 import contextlib
+import gc
 import os
 import signal
 import sys
@@ -159,7 +160,8 @@ def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure
 
 
 def pressed_after(seconds, call):
-    """A call's outcome, Ctrl-C meanwhile."""
+    """A call's outcome, Ctrl-C meanwhile. The collector is off: a KeyboardInterrupt within a watch over it is ignored."""
+    gc.disable()
     before = signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
     try:
         signal.setitimer(signal.ITIMER_REAL, seconds)
@@ -171,10 +173,11 @@ def pressed_after(seconds, call):
         return error
     finally:
         signal.signal(signal.SIGALRM, before)
+        gc.enable()
 
 
 @posix
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # within a watch over the collector
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # within a finalizer
 @pytest.mark.parametrize("what", ["simulate", "reference", "work_precision", "tune"])
 def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar):
     known = zd.reference(bar, 0.5, error=None)

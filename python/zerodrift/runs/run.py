@@ -52,8 +52,8 @@ class Run:
         energy balance, and `jump` has both. A start whose velocities do not fit a speed jumps to it in the first step, too;
         without `hold`, it is an error that names the number that fits.
     ramp : float, optional
-        Adaptive steps: time in s over which a speed follows its input. The motion so does not depend on the sizes of steps, one
-        of which ends with it. An input that changes meanwhile is followed from the present speed on.
+        Adaptive steps: time in s over which a speed goes linearly to its input, so that the motion does not depend on step sizes;
+        one step ends with the ramp. If the input changes meanwhile, a new ramp begins at the present speed.
     control : Every, or list of these, optional
         Controllers, see `every`: each is called before the step that begins at one of its instants.
     record : bool

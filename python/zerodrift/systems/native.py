@@ -57,8 +57,8 @@ def native(
 ) -> BaseSystem:
     """A system whose terms a compiled function evaluates, at the speed of the built-in ones.
 
-    The function is a ``zd_evaluate`` of the header ``zerodrift/system.h`` in `get_include()`, which describes its arguments and the
-    terms that it writes::
+    The function is a ``zd_evaluate`` of the header ``zerodrift/system.h`` in `get_include()`, which describes its arguments and
+    the terms that it writes::
 
         int f(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from many_bodies import components
 from space_tables import KINDS, exactly_moved, random_frame, random_state, shape_of, unit
 from support import assert_close, refused
 from zerodrift._gateway.mechanisms.plane import GeneralizedForce, OutputSpec, Relation
@@ -122,7 +123,7 @@ def test_components_are_read_without_zeros(case):
     core, p, v = case
     which = [(i, j) for i, measure in enumerate(core.measures) if core.measure_depends(i) != "accelerations"
              for j in range(measure.size)]
-    found = core.components(p, v, which)
+    found = components(core, p, v, which)
     assert len(which) >= 2 * len(QUANTITY_KINDS) - len(SPEEDS)
     for (i, j), value, ends, parts in zip(which, *found, strict=True):
         expected, row = core.measure_at(i, 0.0, p, v), np.zeros(core.nv)
