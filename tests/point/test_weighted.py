@@ -1,5 +1,7 @@
 """Structures of many rows: S(W) = C W C^T in blocks, and what formulations make of it, beside dense matrices."""
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -60,15 +62,21 @@ LARGE_NETWORKS = {"chain": chain(40), "four-bars": four_bars(14), "fan": fan(60)
          "light and heavy": chain(25, masses=[1.0, 1e-4] * 12 + [1e3])}
 
 
-@needs_compiler
-@pytest.mark.parametrize("rods", LARGE_NETWORKS.values(), ids=LARGE_NETWORKS)
-def test_accelerations_of_many_rows_are_those_of_dense_matrices(rods, formulation):
+@functools.cache
+def by_dense_matrices(name):
+    """A large network with some velocities, its terms, and its accelerations and multipliers with their bound, by NumPy."""
+    rods = LARGE_NETWORKS[name]
     system, twin = rods.system(speed=0.3), rods.system(packed=False, speed=0.3)
     v = np.random.default_rng(3).normal(size=system.nv)
     e = numbers(twin, 0.0, rods.p0, v)
-    vdot, multipliers = solved(e.M, e.C, e.force, e.xi)
-    bound = 10 * tol.EPS * condition(e.M, e.C)
-    got, reactions = zd.acceleration(system, rods.p0, v, formulation=formulation)
+    return system, rods.p0, v, e, *solved(e.M, e.C, e.force, e.xi), 10 * tol.EPS * condition(e.M, e.C)
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", LARGE_NETWORKS)
+def test_accelerations_of_many_rows_are_those_of_dense_matrices(name, formulation):
+    system, p, v, e, vdot, multipliers, bound = by_dense_matrices(name)
+    got, reactions = zd.acceleration(system, p, v, formulation=formulation)
     assert_close(got, vdot, bound, what="vdot")
     assert_close(reactions, multipliers, bound, what="multipliers")
     assert_close(e.C @ got, e.xi, 128 * tol.EPS, scale=np.abs(e.C).max() * np.abs(vdot).max(), what="(6)")
