@@ -292,6 +292,16 @@ def test_animation_refuses_times_that_make_no_sense(bar, name):
         plot.animate(bar, **{name: 0.0})
 
 
+def test_an_integrator_has_its_colour_whatever_stands_beside_it():
+    options = {"formulations": ["schur"], "rounds": 1}
+    some, alone = (plot.work_precision(zd.work_precision(zd.systems.oscillator(), 1.0, integrators=names, **options))
+                   for names in (["euler", "dop853"], ["dop853"]))
+    colours = [{line.get_label(): line.get_color() for line in ax.get_legend().legend_handles} for ax in (some, alone)]
+    assert colours[0]["dop853"] == colours[1]["dop853"] != colours[0]["euler"]
+    assert alone.lines[0].get_color() == colours[1]["dop853"]
+    assert "euler" not in colours[1]
+
+
 # ---- wrong arguments ----
 
 

@@ -14,6 +14,7 @@ from matplotlib.lines import Line2D
 
 from .. import _check
 from ..errors import WrongValue
+from ..runs import methods
 from ..runs.settings import Projection
 from ..studies.stability_map import StabilityMap
 from ..studies.work_precision import Row, Setting, WorkPrecision
@@ -27,9 +28,9 @@ LARGEST_ERROR = 1e30        # larger ones are not drawn, as no scale shows them 
 def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     """Draw error over time, on logarithmic scales: one line per method, and the Pareto front.
 
-    The colour is that of the integrator, dashed where it chooses its steps; the marker is that of the formulation and the
-    corrections. Runs that failed are not there, nor those with an error of 1e30 and more; below the dotted line, errors are
-    those of the reference.
+    Each integrator has a colour of its own in all such pictures, and is dashed where it chooses its steps; the marker is that of
+    the formulation and the corrections. Runs that failed are not there, nor those with an error of 1e30 and more; below the
+    dotted line, errors are those of the reference.
 
     Parameters
     ----------
@@ -53,7 +54,8 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     ax = _style.axes(ax)
     ax.set(xscale="log", yscale="log", xlabel="time [ms]", ylabel="max |p - reference|")
     done = [row for row in result.rows if row.success and 0 < row.error < LARGEST_ERROR]
-    integrators = _assign((row.setting.integrator for row in result.rows), COLOURS)
+    measured = {row.setting.integrator for row in result.rows}
+    integrators = {name: colour for name, colour in _assign(methods.integrators(), COLOURS).items() if name in measured}
     variants = _assign((_variant(row.setting) for row in result.rows), MARKERS)
     for _, rows in itertools.groupby(done, key=lambda row: row.setting.method):
         times, errors, first, *_ = _curve(rows)
