@@ -1,5 +1,6 @@
 """The core's sources, compiled once for all tests that link them with programs of their own or look at their symbols."""
 
+import ctypes
 import hashlib
 import os
 import shutil
@@ -56,6 +57,14 @@ def objects_of(sources, include, shared):
 
     with ThreadPoolExecutor(2) as pool:
         return dict(zip(sources, pool.map(compile_one, sources), strict=True))
+
+
+def library_of(folder, program, *units):
+    """A program of native/ and units of the core as a shared library, loaded."""
+    target = folder / f"{program}.so"
+    sources = [ROOT / "tests" / "native" / f"{program}.c", *(CSRC / f"{unit}.c" for unit in units)]
+    subprocess.run([CC, "-O2", "-std=c11", "-shared", "-fPIC", "-I", CSRC, "-o", target, *sources, "-lm"], check=True)
+    return ctypes.CDLL(target)
 
 
 def shared_folder(tmp_path_factory):

@@ -1,28 +1,23 @@
 """Minimum-norm solutions of sparse rows, against the dense pseudoinverse."""
 
 import ctypes
-import subprocess
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
-from core_objects import CC, CSRC, needs_compiler
-from support import ROOT
+from core_objects import library_of, needs_compiler
 
 pytestmark = needs_compiler
 
-SOURCES = (ROOT / "tests" / "native" / "minimum_norm.c", CSRC / "linalg" / "sparse" / "minimum_norm.c",
-           CSRC / "linalg" / "sparse" / "ordering.c", CSRC / "linalg" / "sparse" / "few_columns.c", CSRC / "workspace.c")
 AGREES = 1e-11      # of the largest: rounding times the condition of the rows, which is 1e4 at most
 
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
-    target = tmp_path_factory.mktemp("minimum_norm") / "minimum_norm.so"
-    subprocess.run([CC, "-O2", "-std=c11", "-shared", "-fPIC", "-I", CSRC, "-o", target, *SOURCES, "-lm"], check=True)
-    return ctypes.CDLL(target)
+    units = ("linalg/sparse/minimum_norm", "linalg/sparse/ordering", "linalg/sparse/few_columns", "workspace")
+    return library_of(tmp_path_factory.mktemp("minimum_norm"), "minimum_norm", *units)
 
 
 class Rows(NamedTuple):

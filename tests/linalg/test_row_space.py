@@ -1,25 +1,20 @@
 """Minimum-norm solutions of redundant rows, and their null space, against the singular value decomposition."""
 
 import ctypes
-import subprocess
 
 import numpy as np
 import pytest
 
-from core_objects import CC, CSRC, needs_compiler
-from support import ROOT
+from core_objects import library_of, needs_compiler
 
 pytestmark = needs_compiler
 
-SOURCES = (ROOT / "tests" / "native" / "row_space.c", CSRC / "linalg" / "row_space.c", CSRC / "workspace.c")
 AGREES = 1e-11      # of the largest: rounding times the condition of the rows, which is 1e4 at most
 
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
-    target = tmp_path_factory.mktemp("row_space") / "row_space.so"
-    subprocess.run([CC, "-O2", "-std=c11", "-shared", "-fPIC", "-I", CSRC, "-o", target, *SOURCES, "-lm"], check=True)
-    return ctypes.CDLL(target)
+    return library_of(tmp_path_factory.mktemp("row_space"), "row_space", "linalg/row_space", "workspace")
 
 
 def solved(library, A, right, vector):

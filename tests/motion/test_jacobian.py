@@ -138,7 +138,7 @@ def four_bar(*, compiled=False):
 
 
 def disc(*, compiled=False):
-    """On a plane that it rolls on: rows that are nonholonomic, and a kinematic matrix."""
+    """Nonholonomic rows and a kinematic matrix: a body that rolls on a plane."""
     return zd.models.rolling_disc().system("joint", compiled=compiled)
 
 

@@ -31,7 +31,7 @@ int pendulum(const void *data, int want, double t, const double *p, const double
 static const char *prepare(const double *parameters, double *constants)
 {
     for (int i = 0; i < 3; i++) constants[i] = parameters[i];
-    return parameters[1] > 100 ? "there is no such gravity" : NULL;
+    return parameters[1] > 100 ? "gravity must be at most 100 m/s^2" : NULL;
 }
 
 static void start(const double *parameters, double *p, double *v)

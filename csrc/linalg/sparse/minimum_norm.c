@@ -1,9 +1,9 @@
-/* A block is eliminated together with the rows that touch it: the singular value decomposition of their columns of the block gives the
- * independent ones, which determine a part of it for given neighbours; the other rows pass to the neighbours. The part of the block that no
- * row determines minimizes the sum of squares, which passes on as rows, too. Products of rows with each other, whose condition number is
- * squared, are never formed.
+/* A block is eliminated together with the rows that have entries in it: the singular value decomposition of their columns of the block gives
+ * the independent ones, which determine a part of it for given neighbours; the other rows remain for the neighbours. The part of the block
+ * that no row determines minimizes the sum of squares, which leaves rows for the neighbours, too. Products of rows with each other, whose
+ * condition number is squared, are never formed.
  *
- * Rows that are passed on are stored with the block that they come from, and are gathered by its parent: the neighbour that is eliminated
+ * Remaining rows are stored with the block that they come from, and are gathered by its parent: the neighbour that is eliminated
  * first. The order has little fill: the cost of chains, trees and rows of loops is proportional to their size.
  */
 #include "minimum_norm.h"
@@ -32,7 +32,7 @@ typedef struct block {
     int width;              /* unknowns of its neighbours, and the right side */
     int neighbours;
     const int *neighbour;   /* (neighbours,): places, increasing; the first is the parent */
-    int first_row, child, sibling;      /* rows that touch no block that is eliminated before; -1: none */
+    int first_row, child, sibling;      /* rows without entries in blocks eliminated before; -1: none */
     passed passed[KINDS];
     double *of;             /* (size, width): the block is the last column minus the others times the neighbours */
 } block;
@@ -119,7 +119,7 @@ static void assign_rows(elimination *self)
     }
 }
 
-/* Bounds of the rows that each block has and passes on; most (KINDS,) <- entries of the largest gathered matrices */
+/* Bounds of the rows that each block has and leaves; most (KINDS,) <- entries of the largest gathered matrices */
 static void count_rows(elimination *self, size_t *most)
 {
     for (int i = 0; i < self->equations->blocks; i++) {
@@ -248,7 +248,7 @@ static void pass(const elimination *self, block *b, enum kind kind, int first, i
     }
 }
 
-/* The first `rank` rows of b->of <- the part of the block along V that the rows that must be met determine; returns the rank. */
+/* The first `rank` rows of b->of <- the part of the block along V that required rows determine; returns the rank. */
 static int determine(elimination *self, block *b)
 {
     const int columns = b->size + b->width, rows = gather(self, b, MET);

@@ -17,12 +17,12 @@ typedef struct zd_sparse_equations {
     int rows;
     const zd_sparse_row *row;   /* (rows,) */
     const double *right;    /* (rows,), multiplied by the factor, too */
-    const double *factor;   /* (rows,): such that rows that must be met have a length of about one */
-    const unsigned char *is_square;     /* (rows,): 1 if the square of the residual is minimized; 0: the row must be met */
+    const double *factor;   /* (rows,): such that required rows have a length of about one */
+    const unsigned char *is_square;     /* (rows,): 1 if the square of the residual is minimized; 0: required, met exactly */
     const double *weight;   /* (unknowns,); NULL: ones */
 } zd_sparse_equations;
 
-/* x (unknowns,) <- minimizer of the sum of (weight x)^2 and of the squares, under all rows that must be met. These may be redundant; if they
+/* x (unknowns,) <- minimizer of the sum of (weight x)^2 and of the squares, under all required rows. These may be redundant; if they
  * contradict each other, their squared residuals are minimized. Returns ZD_DONE, or ZD_NO_MEMORY. */
 int zd_minimum_norm(const zd_sparse_equations *equations, double *x);
 

@@ -70,7 +70,7 @@ def _rate(what: str, derivative: Any, system: BaseSystem) -> Reading:
 
 
 def in_python(of: Read) -> Callable[..., float]:
-    """Python function of the readings for an expression, used if there is no compiler."""
+    """Python function of the readings for an expression, where no compiler is installed."""
     import sympy
 
     function = sympy.lambdify(of.atoms, of.expression, "math")

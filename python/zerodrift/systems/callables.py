@@ -300,7 +300,7 @@ def arguments(name: str, given: Callable[..., Any], allowed: list[str], more: st
             raise WrongType(f"{name} has {str(argument)!r}, and must name what it asks for; {there_is}", "user-function")
         if argument.name in allowed:
             if argument.kind is argument.POSITIONAL_ONLY:
-                raise WrongType(f"{name} takes {argument.name!r} by position only, and is handed it by name: leave out the '/'",
+                raise WrongType(f"{name} takes {argument.name!r} by position only, and must take it by name: leave out the '/'",
                                 "user-function")
             wants.append(argument.name)
         elif argument.default is argument.empty:
