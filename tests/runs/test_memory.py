@@ -109,12 +109,15 @@ def succeeding():
 @pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
 @pytest.mark.parametrize("what", [diverging, raising, inconsistent, stopped, succeeding])
 def test_nothing_leaks(what):
-    for _ in range(50):
-        what()
-    before = resident()
-    for _ in range(300):
-        what()
-    assert resident() - before < 2**20      # 300 runs of the smallest system, with what Python keeps of each, take more
+    growths = []
+    for _ in range(5):
+        before = resident()
+        for _ in range(100):
+            what()
+        growths.append(resident() - before)
+    # A leak makes each hundred grow: by some 350 KiB with the smallest system and what Python keeps of a run. What Python
+    # and the allocator keep for later, after the many tests before this one, makes one of them grow.
+    assert min(growths) < 100 * 1024, growths
 
 
 def test_records_beyond_memory(bar):
@@ -131,4 +134,4 @@ def test_a_long_run_takes_no_more_memory(bar):
 
     zd.simulate(bar, 1500.0, step=1e-3, save_every=10**5, progress=look)
     assert len(sizes) > 3
-    assert sizes[-1] - sizes[1] < 64        # pages: the rows that are not saved would take more than ten thousand
+    assert sizes[-1] - sizes[1] < 1000      # pages: the rows that are not saved would take more than ten thousand
