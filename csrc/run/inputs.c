@@ -66,7 +66,7 @@ static void set_speed(double *place, double t, double speed, double h)
     place[2] = t;
 }
 
-static void derive(const zd_inputs *inputs)
+void zd_inputs_derive(const zd_inputs *inputs)
 {
     for (int i = 0; i < inputs->derivations; i++) inputs->derive[i](inputs->data[i]);
 }
@@ -80,7 +80,7 @@ static void write(const zd_run *run, double h)
         if (place->is_speed) set_speed(place->place, run->stepper.t, value, h);
         else *place->place = value;
     }
-    derive(inputs);
+    zd_inputs_derive(inputs);
 }
 
 /* Recomputes what is known at the present point and depends on inputs. */
@@ -169,7 +169,7 @@ static int follow(const zd_run *run)
         else if (begins || ends) set_speed(place->place, t, value, begins ? inputs->ramp : 0);
         is_written |= ends;
     }
-    derive(inputs);
+    zd_inputs_derive(inputs);
     return is_written || run->held.is_new;
 }
 
@@ -195,7 +195,7 @@ void zd_inputs_return(zd_run *run)
     held->is_new = held->before.is_new;
     held->has_ramp = held->before.has_ramp;
     held->jump.count = held->before.jumps;
-    derive(inputs);
+    zd_inputs_derive(inputs);
 }
 
 static int speeds_have_changed(const zd_run *run)

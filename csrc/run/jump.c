@@ -13,7 +13,7 @@
 #include "../paths/choose.h"
 #include "../point/matrices.h"
 #include "../safeguards/safeguards.h"
-#include "run.h"
+#include "inputs.h"
 
 const zd_jump *zd_run_jump(const zd_run *run) { return &run->held.jump; }
 
@@ -84,7 +84,7 @@ static int violation_at(zd_run *run, int input, double speed, double *Psi)
         place->place[0] = speed;
         place->place[1] = place->place[2] = 0;
     }
-    for (int i = 0; i < inputs->derivations; i++) inputs->derive[i](inputs->data[i]);
+    zd_inputs_derive(inputs);
     point->known &= point->constant;
     int status = zd_point_need(point, ZD_C | ZD_PHI_T);
     if (!status) status = zd_point_need_times_C(point);

@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "run.h"
+#include "inputs.h"
 
 #define MAGIC UINT64_C(0x316574617473647a)      /* "zdstate1" on machines with little-endian words, which others refuse */
 #define END UINT64_MAX                          /* end of the entries of a block */
@@ -298,7 +298,7 @@ static void get_inputs(const zd_inputs *inputs, source *from)
             const uint64_t word = get(from);
             memcpy(inputs->place[i].place + k, &word, sizeof word);
         }
-    for (int i = 0; inputs && i < inputs->derivations; i++) inputs->derive[i](inputs->data[i]);
+    if (inputs) zd_inputs_derive(inputs);
 }
 
 /* Adds the blocks that were allocated on demand, and applies all entries. */
