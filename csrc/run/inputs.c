@@ -66,11 +66,6 @@ static void set_speed(double *place, double t, double speed, double h)
     place[2] = t;
 }
 
-void zd_inputs_derive(const zd_inputs *inputs)
-{
-    for (int i = 0; i < inputs->derivations; i++) inputs->derive[i](inputs->data[i]);
-}
-
 /* Writes the inputs to their places; speeds follow them over a time h, or jump to them if it is 0. */
 static void write(const zd_run *run, double h)
 {

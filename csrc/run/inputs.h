@@ -8,8 +8,6 @@
 zd_held_inputs zd_inputs_take(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion);
 /* True if one of them is a speed; the place is that of a given input. */
 int zd_inputs_have_speeds(const zd_inputs *inputs);
-/* Recomputes what the system derives from its data, after a change of inputs. */
-void zd_inputs_derive(const zd_inputs *inputs);
 /* Reads the inputs at the start of an advance; ZD_BAD_INPUT leaves the ones before. */
 int zd_inputs_read(zd_run *run);
 /* Writes new inputs, none of which is a speed, to their places. */

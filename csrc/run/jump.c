@@ -13,7 +13,7 @@
 #include "../paths/choose.h"
 #include "../point/matrices.h"
 #include "../safeguards/safeguards.h"
-#include "inputs.h"
+#include "run.h"
 
 const zd_jump *zd_run_jump(const zd_run *run) { return &run->held.jump; }
 

@@ -60,6 +60,12 @@ struct zd_run {
     zd_held_inputs held;
 };
 
+/* Recomputes what the system derives from its data, after a change of inputs. */
+static inline void zd_inputs_derive(const zd_inputs *inputs)
+{
+    for (int i = 0; i < inputs->derivations; i++) inputs->derive[i](inputs->data[i]);
+}
+
 /* jump.c: a jump of speeds, before and after the new ones are written; the second function moves the velocities. */
 int zd_jump_begin(zd_run *run);
 int zd_jump_end(zd_run *run);

@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "inputs.h"
+#include "run.h"
 
 #define MAGIC UINT64_C(0x316574617473647a)      /* "zdstate1" on machines with little-endian words, which others refuse */
 #define END UINT64_MAX                          /* end of the entries of a block */
