@@ -251,3 +251,12 @@ def test_a_thousand_bodies_are_printed_and_start():
     assert " and 260 others; absolute 1803, 1802 constraints; no redundant constraints" in str(m)
     sol = zd.simulate(m, 2e-3, step=1e-3)
     assert np.abs(sol.v[0][2:903:3] + 1.0).max() < 1e-10      # passed on by 300 couplers
+
+
+def test_reactions_of_hundreds_of_bodies_are_read_from_a_run():
+    """A pin bears what accelerates all links beyond it; a mechanism has some twenty measures for each body."""
+    m, n, kept = chain(500), 500, 497
+    sol = zd.simulate(m, 2e-3, step=1e-3)
+    assert len(m.measures) > 8192
+    beyond = sum(m[f"link{i}"].mass * (sol[f"link{i}.acceleration"][-1] - m.gravity) for i in range(kept, n))
+    assert np.abs(sol[f"pin{kept}.force"][-1] - beyond).max() < 1e-9 * np.abs(beyond).max()

@@ -191,8 +191,9 @@ static int check_measures(const zd_system *system, text message)
 {
     const zd_measures *measures = system->measures;
     if (!measures) return ZD_DONE;
-    if (is_no_count(measures->count) || (measures->count && (!measures->measure || !measures->evaluate)))
-        return refuse(message, "measures: there must be 0 to 8192, with a function that evaluates them, not %d", measures->count);
+    const int largest = ZD_LARGEST_PACKED;      /* mechanisms have some 20 for each body */
+    if (measures->count < 0 || measures->count > largest || (measures->count && (!measures->measure || !measures->evaluate)))
+        return refuse(message, "measures: there must be 0 to %d, with a function that evaluates them, not %d", largest, measures->count);
     if (is_no_size(measures->scratch)) return refuse(message, "measures: their scratch must be a size, not %d", measures->scratch);
     for (int i = 0; i < measures->count; i++) {
         const zd_measure *measure = &measures->measure[i];
