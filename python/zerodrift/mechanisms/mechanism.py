@@ -92,9 +92,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             "absolute": three coordinates a body, and all joints are constraints; what that costs follows the number of bodies,
             where joint coordinates cost up to its third power. None: those that cost less, by a count of what a step does: joint
             ones for open chains of some twenty bodies and for one or two loops, absolute ones for more. Joint ones, too, where a
-            body has no mass, and for `compiled`. Loops of hinges and sliders alone in space take absolute ones up to three times
-            the cost, as these go through flat poses where joint ones can stop. Which were taken is in ``repr``, and `print` of a
-            mechanism has both counts.
+            body has no mass, and for `compiled`; absolute ones where all bodies are welded to the ground. Loops of hinges and
+            sliders alone in space take absolute ones up to eight times the count, as these go through flat poses where joint ones
+            can stop. Which were taken is in ``repr``, and `print` of a mechanism has both counts.
             In space, "joint" are the angles, displacements and quaternions of joints along the tree, of free bodies their place
             and quaternion, and the angles of joints that close loops, which follow; "absolute" are seven coordinates and six
             velocities a body, and the angles of all joints. Chains of balls are cheaper in absolute coordinates, those of hinges
@@ -103,8 +103,9 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             Whether the equations are written out, compiled and kept for the next time, with direct functions where these pay:
             several times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
-            where that changes, it is compiled anew by itself. What the user prescribes has to be numbers, tables and SymPy
-            expressions. Without a compiler the tables are interpreted, with a `NoCompilerWarning`.
+            where that changes, it is compiled anew by itself. What the user prescribes must be numbers, SymPy expressions
+            or profiles of cams: `zerodrift.table` is a function, too. Without a compiler the tables are interpreted, with a
+            `NoCompilerWarning`.
             In space it is joint coordinates that are written out whole; of absolute ones direct functions alone, up to some
             four bodies, and all else keeps the tables. Loops with redundant rows, such as those of full hinges, have no direct
             functions in either.

@@ -20,6 +20,7 @@ from .solution import Solution
 # balance (28) stayed below the first limit made a wrong number of turns in twenty. Corrections take out more than that without
 # harm, as long as no single one of them has to take out more than the second limit.
 SMALLEST_PIVOT, LARGEST_ENERGY_ERROR, LARGEST_ENERGY_CORRECTION, ENERGY_ROUNDING = _gateway.WARNING_LIMITS
+POSITION_ROUNDING = 1e-14   # relative to the size of a system: rounding of positions that are corrected in each step
 TOO_COARSE = ("steps are too long for what happens in some of them; take shorter ones, a method of higher order, or rtol instead "
               "of step")
 TOO_LOOSE = ("the tolerances are too loose for what happens in some steps; take a smaller rtol and atol, or max_step where "
@@ -128,6 +129,13 @@ def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
         yield from _other_branch(solution)
 
 
+def _rounding_at_rest(solution: Solution) -> float:
+    """Rounding of the potential energy in J: of the work that the forces at the start do over the size of the system."""
+    core, (t, p, v) = core_of(solution.system), (each[:1] for each in (solution.t, solution.p, solution.v))
+    force = core.evaluate_states(("f",), t, p, v).get("f", np.zeros(1))
+    return POSITION_ROUNDING * max(core.c.length, _largest(p.ravel())) * _largest(force.ravel())
+
+
 def _numerical_energy(solution: Solution) -> Iterator[str]:
     """Messages on energy errors of integration and corrections that exceed both rounding and the allowed limits."""
     violation = solution.energy_violation
@@ -138,7 +146,7 @@ def _numerical_energy(solution: Solution) -> Iterator[str]:
         return      # all the more where the rows have seen more kinetic energy
     # All samples may be at turning points; the statistics include the steps between them.
     kinetic = max(_largest(solution.kinetic_energy), kinetic)
-    rounding = ENERGY_ROUNDING * (kinetic + _largest(solution.potential_energy))
+    rounding = ENERGY_ROUNDING * (kinetic + _largest(solution.potential_energy)) + _rounding_at_rest(solution)
     if not kinetic:
         if error > rounding:
             yield f"the energy balance is off by {error:.2g} J, and nothing was seen to move"

@@ -79,6 +79,8 @@ def cost(tables: Tables, exact: bool = False) -> Cost:
     joint, least = float(np.dot(JOINT[dimension], parts_of_joint(tables))), ABSOLUTE[dimension][0]
     if not _has_mass(tables):
         return Cost(joint, np.inf)
+    if not tables.joint_coordinates():
+        return Cost(np.inf, least)     # welded to the ground: absolute coordinates have the reactions
     if joint <= least and not exact:
         return Cost(joint, least)
     parts, times = parts_of_absolute(tables)
