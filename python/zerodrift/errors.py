@@ -279,7 +279,7 @@ class WorkerLost(ZerodriftError):
 
 
 class InUse(ZerodriftError, ValueError):
-    """Another run writes to the file of `save_to`, or another ensemble to the folder of `store`."""
+    """Another run writes to the file of `save_to`, another ensemble to the folder of `store`, or a controller moves its run."""
 
     code = "in-use"
 

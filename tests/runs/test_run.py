@@ -1,5 +1,7 @@
 """Open runs: chained advances are one, failures leave the run where it was, and values are those of `simulate`."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -285,3 +287,49 @@ def test_what_a_controller_raises_says_when_and_leaves_the_run():
     assert run.t == 0.05
     assert run.steps == 5
     assert any("every 0.01 s" in note and "t = 0.05" in note for note in caught.value.__notes__)
+
+
+@pytest.mark.parametrize("move", [lambda run: run.step(), lambda run: run.advance_to(5.0), lambda run: run.reset(),
+                                  lambda run: run.restore(run.save()), lambda run: run.close(), lambda run: run.__exit__()])
+def test_a_controller_must_not_move_the_run_that_calls_it(move):
+    def control(run):
+        if run.t > 0.02:
+            move(run)
+
+    given = {"step": 0.01, "control": zd.every(0.01, call=control)}
+    with refused("in-use", r"^a controller must not"), warnings.catch_warnings():
+        warnings.simplefilter("ignore", zd.errors.StateWarning)
+        zd.simulate(zd.systems.oscillator(), 0.1, **given)
+    run = zd.Run(zd.systems.oscillator(), record=True, **given)
+    with refused("in-use", r"^a controller must not"), warnings.catch_warnings():
+        warnings.simplefilter("ignore", zd.errors.StateWarning)
+        run.step(10)
+    assert (run.t, run.steps, len(run.solution().t)) == (0.03, 3, 4)
+    run.reset()
+    run.step(2)
+    assert run.steps == 2
+
+
+def test_a_controller_must_not_finish_the_file_of_its_run(tmp_path):
+    finish = zd.every(0.01, call=lambda run: run.steps and run.solution())
+    run = zd.Run(zd.systems.oscillator(), step=0.01, save_to=tmp_path / "run.npy", control=finish)
+    with refused("in-use", r"^a controller must not"), run:
+        run.step(2)
+    assert np.array_equal(zd.load(tmp_path / "run.npy").t, [0.0, 0.01])
+
+
+def test_a_controller_looks_ahead_with_a_copy():
+    """Its prediction of the state after one period is the state there."""
+    ahead = []
+
+    def predict(run):
+        if len(ahead) <= run.steps:         # a copy has the same controllers
+            ahead.append(None)
+            twin = run.copy()
+            twin.step()
+            ahead[run.steps] = twin.p
+
+    run = zd.Run(zd.systems.oscillator(), step=0.01, control=zd.every(0.01, call=predict))
+    for k in range(4):
+        run.step()
+        assert np.array_equal(ahead[k], run.p)

@@ -43,7 +43,8 @@ def every(period: float, call: Callable[[Any], Any] | None = None) -> Any:
         instants.
     call : callable
         ``call(run)`` receives the `Run` at its present state; what it assigns to ``run[name]`` or ``run.inputs`` holds until it
-        is assigned again. Its return value is ignored. Left out: `every` is a decorator.
+        is assigned again. Its return value is ignored. It must not step, advance, reset, restore or close this run; a
+        `copy` of it is free. Left out: `every` is a decorator.
 
     Returns
     -------
@@ -143,11 +144,14 @@ class Sampling:
 
 def called(each: Every, run: Any) -> None:
     """Call a controller; what it raises gets a note on when. `Keyboard` recognizes it by the code of this function."""
+    run._is_controlled = True
     try:
         each.call(run)
     except BaseException as error:
         _check.tell(error, f"in control {each!r}, called at t = {run.t:g}")
         raise
+    finally:
+        run._is_controlled = False
 
 
 def _steps_of(period: float, step: float) -> int:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import StateWarning, WrongName, WrongState, WrongType, WrongValue
+from ..errors import InUse, StateWarning, WrongName, WrongState, WrongType, WrongValue
 from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
@@ -163,7 +163,7 @@ class Run:
     def _begin(self, ready: Prepared, of: Any) -> None:
         """Create the core's run at the start of `ready`, without a record."""
         self._ready, self.system, self.settings = ready, ready.system, ready.settings
-        self._controllers = of
+        self._controllers, self._is_controlled = of, False
         self._sampling = Sampling(of, ready.span[0], ready.settings["step"]) if of else None
         self._record, self._c_record, self._history, self._seconds = None, _gateway.NO_RECORD, None, 0.0
         self._drives = Drives(ready.declared) if ready.declared and ready.declared.follows.jumps else None
@@ -242,6 +242,7 @@ class Run:
         (0.03, 3)
         """
         if self._sampling is not None:
+            self._require_idle()
             self._sample(self.steps + _check.count("steps", steps, least=0), math.inf)
         elif self._record is not None or self._drives is not None:
             self._go(_check.count("steps", steps, least=0), math.inf)
@@ -268,9 +269,16 @@ class Run:
         """
         t = _check.number("t", t, least=self.t)
         if self._sampling is not None:
+            self._require_idle()
             self._sample(_gateway.MOST_STEPS, t)
         else:
             self._go(_gateway.MOST_STEPS, t)
+
+    def _require_idle(self) -> None:
+        """Raise an error if a controller of this run is being called."""
+        if self._is_controlled:
+            raise InUse("a controller must not step, advance, reset, restore or close the run that it is given: it sets inputs; "
+                        "run.copy() is another run, which it may move")
 
     def _sample(self, last: int, t: float) -> None:
         """Advance to a number of steps or to a time, with calls of the controllers that are due."""
@@ -483,6 +491,7 @@ class Run:
         WrongState
             If it is damaged, or of another system, other settings or another version; the run stays as it was.
         """
+        self._require_idle()
         found, keeping = unpacked(state), self._keeping()
         if len(found.inputs) != len(self.inputs) or len(found.controllers) != len(keeping):
             raise WrongState("a state must be of a run with the same inputs and controllers")
@@ -521,6 +530,7 @@ class Run:
         InconsistentStart
             If the start violates the constraints.
         """
+        self._require_idle()
         ready = self._renewed()
         if p0 is not None or v0 is not None:
             p, v = self._of._state_or_start(p0, v0, t=ready.span[0])
@@ -579,6 +589,8 @@ class Run:
         if self._record is None:
             raise WrongValue("a solution needs samples: Run(..., record=True) keeps them, and save_to= writes them to a file",
                              "not-available")
+        if self._ready.path:
+            self._require_idle()
         outcome = Outcome(_gateway.DONE if self.event is None else _gateway.EVENT, self._seconds, None)
         solution = self._solution(outcome)
         if self._ready.path:
@@ -594,6 +606,7 @@ class Run:
 
     def close(self) -> None:
         """Stop recording, and let go of the file of `save_to`."""
+        self._require_idle()
         self._record, self._c_record = None, _gateway.NO_RECORD
         self._lock.__exit__(None, None, None)
 
@@ -601,6 +614,7 @@ class Run:
         return self
 
     def __exit__(self, *exception: Any) -> None:
+        self._require_idle()
         if self._record is not None and self._ready.path:
             finish_file(self._record, self._solution(Outcome(_gateway.DONE, self._seconds, None)), None)
         self.close()
