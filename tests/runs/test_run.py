@@ -267,6 +267,36 @@ def test_controllers_are_called_at_multiples_of_their_period(step):
         assert np.allclose(times, expected, rtol=1e-15, atol=1e-15), period
 
 
+@pytest.mark.parametrize("step", [0.01, None])
+@pytest.mark.parametrize("t0", [0.0, 7.3])
+def test_controllers_are_called_at_multiples_of_their_period_after_shortened_steps(step, t0):
+    """To times between the ends of fixed steps, from a restored state, and to a terminal event."""
+    called = {0.05: [], 0.02: []}
+    control = [zd.every(period, call=lambda run, times=times: times.append(run.t)) for period, times in called.items()]
+
+    def crossing(t, p, v):
+        return p[0]
+    crossing.terminal = True
+
+    run = zd.Run(zd.systems.oscillator(), [0.0115], [-1.0], step=step, t0=t0, control=control, events=crossing)
+    run.advance_to(t0 + 0.5)
+    assert run.event == 0
+    for k in range(1, 21):
+        if k == 12:
+            with pytest.warns(zd.StateWarning):
+                run.restore(run.save())
+        run.advance_to(t0 + 0.025 * k)
+    for period, times in called.items():
+        assert np.allclose(times, t0 + period * np.arange(round(0.5 / period)), rtol=1e-15, atol=1e-15), period
+
+
+def test_a_time_within_rounding_of_the_present_one_is_reached_without_a_step():
+    run = zd.Run(zd.systems.oscillator(), step=0.01, control=zd.every(1.0, call=lambda run: None))
+    run.step(100)
+    run.advance_to(1.0 + 5e-10)     # less than 1e-9 of the steps made, by which the core does not shorten one
+    assert run.steps == 100
+
+
 def test_a_step_that_does_not_divide_the_period_is_refused_with_one_that_does():
     with refused("step-size", r"^step must.*period 0\.01.*and 0\.003.*0\.00333"):
         zd.Run(zd.systems.oscillator(), step=0.003, control=zd.every(0.01, call=print))

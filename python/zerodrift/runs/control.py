@@ -10,6 +10,7 @@ from .. import _check
 from ..errors import WrongType, WrongValue
 
 WHOLE = 1e-9        # relative deviation of a period from a whole number of steps
+TIME_ROUNDING = 2.0**-50    # relative, of times that are counted in steps
 
 
 class Every:
@@ -39,8 +40,8 @@ def every(period: float, call: Callable[[Any], Any] | None = None) -> Any:
     Parameters
     ----------
     period : float
-        In s, counted from the start of the run. With fixed steps it must be a whole number of steps; adaptive steps end at these
-        instants.
+        In s, counted from the start of the run. With fixed steps it must be a whole number of steps. Adaptive steps end at these
+        instants, and so do fixed ones after a step that was shortened, to the time of `Run.advance_to` or to a terminal event.
     call : callable
         ``call(run)`` receives the `Run` at its present state; what it assigns to ``run[name]`` or ``run.inputs`` holds until it
         is assigned again. Its return value is ignored. It must not step, advance, reset, restore or close this run; a
@@ -99,45 +100,59 @@ class Sampling:
     """
 
     def __init__(self, of: tuple[Every, ...], t0: float, step: float | None) -> None:
-        self._of, self._t0 = of, t0
-        self._steps = None if step is None else [_steps_of(each.period, step) for each in of]
+        self._of, self._t0, self._step = of, t0, step
+        self._periods = [(1, each.period) if step is None else (_steps_of(each.period, step), step) for each in of]
         self.begin()
 
     def begin(self) -> None:
         """Let every controller be called at the present state, if it is due there."""
-        self._called: list[float | None] = [None] * len(self._of)
+        self._called: list[int | None] = [None] * len(self._of)
 
     def call(self, run: Any) -> None:
-        """Call the controllers that are due at the present state and have not been called there."""
-        now = self._now(run)
+        """Call the controllers that are due at the present state and have not been called at this instant."""
         for i, each in enumerate(self._of):
-            if self._called[i] != now and self._is_due(i, now):
-                self._called[i] = now
+            number = self._number_at(i, run)
+            if number is not None and self._called[i] != number:
+                self._called[i] = number
                 called(each, run)
 
-    def _now(self, run: Any) -> float:
-        return run.t if self._steps is None else run.steps
+    def _is_on_grid(self, run: Any) -> bool:
+        """True if all steps so far were fixed ones of full size, so that instants are counted in steps."""
+        if self._step is None:
+            return False
+        return abs(self._t0 + run.steps * self._step - run.t) <= TIME_ROUNDING * max(abs(self._t0), abs(run.t))
 
-    def _is_due(self, i: int, now: float) -> bool:
-        if self._steps is not None:
-            return now % self._steps[i] == 0
-        return self._instant(i, self._number(i, now)) == now
+    def _number_at(self, i: int, run: Any) -> int | None:
+        """Number of the instant at which the run is; None: it is between two."""
+        if self._is_on_grid(run):
+            number, beyond = divmod(run.steps, self._periods[i][0])
+            return None if beyond else number
+        number = self._nearest(i, run.t)
+        return number if abs(self._instant(i, number) - run.t) <= self._rounding(i, run.t) else None
 
-    def _number(self, i: int, t: float) -> int:
-        return round((t - self._t0) / self._of[i].period)
+    def _nearest(self, i: int, t: float) -> int:
+        return round((t - self._t0) / self._period(i))
+
+    def _period(self, i: int) -> float:
+        return math.prod(self._periods[i])
 
     def _instant(self, i: int, number: int) -> float:
-        return self._t0 + number * self._of[i].period
+        steps, size = self._periods[i]
+        return self._t0 + number * steps * size
+
+    def _rounding(self, i: int, t: float) -> float:
+        """Distance in s within which a time is at an instant, as the core does not shorten a step by less."""
+        return WHOLE * self._period(i) + TIME_ROUNDING * max(abs(self._t0), abs(t))
 
     def next(self, run: Any) -> tuple[int | None, float]:
-        """Number of steps to the next instant, with fixed steps; and its time, with adaptive ones."""
-        if self._steps is not None:
-            return min(each - run.steps % each for each in self._steps), math.inf
-        return None, min(map(self._after, range(len(self._of)), [run.t] * len(self._of)))
+        """The next instant: number of steps to it where instants are counted in steps; else its time."""
+        if self._is_on_grid(run):
+            return min(steps - run.steps % steps for steps, _ in self._periods), math.inf
+        return None, min(self._after(i, run.t) for i in range(len(self._of)))
 
     def _after(self, i: int, t: float) -> float:
-        number = self._number(i, t) - 1
-        while self._instant(i, number) <= t:
+        number = self._nearest(i, t)
+        while self._instant(i, number) <= t + self._rounding(i, t):
             number += 1
         return self._instant(i, number)
 

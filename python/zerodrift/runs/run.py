@@ -286,9 +286,9 @@ class Run:
         while self._is_before(last, t):
             sampling.call(self)
             steps, instant = sampling.next(self)
-            left = last - self.steps
-            self._go(left if steps is None else min(steps, left), min(t, instant))
-            if self.event is not None:
+            made = self.steps
+            self._go(last - made if steps is None else min(steps, last - made), min(t, instant))
+            if self.event is not None or self.steps == made:    # none is made to a time within rounding
                 return
 
     def _is_before(self, last: int, t: float) -> bool:
