@@ -85,9 +85,11 @@ def with_energy(system):
 def flowed(system, t, p, w, steps=8):
     """P after moving with the velocity w for a second: a displacement that respects (1), quaternions included."""
     h, p = 1.0 / steps, np.array(p)
+    if system.evaluate(p, w, t).A is None:
+        return p + w
 
     def rate(p):
-        return numbers(system, t, p, w).A @ w
+        return system.evaluate(p, w, t).A @ w
 
     for _ in range(steps):
         k1 = rate(p)

@@ -107,14 +107,14 @@ def first_failure(folder, files, left_out, environment):
         return f"no end within {CPU_TIME} s"
     if done.returncode == 0:
         return ""
-    found = re.search(r"^(?:FAILED|ERROR) (\S+)", done.stdout, re.MULTILINE)
+    found = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - |$)", done.stdout, re.MULTILINE)     # names of tests have spaces
     return found[1] if found else f"exit status {done.returncode}"
 
 
 def noticed_by(folder, files, failing, **environment):
     """The first test that fails with the mutation only; "" if there is none. `failing` has those that fail without it."""
     while test := first_failure(folder / "mutated", files, failing, environment):
-        if "::" not in test or not first_failure(folder / "original", [test], (), environment):
+        if "::" not in test or first_failure(folder / "original", [test], (), environment) != test:
             return test
         failing.append(test)
     return ""
