@@ -243,6 +243,31 @@ def test_samples_go_to_a_file(tmp_path):
     assert np.array_equal(zd.load(tmp_path / "samples.npy").p, sol.p)
 
 
+@pytest.mark.parametrize("back", ["reset", "restore"])
+def test_a_file_of_samples_begins_anew_where_the_run_does(tmp_path, back):
+    """With the samples of the same run in memory; the first ones are longer than a buffer."""
+    m = zd.Mechanism("arm")
+    arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    m.motor("drive", m.revolute("pin", m.ground, arm.start), torque=0.0)
+    solutions = []
+    for to in ({"save_to": tmp_path / "samples"}, {"record": True}):
+        run = zd.Run(m, step=0.01, inputs=["drive.torque"], **to)
+        run.step(3)
+        state = run.save()
+        run["drive.torque"] = 2.0
+        run.step(20_000)
+        run.reset() if back == "reset" else run.restore(state)
+        run["drive.torque"] = 7.0
+        run.step(4)
+        solutions.append(run.solution())
+    for each in (solutions[0], zd.load(tmp_path / "samples.npy")):
+        for name in ("t", "p", "v", "energy_violation"):
+            assert np.array_equal(getattr(each, name), getattr(solutions[1], name)), name
+        assert 4 <= len(each.t) <= 5
+    assert set(solutions[0]["drive.torque"]) == {7.0}
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["samples.json", "samples.npy"]
+
+
 def test_a_run_that_records_nothing_has_no_solution():
     with refused("not-available"):
         zd.Run(zd.systems.oscillator(), step=0.01).solution()

@@ -479,7 +479,7 @@ class Run:
         return saved(self._ready, self._core, [each.state() for each in self._keeping()])
 
     def restore(self, state: bytes) -> None:
-        """Go back, or on, to a saved state; a record begins anew there.
+        """Go back, or on, to a saved state; a record begins anew there, in memory or in its file.
 
         Parameters
         ----------
@@ -518,7 +518,7 @@ class Run:
         return twin
 
     def reset(self, p0: Any = None, v0: Any = None) -> None:
-        """Go back to the start at t0, with the first inputs; a record begins anew.
+        """Go back to the start at t0, with the first inputs; a record begins anew, in memory or in its file.
 
         Parameters
         ----------
@@ -550,7 +550,9 @@ class Run:
         self._open(core)
         if self._sampling is not None:
             self._sampling.begin()
-        if self._record is not None and ready.path is None:
+        if self._record is not None:
+            if ready.path:
+                self._record.close()
             self._begin_record()
 
     def _keeping(self) -> list[Any]:

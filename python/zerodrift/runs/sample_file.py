@@ -142,6 +142,10 @@ class SampleFile:
             self._put(rest.getvalue())
             self._sync()
 
+    def close(self) -> None:
+        """Close the file without the remaining fields, before another one takes its place."""
+        self._file.close()
+
     def _sync(self) -> None:
         os.fsync(self._file.fileno())
 
