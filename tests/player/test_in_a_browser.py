@@ -132,6 +132,21 @@ def test_nothing_is_cut_off(browser, crank, width, dark, tmp_path):
     assert browser.evaluate("[...document.querySelectorAll('canvas, button, select')].every(each => each.offsetWidth > 20)")
 
 
+def test_a_card_shows_the_picture_alone(browser, crank, tmp_path):
+    shown(browser, zd.view(crank, graphs=["crank.angle", "pin.force"]), tmp_path, width=214, height=160)
+    seen = browser.evaluate("""[...document.body.querySelectorAll("*")].filter(each => each.offsetHeight)
+        .map(each => [each.tagName, each.offsetWidth, each.offsetHeight])""")
+    assert seen == [["DIV", 214, 160], ["CANVAS", 214, 160]]
+
+
+def test_graphs_of_a_low_frame_end_above_the_controls(browser, crank, tmp_path):
+    shown(browser, zd.view(crank, graphs=["crank.angle", "pin.force"]), tmp_path, width=420, height=315)
+    end, controls = browser.evaluate("""(box => [
+        Math.max(...[...document.querySelectorAll(".stage canvas")].map(each => box(each).bottom)),
+        box(document.querySelector(".controls")).top])(each => each.getBoundingClientRect())""")
+    assert end <= controls
+
+
 @pytest.mark.parametrize("dark", [False, True])
 def test_colours_of_words_have_contrast(browser, crank, dark, tmp_path):
     """WCAG AA: 4.5 between words and paper, 3 between lines and paper."""

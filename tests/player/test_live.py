@@ -204,3 +204,20 @@ def test_wrong_arguments_are_refused():
         zd.view(zd.System(1, mass=np.eye(1), p0=[1.0]), live=True)
     with refused("conflicting-arguments", "of 2"):
         zd.view(zd.models.four_bar(), zd.models.four_bar(), live=True)
+
+
+@pytest.mark.parametrize("name", ["forces", "path", "graphs", "labels"])
+def test_arguments_of_films_are_refused(name):
+    with refused("conflicting-arguments", f"{name} must be left out with live=True"):
+        zd.view(zd.models.four_bar(), live=True, **{name: ["crank"]})
+
+
+def test_sliders_are_refused_without_a_live_view():
+    sol = zd.simulate(zd.models.four_bar(), 0.1, step=0.01)
+    with refused("conflicting-arguments", "sliders must be left out without live=True"):
+        zd.view(sol, sliders={"crank.length": (1.0, 2.0)})
+
+
+@pytest.mark.parametrize("names", [False, True])
+def test_names_are_passed_on(names):
+    assert zd.view(zd.models.four_bar(), live=True, sliders={}, names=names)._scene["names"] is names

@@ -114,7 +114,7 @@ def player() -> str:
 
 
 def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None = None, *, step: float = STEP,
-              speed: float | None = None, **options: Any) -> LiveView:
+              speed: float | None = None, names: bool = False, **options: Any) -> LiveView:
     """Page of a mechanism, with sliders of these parameters and inputs, by name with smallest and largest value, and the methods
     that `zerodrift.block` takes.
     """
@@ -137,7 +137,7 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     gravity = float(np.linalg.norm([value for name, value in system.parameters.items() if name.startswith("gravity.")]))
     return LiveView({
         **kept, **_drawn(points), "changes": _changes(system, points, limits), "block": _encoded(data), "t": 0.0, "step": step,
-        "speed": speed, "sliders": shown, "mass": mass, "weight": mass * gravity, "names": False, "arrow": 0})
+        "speed": speed, "sliders": shown, "mass": mass, "weight": mass * gravity, "names": bool(names), "arrow": 0})
 
 
 def _motion(system: MechanismSystem, step: float, options: Mapping[str, Any]) -> Solution:

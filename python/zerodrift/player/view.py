@@ -171,9 +171,10 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
     labels : sequence of str, optional
         Names of the solutions.
     live : bool
-        True: instead of solutions a mechanism is given, which the page simulates itself, by the core in WebAssembly. Points are
-        dragged by a spring from the pointer, in space parallel to the screen, and sliders change parameters and motors; what
-        cannot close is refused with a sentence. The core is compiled once, by the package ziglang (the extra ``web``).
+        True: instead of solutions a mechanism is given, which the page simulates itself, by the core in WebAssembly; forces,
+        path, graphs, and labels are then left out. Points are dragged by a spring from the pointer, in space parallel to the
+        screen, and sliders change parameters and motors; what cannot close is refused with a sentence. The core is compiled
+        once, by the package ziglang (the extra ``web``).
     sliders : dict of (float, float), optional
         With ``live=True``: parameters and motors of the mechanism, with smallest and largest values, such as
         ``{"rod.length": (0.8, 1.2), "drive.speed": (0, 10)}``. By default some lengths, a spring, a mass,
@@ -189,7 +190,7 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
     ValueError
         If a system has no drawing, or systems of the plane and of space are given together.
     TypeError
-        If something else than a solution is given.
+        If something else than a solution is given, or arguments exclude each other.
 
     Examples
     --------
@@ -205,7 +206,9 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
 
         if len(solutions) != 1:
             raise WrongType(f"a live view must be of one mechanism, not of {len(solutions)} arguments", "conflicting-arguments")
-        return live_view(solutions[0], sliders, speed=speed)
+        _refuse_given({"forces": forces, "path": path, "graphs": graphs, "labels": labels}, "must be left out with live=True")
+        return live_view(solutions[0], sliders, speed=speed, names=names)
+    _refuse_given({"sliders": sliders}, "must be left out without live=True; zd.explore has sliders of finished runs")
     if not solutions:
         raise WrongType("view needs at least one solution, as zd.simulate returns", "missing-argument")
     for sol in solutions:
@@ -216,6 +219,13 @@ def view(*solutions: Any, forces: Any = False, path: Any = (), graphs: Any = (),
     if len(labels) != len(solutions):
         raise WrongValue(f"labels must name {len(solutions)} solutions, not {len(labels)}", "shape")
     return View(solutions, list(labels), Wanted(forces, path, graphs, names, speed))
+
+
+def _refuse_given(arguments: Mapping[str, Any], rule: str) -> None:
+    """Refuse arguments that are not left out."""
+    for name, value in arguments.items():
+        if value is not None and value is not False and not (isinstance(value, list | tuple) and not value):
+            raise WrongType(f"{name} {rule}", "conflicting-arguments")
 
 
 def _quoted(page: str) -> str:
