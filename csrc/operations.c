@@ -13,6 +13,7 @@
 #include "run/create.h"
 #include "run/explain.h"
 #include "run/resample.h"
+#include "run/start.h"
 #include "run/status.h"
 #include "systems/held.h"
 
@@ -125,9 +126,23 @@ int zd_measure_rates(const zd_system *system, const double *inputs, int count, c
     return status;
 }
 
+enum { MOST_SCALES = 10 };      /* scales tried by a projection of positions */
+
+/* The tolerance is relative to sizes at the guess. If those at the result are so much smaller that no run may start there, one of the scales
+ * left is used up, otherwise all. */
+static int check_scales(zd_run *run, int *scales_left)
+{
+    double violation;
+    int is_allowed, status = zd_start_measure(run, &violation, &is_allowed);
+    *scales_left = is_allowed ? 0 : *scales_left - 1;
+    if (status || is_allowed || *scales_left) return status;
+    run->motion.point->residual_left = violation;
+    return ZD_NO_CONVERGENCE;
+}
+
 /* One stage of a projection, positions or velocities; held coordinates or velocities are additional constraints. */
 static int project_stage(const zd_system *system, const zd_settings *settings, int corrects, double t, double *p, double *v,
-                         int *iterations, char *message, int message_size)
+                         int *iterations, int *scales_left, char *message, int message_size)
 {
     int status;
     zd_system still = *system;
@@ -137,11 +152,22 @@ static int project_stage(const zd_system *system, const zd_settings *settings, i
     run->motion.drifts_from = ZD_PHI | ZD_C;
     run->motion.corrects = corrects;
     if (!status) status = zd_motion_correct(&run->motion, 0, 1);
+    if (!status && scales_left) status = check_scales(run, scales_left);
     zd_point_follow(run->motion.point);
     memcpy(p, run->motion.point->p, (size_t)system->nq * sizeof *p);
     memcpy(v, run->motion.point->v, (size_t)system->nv * sizeof *v);
-    if (iterations) *iterations = (int)run->motion.statistics.position_iterations;
+    if (iterations) *iterations += (int)run->motion.statistics.position_iterations;
     return finish(run, status, message, message_size);
+}
+
+/* Repeated from the result of the one before, until the tolerance holds in the sizes there. */
+static int project_positions(const zd_system *system, const zd_settings *settings, double t, double *p, double *v, int *iterations,
+                             char *message, int message_size)
+{
+    int status = ZD_DONE, scales_left = MOST_SCALES;
+    while (!status && scales_left)
+        status = project_stage(system, settings, ZD_PHI, t, p, v, iterations, &scales_left, message, message_size);
+    return status;
 }
 
 /* Constraints that the corrections in the settings enforce, with tolerances. */
@@ -163,11 +189,11 @@ static int project(zd_store *store, const zd_system *system, const zd_settings *
     if (target.positions) {
         /* (25a) is computed with all rows of C */
         const zd_system *holding = hold_p ? zd_hold_positions(store, system, hold_p, p) : system;
-        status = holding ? project_stage(holding, settings, ZD_PHI, t, p, v, iterations, message, message_size) : ZD_NO_MEMORY;
+        status = holding ? project_positions(holding, settings, t, p, v, iterations, message, message_size) : ZD_NO_MEMORY;
     }
     if (!status && target.velocities) {
         const zd_system *holding = zd_hold_velocities(store, system, hold_v, v);
-        status = holding ? project_stage(holding, settings, ZD_C, t, p, v, NULL, message, message_size) : ZD_NO_MEMORY;
+        status = holding ? project_stage(holding, settings, ZD_C, t, p, v, NULL, NULL, message, message_size) : ZD_NO_MEMORY;
     }
     return status;
 }
@@ -177,6 +203,7 @@ int zd_project(const zd_system *system, const zd_settings *settings, double t, d
 {
     zd_settings stage = *settings;
     zd_store store = {NULL};
+    if (iterations) *iterations = 0;
     stage.on_singular = ZD_CONTINUE;    /* the smallest correction exists at a bifurcation, too */
     int status = zd_check_method(system, settings, message, message_size);
     if (!status) status = zd_check_quaternions(system, p, 1, message, message_size);

@@ -67,12 +67,25 @@ static violation velocity_violation(const zd_run *run, const double *Psi)
     return largest;
 }
 
+static double allowed_violation(const zd_run *run) { return fmax(run->motion.target.tolerance, START_TOLERANCE); }
+
+int zd_start_measure(zd_run *run, double *largest, int *is_allowed)
+{
+    zd_point *point = run->motion.point;
+    point->measured = 0;
+    int status = zd_point_need(point, ZD_PHI | ZD_C);
+    if (!status) status = zd_point_measure(point);
+    *largest = status ? INFINITY : position_violation(point).size;
+    *is_allowed = *largest <= allowed_violation(run);
+    return status;
+}
+
 /* Checks that the start satisfies the constraints within the tolerance. */
 static int check_constraints(zd_run *run, double *Psi)
 {
     zd_point *point = run->motion.point;
     const zd_system *system = &run->motion.system;
-    const double allowed = fmax(run->motion.target.tolerance, START_TOLERANCE);
+    const double allowed = allowed_violation(run);
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T);
     if (status || !zd_constraints(system)) return status;
     zd_point_velocity_violation(point, Psi);

@@ -1,6 +1,7 @@
 """Operations without a run: `zd.assemble`, and what it holds."""
 
 import numpy as np
+import pytest
 
 import tolerances as tol
 import zerodrift as zd
@@ -54,3 +55,20 @@ def test_variables_are_held_as_their_names_are():
     assert zd.assemble(BAR, guess, hold=BAR.coordinates[0])[0][0] == 1.2
     with refused("unknown-choice", "^hold must"):
         zd.assemble(BAR, guess, hold=zd.systems.oscillator().coordinates[0])
+
+
+@pytest.mark.parametrize("far", [10.0, 30.0, 1e3, 1e6, 1e9])
+def test_what_is_assembled_from_far_away_is_a_start(far):
+    """The tolerance holds in the scale of the result, a length of 1 m, not in that of the guess. 1e-10: what a start may have."""
+    pendulum = zd.systems.pendulum()
+    p, v = zd.assemble(pendulum, [far, 1.0])
+    assert abs(np.hypot(*p) - 1) <= 1e-10
+    assert zd.simulate(pendulum, 0.01, p, v, step=0.01).success
+    held, _ = zd.assemble(pendulum, [far, 0.6], hold="y")
+    assert held[1] == 0.6
+    assert abs(held[0] - 0.8) <= 1e-10
+
+
+def test_a_guess_beyond_all_scales_is_refused():
+    with refused("correction-failed", r"the position correction left"):
+        zd.assemble(zd.systems.pendulum(), [1e100, 1.0])

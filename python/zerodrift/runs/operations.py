@@ -47,9 +47,10 @@ def assemble(system: BaseSystem, p: Any = None, v: Any = None, hold: Any = (), *
     t : float
         Time in s, for constraints that depend on it.
     tol : float
-        Tolerance of ``|Phi|`` relative to its size, as in `Projection`.
+        Tolerance of ``|Phi|`` relative to its size, as in `Projection`. A result in whose own scale a run may not start, as from
+        a guess that is far away, is the guess of the next iteration.
     max_iterations : int
-        The largest number of iterations.
+        The largest number of iterations, from each guess.
 
     Returns
     -------
