@@ -215,6 +215,104 @@ def test_an_instant_of_a_motion_is_flagged():
     with pytest.warns(zd.AccuracyWarning, match="not in an equilibrium or a steady motion"):
         lin = zd.linearize(zd.models.four_bar())
     assert lin.rate.any()
+    with pytest.warns(zd.AccuracyWarning, match="not in an equilibrium or a steady motion"):     # by its jerk: it passes 0
+        passing = zd.linearize(zd.systems.oscillator(), (0.0, [0.0], [0.3]))
+    assert passing.basis @ passing.rate == pytest.approx([0.3, 0.0], abs=1e-15)
+    assert "A is that of an instant" in repr(passing)
+
+
+def slopes(function, at, h=1e-3):
+    """Jacobian by central differences of fourth order: errors of h^4 = 1e-12 and of rounding, 1e-16 / h."""
+    return np.array([(8 * (function(at + e) - function(at - e)) - function(at + 2 * e) + function(at - 2 * e)) / (12 * h)
+                     for e in h * np.eye(len(at))]).T
+
+
+def at_an_instant(system, at=None):
+    with pytest.warns(zd.AccuracyWarning, match="A is that of an instant"):
+        return zd.linearize(system, at)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_pendulum_passes_its_lowest_point(layout):
+    m = zd.Mechanism("pendulum", gravity=(0, -G))
+    link = m.link("link", (0, 0), (0, -1), mass=1.0)
+    m.revolute("pin", m.ground, link.start)
+    m.start({"link.angular_velocity": 2.0})
+    system = m.system(layout)
+    lin = at_an_instant(system)
+    assert lin.in_coordinates(["link.angle"]) == pytest.approx(np.array([[0, 1], [-1.5 * G, 0]]), abs=1e-9)
+    p, v = system.start_at(0.0)
+    assert lin.basis @ lin.rate == pytest.approx(np.concatenate([v, zd.acceleration(system, p, v)[0]]), abs=1e-11)
+
+
+@pytest.mark.parametrize("speeds", [(1.2, -2.0), (0.0, 0.0)])
+def test_an_instant_of_a_double_pendulum_has_the_jacobian_of_its_equations(speeds):
+    m = zd.Mechanism("double pendulum", gravity=(0, -G))
+    upper, lower = m.link("upper", (0, 0), (0.7, 0), mass=1.3), m.link("lower", (0.7, 0), (1.2, 0), mass=0.8)
+    m.revolute("A", m.ground, upper.start)
+    m.revolute("B", upper.end, lower.start)
+    system = m.system("joint")
+    start = np.array([0.3, -0.8, *speeds])
+
+    def flow(state):
+        return np.concatenate([state[2:], zd.acceleration(system, state[:2], state[2:])[0]])
+
+    lin = at_an_instant(system, (0.0, start[:2], start[2:]))
+    expected = slopes(flow, start)
+    assert lin.basis @ lin.A @ np.linalg.inv(lin.basis) == pytest.approx(expected, abs=1e-8 * np.abs(expected).max())
+    assert lin.basis @ lin.rate == pytest.approx(flow(start), abs=1e-11 * np.abs(flow(start)).max())
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_an_instant_of_a_four_bar(layout):
+    """In the crank's angle the Jacobian of the reduced equation of motion; in z, that of N^+ (v, vdot), along the crank."""
+    system = zd.models.four_bar().system(layout)
+    now = zd.simulate(system, 0.7, step=2e-3).at(0.7)
+
+    def state(crank):
+        p, v = zd.assemble(system, {"crank.angle": crank[0], "crank.angular_velocity": crank[1]})
+        return np.concatenate([p, v])
+
+    def flow(crank):
+        p, v = np.split(state(crank), [system.nq])
+        return np.concatenate([v, zd.acceleration(system, p, v)[0]])
+
+    crank = np.array([now["crank.angle"], now["crank.angular_velocity"]])
+    lin = at_an_instant(system, (0.0, *np.split(state(crank), [system.nq])))
+    row = np.ravel(zd.jacobian(system, "crank.angle", now.p))       # the same in all positions
+    expected = slopes(lambda at: row @ np.reshape(flow(at), (2, -1)).T, crank)
+    assert expected[0] == pytest.approx([0, 1], abs=1e-11)
+    assert lin.in_coordinates(["crank.angle"]) == pytest.approx(expected, abs=1e-8 * np.abs(expected).max())
+    (W, _), (Y, V) = (np.hsplit(part, 2) for part in np.vsplit(lin.basis, 2))
+    M = zd.mass_matrix(system, now.p)
+    inverse = np.vstack([np.hstack([W.T @ M, 0 * W.T]), V.T @ M @ np.hstack([-Y @ W.T @ M, np.eye(system.nv)])])
+    assert inverse @ lin.basis == pytest.approx(np.eye(2), abs=1e-11)
+    left, right = lin.A @ slopes(lambda at: inverse @ state(at), crank), slopes(lambda at: inverse @ flow(at), crank)
+    assert left == pytest.approx(right, abs=1e-8 * np.abs(right).max())
+    assert lin.basis @ lin.rate == pytest.approx(flow(crank), abs=1e-10 * np.abs(flow(crank)).max())
+
+
+def test_an_instant_of_a_tumbling_body_is_that_of_euler_s_equations():
+    """Rotations x = 2 e, twice the vector part of the quaternion, from I w' = -w x I w in the body's axes."""
+    inertia, spin = np.array([1.0, 2.0, 3.0]), np.array([1.0, -0.5, 2.0])
+    m = zd.Mechanism("rotor", dimension=3)
+    m.body("rotor", 1.0, inertia=tuple(inertia))
+    m.start({f"rotor.angular_velocity.{axis}": value for axis, value in zip("xyz", spin, strict=True)})
+
+    def flow(y):
+        e, e_dot = y[:3] / 2, y[3:] / 2
+        e0 = np.sqrt(1 - e @ e)
+        e0_dot = -e @ e_dot / e0
+        w = 2 * (e0 * e_dot - e0_dot * e - np.cross(e, e_dot))         # in the body's axes
+        w_dot = -np.cross(w, inertia * w) / inertia
+        e_ddot = (e0_dot * w + np.cross(e_dot, w) + e0 * w_dot + np.cross(e, w_dot)) / 2
+        return np.concatenate([y[3:], 2 * e_ddot])
+
+    names = [f"rotor rotation about {axis}" for axis in "xyz"]
+    found = at_an_instant(m.system("joint")).in_coordinates(names)
+    assert found == pytest.approx(slopes(flow, np.concatenate([np.zeros(3), spin])), abs=1e-9)
+    with refused("wrong-measure", "^names must be independent quantities that determine their motion"):
+        at_an_instant(m.system("joint")).in_coordinates(names[:1])
 
 
 def test_what_is_wrong_is_refused():
@@ -228,6 +326,8 @@ def test_what_is_wrong_is_refused():
         zd.linearize(bar, 3)
     with refused("wrong-measure", "names.*be 1"):
         zd.linearize(bar, rest).in_coordinates(["crank.angle", "rocker.angle"])
+    with refused("wrong-measure", "^names must be quantities of positions, and 'crank.angular_velocity' is a velocity"):
+        zd.linearize(bar, rest).in_coordinates(["crank.angular_velocity"])
 
 
 def test_pictures_of_modes_and_root_loci():

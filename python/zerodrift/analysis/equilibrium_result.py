@@ -132,7 +132,7 @@ def in_motion(at: State, effort: dict[str, float], iterations: int) -> Equilibri
     return Equilibrium(at.system, at.t, (at.p, at.v, flow.vdot, flow.lam), effort, stiffness=None, damping=None,
                        basis=flow.tangent.velocities, spectrum=spectrum, stable=stable,
                        free=functools.partial(pivots, at, flow.tangent.basis @ spectrum.removed),
-                       residual=float(np.linalg.norm(flow.unsteady)),
+                       residual=0.0 if flow.is_steady else float(np.linalg.norm(flow.acc)),
                        iterations=iterations, how="Gauss-Newton method")
 
 

@@ -1,4 +1,10 @@
-"""The linearized flow on the tangent space: A = N^+ (dF N - N'), with the basis carried along by the steady motion."""
+"""The linearized flow on the tangent space: A = N^+ (dF N - N').
+
+A steady motion carries the basis along. Elsewhere the basis stands still, N' = 0, and z = N^+ (p - p0, v - v0) are coordinates of
+the constraint manifold near the state, with F = (A v, vdot) and, A^+ the left inverse of A in (1),
+
+    N^+ (dp, dv) = (z1, z2),     z1 = W^T M A^+ dp,     z2 = V^T M (dv - Y z1).
+"""
 
 from __future__ import annotations
 
@@ -100,7 +106,7 @@ class Flow:
         """Differences of accelerations and their derivatives from a steady motion, (2 n,), and the size of accelerations."""
         return self._fit[1], self._size()
 
-    @property
+    @functools.cached_property
     def is_steady(self) -> bool:
         """All rates turn with one angular velocity, and go on to do so."""
         return bool(np.abs(self._fit[1]).max(initial=0.0) <= STEADY * self._size())
@@ -112,11 +118,6 @@ class Flow:
         forces = (np.abs(self.at.force) + np.abs(self.at.C.T) @ np.abs(self.lam)) / mass
         caused = np.abs(self.frame.rows(self.at)) @ np.where(mass > 1e-12 * mass.max(initial=0.0), forces, 0.0)
         return float(largest + caused.max(initial=0.0))
-
-    @property
-    def unsteady(self) -> np.ndarray:
-        """Accelerations (n,) that a steady motion does not have; zero where they are rounding."""
-        return np.zeros_like(self.acc) if self.is_steady else self.acc
 
     @functools.cached_property
     def columns(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -146,19 +147,37 @@ class Flow:
     @functools.cached_property
     def A(self) -> np.ndarray:
         """A (k, k), z' = A z."""
-        E, rate, *_ = self.columns
+        E, rate, dvdot, _ = self.columns
+        if not self.is_steady:
+            return self._in_basis(self._changes_of_pdot, dvdot)
         turned = self.frame.rotation(self.Omega, self.w.size)
-        return self._in_basis(rate - np.vstack([turned @ part for part in np.split(E, 2)]))
-
-    def _in_basis(self, values: np.ndarray) -> np.ndarray:
-        """Coordinates z of vectors (2 n, ...) in the frame."""
-        E = self.columns[0]
-        return np.linalg.lstsq(E, values, rcond=1e-13)[0] if E.size else np.zeros((E.shape[1], *values.shape[1:]))
+        values = rate - np.vstack([turned @ part for part in np.split(E, 2)])
+        return np.linalg.lstsq(E, values, rcond=1e-13)[0] if E.size else np.zeros((E.shape[1], E.shape[1]))
 
     @property
     def rate(self) -> np.ndarray:
-        """The affine term (k,): z' at the state itself, where the motion is not steady."""
-        return self._in_basis(np.concatenate([np.zeros_like(self.w), self.unsteady]))
+        """The affine term (k,): z' at the state itself, zero in a steady motion."""
+        if self.is_steady:
+            return np.zeros(self.tangent.quasi.shape[1])
+        return self._in_basis(self.at.A @ self.at.v, self.vdot)
+
+    def _in_basis(self, dp: np.ndarray, dv: np.ndarray) -> np.ndarray:
+        """N^+ (dp, dv): coordinates z (k, ...) of directions dp (nq, ...), dv (nv, ...)."""
+        at, tangent = self.at, self.tangent
+        first = tangent.displacements.T @ at.M @ np.linalg.lstsq(at.A, dp, rcond=None)[0]
+        return np.concatenate([first, tangent.velocities.T @ at.M @ (dv - tangent.followed @ first)])
+
+    @property
+    def _changes_of_pdot(self) -> np.ndarray:
+        """Changes (nq, k) of p' = A v along the basis."""
+        at, nq = self.at, self.at.system.nq
+        dp, dv = np.split(self.tangent.basis, [nq])
+
+        def rates(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+            return np.array([state(at.system, at.t, at.p + by * dp[:, i], at.v).A @ at.v
+                             for i, by in zip(which, h, strict=True)])
+
+        return at.A @ dv + differences.each(rates, sizes_of(at, dp.T, np.zeros(dv.T.shape)), nq).T
 
     def response(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Changes of z' (k, j), vdot (nv, j) and of lambda (m, j), by generalized forces (nv, j)."""

@@ -21,7 +21,7 @@ EIGENVALUE_ROUNDING = 1e-12  # of an eigenvalue: a smaller real part is printed 
 
 
 class Linearization:
-    """A linear motion z' = A z + B u, y = C z + D u, (p, v) = (p0, v0) + basis z.
+    """A linear motion z' = rate + A z + B u, y = C z + D u, (p, v) = (p0, v0) + basis z.
 
     Attributes
     ----------
@@ -30,13 +30,15 @@ class Linearization:
         The state.
     A, B, C, D : ndarray (k, k), (k, inputs), (outputs, k), (outputs, inputs)
     basis : ndarray (nq + nv, k)
-        Orthonormal in the mass metric.
+        N = [[A W, 0], [Y, V]]; W and V are orthonormal in the mass metric, and N^+ (dp, dv) = (z1, z2) with z1 = W^T M A^+ dp,
+        z2 = V^T M (dv - Y z1), where A maps velocities to the rates of coordinates.
     names : tuple of str
         The coordinate or velocity that changes most along each column of the basis.
     inputs, outputs : tuple of str
         Names of the components.
     eigenvalues : ndarray (n,), complex
-        In 1/s, sorted by magnitude, zeros of ignorable coordinates left out.
+        In 1/s, sorted by magnitude, zeros of ignorable coordinates left out. At an instant of a motion that is not steady they
+        depend on the coordinates, as those of any nonlinear system do away from its equilibria.
     frequencies : ndarray (n,)
         Natural frequencies in Hz, ``abs(eigenvalues) / (2 pi)``.
     damping : ndarray (n,)
@@ -46,7 +48,7 @@ class Linearization:
     ignored : tuple of str
         A name for each zero that was left out: coordinates on which nothing depends, and their speeds.
     rate : ndarray (k,)
-        z' at the state itself; zero in an equilibrium or a steady motion.
+        z' = N^+ (A v, vdot) at the state itself; zero in an equilibrium or a steady motion.
     rotation : ndarray (3,)
         Angular velocity in rad/s of the frame in which the motion is steady.
     is_exact : bool
@@ -60,6 +62,7 @@ class Linearization:
         self.A, self.B, self.C, self.D, self.inputs, self.outputs = flow.A, B, C, D, inputs, outputs
         self.basis, self.rate, self.rotation = flow.tangent.basis, flow.rate, flow.Omega
         self.is_exact = flow.derivatives.is_exact
+        self._instant = None if flow.is_steady else (flow.vdot, flow.columns[2])    # accelerations and their changes
         self._spectrum = of_matrix(self.A)
         self.eigenvalues, self.frequencies = self._spectrum.eigenvalues, self._spectrum.frequencies
         self.damping, self.modes = self._spectrum.dampings, self.basis @ self._spectrum.vectors
@@ -100,11 +103,14 @@ class Linearization:
     def in_coordinates(self, names: Any) -> np.ndarray:
         """A (2 n, 2 n) in n quantities of positions and their rates, ignorable coordinates left out.
 
+        Where the motion is not steady, this is the Jacobian of the equations of motion reduced to these quantities x, that of
+        (x', x'') with respect to (x, x').
+
         Parameters
         ----------
         names : sequence of str or measure
-            As many as half of the eigenvalues; they must not depend on ignorable coordinates. The printed names of rotations,
-            such as ``"frame rotation about x"``, are among them.
+            Of positions, as many as half of the eigenvalues; they must not depend on ignorable coordinates. The printed names of
+            rotations, such as ``"frame rotation about x"``, are among them.
 
         Raises
         ------
@@ -113,12 +119,25 @@ class Linearization:
         """
         wanted = names_of(names, "names")
         J, nv = np.vstack([_row(self._at, name) for name in wanted]), self.system.nv
+        if self._instant:
+            return self._in_quantities(wanted, J @ self._quasi[:nv])
         Q = complement(self._spectrum.removed)
         Y = np.vstack([J @ self._quasi[:nv], J @ self._quasi[nv:] + self._rates(wanted)]) @ Q
         if Y.shape[0] != Y.shape[1] or np.linalg.cond(Y) > 1e9:
             raise WrongValue(f"names must be {Q.shape[1] / 2:g} quantities that determine the motion, not {_check.shown(wanted)}",
                              "wrong-measure")
         return Y @ (Q.T @ self.A @ Q) @ np.linalg.inv(Y)
+
+    def _in_quantities(self, names: list[str], changes: np.ndarray) -> np.ndarray:
+        """The Jacobian (2 n, 2 n) of the rates and second rates of quantities that determine their own motion, at an instant."""
+        rates = self._second_rates(names)
+        Y = np.vstack([changes, rates[:len(changes)]])
+        found = np.linalg.lstsq(Y.T, rates.T, rcond=None)[0].T
+        left = np.abs(found @ Y - rates).max(initial=0.0)
+        if np.linalg.matrix_rank(Y, tol=1e-9 * np.linalg.norm(Y, 2)) < len(Y) or left > 1e-7 * np.abs(rates).max(initial=0.0):
+            raise WrongValue(f"names must be independent quantities that determine their motion, not {_check.shown(names)}",
+                             "wrong-measure")
+        return found
 
     @property
     def _quasi(self) -> np.ndarray:
@@ -133,6 +152,20 @@ class Linearization:
             size = Direction(dp=dp).size(scales(at.system, at.p), at)
             columns.append(differences.along(lambda h, dp=dp: np.concatenate([
                 _row(state(at.system, at.t, at.p + h * dp, at.v), name) @ at.v for name in names]), size))
+        return np.array(columns).T
+
+    def _second_rates(self, names: list[str]) -> np.ndarray:
+        """Changes (2 n, k) of the rates of these quantities and of their second rates along the basis, at an instant."""
+        at, (vdot, dvdot), nq, columns = self._at, self._instant, self.system.nq, []
+        for direction, change in zip(self.basis.T, dvdot.T, strict=True):
+            dp, dv = direction[:nq], direction[nq:]
+            size = Direction(dp=dp, dv=dv).size(scales(at.system, at.p), at)
+
+            def rates(h: float, dp: np.ndarray = dp, dv: np.ndarray = dv, change: np.ndarray = change) -> np.ndarray:
+                there = state(at.system, at.t, at.p + h * dp, at.v + h * dv)
+                return _rates_of(there, names, vdot + h * change, at)
+
+            columns.append(differences.along(rates, size))
         return np.array(columns).T
 
     def __repr__(self) -> str:
@@ -155,6 +188,25 @@ class Linearization:
 def _row(at: State, name: str) -> np.ndarray:
     """The derivative (size, nv) of the rate of a quantity, or of a rotation of a quaternion, with respect to the velocities."""
     names, rows = labelled(at)
-    if " rotation about " in name and name in names:
+    if _is_rotation(name, names):
         return rows[[names.index(name)]] @ at.A
-    return find(at, name, "names").row
+    found = find(at, name, "names")
+    if found.is_velocity:
+        raise WrongValue(f"names must be quantities of positions, and {name!r} is a velocity", "wrong-measure")
+    return found.row
+
+
+def _is_rotation(name: str, names: list[str]) -> bool:
+    """The name is that of a rotation of a quaternion."""
+    return " rotation about " in name and name in names
+
+
+def _rates_of(at: State, names: list[str], vdot: np.ndarray, reference: State) -> np.ndarray:
+    """Rates and second rates (2 n,) of quantities; rotations are the scaled vector parts of quaternions from the reference."""
+    (labels, rows), found = labelled(reference), []
+    for name in names:
+        parts = [(1.0, name)] if not _is_rotation(name, labels) else [
+            (by, each.name) for by, each in zip(rows[labels.index(name)], at.system.coordinates, strict=True) if by]
+        terms = [(by, find(at, part, "names")) for by, part in parts]
+        found.append([sum(by * each.rate for by, each in terms), sum(by * (each.row @ vdot + each.bias) for by, each in terms)])
+    return np.hstack(found).ravel()

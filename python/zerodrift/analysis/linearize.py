@@ -28,8 +28,9 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
 
     z are coordinates on the tangent space of all constraints, so that none has to be chosen as dependent. In a steady motion the
     basis moves along: displacements of bodies turn with the precession of the mechanism, and not with a wheel that spins.
-    Derivatives are those of the system's own Jacobian where it has one, and otherwise differences of eighth order, with relative
-    errors of some 1e-12.
+    At an instant of another motion the basis stands still, and z' = rate + A z + B u; `Linearization.in_coordinates` gives the
+    Jacobian of the equations of motion in quantities of one's own. Derivatives are those of the system's own Jacobian where it
+    has one, and otherwise differences of eighth order, with relative errors of some 1e-12.
 
     Parameters
     ----------
@@ -78,10 +79,11 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
         at, v = equilibrium(system, v=v), None
     here, rest = _state(system, at, v), _rest(at)
     flow = Flow(here, rest, at.effort if isinstance(at, Equilibrium) else None)
-    rate = float(np.abs(flow.unsteady).max(initial=0.0))
-    if rate:
-        warnings.warn(f"{system.name} is not in an equilibrium or a steady motion here: accelerations of {rate:.3g} m/s^2 "
-                      "or rad/s^2 remain, and A is that of an instant; zd.equilibrium finds one", AccuracyWarning, stacklevel=2)
+    if not flow.is_steady:
+        left = float(np.abs(flow.left[0]).max())
+        warnings.warn(f"{system.name} is not in an equilibrium or a steady motion here: accelerations of {left:.3g} m/s^2 or "
+                      "rad/s^2 remain or arise, and A is that of an instant; zd.equilibrium finds one", AccuracyWarning,
+                      stacklevel=2)
     return _with_ports(flow, names_of(inputs, "inputs"), names_of(outputs, "outputs"))
 
 
