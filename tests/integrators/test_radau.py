@@ -1,5 +1,7 @@
 """Radau's method against its equations solved by SciPy, its closed form, and SciPy's own on stiff systems."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 import sympy
@@ -124,6 +126,23 @@ def test_steps_do_not_shrink_as_a_system_becomes_stiffer(omega):
     assert abs(sol.p[-1, 1] - np.cos(3)) < 1e-5 + 2 / omega**2
     assert sol.stats["steps"] < 1.5 * len(other.t)
     assert sol.stats["evaluations"] < 1.5 * other.nfev + 50 * other.njev
+
+
+@pytest.mark.parametrize(("stiffness", "damping"), [(1e8, 2e4), (1e6, 2e3), (1e6, 10.0), (1e8, 100.0)])
+def test_errors_of_stiff_components_keep_to_the_tolerance(stiffness, damping):
+    """A mass whose hard spring and damper follow cos(t + phase), which is its exact motion; the median of six phases."""
+    for rtol in (1e-4, 1e-6):
+        errors = []
+        for phase in range(6):
+            force = partial(follow, phase=phase, stiffness=stiffness, damping=damping)
+            system = zd.System(1, mass=[[1.0]], force=force, p0=[np.cos(phase)], v0=[-np.sin(phase)])
+            sol = zd.simulate(system, 4.0, rtol=rtol, atol=rtol / 100, integrator="radau")
+            errors.append(np.abs(sol.v[:, 0] + np.sin(sol.t + phase)).max())
+        assert np.median(errors) < 5 * rtol
+
+
+def follow(t, p, v, *, phase, stiffness, damping):
+    return np.array([-np.cos(t + phase) - stiffness * (p[0] - np.cos(t + phase)) - damping * (v[0] + np.sin(t + phase))])
 
 
 def governor():

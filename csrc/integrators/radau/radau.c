@@ -39,6 +39,7 @@ typedef struct radau {
     double *seen_before;    /* (size,): newton.seen before the step, restored if it fails */
     double bound;           /* s: upper bound of steps with one J, set by one that was too long for the iteration; 0: none */
     int steps_since;        /* steps since the bound was set */
+    int filters;            /* true in the first step and in one that is repeated: a large error estimate is filtered */
 } radau;
 
 static int suits(const zd_system *system)
@@ -78,6 +79,7 @@ static void start(radau *self)
 static void remember(radau *self, double t, double h, const zd_rate *rate)
 {
     zd_radau_newton *it = &self->newton;
+    self->filters = !it->rate || t == it->t0;
     if (rate->size != it->size || rate->pairs != it->matrices.pairs) {
         it->size = rate->size;
         it->h = self->before_h = 0;
@@ -187,8 +189,10 @@ static void estimate(const radau *self, const double *f, double *error)
     zd_radau_solve_real(&it->matrices, error);
 }
 
-/* Error estimate. In a step that is long for the fastest components, the estimate contains what the method damps; if it is too large, it is
- * computed again from the rate at y0 + error, which filters that part. */
+/* Error estimate. In a step that is long for the fastest components, the estimate contains their deviation from equilibrium at its beginning,
+ * which the method damps. Where such a deviation is expected, in the first step, or has had a step rejected, an estimate that is too large
+ * is computed again from the rate at y0 + error, which filters that part (Hairer and Wanner, equation 8.20). In other steps it is the
+ * error of these components, which move with the slow ones, and must not be filtered. */
 static int error(void *memory, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
                  double *lambda_h)
 {
@@ -200,7 +204,7 @@ static int error(void *memory, const zd_rate *rate, double t1, double h, const d
     *lambda_h = 0;
     estimate(self, self->f0, error);
     *norm = zd_root_mean_square(n, error, scale);
-    if (*norm <= 1) return ZD_DONE;
+    if (*norm <= 1 || !self->filters) return ZD_DONE;
     for (int i = 0; i < n; i++) it->stage[i] = y[i] - it->z[2 * n + i] + error[i];
     int status = rate->evaluate(rate->context, it->t0, it->stage, f);
     if (status) return status;
