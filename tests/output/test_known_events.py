@@ -100,6 +100,11 @@ def test_expressions_that_cannot_be_read_are_refused(what, code, error):
         zd.simulate(zd.systems.four_bar(), 1.0, step=0.01, events=zd.Event(what))
 
 
+def test_names_bound_for_a_measure_are_refused():
+    with refused("conflicting-arguments", r"^of must be left out of events: it.*'alpha1' is a measure"):
+        zd.simulate(zd.systems.four_bar(), 1.0, step=0.01, events=zd.Event("alpha1", of={"alpha2": "alpha2"}))
+
+
 @pytest.mark.parametrize("reading", [Reading(COORDINATE, 3), Reading(VELOCITY, -1), Reading(MEASURE, 0)])
 def test_the_core_refuses_to_read_what_is_not_there(reading):
     bar = zd.systems.four_bar()

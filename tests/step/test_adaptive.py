@@ -60,7 +60,7 @@ def test_a_step_whose_correction_fails_is_tried_smaller(bar):
     """Without a bound by the error, the first step is far too large to be corrected."""
     with pytest.raises(zd.ZerodriftError):
         zd.simulate(bar, 2.0, step=1.0, integrator="dormand_prince")
-    sol = adaptive(bar, 2.0, 1e3, first_step=1.0, stabilization=zd.Projection(max_iterations=3))
+    sol = adaptive(bar, 2.0, rtol=0.9, atol=1e3, first_step=1.0, stabilization=zd.Projection(max_iterations=3))
     assert sol.stats["rejected"] > 0
     assert np.abs(sol.position_violation).max() <= 1e-12
 
@@ -123,6 +123,8 @@ BAR = SYSTEMS["four_bar"]
     ({"rtol": 1e-15}, "tolerance", "^rtol must.*least 2.2"),
     ({"rtol": -1.0}, "tolerance", "^rtol must"),
     ({"rtol": np.nan}, "tolerance", "^rtol must"),
+    ({"rtol": 1.0}, "tolerance", "^rtol must be below 1"),
+    ({"rtol": 1e300}, "tolerance", "^rtol must be below 1"),
     ({"atol": 0.0}, "tolerance", "^atol must.*than 0"),
     ({"max_step": 0.0}, "step-size", "max_step"),
     ({"first_step": -1.0}, "step-size", "first_step"),

@@ -8,6 +8,7 @@ import pytest
 import sympy
 
 import zerodrift as zd
+from support import refused
 from zerodrift.systems.exact_numbers import low_parts_of_frames
 
 DIGITS = 45     # of mpmath, where closed forms are evaluated
@@ -196,6 +197,9 @@ def test_what_has_no_more_digits_is_refused(oscillating):
         oscillating.events(lambda t, p, v: p[0])
     with pytest.raises(ValueError, match="t"):
         oscillating.at(11.0)
+    for values in (oscillating.at, lambda t: oscillating.measure("x", t)):
+        with refused("shape", "^t must hold at least one time"):
+            values([])
 
 
 def test_an_event_without_a_rate_is_refused(oscillating):

@@ -32,7 +32,7 @@ class Event:
     terminal : bool or int
         Whether the run ends when it has happened, once or that often.
     of : dict of str to measure, optional
-        Measures that the function receives, by argument name.
+        Measures that the function receives, by argument name, or that symbols of the expression stand for.
 
     Notes
     -----
@@ -85,6 +85,9 @@ class Event:
             function = _Called(name, self.what, system, tuple(self.of or {}), level)
             bound = [_reading(f"of[{key!r}] of {name}", measure, system) for key, measure in (self.of or {}).items()]
             known = _called(bound, level)
+        elif self.of:
+            raise WrongValue(f"of must be left out of {name}: it binds measures to names in a function or an expression, and "
+                             f"{_check.shown(self.what)} is a measure", "conflicting-arguments")
         else:
             known = _gateway.KnownEvent((_reading(name, self.what, system),), level)
         return _watched(name, function, self.direction, self.terminal, known)

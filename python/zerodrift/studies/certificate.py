@@ -91,7 +91,7 @@ class Reference:
         Raises
         ------
         ValueError
-            If the reference is not in double-double arithmetic, or was unpickled; or for times outside the samples.
+            If the reference is not in double-double arithmetic, or was unpickled; for times outside the samples, or none.
 
         Examples
         --------
@@ -175,7 +175,10 @@ class Reference:
                              "zd.reference(..., precision='double-double'), as it was computed, not unpickled")
         if t is None:
             return self._runs
-        return self._runs.at(np.atleast_1d(_check.times("t", t, self.solution.t[0], self.solution.t[-1])))
+        times = np.atleast_1d(_check.times("t", t, self.solution.t[0], self.solution.t[-1]))
+        if not times.size:
+            raise WrongValue("t must hold at least one time", "shape")
+        return self._runs.at(times)
 
     def __getstate__(self) -> dict[str, Any]:
         return vars(self) | {"_runs": None}     # which has functions at addresses
