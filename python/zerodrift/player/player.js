@@ -18,8 +18,9 @@ for (const layer of film.layers) {
 }
 for (const line of [...film.graphs, ...film.trust]) line.values = new Float32Array(bytes(line.values));
 
+const shown = () => film.nearest ? Math.round(now) : now;       // where straight lines between samples would change the shapes, samples alone
 const locate = layer => {       // points on straight lines between two samples, then those that bodies carry
-  const i = Math.min(Math.floor(now), last), share = now - i, d = film.dimension, from = i * layer.moving * d, to = Math.min(i + 1, last) * layer.moving * d;
+  const i = Math.min(Math.floor(shown()), last), share = shown() - i, d = film.dimension, from = i * layer.moving * d, to = Math.min(i + 1, last) * layer.moving * d;
   const low = film.box[0], step = film.box[1].map((x, k) => (x - low[k]) / 65535), table = layer.table;
   layer.at = Array.from({length: layer.moving}, (_, n) => {
     const found = new Array(d);
@@ -72,7 +73,7 @@ const told = () => {        // the chosen part, and its forces in each of the fi
   const arrows = loads.length ? [] : film.layers.flatMap(layer => layer.arrows.filter(each => each.name === view.chosen).map(each => number(each.size) + " N"));
   return [view.chosen, [...loads, ...arrows].join(", ")].filter(Boolean).join(": ");
 };
-const at = values => { const i = Math.min(Math.floor(now), last), next = values[Math.min(i + 1, last)]; return values[i] + (next - values[i]) * (now - i); };
+const at = values => { const i = Math.min(Math.floor(shown()), last), next = values[Math.min(i + 1, last)]; return values[i] + (next - values[i]) * (shown() - i); };
 const hues = () => [tones.accent, tones.second, tones.third, tones.ink, tones.grey, tones.force];
 const lines = (element, all, slim, unitOf) => {        // lines over time, with a cursor; the lines are drawn once for each size
   const brush = element.getContext("2d"), [w, h] = fit(element, brush), left = slim ? 0 : 8, top = slim ? 14 : 20, low = slim ? 4 : 8;

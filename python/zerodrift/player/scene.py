@@ -1,7 +1,8 @@
 """Scene of a film: shapes whose points move, arrows, graphs, as one JSON object that the player's script draws.
 
 Points that several shapes share are written once; points at rest are not in the table of moving points. Coordinates are 16-bit
-integers within the box around all of them: an error of 1e-5 of the picture. Between samples points move along straight lines.
+integers within the box around all of them: an error of 1e-5 of the picture. Between samples points move along straight lines;
+where these would change the shapes, the nearest sample is shown.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ RATE = 60               # samples for each second of the film
 MOST_SAMPLES = 900      # of a film; longer ones are thinned
 SHORTEST, LONGEST = 3.0, 15.0   # s: films of shorter and longer motions are slower and faster than these
 RESTS = 1e-9            # of the picture: points that move less rest
+STRAIGHT = 0.01         # of the size of a shape: straight lines between samples that deviate less from the motion are drawn
+BETWEEN = 0.382         # of the time between two samples, where they are compared: no simple fraction, as whole turns end there
 LEVELS = 65535          # of a coordinate
 PIN = 0.017             # of the picture: a pin's radius
 SLENDER = 0.13          # of the short bars, the quarter of all: no pin is larger
@@ -60,7 +63,7 @@ def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) 
     t0, t1 = float(first.t[0]), float(max(sol.t[-1] for sol in solutions))
     speed = wanted.speed or _speed(t1 - t0)
     count = int(np.clip(RATE * (t1 - t0) / speed, 2, wanted.samples)) if t1 > t0 else 1
-    times = np.linspace(t0, t1, count)
+    times, is_straight = _times(solutions, np.linspace(t0, t1, count), wanted.samples)
     layers = [_layer(sol, times, wanted) for sol in solutions]
     every = np.concatenate([layer["table"].reshape(-1, layer["table"].shape[2]) for layer in layers])
     places = np.concatenate([layer["extent"] for layer in layers])
@@ -72,9 +75,10 @@ def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) 
     box = every.min(axis=0), every.max(axis=0)
     labelled = list(zip(map(dense, solutions), labels, strict=True))
     return {"name": first.system.name, "upside": is_upside_down(first.system),
-            "span": [t0, t1], "samples": count, "speed": speed, "dimension": int(places.shape[1]),
-            "low": low.tolist(), "high": high.tolist(), "follow": follow, "pin": _pin(layers[0], float(shown.max() or 1.0)),
-            "arrow": arrow, "box": [side.tolist() for side in box], "names": wanted.names, "group": wanted.group,
+            "span": [t0, t1], "samples": len(times), "nearest": not is_straight, "speed": speed,
+            "dimension": int(places.shape[1]), "low": low.tolist(), "high": high.tolist(), "follow": follow,
+            "pin": _pin(layers[0], float(shown.max() or 1.0)), "arrow": arrow,
+            "box": [side.tolist() for side in box], "names": wanted.names, "group": wanted.group,
             "layers": [_packed(layer, box, label) for layer, label in zip(layers, labels, strict=True)],
             "graphs": [line for sol, label in labelled for line in _graphs(sol, times, wanted.graphs, label)],
             "trust": [line for sol, label in labelled for line in _trust(sol, times, label)]}
@@ -89,6 +93,40 @@ def _speed(duration: float) -> float:
     return float(next(times * power for times in (5, 2, 1) if times * power <= wanted * (1 + 1e-12)))
 
 
+def _times(solutions: Sequence[Solution], times: np.ndarray, most: int) -> tuple[np.ndarray, bool]:
+    """Times of samples, more than given, but at most so many, where straight lines between them would change the shapes; and
+    whether these lines may be drawn.
+    """
+    while (deviation := max(_deviation(sol, times) for sol in solutions)) > STRAIGHT and len(times) < most:
+        count = int(np.ceil(1.1 * len(times) * np.sqrt(deviation / STRAIGHT)))      # it falls with the square of their distance
+        times = np.linspace(times[0], times[-1], min(count, most))
+    return times, deviation <= STRAIGHT
+
+
+def _deviation(sol: Solution, times: np.ndarray) -> float:
+    """Largest error of straight lines between samples in the shape of a part: of its points as seen from its first one, and of
+    its directions, as part of its size.
+    """
+    between = times[:-1] + BETWEEN * np.diff(times)
+    shapes, points = _drawn(sol, np.concatenate([times, between]))
+    ends = np.cumsum([len(shape.points) for shape in shapes])
+    starts = ends - [len(shape.points) for shape in shapes]
+    directions = np.concatenate([np.arange(len(shape.points)) >= count_places(shape) for shape in shapes])
+    origins = points[:, np.repeat(starts, ends - starts)]
+    origins[:, directions] = 0.0
+    samples, known = np.split(points - origins, [len(times)])
+    errors = np.linalg.norm(known - (1 - BETWEEN) * samples[:-1] - BETWEEN * samples[1:], axis=2).max(axis=0, initial=0.0)
+    sizes = np.linalg.norm(samples, axis=2).max(axis=0)
+    sizes = np.maximum(np.maximum.reduceat(sizes, starts), RESTS * (np.ptp(points, axis=(0, 1)).max() or 1.0))
+    return float((np.maximum.reduceat(errors, starts) / sizes).max())
+
+
+def _drawn(sol: Solution, times: np.ndarray) -> tuple[list[Shape], np.ndarray]:
+    """Shapes of a solution, and the points (times, points, dimension) of all of them."""
+    moments = moments_of(sol, _positions(sol, times))
+    return moments[0], np.array([np.concatenate([shape.points for shape in moment]) for moment in moments])
+
+
 def _follow(layers: Sequence[dict[str, Any]], places: np.ndarray) -> float:
     """Width in m of a view that moves with what goes far, or 0: the view then rests."""
     sizes = [np.ptp(layer["table"][:, layer["at"]], axis=1).max(initial=0.0) for layer in layers if len(layer["at"])]
@@ -98,12 +136,10 @@ def _follow(layers: Sequence[dict[str, Any]], places: np.ndarray) -> float:
 
 def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     """Shapes of a solution at all times, points in a table (times, points, dimension)."""
-    p = _positions(sol, times)
-    moments, sol = moments_of(sol, p), dense(sol)
-    shapes = [[shape.points for shape in moment] for moment in moments]
-    points = np.array([np.concatenate(each) for each in shapes])                # (times, points of all shapes, dimension)
+    shapes, points = _drawn(sol, times)
+    sol = dense(sol)
     entries, begin = [], 0
-    for shape in moments[0]:
+    for shape in shapes:
         entries.append((shape, range(begin, begin + len(shape.points))))
         begin += len(shape.points)
     at = [i for shape, numbers in entries for i in numbers[:count_places(shape)]]
