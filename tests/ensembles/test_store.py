@@ -19,7 +19,7 @@ from small_studies import lowest, pendulum, slow, waits
 from support import environment_of_tests, refused
 from zerodrift import _writing
 from zerodrift.ensembles import store as module
-from zerodrift.ensembles.identity import Identity
+from zerodrift.runs.identity import Identity
 
 GRAVITIES = np.linspace(5.0, 10.0, 12)
 STUDY = {"parameters": {"gravity": GRAVITIES}, "step": 0.01, "outputs": ["link.angle"], "reduce": lowest}
@@ -330,7 +330,7 @@ IDENTITIES = """
 import numpy as np
 import zerodrift as zd
 from small_studies import pendulum
-from zerodrift.ensembles.identity import Identity
+from zerodrift.runs.identity import Identity
 
 def decorated(p, L):
     return np.array([(p @ p - L**2) / 2]) if {"a", "b", "c"} else None

@@ -143,6 +143,13 @@ run = zd.Run(zd.systems.four_bar(), step=0.01, energy=True)
 run.restore(open(sys.argv[1], "rb").read())
 run.step(1000)
 sys.stdout.write(run.p.tobytes().hex() + run.v.tobytes().hex())
+m = zd.Mechanism("lever", gravity=(0, -9.81))
+link = m.link("link", (0, 0), (1, 0), mass=1.0)
+pin = m.revolute("pin", m.ground, link.start)
+def spring(q):
+    return -3.0 * q
+m.torque("drive", link, value=spring, of={"q": pin.angle})
+zd.Run(m, step=0.01).restore(open(sys.argv[2], "rb").read())
 """
 
 
@@ -150,9 +157,10 @@ def test_a_state_is_restored_in_another_process(tmp_path):
     run = zd.Run(zd.systems.four_bar(), step=0.01, energy=True)
     run.step(100)
     (tmp_path / "state").write_bytes(run.save())
+    (tmp_path / "other").write_bytes(zd.Run(lever(lambda q: -3.0 * q), step=0.01).save())
     run.step(1000)
-    said = subprocess.run([sys.executable, "-c", PROCESS, str(tmp_path / "state")], check=True, capture_output=True, text=True,
-                          env=dict(os.environ)).stdout
+    said = subprocess.run([sys.executable, "-c", PROCESS, str(tmp_path / "state"), str(tmp_path / "other")], check=True,
+                          capture_output=True, text=True, env=dict(os.environ)).stdout
     assert said == run.p.tobytes().hex() + run.v.tobytes().hex()
 
 
@@ -174,6 +182,90 @@ def test_wrong_states_are_refused_and_the_run_stays():
             other.restore(state)
         other.step()
     assert np.array_equal(run.p, p)
+
+
+def test_every_bit_of_a_state_is_checked():
+    run = zd.Run(zd.systems.pendulum(), step=0.01)
+    state = run.save()
+    for bit in range(8 * len(state)):
+        changed = bytearray(state)
+        changed[bit // 8] ^= 1 << bit % 8
+        with pytest.raises(zd.WrongState):
+            run.restore(bytes(changed))
+
+
+def lever(law, height=0.0):
+    """A lever with a torque that is a law of its angle."""
+    m = zd.Mechanism("lever", gravity=(0, -9.81))
+    link = m.link("link", (0, height), (1, height), mass=1.0)
+    pin = m.revolute("pin", m.ground, link.start)
+    m.torque("drive", link, value=law, of={"q": pin.angle})
+    return m.system()
+
+
+def mass(spring):
+    return zd.System(["x"], p0=[1.0], mass=[[1.0]], force=lambda p: -spring * p)
+
+
+def symbolic_mass(power):
+    sp = pytest.importorskip("sympy")
+    x, v = sp.symbols("x v")
+    return zd.symbolic([x], speeds=[v], kinetic=v**2 / 2, potential=x**power / power, p0=[1.0], name="mass")
+
+
+def table(last):
+    return zd.table([-9, 0, 9], [1, 2, last], argument="q")
+
+
+@pytest.mark.parametrize(("made", "other"), [
+    (lambda: lever(lambda q: 2 * q), lambda: lever(lambda q: 3 * q)), (lambda: lever(table(3)), lambda: lever(table(4))),
+    (lambda: lever(lambda q: 2 * q), lambda: lever(lambda q: 2 * q, 2.0)), (lambda: lever(table(3)), lambda: lever(lambda q: q)),
+    (lambda: mass(1.0), lambda: mass(9.0)), (lambda: symbolic_mass(2), lambda: symbolic_mass(4))],
+    ids=["functions", "tables", "geometry", "a table and a function", "forces", "potentials"])
+def test_states_of_systems_with_other_geometry_and_functions_are_refused(made, other):
+    """Their names and parameters are the same."""
+    run, alike = zd.Run(made(), step=0.01), zd.Run(made(), step=0.01)
+    run.step(10)
+    alike.restore(run.save())
+    for each in (run, alike):
+        each.step()
+    assert same(run, alike)
+    with refused("wrong-state", "same system"):
+        zd.Run(other(), step=0.01).restore(run.save())
+
+
+class Counting:
+    """A function with a state of its own."""
+
+    def __init__(self):
+        self.calls = 0
+
+    def __call__(self, q):
+        self.calls += 1
+        return -q
+
+
+def test_what_functions_keep_between_calls_does_not_make_another_system():
+    angles = []
+    for law in (Counting(), lambda q: angles.append(q) or -q):
+        run = zd.Run(lever(law), step=0.01)
+        run.step(10)
+        alike = zd.Run(lever(Counting() if isinstance(law, Counting) else law), step=0.01)
+        alike.restore(run.save())
+        assert same(run, alike)
+    assert angles
+
+
+def test_a_state_of_one_of_many_runs_is_that_of_a_run_with_its_parameters():
+    bar = zd.models.four_bar().system()
+    name = next(each for each in bar.parameters if each.endswith(".mass"))
+    many = zd.Run(bar, runs=2, parameters={name: [1.0, 2.0]}, step=0.01)
+    many.step(5)
+    run = zd.Run(bar.with_parameters({name: 2.0}), step=0.01)
+    run.restore(many.save()[1])
+    assert np.array_equal(run.p, many.p[1])
+    with refused("wrong-state", "same parameters"):
+        run.restore(many.save()[0])
 
 
 def test_many_runs_are_restored_by_a_mask():

@@ -15,11 +15,11 @@ from .. import _check, _gateway
 from .._locking import Lock
 from .._writing import is_temporary, sweep, write_whole
 from ..errors import WrongValue
+from ..runs.identity import Identity, differences, version
 from ..runs.saving import read_arrays
 from ..runs.settings import VECTOR_UNITS
 from ..systems.base import BaseSystem
 from . import memory, saving
-from .identity import Identity, differences, version
 from .part import Part
 from .plan import OPTIONS, Plan
 

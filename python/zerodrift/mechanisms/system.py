@@ -291,6 +291,10 @@ class MechanismSystem(BaseSystem):
         other._start.drives = dict(zip(other._start.drives_by_name, places, strict=True))
         return other
 
+    def _definition(self) -> tuple[Any, ...]:
+        drawing = self._drawing
+        return self.layout, drawing.gravity, drawing.elements
+
     def __reduce__(self) -> tuple[Any, ...]:
         direct = self._direct if self._is_written_out else None
         return MechanismSystem, (self._drawing, self.layout, self._changed, self._is_written_out, direct)

@@ -196,7 +196,7 @@ class ManyRuns:
 
     def save(self) -> list[bytes]:
         """State of each run, as `Run.save` returns it."""
-        return [saved(ready, self._core[i], []) for i, ready in enumerate(self._ready)]
+        return [saved(ready, self._core[i], [], self.system) for i, ready in enumerate(self._ready)]
 
     def restore(self, states: Any, *, where: Any = None) -> None:
         """Put runs to saved states, with which they continue with the same bits.
@@ -219,7 +219,7 @@ class ManyRuns:
             raise WrongValue(f"states must be {len(places)}, one for each run, not {len(each)}", "shape")
         for i, state in zip(places, each, strict=True):
             found, ready = unpacked(state), self._renewed(i)
-            run = restored(ready, found.core)
+            run = restored(ready, found.core, self.system)
             if ready.inputs:
                 ready.inputs.restore(found.inputs, found.places)
             self._become(i, ready, run)

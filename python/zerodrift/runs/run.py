@@ -476,7 +476,7 @@ class Run:
         return self._saved()
 
     def _saved(self) -> bytes:
-        return saved(self._ready, self._core, [each.state() for each in self._keeping()])
+        return saved(self._ready, self._core, [each.state() for each in self._keeping()], self.system)
 
     def restore(self, state: bytes) -> None:
         """Go back, or on, to a saved state; a record begins anew there, in memory or in its file.
@@ -489,14 +489,15 @@ class Run:
         Raises
         ------
         WrongState
-            If it is damaged, or of another system, other settings or another version; the run stays as it was.
+            If it is damaged, or of another system, other settings or another version; the run stays as it was. Systems are
+            compared by their names, parameters, geometry, tables, expressions and code of functions; functions in C are not.
         """
         self._require_idle()
         found, keeping = unpacked(state), self._keeping()
         if len(found.inputs) != len(self.inputs) or len(found.controllers) != len(keeping):
             raise WrongState("a state must be of a run with the same inputs and controllers")
         ready = self._renewed()
-        core = restored(ready, found.core)
+        core = restored(ready, found.core, self.system)
         if ready.inputs:
             ready.inputs.restore(found.inputs, found.places)
         self._become(ready, core)

@@ -279,6 +279,9 @@ class SymbolicSystem(BaseSystem):
         how = self._direct.in_words if self.compiled else ", evaluated in Python"
         return f"<zd.symbolic {self.name}: {self._sizes_in_words()}{how}>"
 
+    def _definition(self) -> str:
+        return self._code.python_source
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._direct,
                            self._inputs)

@@ -251,6 +251,10 @@ class BaseSystem:
         """The core's system that provides the measures; None for systems restored from a description only."""
         return getattr(self, "_core", None)
 
+    def _definition(self) -> Any:
+        """Geometry, user functions and tables, without parameters and start: what saved states of runs are compared by."""
+        return None
+
     @functools.cached_property
     def _watching(self) -> Watching:
         return Watching(self._measuring)

@@ -165,6 +165,9 @@ class System(BaseSystem):
     def __repr__(self) -> str:
         return f"<zd.System {self.name}: {self._sizes_in_words()}>"
 
+    def _definition(self) -> dict[str, Any]:
+        return {name: given for name, given in self._given.items() if name not in ("parameters", "p0", "v0")}
+
     def __reduce__(self) -> tuple[Any, ...]:
         return _rebuild, (type(self), self._given)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copyreg
 import functools
 import hashlib
+import inspect
 import sys
 from collections.abc import Iterable, Mapping
 from types import BuiltinFunctionType, CodeType, FunctionType, MethodType, ModuleType
@@ -16,6 +17,8 @@ from .. import _gateway
 
 LENGTH = 24         # hexadecimal digits of a digest
 PLAIN = (type(None), bool, int, float, complex, str, bytes)
+CONSTANT = (*PLAIN, FunctionType)
+WITH_STATE = ("zerodrift", "sympy", "numpy", "scipy", "functools", "builtins")  # modules whose objects do not change in a run
 
 
 def version() -> str:
@@ -34,6 +37,8 @@ class Identity:
     functions : dict of str to dict
         Of each function met: its name, and the digests of its code, defaults and closure.
     """
+
+    _other_flags = 0        # of code, which do not count
 
     def __init__(self) -> None:
         self.functions: dict[str, dict[str, str]] = {}
@@ -92,7 +97,7 @@ class Identity:
         return "function", name, *parts.values(), *attributes
 
     def _code(self, what: CodeType) -> Iterable[str | bytes]:
-        counts = (what.co_argcount, what.co_posonlyargcount, what.co_kwonlyargcount, what.co_flags)
+        counts = (what.co_argcount, what.co_posonlyargcount, what.co_kwonlyargcount, what.co_flags & ~self._other_flags)
         names = (what.co_names, what.co_varnames, what.co_freevars, what.co_cellvars)
         return "code", what.co_code, str(counts), str(names), self.of(what.co_consts)
 
@@ -106,6 +111,30 @@ class Identity:
             state = {name: value for name, value in state.items()
                      if not isinstance(getattr(type(what), name, None), functools.cached_property)}
         return "object", _named(made), *map(self.of, (arguments, state, list(items or ()), list(pairs or ())))
+
+
+class Definition(Identity):
+    """Digests of definitions of systems, which are equal in all processes, and while functions and objects of the caller work.
+
+    Functions count by their code, whatever their names, and by constants in their defaults and closures. Objects of the caller
+    count by their class and the code of its ``__call__``, as their state may change from call to call.
+    """
+
+    _other_flags = inspect.CO_NESTED
+
+    def _function(self, what: FunctionType) -> Iterable[str]:
+        closure = [cell.cell_contents for cell in what.__closure__ or () if not _is_empty(cell)]
+        values = [*(what.__defaults__ or ()), *(what.__kwdefaults__ or {}).values(), *closure]
+        return "function", self.of(what.__code__), *(self.of(each) for each in values if isinstance(each, CONSTANT))
+
+    def _object(self, what: Any) -> Iterable[str]:
+        kind = type(what)
+        if kind.__module__.partition(".")[0] not in WITH_STATE:
+            call = getattr(kind, "__call__", None)      # noqa: B004 - its code, not whether there is any
+            return "object", kind.__qualname__, *([self.of(call)] if isinstance(call, FunctionType) else [])
+        if kind.__qualname__ == "Dummy":    # of SymPy: numbered anew in each process
+            return "symbol", what.name
+        return super()._object(what)
 
 
 def _is_empty(cell: Any) -> bool:
