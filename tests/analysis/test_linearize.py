@@ -1,5 +1,7 @@
 """Linearizations against published eigenvalues, closed forms, periods of runs, and each other in all coordinates."""
 
+import warnings
+
 import numpy as np
 import pytest
 import scipy.signal
@@ -219,6 +221,25 @@ def test_an_instant_of_a_motion_is_flagged():
         passing = zd.linearize(zd.systems.oscillator(), (0.0, [0.0], [0.3]))
     assert passing.basis @ passing.rate == pytest.approx([0.3, 0.0], abs=1e-15)
     assert "A is that of an instant" in repr(passing)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+@pytest.mark.parametrize("what_acts", ["gravity", "spring"])
+def test_the_rounding_of_an_equilibrium_is_not_a_motion(what_acts, layout):
+    """Forces that cancel in joint coordinates leave nothing but rounding, to which no acceleration of their own compares."""
+    m = zd.Mechanism("pendulum", gravity=(0, -G) if what_acts == "gravity" else (0, 0))
+    link = m.link("link", (0, 0), (0, -1), mass=1.0)
+    m.revolute("pin", m.ground, link.start)
+    if what_acts == "spring":
+        m.spring("spring", m.ground.point((2.1, 1.3)), link.end, stiffness=1e4, length=0.1)
+    rest = zd.equilibrium(m.system(layout))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        lin = zd.linearize(rest.system, (0.0, rest.p, rest.v))
+    assert not lin.rate.any()
+    assert zd.linearize(rest.system, rest).eigenvalues == pytest.approx(lin.eigenvalues, rel=1e-9)
+    for v in ({}, {"pin.speed": 0.0}):
+        assert zd.equilibrium(rest.system, near=rest.p, v=v)["link.angle"] == pytest.approx(rest["link.angle"], abs=1e-9)
 
 
 def slopes(function, at, h=1e-3):

@@ -21,8 +21,10 @@ from . import differences
 from .derivatives import Derivatives, sizes_of
 from .frames import STEADY, frame_of
 from .quantities import find
-from .state import State, state
+from .state import State, scales, state
 from .tangent import Tangent
+
+POSITION_ROUNDING = 1e-12    # of characteristic scales: displacements from a steady motion by rounding, times its stiffness
 
 
 def accelerate(at: State) -> tuple[np.ndarray, np.ndarray]:
@@ -109,7 +111,15 @@ class Flow:
     @functools.cached_property
     def is_steady(self) -> bool:
         """All rates turn with one angular velocity, and go on to do so."""
-        return bool(np.abs(self._fit[1]).max(initial=0.0) <= STEADY * self._size())
+        left = float(np.abs(self._fit[1]).max(initial=0.0))
+        return left <= STEADY * max(self._size(), self.frame.weight) or left <= POSITION_ROUNDING * self._stiffness()
+
+    def _stiffness(self) -> float:
+        """Largest change of the accelerations by a displacement of one characteristic scale, with the velocities that follow."""
+        at, k = self.at, self.tangent.displacements.shape[1]
+        sizes = np.abs(self.tangent.basis[:at.system.nq, :k] / scales(at.system, at.p).p[:, None]).max(axis=0, initial=0.0)
+        changes = np.abs(self.frame.rows(at) @ self.columns[2][:, :k]).max(axis=0, initial=0.0)
+        return float((changes / np.maximum(sizes, 1e-300)).max(initial=0.0))
 
     def _size(self) -> float:
         """The size of accelerations here: those there are, and those of the forces before they cancel."""

@@ -42,6 +42,11 @@ class Frame:
     dimension = 3
     gravity: np.ndarray | None = None       # None: it is not known whether the system may be rotated
 
+    @property
+    def weight(self) -> float:
+        """The acceleration of gravity in m/s^2, before constraints take part of it; zero where it is not known."""
+        return 0.0 if self.gravity is None else float(np.linalg.norm(self.gravity))
+
     def rows(self, at: State) -> np.ndarray:
         """J (n, nv)."""
         raise NotImplementedError

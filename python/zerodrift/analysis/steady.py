@@ -16,7 +16,6 @@ import numpy as np
 from ..errors import EquilibriumFailed, InconsistentStart, ZerodriftError
 from ..systems.base import BaseSystem
 from .flow import Flow
-from .frames import STEADY
 from .quantities import find
 from .retraction import moved, onto
 from .state import State, scales, state
@@ -68,11 +67,6 @@ class Motion(NamedTuple):
     left: np.ndarray
     size: float
 
-    @property
-    def is_steady(self) -> bool:
-        """The differences from a steady motion are rounding."""
-        return bool(np.abs(self.left).max(initial=0.0) <= STEADY * max(self.size, 1e-300))
-
 
 class Steady:
     """The search for a steady motion.
@@ -94,7 +88,11 @@ class Steady:
     def motion(self, p: np.ndarray, v: np.ndarray, u: np.ndarray) -> Motion:
         """The motion at a position with the prescribed speeds, its velocities otherwise near to v."""
         at = with_speeds(state(self.system, self.t, p, v), self.speeds)
-        return Motion(at, u, *Flow(at, efforts=dict(zip(self.held, u, strict=True))).left)
+        return Motion(at, u, *self._flow(at, u).left)
+
+    def _flow(self, at: State, u: np.ndarray) -> Flow:
+        """The flow at a state under the efforts u (j,)."""
+        return Flow(at, efforts=dict(zip(self.held, u, strict=True)))
 
     def run(self, p: np.ndarray, v: np.ndarray) -> Motion:
         """The steady motion that is found from a state.
@@ -112,14 +110,13 @@ class Steady:
                 break
             here = found
             self.iterations += 1
-        if not here.is_steady:
+        if not self._flow(here.at, here.u).is_steady:
             raise EquilibriumFailed(self._nothing(here))
         return here
 
     def _nothing(self, here: Motion) -> str:
         """The message of a search that found nothing."""
-        flow = Flow(here.at, efforts=dict(zip(self.held, here.u, strict=True)))
-        share = np.abs(flow.vdot) / scales(self.system, here.at.p).v
+        share = np.abs(self._flow(here.at, here.u).vdot) / scales(self.system, here.at.p).v
         return (f"{self.system.name} must have a steady motion with these speeds, and none was found near the start: "
                 f"accelerations of {np.abs(here.left).max():.3g} m/s^2 or rad/s^2 remain, most at "
                 f"{self.system.velocities[int(share.argmax())].name!r}; prescribe more speeds or fewer in v=, name in hold= what "
