@@ -92,15 +92,34 @@ static int digits_of(double from, double to)
     return (int)fmin(17, 4 + fmax(0, ceil(log10(apart))));
 }
 
+/* Cause of many steps. */
+static void describe_shortness(const zd_run *run, char *to, size_t size)
+{
+    if (run->loop.control.is_by_move) snprintf(to, size, "max_move = %.3g sets the size of the last of them; a larger one takes fewer",
+                                               run->settings.max_move);
+    else snprintf(to, size, "something changes fast there, %s", run->stepper.integrator->decay == 0
+                  ? "such as a force that jumps; a smooth force, or events at its jumps, take fewer"
+                  : "or the problem is stiff and needs an implicit method, such as 'radau'");
+}
+
 static void describe_steps(const zd_run *run, char *to, size_t size)
 {
+    char why[160];
     double a, b;
+    describe_shortness(run, why, sizeof why);
     zd_step_histogram_half(&run->loop.control.histogram, &a, &b);
     int digits = digits_of(a, b);
-    snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: something changes fast "
-             "there, %s; max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b,
-             run->stepper.integrator->decay == 0 ? "such as a force that jumps; a smooth force, or events at its jumps, take fewer"
-                                               : "or the problem is stiff and needs an implicit method, such as 'radau'");
+    snprintf(to, size, "max_steps = %" PRId64 " steps were taken; half of the steps lie between t = %.*g and %.*g: %s; "
+             "max_steps=None sets no bound", run->settings.max_steps, digits, a, digits, b, why);
+}
+
+static void describe_underflow(const zd_run *run, char *to, size_t size)
+{
+    const zd_settings *settings = &run->settings;
+    if (run->loop.control.is_by_move) snprintf(to, size, "step size underflow: max_move = %.3g requires steps below the rounding of the time",
+                                               settings->max_move);
+    else snprintf(to, size, "step size underflow: rtol = %.3g, atol = %.3g require steps below the rounding of the time", settings->rtol,
+                  settings->atol);
 }
 
 static void describe_collapse(const zd_run *run, char *to, size_t size)
@@ -140,10 +159,7 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
         else snprintf(to, size, "'%s' must have a holonomic system whose velocities are the rates of its coordinates; here there %s",
                  integrator, system->mn ? "are nonholonomic constraints" : "is a kinematic matrix");
         break;
-    case ZD_TINY_STEP:
-        snprintf(to, size, "step size underflow: rtol = %.3g, atol = %.3g require steps below the rounding of the time",
-                 run->settings.rtol, run->settings.atol);
-        break;
+    case ZD_TINY_STEP: describe_underflow(run, to, size); break;
     case ZD_TOO_MANY_STEPS: describe_steps(run, to, size); break;
     case ZD_COLLAPSED: describe_collapse(run, to, size); break;
     default: return 0;

@@ -103,7 +103,7 @@ static int foresee(zd_step_loop *loop)
     if (!stepper->integrator->foresee) return ZD_DONE;
     set_scale(loop, stepper->y, stepper->y);
     int status = stepper->integrator->foresee(stepper->memory, &loop->motion->rate, stepper->t, stepper->y, control->scale, &longest);
-    if (!status) control->h = fmin(control->h, longest);
+    if (!status && longest < control->h) control->h = longest, control->is_by_move = 0;
     return status;
 }
 
@@ -141,10 +141,11 @@ static double factor(const zd_step_loop *loop, double norm)
 }
 
 /* Size of the next step after one of size h, bounded by max_move. */
-static double by_move(const zd_step_loop *loop, double h, double next)
+static double by_move(zd_control *control, double h, double next)
 {
-    const double move = loop->control.move;
-    return move > 0 ? fmin(next, h * SHARE_OF_MOVE / move) : next;
+    const double longest = control->move > 0 ? h * SHARE_OF_MOVE / control->move : INFINITY;
+    control->is_by_move = longest < next;
+    return control->is_by_move ? longest : next;
 }
 
 /* True if a shorter step would fail likewise. */
@@ -179,7 +180,7 @@ static int watch_collapse(zd_step_loop *loop)
     zd_control *control = &loop->control;
     const zd_settings *settings = loop->settings;
     const double h = control->bounded, span = (settings->is_open ? loop->stepper->t : settings->t1) - settings->t0;
-    if (!(h < control->collapse.share * span) || control->stiffness.at_limit) {
+    if (!(h < control->collapse.share * span) || control->stiffness.at_limit || control->is_by_move) {
         control->collapse.count = 0;
         return ZD_DONE;
     }
@@ -194,7 +195,7 @@ static int accept(zd_step_loop *loop)
     zd_control *control = &loop->control;
     const double h = control->bounded, intended = control->h;
     const int status = watch_collapse(loop);
-    control->h = by_move(loop, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
+    control->h = by_move(control, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
     if (loop->stepper->t == loop->end) control->h = fmax(control->h, intended);     /* an open run goes on as if it had not been cut */
     if (integrator->fit) control->h = integrator->fit(loop->stepper->memory, control->h);
     zd_step_histogram_step(&control->histogram, loop->stepper->t);
@@ -211,7 +212,8 @@ static int repeats(zd_step_loop *loop, int *status)
     }
     if (is_final(*status)) return 0;
     loop->motion->statistics.rejected++;
-    control->h = *status ? h * AFTER_FAILURE : by_move(loop, h, h * fmin(1, factor(loop, control->norm)));
+    if (*status) control->h = h * AFTER_FAILURE, control->is_by_move = 0;
+    else control->h = by_move(control, h, h * fmin(1, factor(loop, control->norm)));
     control->largest_factor = 1;
     if (!(control->h > control->smallest)) {
         if (!*status) *status = ZD_TINY_STEP;

@@ -233,6 +233,14 @@ def test_no_step_moves_a_coordinate_further_than_it_may(method, equations):
     assert held.stats["rejected"] < held.stats["steps"]
 
 
+@pytest.mark.parametrize(("max_move", "code"), [(1e-300, "step-underflow"), (1e-14, "too-many-steps"), (1e-4, "too-many-steps")])
+def test_steps_that_moves_make_short_name_the_bound_of_moves(max_move, code):
+    with refused(code, f"max_move = {max_move:g}"):
+        zd.simulate(BAR, 1.0, max_move=max_move, max_steps=300)
+    with refused("too-many-steps", "something changes fast"):
+        zd.simulate(BAR, 1.0, rtol=1e-10, max_move=10.0, max_steps=10)
+
+
 def test_a_thin_wall_is_leapt_over_until_moves_are_bounded():
     """A push by 1 J where the body passes 5 m, 2 mm wide: from 1 m/s to sqrt(3) m/s."""
     x, u = sp.symbols("x u")
