@@ -48,7 +48,8 @@ zd_plane_reading zd_plane_quantity_read(const zd_plane_quantity *quantity, const
     }
     zd_vector apart = zd_minus(zd_plus(second->at, arm2), zd_plus(first->at, arm1));
     double length = is_distance(quantity) ? sqrt(zd_inner(apart, apart)) : 0;
-    direction along = is_distance(quantity) ? (direction){zd_times(1 / length, apart), 0} : direction_of(quantity, first);
+    /* Coincident points have no direction: a force along their distance is zero there, as that of a spring without free length is. */
+    direction along = is_distance(quantity) ? (direction){zd_times(length > 0 ? 1 / length : 0, apart), 0} : direction_of(quantity, first);
     zd_vector on_first = along.turns ? zd_plus(arm1, apart) : arm1;     /* moment arm of the opposite force, from the first mass centre */
     return (zd_plane_reading){
         .value = (is_distance(quantity) ? length : zd_inner(along.unit, apart)) - quantity->zero,
@@ -82,7 +83,9 @@ double zd_plane_quantity_rate(const zd_plane_quantity *quantity, const zd_plane_
     speed = zd_minus(speed, speed_of(twist1, arm1));
     change = zd_minus(change, bias_of(twist1, arm1));
     if (is_distance(quantity)) {
-        double length = sqrt(zd_inner(apart, apart)), across = zd_cross(apart, speed) / length;
+        double length = sqrt(zd_inner(apart, apart));
+        if (!(length > 0)) return 0;
+        double across = zd_cross(apart, speed) / length;
         *bias = (zd_inner(apart, change) + across * across) / length;
         return zd_inner(apart, speed) / length;
     }

@@ -72,10 +72,11 @@ static void read_along(const zd_space_quantity *quantity, const zd_space_pose *p
     to->first.torque = zd_plus3(to->first.torque, zd_cross3(a, apart));
 }
 
+/* Coincident points have no direction: a force along their distance is zero there, as that of a spring without free length is. */
 static void read_distance(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 apart, zd_space_reading *to)
 {
     to->value = sqrt(zd_inner3(apart, apart));
-    pull(quantity, pose, zd_times3(1 / to->value, apart), to);
+    pull(quantity, pose, zd_times3(to->value > 0 ? 1 / to->value : 0, apart), to);
 }
 
 /* S x in global axes, with S the shape of the ellipsoid */
@@ -123,6 +124,53 @@ static void read_angle(const zd_space_quantity *quantity, const zd_space_pose *p
     twist_both(zd_times3(1 / (x * x + y * y), zd_cross3(b, zd_minus3(zd_times3(x, o), zd_times3(y, a)))), to);
 }
 
+/* The rotation vector in global axes: with u = sin theta times its direction, the axial vector of the rotation that takes axes of the
+ * first body to those of the second, theta u / sin theta. */
+static zd_vector3 rotation_vector(const zd_space_quantity *quantity, const zd_space_pose *pose)
+{
+    const zd_rotation *turned = &pose[quantity->first].turned;
+    const zd_vector3 axis[] = {turned->x, turned->y, turned->z};
+    zd_vector3 u = {0, 0, 0};
+    double cosine = -0.5;
+    for (int i = 0; i < 3; i++) {
+        const zd_vector3 to = direction_of(pose + quantity->second, quantity->shape[i]);
+        u = zd_plus3(u, zd_times3(0.5, zd_cross3(axis[i], to)));
+        cosine += 0.5 * zd_inner3(axis[i], to);
+    }
+    const double sine = sqrt(zd_inner3(u, u));
+    return zd_times3(sine > 0 ? atan2(sine, cosine) / sine : 1, u);
+}
+
+/* c = (1 - theta / 2 cot(theta / 2)) / theta^2, and its slope by theta^2, from square = theta^2. With w the angular velocity of the second
+ * body relative to the first, phi' = w - phi x w / 2 + c phi x (phi x w). */
+static double rotation_factor(double square, double *slope)
+{
+    static const double series[] = {1.0 / 12, 1.0 / 720, 1.0 / 30240, 1.0 / 1209600, 1.0 / 47900160, 691.0 / 1307674368000,
+                                    1.0 / 74724249600};
+    double c = 0;
+    *slope = 0;
+    if (square < 0.25) {
+        for (int k = (int)(sizeof series / sizeof series[0]) - 1; k >= 0; k--) {
+            *slope = *slope * square + c;
+            c = c * square + series[k];
+        }
+        return c;
+    }
+    const double half = sqrt(square) / 2, sine = sin(half), cot = cos(half) / sine;
+    c = (1 - half * cot) / square;
+    *slope = ((1 / (sine * sine) - cot / half) / 8 - c) / square;
+    return c;
+}
+
+static void read_rotation(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 a, zd_space_reading *to)
+{
+    double slope;
+    const zd_vector3 phi = rotation_vector(quantity, pose), across = zd_cross3(phi, a);
+    const double c = rotation_factor(zd_inner3(phi, phi), &slope);
+    to->value = zd_inner3(a, phi);
+    twist_both(zd_plus3(a, zd_plus3(zd_times3(0.5, across), zd_times3(c, zd_cross3(phi, across)))), to);
+}
+
 static void read_cosine(const zd_space_quantity *quantity, const zd_space_pose *pose, zd_vector3 a, zd_space_reading *to)
 {
     const zd_vector3 b = direction_of(pose + quantity->second, quantity->b);
@@ -150,6 +198,7 @@ zd_space_reading zd_space_quantity_read(const zd_space_quantity *quantity, const
     case ZD_SPACE_ALONG: read_along(quantity, pose, a, apart_of(quantity, pose), &to); break;
     case ZD_SPACE_COSINE: read_cosine(quantity, pose, a, &to); break;
     case ZD_SPACE_ANGLE: read_angle(quantity, pose, a, &to); break;
+    case ZD_SPACE_ROTATION: read_rotation(quantity, pose, a, &to); break;
     case ZD_SPACE_DISTANCE: read_distance(quantity, pose, apart_of(quantity, pose), &to); break;
     case ZD_SPACE_GLIDE: to.second = (zd_space_wrench){a, zd_cross3(direction_of(pose + quantity->second, quantity->point2), a)}; break;
     case ZD_SPACE_SPIN: to.second.torque = a; break;
@@ -198,7 +247,7 @@ static double bias_of_place(const zd_space_quantity *quantity, moving apart)
 static double bias_of_distance(moving apart, double rate)
 {
     const double length = sqrt(zd_inner3(apart.value, apart.value));
-    return (zd_inner3(apart.rate, apart.rate) + zd_inner3(apart.value, apart.second) - rate * rate) / length;
+    return length > 0 ? (zd_inner3(apart.rate, apart.rate) + zd_inner3(apart.value, apart.second) - rate * rate) / length : 0;
 }
 
 static double bias_of_angle(moving a, moving o, moving b, double rate)
@@ -207,6 +256,21 @@ static double bias_of_angle(moving a, moving o, moving b, double rate)
     const double xdot = zd_inner3(a.rate, b.value) + zd_inner3(a.value, b.rate),
         ydot = zd_inner3(o.rate, b.value) + zd_inner3(o.value, b.rate);
     return (x * bias_of_product(o, b) - y * bias_of_product(a, b) - 2 * rate * (x * xdot + y * ydot)) / size;
+}
+
+/* Rate of the torque of read_rotation(), times the relative angular velocity w. */
+static double bias_of_rotation(const zd_space_quantity *quantity, const zd_space_pose *pose, const zd_space_twist *twist)
+{
+    double slope;
+    const zd_vector3 a = direction_of(pose + quantity->first, quantity->a), phi = rotation_vector(quantity, pose);
+    const double c = rotation_factor(zd_inner3(phi, phi), &slope);
+    const zd_vector3 spin = twist[quantity->first].spin, w = zd_minus3(twist[quantity->second].spin, spin);
+    const zd_vector3 across = zd_cross3(phi, a), twice = zd_cross3(phi, across), phi_w = zd_cross3(phi, w);
+    const zd_vector3 rate = zd_plus3(w, zd_plus3(zd_times3(-0.5, phi_w), zd_times3(c, zd_cross3(phi, phi_w))));   /* in axes of the first */
+    const zd_vector3 rate_a = zd_cross3(rate, a), of_twice = zd_plus3(zd_cross3(rate, across), zd_cross3(phi, rate_a));
+    const zd_vector3 torque = zd_plus3(a, zd_plus3(zd_times3(0.5, across), zd_times3(c, twice)));
+    return zd_inner3(w, zd_cross3(spin, torque)) + 0.5 * zd_inner3(w, rate_a) + c * zd_inner3(w, of_twice) +
+           2 * slope * zd_inner3(phi, rate) * zd_inner3(w, twice);
 }
 
 /* The rate of the way from Q to C: o turns with the first body, and the ellipsoid with the second. */
@@ -254,6 +318,7 @@ double zd_space_quantity_bias(const zd_space_quantity *quantity, const zd_space_
     case ZD_SPACE_COSINE: return bias_of_product(TURNING_FIRST(a), TURNING_B);
     case ZD_SPACE_ANGLE:
         return bias_of_angle(TURNING_FIRST(a), TURNING_FIRST(o), TURNING_B, zd_space_quantity_rate(quantity, pose, twist));
+    case ZD_SPACE_ROTATION: return bias_of_rotation(quantity, pose, twist);
     case ZD_SPACE_DISTANCE: return bias_of_distance(APART, zd_space_quantity_rate(quantity, pose, twist));
     case ZD_SPACE_CLEARANCE: return bias_of_contact(quantity, pose, twist, TURNING_FIRST(o), TURNING_FIRST(o), APART);
     case ZD_SPACE_SLIP: return bias_of_contact(quantity, pose, twist, TURNING_FIRST(a), TURNING_FIRST(o), APART);

@@ -39,7 +39,8 @@ typedef struct zd_space_quantity {
     int first, second;          /* bodies */
     double point1[3], point2[3];
     double a[3], o[3], b[3];    /* unit vectors in the axes of their body: see enum zd_space_quantity_kind */
-    double shape[3][3];         /* m^2: of an ellipsoid x^T shape^-1 x = 1 about Q, in the second body's axes */
+    /* In the second body's axes: m^2, of an ellipsoid x^T shape^-1 x = 1 about Q; of a rotation the first body's axes where phi is zero. */
+    double shape[3][3];
     double zero;                /* m or rad: subtracted from the value */
     int counted;                /* 1 + index of the joint angle, for an angle that counts turns; otherwise 0 */
 } zd_space_quantity;

@@ -16,7 +16,7 @@ static void add(const zd_readings *at, void *to, int quantity, double factor)
     const zd_space_quantity *of = self->quantity + quantity;
     double *magnitude = to;
     const double size = fabs(factor);
-    if (of->kind == ZD_SPACE_COSINE || of->kind == ZD_SPACE_ANGLE) {
+    if (of->kind == ZD_SPACE_COSINE || of->kind == ZD_SPACE_ANGLE || of->kind == ZD_SPACE_ROTATION) {
         magnitude[1] += size;
         return;
     }

@@ -168,7 +168,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         Axes of hinges are along z. A revolute that holds a particle becomes a ball. Where no joint keeps a body in the plane, one
         is added, ``"wheel in its plane"``, a `planar` or, for a particle, a `coupler`. Moments of inertia are those of the plane
         about z, and half as much about x and y, so that motions in the plane are the same. They are given: a link's inertia does
-        not change with its length.
+        not change with its length. The exception are bushings with torsion beyond half a turn: in the plane they count the angle
+        on, in space they do not.
 
         Returns
         -------

@@ -19,7 +19,7 @@ def quantities(rng):
     made = []
     for kind in QUANTITY_KINDS:
         a, o, _ = random_frame(rng)
-        shape = shape_of(random_frame(rng), (0.4, 0.7, 0.2))
+        shape = random_frame(rng) if kind == "rotation" else shape_of(random_frame(rng), (0.4, 0.7, 0.2))
         made.append(Quantity(kind, 1, 2, *rng.normal(size=(2, 3)).tolist(), a, o, unit(rng), shape, 0.1))
     return made
 
@@ -32,6 +32,7 @@ def everything(rng):
               for kind in KINDS.values() for ends in ((0, 1), (1, 2), (3, 2))]
     place = {kind: i for i, kind in enumerate(QUANTITY_KINDS)}
     forces = [GeneralizedForce("spring", place["distance"], 3.0, 0.2), GeneralizedForce("spring", place["along"], 2.0),
+              GeneralizedForce("spring", place["rotation"], 1.5, 0.3),
                *(GeneralizedForce("constant", place[kind], value=value)
                  for kind, value in zip(SPEEDS, (1.2, 2.0, -1.5, 0.7), strict=True))]
     relations = [Relation([place["angle"], place["along"]], [0.3, 1.0], 0.1, 0.2),
@@ -147,7 +148,10 @@ def test_quantities_say_what_they_are(case):
         own = R[quantity.second].inv().apply(o)
         expected = {"x": (Q - P)[0], "y": (Q - P)[1], "z": (Q - P)[2], "along": a @ (Q - P), "cosine": a @ b,
                     "angle": np.arctan2(o @ b, a @ b), "distance": np.linalg.norm(Q - P),
-                    "clearance": o @ (Q - P) - np.sqrt(own @ quantity.shape @ own)}.get(quantity.kind)
+                    "clearance": o @ (Q - P) - np.sqrt(np.abs(own @ quantity.shape @ own))}.get(quantity.kind)
+        if quantity.kind == "rotation":
+            slack = Rotation.from_matrix(np.transpose(quantity.shape))
+            expected = a @ (R[quantity.second] * slack * R[quantity.first].inv()).as_rotvec()
         if expected is not None:
             assert_close(core.measure_at(2 * i, 0.0, p, v)["value"][0] + quantity.zero, expected, 1e-13, scale=1.0)
 

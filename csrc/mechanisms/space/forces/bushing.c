@@ -1,22 +1,22 @@
-/* Bushing: an elastic joint, with a stiffness and a damping along and about each of three directions of the first body. The angle about a
- * direction is that by which the next one has turned. */
+/* Bushing: an elastic joint, with a stiffness and a damping along and about each of three directions of the first body. About them the
+ * components of the rotation vector count, so that the torque is smooth up to half a turn, whatever its direction. */
 #include "../joints/primitives.h"
 #include "element.h"
 
 #define ALONG(first) {.quantity = ZD_SPACE_ALONG, .of_first = (first), .zero = ZD_SPACE_ZERO_ALONG}
-#define TURN_OF(direction) {.quantity = ZD_SPACE_ANGLE, .of_first = (direction), .of_second = (direction)}
+#define ABOUT(first) {.quantity = ZD_SPACE_ROTATION, .of_first = (first)}
 
 const zd_space_element_kind zd_space_bushing = {
     .card = {
         .name = "bushing",
         .summary = "Joins two bodies softly, by springs and dampers along and about the axes of the first.",
         .equations = "(2), (28)",
-        .description = "In space the angle about a direction is that by which the next one has turned, as seen along it. So a turn about "
-                       "one direction is that angle, and small ones about several are those of a linear model; none may come near half a "
-                       "turn.",
+        .description = "In space the angles about its directions are the components of the rotation vector: the unit axis about which the "
+                       "second body has rotated, as seen from the first, times the angle. The angle is counted up to half a turn, where "
+                       "the torque changes its sign; in the plane it is counted on.",
     },
     .quantities = 6,
-    .pick = {ALONG(A), ALONG(N), ALONG(T), TURN_OF(N), TURN_OF(T), TURN_OF(A)},
+    .pick = {ALONG(A), ALONG(N), ALONG(T), ABOUT(A), ABOUT(N), ABOUT(T)},
     .is_spring = 1,
     .axes = 3,
     .sign = 1,

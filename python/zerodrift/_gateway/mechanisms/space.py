@@ -20,7 +20,8 @@ from .law_owner import Law, LawOwner, calls_python, compiled_table
 from .plane import Coordinate
 
 QUANTITY_KINDS = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
-                  "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE, "distance": lib.ZD_SPACE_DISTANCE,
+                  "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE,
+                  "rotation": lib.ZD_SPACE_ROTATION, "distance": lib.ZD_SPACE_DISTANCE,
                   "clearance": lib.ZD_SPACE_CLEARANCE, "slip": lib.ZD_SPACE_SLIP,
                   "glide": lib.ZD_SPACE_GLIDE, "spin": lib.ZD_SPACE_SPIN, "turn": lib.ZD_SPACE_TURN}
 NAMES = {value: name for name, value in QUANTITY_KINDS.items()}
@@ -94,7 +95,8 @@ class Quantity(NamedTuple):
     a: Vector = AS_DRAWN[0]     # directions of the first body, and one of the second
     o: Vector = AS_DRAWN[1]
     b: Vector = AS_DRAWN[0]
-    shape: Frame = (NONE, NONE, NONE)   # of an ellipsoid of the second body, x^T shape^-1 x = 1
+    # In the second body's axes: an ellipsoid x^T shape^-1 x = 1; of a rotation the first body's axes where it is zero
+    shape: Frame = (NONE, NONE, NONE)
     zero: float = 0.0
     counted: int = 0            # of an angle that counts turns: 1 + which one it is of all angles of joints
 

@@ -25,6 +25,7 @@ from .assembly import Assembly, Target, is_of_many
 from .free_coordinates import Coordinate, bodies_of, names_of, swings, unforced
 from .nudge import aside, way_out
 from .space_advice import of_angles
+from .start_checks import check_directions
 
 MASSLESS = 1e-13        # of the largest mass: bound below which a motion has none
 
@@ -92,11 +93,13 @@ class Starting:
 
         In space poses are (bodies, 7), and the angles of joints come third.
         """
-        assembly, p = self.assembled(t)
+        tables, assembly, p = self.closed(t)
+        self._check_mass(tables, assembly, p)
         held, wished = (self.targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
         if nudge:
             p = aside(assembly, p, nudge, held)
         poses = assembly.core.poses(p, assembly.velocities(p, held, wished, self._staying(assembly.core, rates=True)))
+        check_directions(tables, poses[0], assembly.length)
         return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
 
     def way_out(self) -> str:

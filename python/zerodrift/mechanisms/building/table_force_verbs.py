@@ -13,7 +13,7 @@ from ..._gateway.mechanisms.element_tables import ElementKind
 from ...errors import WrongType, WrongValue
 from ..elements.bodies import Point
 from ..elements.frames import perpendicular
-from ..elements.table_forces import TableForce, has, is_between_points, lengths, parameters
+from ..elements.table_forces import ROTATIONS, TableForce, has, is_between_points, lengths, parameters
 from .registry import Elements
 from .table_joint_documentation import POINTS, SIDES, wrapped
 
@@ -92,7 +92,7 @@ def _add(m: Elements, force: type[TableForce], name: Any, given: dict[str, Any])
     entry, what = _entry(m, force, name, given), force.kind.replace("_", " ")
     name = m._new_name(name, what)
     ends = _ends(m, entry, name, given)
-    if has(entry, "angle", "turn", "spin") and not entry.at_joint:
+    if has(entry, *ROTATIONS) and not entry.at_joint:
         m._turning(name, what, *(end.body for end in ends))
     place = _directions(m, entry, name, given, ends)
     if entry.is_spring:

@@ -502,9 +502,9 @@ class TableVerbs(Elements):
                 torsion: Any = 0.0, torsion_damping: Any = 0.0, axis: Any = None, normal: Any = None) -> Any:
         """Joins two bodies softly, by springs and dampers along and about the axes of the first.
 
-        It is slack as drawn. In space the angle about a direction is that by which the next one has turned, as seen along it.
-        So a turn about one direction is that angle, and small ones about several are those of a linear model; none may come
-        near half a turn.
+        It is slack as drawn. In space the angles about its directions are the components of the rotation vector: the unit axis
+        about which the second body has rotated, as seen from the first, times the angle. The angle is counted up to half a
+        turn, where the torque changes its sign; in the plane it is counted on.
 
         Parameters
         ----------

@@ -19,7 +19,7 @@ from .user_functions import Law
 
 ELEMENTS, SPACE_ELEMENTS = plane.element_kinds(), space.element_kinds()
 WRITTEN = "spring", "torsion_spring", "bushing", "force", "torque"      # kinds with a class in `forces.py`
-ROTATIONS = {"angle", "spin", "turn"}       # marker quantities in rad or rad/s
+ROTATIONS = {"angle", "rotation", "spin", "turn"}       # marker quantities in rad or rad/s
 UNITS = {"force": "N", "torque": "N m"}
 
 # ---- what an entry defines ----

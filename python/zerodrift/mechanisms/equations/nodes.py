@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from math import factorial
 from typing import Any, NamedTuple
 
 from ..._gateway.mechanisms import plans
@@ -82,6 +83,23 @@ def row_with_nodes(row: Relation, number: Numbering) -> Relation:
 
 def force_with_nodes(force: GeneralizedForce, number: Numbering) -> GeneralizedForce:
     return force._replace(stiffness=number(force.stiffness), damping=number(force.damping), value=number(force.value))
+
+
+def angle_by_sine(graph: Graph, cosine: Node) -> Node:
+    """theta / sin theta from cos theta, smooth for -pi < theta < pi, without a case for theta = 0.
+
+    The angle is halved six times: sin theta is 64 sin(theta / 64) times the cosines of theta / 2 to theta / 64. For the rest
+    theta / sin theta = sum of (2 s)^2k k!^2 / (2 k + 1)! with s = sin(theta / 2), here at most 0.025: ten terms are exact to 2e-33.
+    """
+    cosines = []
+    for _ in range(6):
+        cosine = graph.product([(graph.sum([(cosine, HALF), (graph.one, HALF)]), HALF)])
+        cosines.append(cosine)
+    square = graph.sum([(graph.one, HALF), (cosine, -HALF)])
+    found = graph.zero
+    for k in reversed(range(10)):
+        found = graph.sum([(graph.times(square, found), 1), (graph.one, Fraction(4**k * factorial(k)**2, factorial(2 * k + 1)))])
+    return graph.product([(found, 1), *((each, -1) for each in cosines)])
 
 
 class Frame(NamedTuple):

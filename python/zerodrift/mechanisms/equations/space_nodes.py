@@ -126,6 +126,8 @@ class Equations(Relations):
         if quantity.kind in ("spin", "turn"):
             spin = second.spin if quantity.kind == "spin" else of.minus(second.spin, first.spin)
             return nodes.Reading(graph.zero, graph.dot(a, spin))
+        if quantity.kind == "rotation":
+            return self._read(self._rotation(quantity, a), quantity.zero)
         apart = of.minus(Q, self.frames.point(quantity.first, quantity.point1))
         if quantity.kind in ("clearance", "slip"):
             return self._contact(quantity, a, apart)
@@ -158,6 +160,15 @@ class Equations(Relations):
         away = self.difference(self.p[counter], value)
         turns = graph.call(self.functions.floor, graph.sum([(away, 1 / (2 * pi)), (graph.one, HALF)]))
         return reading._replace(value=graph.sum([(reading.value, 1), (turns, 2 * pi)]))
+
+    def _rotation(self, quantity: Quantity, a: Vector) -> Node:
+        """Component of the rotation vector theta u / sin theta, with u the axial vector of the rotation matrix."""
+        graph, of, one, zero = self.graph, self.of, self.graph.one, self.graph.zero
+        axes = [self.frames.turned(quantity.first, e) for e in ((one, zero, zero), (zero, one, zero), (zero, zero, one))]
+        moved = [self.frames.turned(quantity.second, row) for row in quantity.shape]
+        u = of.plus(*map(of.cross, axes, moved))        # twice the axial vector
+        cosine = graph.sum([*((graph.dot(*pair), HALF) for pair in zip(axes, moved, strict=True)), (one, -HALF)])
+        return graph.sum([(graph.times(nodes.angle_by_sine(graph, cosine), graph.dot(a, u)), HALF)])
 
     def _contact(self, quantity: Quantity, a: Vector, apart: Vector) -> nodes.Reading:
         """Contact point: opposite to o from Q by S o over the root of o . S o, with S the shape in the second body's axes."""

@@ -162,6 +162,9 @@ class SpaceTables(Tables):
         (first, point1), (second, point2), a = *ends, quantity.of_first
         if quantity.kind == "angle":
             return Quantity("angle", first, second, a=near[a], o=near[a - 2], b=far[quantity.of_second])
+        if quantity.kind == "rotation":
+            shape = tuple(map(triple, np.transpose(near) @ far))
+            return Quantity("rotation", first, second, a=near[a], shape=shape)
         places = {} if quantity.kind in ROTATIONS else {"point1": point1, "point2": point2}
         return Quantity(quantity.kind, first, second, **places, **({"a": near[a]} if near else {}))
 
