@@ -41,7 +41,7 @@ def test_a_force_without_a_direction_is_refused_by_name(dimension, layout, compi
 
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_terms_between_coincident_points_are_finite(dimension):
-    """Where a motion brings them together, along no direction."""
+    """A motion may bring them together; no force acts there."""
     system = anchored(dimension, 1.0, length=0.5, damping=1.0).system("absolute")
     terms = system.evaluate(np.zeros(dimension), np.ones(dimension))
     assert_close(terms.f, np.array([0.0, -1.0, 0.0][:dimension]), 0.0)

@@ -21,13 +21,13 @@ enum zd_space_quantity_kind {
     ZD_SPACE_ALONG,         /* m: a . (Q - P) */
     ZD_SPACE_COSINE,        /* a . b */
     ZD_SPACE_ANGLE,         /* rad, in (-pi, pi]: from a to b, about the axis a x o, where o is a second direction of the first */
-    ZD_SPACE_ROTATION,      /* rad: a . phi, where phi is the rotation vector of the second body against the first, of length below pi */
     ZD_SPACE_DISTANCE,      /* m: |Q - P| */
     ZD_SPACE_CLEARANCE,     /* m: o . (C - P), where C is the point of an ellipsoid about Q that is farthest against o */
     ZD_SPACE_SLIP,          /* m/s: a . (velocity at C of the second body minus that of the first) */
     ZD_SPACE_GLIDE,         /* m/s: a . velocity of Q. No force on the first body. */
     ZD_SPACE_SPIN,          /* rad/s: a . angular velocity of the second. No force on the first body. */
     ZD_SPACE_TURN,          /* rad/s: a . (angular velocity of the second minus that of the first) */
+    ZD_SPACE_ROTATION,      /* rad: a . phi, where phi is the rotation vector of the second body against the first, of length below pi */
     ZD_SPACE_QUANTITIES
 };
 
