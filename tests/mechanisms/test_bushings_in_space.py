@@ -120,7 +120,7 @@ def test_the_torque_is_the_gradient_of_the_energy_of_the_rotation_vector(layout)
 
 
 def test_turns_beyond_a_quarter_about_several_directions():
-    """Oscillation of 118 degrees that wobbles, against quaternions and rotation vectors in SciPy; about one direction it is exact."""
+    """Oscillation by 118 degrees that wobbles, against quaternions and rotation vectors in SciPy."""
     m = zd.Mechanism("mount", dimension=3)
     block = m.body("block", 1.0, (0.1, 0.1, 0.1))
     m.bushing("rubber", m.ground, block, at=(0, 0, 0), stiffness=1.0, torsion=1.0)

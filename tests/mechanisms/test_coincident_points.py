@@ -20,7 +20,7 @@ def anchored(dimension, at=0.0, **given):
 @pytest.mark.parametrize(("dimension", "layout", "compiled"), WAYS)
 @pytest.mark.parametrize("at", [0.0, -2.0])
 def test_a_spring_of_free_length_zero_swings_through_its_anchor(dimension, layout, compiled, at):
-    """y'' = -1 - y, from the anchor and from below, where it comes back to it."""
+    """Oscillation y'' = -1 - y, from the anchor and from below, where it comes back to it."""
     sol = zd.simulate(anchored(dimension, at, length=0.0).system(layout, compiled=compiled), 7.0, step=0.01)
     assert_close(sol["particle.position"][:, 1], -1 + (at + 1) * np.cos(sol.t), 1e-8)
     assert_close(sol["rope.force"], np.abs(sol["particle.position"][:, 1]), 1e-12)

@@ -42,7 +42,7 @@ def _apart(tables: Tables, element: Any, poses: np.ndarray) -> tuple[float, floa
     apart = float(np.linalg.norm(second - first))
     if isinstance(element, Actuator):
         return apart, 0.0, 0.0
-    (stiffness, damping), = ((tables.numbers(element, path, element.values[path]) for path in each) for each in paths(element.row))
+    stiffness, damping = (tables.numbers(element, path, element.values[path]) for path in paths(element.row)[0])
     return apart, element.length_with(tables.numbers) if stiffness else 0.0, damping
 
 
@@ -55,7 +55,7 @@ def _place(poses: np.ndarray, body: int, point: Any) -> np.ndarray:
 
 
 def _is_half_turned(tables: Tables, element: TableForce, poses: np.ndarray) -> bool:
-    """True if a bushing in space has a torsional stiffness or damping, and is at half a turn: there the trace of its rotation is -1."""
+    """True if a bushing in space with torsional stiffness or damping is at half a turn, where the trace of its rotation is -1."""
     about = [(i, each) for i, each in enumerate(paths(element.row)) if element.quantities[i].kind == "rotation"]
     if not any(tables.numbers(element, path, element.values[path]) for _, each in about for path in each):
         return False

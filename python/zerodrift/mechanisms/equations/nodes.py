@@ -86,10 +86,10 @@ def force_with_nodes(force: GeneralizedForce, number: Numbering) -> GeneralizedF
 
 
 def angle_by_sine(graph: Graph, cosine: Node) -> Node:
-    """theta / sin theta from cos theta, smooth for -pi < theta < pi, without a case for theta = 0.
+    """Angle over its sine, theta / sin theta, from cos theta: smooth for -pi < theta < pi, without a case for theta = 0.
 
     The angle is halved six times: sin theta is 64 sin(theta / 64) times the cosines of theta / 2 to theta / 64. For the rest
-    theta / sin theta = sum of (2 s)^2k k!^2 / (2 k + 1)! with s = sin(theta / 2), here at most 0.025: ten terms are exact to 2e-33.
+    theta / sin theta = sum of (2 s)^2k k!^2 / (2 k + 1)! with s = sin(theta / 2), at most 0.025: ten terms are exact to 2e-33.
     """
     cosines = []
     for _ in range(6):
