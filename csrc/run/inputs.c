@@ -96,8 +96,8 @@ int zd_inputs_read(zd_run *run)
     const zd_inputs *inputs = run->settings.inputs;
     if (!inputs) return ZD_DONE;
     const size_t bytes = (size_t)inputs->count * sizeof(double);
+    if (is_refused(inputs)) return ZD_BAD_INPUT;       /* also a first value, and a restored one */
     if (!memcmp(run->held.value, inputs->value, bytes)) return ZD_DONE;
-    if (is_refused(inputs)) return ZD_BAD_INPUT;
     if (!run->held.is_new) memset(run->held.has_changed, 0, (size_t)inputs->count);
     for (int i = 0; i < inputs->count; i++) run->held.has_changed[i] |= run->held.value[i] != inputs->value[i];
     memcpy(run->held.value, inputs->value, bytes);

@@ -283,6 +283,35 @@ def test_simulate_with_a_controller_has_the_bits_of_a_run_with_it(steps):
     assert abs(sol.energy_violation).max() < 1e-7 * sol.kinetic_energy.max()
 
 
+def test_first_and_restored_inputs_must_be_within_their_limits():
+    m, between = four_bar(torque=0.0), {"drive.torque": (1.0, 2.0)}
+    run = zd.Run(m, step=0.01, inputs=between)
+    with refused("input-refused", r"'drive\.torque' must be between 1 and 2, not 0"):
+        run.step()
+    assert run.steps == 0
+    run["drive.torque"] = 1.5
+    run.step()
+    free = zd.Run(m, step=0.01, inputs=["drive.torque"])
+    free["drive.torque"] = 5.0
+    free.step()
+    run.restore(free.save())
+    with refused("input-refused", "must be between 1 and 2, not 5"):
+        run.step()
+    run["drive.torque"] = 2.0
+    run.step()
+    assert run.steps == 2
+
+
+@pytest.mark.parametrize(("count", "compiled"), [(2, False), (16, True)])
+def test_first_inputs_of_many_runs_must_be_within_their_limits(count, compiled):
+    runs = zd.Run(four_bar(torque=0.0).system(compiled=compiled), runs=count, step=0.01, inputs={"drive.torque": (1.0, 2.0)})
+    runs["drive.torque"] = [0.0, *[1.5] * (count - 1)]
+    runs.step(2)
+    assert runs.failed.tolist() == [True, *[False] * (count - 1)]
+    assert "must be between 1 and 2, not 0" in runs.messages[0]
+    assert runs.t.tolist() == [0.0, *[0.02] * (count - 1)]
+
+
 def test_a_controller_that_raises_leaves_a_partial_solution():
     def broken(run):
         if run.t > 0.1:

@@ -118,9 +118,9 @@ int zd_lane_inputs_read(zd_open_lanes *self, int lane, int64_t i)
     const int64_t k = i - self->first, begin = k * inputs->count;
     const double *value = inputs->value[k];
     double *held = inputs->held + begin;
-    if (!memcmp(held, value, (size_t)inputs->count * sizeof *held)) return 0;
     for (int j = 0; j < inputs->count; j++)
         if (!isfinite(value[j]) || value[j] < inputs->lower[begin + j] || value[j] > inputs->upper[begin + j]) return -1;
+    if (!memcmp(held, value, (size_t)inputs->count * sizeof *held)) return 0;
     memcpy(held, value, (size_t)inputs->count * sizeof *held);
     self->place[k].is_behind = 1;
     write(self, lane, held);

@@ -43,9 +43,9 @@ class Run:
         motors, actuators and loads of a mechanism, such as "drive.torque"; declared symbols of `symbolic`; numbers and arrays
         among the parameters of a `System`, as "u", or entries of them, as "u[0]"; parameters of a `native` system, which are
         numbers. An array is set as a whole, ``run["u"] = [1.0, 2.0]``, or by entries. A dict has
-        limits (lower, upper) of each, or None. They begin with the number that the system has. Forces are constant within a step,
-        and their work is part of the energy balance. A speed is followed linearly, from the one before: over one fixed step, or
-        over the time `ramp` in adaptive steps.
+        limits (lower, upper) of each, or None; no step is made with an input beyond them. Inputs begin with the number that the
+        system has. Forces are constant within a step, and their work is part of the energy balance. A speed is followed linearly,
+        from the one before: over one fixed step, or over the time `ramp` in adaptive steps.
     hold : bool
         True: speeds that are inputs are constant in a step, too, and jump at its start. A jump is an impulse: velocities are
         projected onto the constraints with the new speeds, orthogonally in the mass metric, (25b). Its work is part of the
