@@ -124,6 +124,20 @@ def test_a_film_that_replaces_another_goes_on_at_its_time(browser, crank, tmp_pa
     assert (found["playing"], found["chosen"]) == (False, "pin")
 
 
+def test_a_graph_that_ends_shows_no_number_after_its_end(browser, crank, tmp_path):
+    short = zd.simulate(zd.models.slider_crank(), 1.0, step=0.005)
+    shown(browser, zd.view(crank, short, graphs=["crank.angle"], labels=["long", "short"]), tmp_path)
+    found = browser.evaluate("""(() => {
+      const words = [], brush = CanvasRenderingContext2D.prototype, fill = brush.fillText;
+      brush.fillText = function (text, ...rest) { words.push(text); fill.call(this, text, ...rest); };
+      zerodrift.show(zerodrift.film.samples - 1);
+      return words.filter(each => each.includes("crank.angle"));
+    })()""")
+    assert found[0].endswith(" rad")
+    assert found[1:] == ["short crank.angle "]
+    assert browser.errors == []
+
+
 @pytest.mark.parametrize("speed", [1.0, 30.0])
 def test_a_link_keeps_its_length_between_samples(browser, speed, tmp_path):
     """Straight lines between samples shortened this crank, at 1800 turns in a minute, to a hundredth."""

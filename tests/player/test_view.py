@@ -121,6 +121,22 @@ def test_graphs_and_trust_lines(crank):
     assert scene["trust"][0]["most"] == np.abs(crank.position_violation).max()
 
 
+def test_the_graph_of_a_shorter_run_ends_with_it(crank):
+    scene = scene_of(zd.view(crank, zd.simulate(zd.models.slider_crank(), 1.0, step=0.005), graphs=["crank.angle"]))
+    t = np.linspace(*scene["span"], scene["samples"])
+    for line, end in zip(scene["graphs"] + scene["trust"][::2], (4.0, 1.0, 4.0, 1.0), strict=True):
+        values = np.frombuffer(base64.b64decode(line["values"]), dtype="<f4")
+        assert np.array_equal(np.isfinite(values), t <= end)
+
+
+def test_arrows_of_rounding_are_left_out():
+    """No force acts in Hooke's joint, whose torques the motor needs."""
+    m = zd.models.hookes_joint()
+    sol = zd.simulate(m, 0.1, step=0.005)
+    assert 0 < np.abs(sol["cross.force"]).max() < 1e-12 < np.abs(sol["cross.torque"]).max()
+    assert scene_of(zd.view(sol, forces=True))["layers"][0]["arrows"] == []
+
+
 def test_motions_over_each_other():
     bar = zd.systems.four_bar()
     runs = [zd.simulate(bar, 2.0, step=0.01, stabilization=stabilization) for stabilization in (None, "projection")]
@@ -207,6 +223,8 @@ def test_what_is_refused(crank):
         zd.view()
     with refused("wrong-type", "each of solutions"):
         zd.view(zd.models.watt())
+    with refused("wrong-dimension", "all of the plane or all of space"):
+        zd.view(crank, zd.simulate(zd.models.gyroscope(), 0.02, step=0.01))
     with refused("shape", "labels.*name 1"):
         zd.view(crank, labels=["a", "b"])
     with refused("wrong-name", "slider_crank"):

@@ -93,7 +93,7 @@ const lines = (element, all, slim, unitOf) => {        // lines over time, with 
   let word = left;
   all.forEach((line, i) => {
     brush.fillStyle = hues()[i % 6];
-    const text = (film.layers.length > 1 ? line.label + " " : "") + line.name + " " + (slim ? "\u2264 " + number(line.most) : number(line.values[Math.round(now)])) + " " + line.unit;
+    const text = (film.layers.length > 1 ? line.label + " " : "") + line.name + " " + (slim ? "\u2264 " + number(line.most) + " " + line.unit : isNaN(line.values[Math.round(now)]) ? "" : number(line.values[Math.round(now)]) + " " + line.unit);
     brush.fillText(text, word, 11);
     word += brush.measureText(text).width + 16;
   });
@@ -109,7 +109,7 @@ const curve = (brush, all, slim, left, wide, top, low) => {
   const tiny = 1e-18, value = (line, x) => line.log ? Math.log10(Math.max(Math.abs(x), tiny)) : x;
   const shared = slim ? null : [Math.min(...all.map(each => each.least)), Math.max(...all.map(each => each.most))];
   all.forEach((line, i) => {
-    const seen = Array.from(line.values, x => value(line, x)), [a, b] = shared || [Math.min(...seen), Math.max(...seen)];
+    const seen = Array.from(line.values, x => value(line, x)), known = seen.filter(x => !isNaN(x)), [a, b] = shared || [Math.min(...known), Math.max(...known)];
     brush.beginPath();
     seen.forEach((x, k) => brush[k ? "lineTo" : "moveTo"](left + wide * k / Math.max(last, 1), low - (low - top) * (b > a ? (x - a) / (b - a) : 0.5)));
     brush.strokeStyle = hues()[i % 6];

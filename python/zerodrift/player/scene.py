@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from ..errors import WrongValue
 from ..plot.dense_samples import dense
 from ..plot.drawing import is_upside_down, moments_of, paths_of
 from ..plot.glyphs import GLYPHS
@@ -60,6 +61,8 @@ class Wanted:
 def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) -> dict[str, Any]:
     """The film of solutions of the same time span, drawn over each other."""
     first = solutions[0]
+    if len({_drawn(sol, sol.t[:1])[1].shape[2] for sol in solutions}) > 1:
+        raise WrongValue("solutions must be all of the plane or all of space, to be drawn over each other", "wrong-dimension")
     t0, t1 = float(first.t[0]), float(max(sol.t[-1] for sol in solutions))
     speed = wanted.speed or _speed(t1 - t0)
     count = int(np.clip(RATE * (t1 - t0) / speed, 2, wanted.samples)) if t1 > t0 else 1
@@ -146,10 +149,11 @@ def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     extent = [points[:, at].reshape(-1, points.shape[2])]
     round_ones = [(points[:, numbers[0]], shape.number) for shape, numbers in entries if shape.kind in ROUND]
     extent += [at + side * radius for at, radius in round_ones for side in (-1, 1)]
-    arrows, columns_of_arrows = _arrows(sol, times, wanted.forces)
+    loads = _loads(sol, times)
+    arrows, columns_of_arrows = _arrows(sol, times, wanted.forces, _force(loads, float(np.ptp(points, axis=(0, 1)).max() or 1.0)))
     paths = [np.column_stack([np.interp(times, sol.t, each) for each in path.T]) for path in paths_of(sol, wanted.path or ())]
     return {"table": np.concatenate([points, *columns_of_arrows], axis=1), "entries": entries, "arrows": arrows, "paths": paths,
-            "loads": _loads(dense(sol), times), "at": at, "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
+            "loads": loads, "at": at, "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
 
 
 def count_places(shape: Shape) -> int:
@@ -168,8 +172,16 @@ def _positions(sol: Solution, times: np.ndarray) -> np.ndarray:
         return np.column_stack([np.interp(within, sol.t, column) for column in sol.p.T])
 
 
-def _arrows(sol: Solution, times: np.ndarray, forces: Any) -> tuple[list[dict[str, Any]], list[np.ndarray]]:
-    """Forces as points of the table: place and vector of each, with its largest size."""
+def _force(loads: Sequence[dict[str, Any]], extent: float) -> float:
+    """Scale of forces in N: the largest one, or the largest torque over the extent of the picture."""
+    return max((max(abs(each["least"]), abs(each["least"] + each["size"])) / (1.0 if each["unit"] == "N" else extent)
+                for each in loads), default=0.0)
+
+
+def _arrows(sol: Solution, times: np.ndarray, forces: Any, scale: float) -> tuple[list[dict[str, Any]], list[np.ndarray]]:
+    """Forces as points of the table: place and vector of each, with its largest size. All that are rounding beside the scale of
+    forces are left out.
+    """
     if forces is False or forces is None or (isinstance(forces, list | tuple) and not forces):
         return [], []
     rows = np.unique(np.linspace(0, len(sol.t) - 1, min(len(sol.t), MOST_SAMPLES)).astype(int))
@@ -179,6 +191,8 @@ def _arrows(sol: Solution, times: np.ndarray, forces: Any) -> tuple[list[dict[st
         described.append({"name": name, "most": float(np.linalg.norm(vectors, axis=1).max(initial=0.0))})
         found.append(np.stack(ways, axis=1))
     most = max((each["most"] for each in described), default=0.0) or 1.0
+    if most <= NOTHING * scale:
+        return [], []
     scaled = [np.stack([each[:, 0], each[:, 1] / most], axis=1) for each in found]
     return [each | {"scale": most} for each in described], scaled
 
@@ -277,7 +291,7 @@ def _trust(sol: Solution, times: np.ndarray, label: str) -> list[dict[str, Any]]
 
 
 def _line(name: str, unit: str, t: np.ndarray, values: np.ndarray, times: np.ndarray, label: str) -> dict[str, Any]:
-    sampled = np.interp(times, t, values).astype(np.float32)
+    sampled = np.interp(times, t, values, left=np.nan, right=np.nan).astype(np.float32)     # of shorter runs, until these end
     return {"name": name, "unit": unit, "label": label, "least": float(np.min(values)), "most": float(np.max(values)),
             "values": _text(sampled)}
 
