@@ -94,6 +94,28 @@ def test_what_goes_far_is_followed():
     assert {name: scene_of(zd.view(sol))["follow"] > 0 for name, sol in runs.items()} == {"bicycle": True, "watt": False}
 
 
+@pytest.mark.parametrize(("span", "width"), [(30.0, 1.6 * 0.4), (0.5, 0.0)])
+def test_a_wheel_that_goes_far_is_followed_along_its_road(span, width):
+    """The road is at rest and as long as the motion; of half a metre all is seen at once."""
+    m = zd.Mechanism("wheel", gravity=(0, -9.81))
+    disc = m.body("disc", 1.0, 0.02, at=(0, 0.2))
+    m.rolling("contact", m.ground, disc, radius=0.2)
+    m.start({"disc.velocity.x": 1.0})
+    assert scene_of(zd.view(zd.simulate(m, span, step=0.05)))["follow"] == pytest.approx(width)
+
+
+@pytest.mark.parametrize("bars", [1, 2])
+def test_what_hangs_on_the_ground_is_not_followed(bars):
+    """Its parts are as large as their distance from the ground."""
+    m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+    end = m.ground.point((0, 0))
+    for k, (near, far) in enumerate([(0, 1), (1, 1.05)][:bars]):
+        bar = m.link(f"bar {k}", (near, 0), (far, 0), mass=1.0)
+        m.revolute(f"hinge {k}", end, bar.start)
+        end = bar.end
+    assert scene_of(zd.view(zd.simulate(m, 1.0, step=0.01)))["follow"] == 0
+
+
 def test_arrows_have_the_size_of_the_force(crank):
     scene = scene_of(zd.view(crank, forces=["pin"]))
     arrow, = scene["layers"][0]["arrows"]

@@ -37,6 +37,7 @@ ROUND = ("wheel", "gear", "ring")       # kinds of shapes whose number is a radi
 ARROW = 0.22            # of the picture: the longest arrow
 NOTHING = 1e-9          # of the largest force or torque: torques of hinges are rounding below
 FAR = 0.4               # of all its motion: what is smaller than that is followed
+FARTHER = 0.1           # of all its motion: what is smaller than that is followed past parts at rest
 FOLLOWED = 1.6          # widths of it are seen then
 MOST_LOADS = 200        # measures of forces that a film contains for clicks; of more, those of arrows alone
 
@@ -132,9 +133,13 @@ def _drawn(sol: Solution, times: np.ndarray) -> tuple[list[Shape], np.ndarray]:
 
 def _follow(layers: Sequence[dict[str, Any]], places: np.ndarray) -> float:
     """Width in m of a view that moves with what goes far, or 0: the view then rests."""
-    sizes = [np.ptp(layer["table"][:, layer["at"]], axis=1).max(initial=0.0) for layer in layers if len(layer["at"])]
-    size = float(max(sizes, default=0.0))
-    return FOLLOWED * size if 0 < size < FAR * float(np.ptp(places, axis=0).max()) else 0.0
+    all_motion = float(np.ptp(places, axis=0).max())
+    for are_all, part in ((True, FAR), (False, FARTHER)):
+        seen = [layer["seen"][:, np.full(len(layer["moves"]), True) if are_all else layer["moves"]] for layer in layers]
+        size = max((float(np.ptp(each, axis=1).max(initial=0.0)) for each in seen if each.shape[1]), default=0.0)
+        if 0 < size < part * all_motion:
+            return FOLLOWED * size
+    return 0.0
 
 
 def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
@@ -145,15 +150,26 @@ def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     for shape in shapes:
         entries.append((shape, range(begin, begin + len(shape.points))))
         begin += len(shape.points)
-    at = [i for shape, numbers in entries for i in numbers[:count_places(shape)]]
-    extent = [points[:, at].reshape(-1, points.shape[2])]
-    round_ones = [(points[:, numbers[0]], shape.number) for shape, numbers in entries if shape.kind in ROUND]
-    extent += [at + side * radius for at, radius in round_ones for side in (-1, 1)]
+    seen, moves = _seen(points, entries)
     loads = _loads(sol, times)
     arrows, columns_of_arrows = _arrows(sol, times, wanted.forces, _force(loads, float(np.ptp(points, axis=(0, 1)).max() or 1.0)))
     paths = [np.column_stack([np.interp(times, sol.t, each) for each in path.T]) for path in paths_of(sol, wanted.path or ())]
     return {"table": np.concatenate([points, *columns_of_arrows], axis=1), "entries": entries, "arrows": arrows, "paths": paths,
-            "loads": loads, "at": at, "own": points.shape[1], "extent": np.concatenate([*extent, *paths])}
+            "loads": loads, "seen": seen, "moves": moves, "own": points.shape[1],
+            "extent": np.concatenate([seen.reshape(-1, points.shape[2]), *paths])}
+
+
+def _seen(points: np.ndarray, entries: Sequence[tuple[Shape, range]]) -> tuple[np.ndarray, np.ndarray]:
+    """Places of shapes (times, places, dimension), with the ends of round ones; and whether any point of their shape moves."""
+    least = RESTS * float(np.ptp(points, axis=(0, 1)).max())
+    seen, moves = [], []
+    for shape, numbers in entries:
+        own = points[:, numbers[:count_places(shape)]]
+        if shape.kind in ROUND:
+            own = np.concatenate([own, own[:, :1] - shape.number, own[:, :1] + shape.number], axis=1)
+        seen.append(own)
+        moves += [bool(np.ptp(points[:, numbers], axis=0).max() > least)] * own.shape[1]
+    return np.concatenate(seen, axis=1), np.array(moves, dtype=bool)
 
 
 def count_places(shape: Shape) -> int:
