@@ -87,6 +87,14 @@ def test_a_click_on_a_joint_shows_its_name_and_its_force(browser, crank, tmp_pat
         assert float(force.split(" N")[0]) == pytest.approx(known, rel=6e-3)      # three digits are shown
 
 
+def test_an_arrow_has_the_size_of_its_force(browser, crank, tmp_path):
+    film = shown(browser, zd.view(crank, forces=["pin"]), tmp_path)
+    sample = 30
+    size = browser.evaluate(f"(zerodrift.show({sample}), zerodrift.film.layers[0].arrows[0].size)")
+    t = np.linspace(0.0, 4.0, film.samples)[sample]
+    assert size == pytest.approx(np.interp(t, crank.t, np.linalg.norm(crank["pin.force"], axis=1)), rel=1e-3)
+
+
 def test_n_chooses_the_next_part(browser, crank, tmp_path):
     shown(browser, zd.view(crank), tmp_path)
     browser.press("n", "n")

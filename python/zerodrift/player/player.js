@@ -21,10 +21,13 @@ for (const line of [...film.graphs, ...film.trust]) line.values = new Float32Arr
 const shown = () => film.nearest ? Math.round(now) : now;       // where straight lines between samples would change the shapes, samples alone
 const locate = layer => {       // points on straight lines between two samples, then those that bodies carry
   const i = Math.min(Math.floor(shown()), last), share = shown() - i, d = film.dimension, from = i * layer.moving * d, to = Math.min(i + 1, last) * layer.moving * d;
-  const low = film.box[0], step = film.box[1].map((x, k) => (x - low[k]) / 65535), table = layer.table;
+  const low = film.box[0], step = film.box[1].map((x, k) => (x - low[k]) / 65535), table = layer.table, vectors = layer.moving - layer.vectors;
   layer.at = Array.from({length: layer.moving}, (_, n) => {
     const found = new Array(d);
-    for (let k = 0; k < d; k++) found[k] = low[k] + step[k] * (table[from + n * d + k] * (1 - share) + table[to + n * d + k] * share);
+    for (let k = 0; k < d; k++) {
+      const level = table[from + n * d + k] * (1 - share) + table[to + n * d + k] * share;
+      found[k] = n < vectors ? low[k] + step[k] * level : 2 * level / 65535 - 1;       // vectors of arrows have a box of their own
+    }
     return found;
   });
   for (const [base, own] of layer.carried) {

@@ -1,8 +1,8 @@
 """Scene of a film: shapes whose points move, arrows, graphs, as one JSON object that the player's script draws.
 
 Points that several shapes share are written once; points at rest are not in the table of moving points. Coordinates are 16-bit
-integers within the box around all of them: an error of 1e-5 of the picture. Between samples points move along straight lines;
-where these would change the shapes, the nearest sample is shown.
+integers within the box around all of them: an error of 1e-5 of the picture; vectors of arrows within a box from -1 to 1. Between
+samples points move along straight lines; where these would change the shapes, the nearest sample is shown.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def scene(solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) 
     count = int(np.clip(RATE * (t1 - t0) / speed, 2, wanted.samples)) if t1 > t0 else 1
     times, is_straight = _times(solutions, np.linspace(t0, t1, count), wanted.samples)
     layers = [_layer(sol, times, wanted) for sol in solutions]
-    every = np.concatenate([layer["table"].reshape(-1, layer["table"].shape[2]) for layer in layers])
+    every = np.concatenate([layer["table"][:, :layer["vectors"]].reshape(-1, layer["table"].shape[2]) for layer in layers])
     places = np.concatenate([layer["extent"] for layer in layers])
     follow = _follow(layers, places)
     shown = np.full(places.shape[1], follow) if follow else np.ptp(places, axis=0)
@@ -155,7 +155,7 @@ def _layer(sol: Solution, times: np.ndarray, wanted: Wanted) -> dict[str, Any]:
     arrows, columns_of_arrows = _arrows(sol, times, wanted.forces, _force(loads, float(np.ptp(points, axis=(0, 1)).max() or 1.0)))
     paths = [np.column_stack([np.interp(times, sol.t, each) for each in path.T]) for path in paths_of(sol, wanted.path or ())]
     return {"table": np.concatenate([points, *columns_of_arrows], axis=1), "entries": entries, "arrows": arrows, "paths": paths,
-            "loads": loads, "seen": seen, "moves": moves, "own": points.shape[1],
+            "loads": loads, "seen": seen, "moves": moves, "own": points.shape[1], "vectors": points.shape[1] + len(arrows),
             "extent": np.concatenate([seen.reshape(-1, points.shape[2]), *paths])}
 
 
@@ -195,8 +195,8 @@ def _force(loads: Sequence[dict[str, Any]], extent: float) -> float:
 
 
 def _arrows(sol: Solution, times: np.ndarray, forces: Any, scale: float) -> tuple[list[dict[str, Any]], list[np.ndarray]]:
-    """Forces as points of the table: place and vector of each, with its largest size. All that are rounding beside the scale of
-    forces are left out.
+    """Forces as points of the table: places of all, then their vectors, with the largest size of each. All that are rounding
+    beside the scale of forces are left out.
     """
     if forces is False or forces is None or (isinstance(forces, list | tuple) and not forces):
         return [], []
@@ -209,7 +209,7 @@ def _arrows(sol: Solution, times: np.ndarray, forces: Any, scale: float) -> tupl
     most = max((each["most"] for each in described), default=0.0) or 1.0
     if most <= NOTHING * scale:
         return [], []
-    scaled = [np.stack([each[:, 0], each[:, 1] / most], axis=1) for each in found]
+    scaled = [each[:, :1] for each in found] + [each[:, 1:] / most for each in found]
     return [each | {"scale": most} for each in described], scaled
 
 
@@ -221,8 +221,8 @@ def _pin(layer: dict[str, Any], extent: float) -> float:
 
 def _tips(layer: dict[str, Any], arrow: float) -> np.ndarray:
     """The places to which arrows reach."""
-    ways = layer["table"][:, layer["own"]:]
-    return (ways[:, ::2] + arrow * ways[:, 1::2]).reshape(-1, ways.shape[2])
+    table, vectors = layer["table"], layer["vectors"]
+    return (table[:, layer["own"]:vectors] + arrow * table[:, vectors:]).reshape(-1, table.shape[2])
 
 
 def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
@@ -245,13 +245,15 @@ def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: st
     """A layer with numbers as text: each point that moves once, those that rest or that a body carries apart."""
     table = layer["table"]
     size = np.maximum(box[1] - box[0], 1e-300)
-    levels = np.round((table - box[0]) / size * LEVELS).astype(np.uint16)
-    moves = (np.ptp(table, axis=0) > RESTS * size.max()).any(axis=1)
+    is_vector = np.arange(table.shape[1]) >= layer["vectors"]
+    low, wide = np.where(is_vector[:, None], -1.0, box[0]), np.where(is_vector[:, None], 2.0, size)
+    levels = np.round((table - low) / wide * LEVELS).astype(np.uint16)
+    moves = (np.ptp(table, axis=0) > RESTS * wide.max(axis=1, keepdims=True)).any(axis=1)
     followers = carried(table, _bodies(layer, moves), float(size.max()))
     kinds = ["rests" if not moves[i] else "carried" if i in followers else "moves" for i in range(table.shape[1])]
     numbers, lists, known = [], {"rests": [], "moves": [], "carried": []}, {}
     for i, kind in enumerate(kinds):
-        key = kind, levels[0, i].tobytes() if kind == "rests" else levels[:, i].tobytes()
+        key = kind, is_vector[i], levels[0, i].tobytes() if kind == "rests" else levels[:, i].tobytes()
         if key not in known:
             known[key] = len(lists[kind])
             lists[kind].append(i)
@@ -261,9 +263,9 @@ def _packed(layer: dict[str, Any], box: tuple[np.ndarray, np.ndarray], label: st
     shapes = [[shape.kind, shape.name, [numbers[i] for i in those], round(float(shape.number), 9)]
               for shape, those in layer["entries"]]
     of_arrows = numbers[layer["own"]:]
-    arrows = [each | {"at": of_arrows[2 * i], "to": of_arrows[2 * i + 1]} for i, each in enumerate(layer["arrows"])]
+    arrows = [each | {"at": of_arrows[i], "to": of_arrows[len(layer["arrows"]) + i]} for i, each in enumerate(layer["arrows"])]
     return {"label": label, "shapes": shapes, "arrows": arrows, "moving": len(lists["moves"]),
-            "points": _text(levels[:, lists["moves"]]),
+            "vectors": int(is_vector[lists["moves"]].sum()), "points": _text(levels[:, lists["moves"]]),
             "carried": [[[numbers[k] for k in followers[i][0]], np.round(followers[i][1], 6).tolist()] for i in lists["carried"]],
             "fixed": [table[0, i].tolist() for i in lists["rests"]], "paths": [_path(path) for path in layer["paths"]],
             "loads": layer["loads"]}
