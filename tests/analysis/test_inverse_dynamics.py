@@ -235,3 +235,27 @@ def test_an_effort_along_nothing_is_refused():
         zd.inverse_dynamics(bar, kin, efforts=[])
     with refused("not-finite", "^p must"):
         zd.inverse_dynamics(bar, 0.0, [np.nan] * 3, [0.0] * 3, [0.0] * 3, efforts=["crank.angle"])
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+@pytest.mark.parametrize("angle", [0.0, np.pi])
+def test_a_piston_cannot_drive_its_crank_at_a_dead_point(angle, layout):
+    """The constraints take up what acts there: its part along the motion is the rounding of sin(pi), not a small part of it."""
+    m = zd.Mechanism("engine")
+    crank, rod = m.link("crank", (0, 0), (0.1, 0), mass=0.5), m.link("rod", (0.1, 0), (0.4, 0), mass=0.3)
+    piston = m.particle("piston", 0.4, at=(0.4, 0))
+    m.revolute("O", m.ground, crank.start)
+    m.revolute("P", crank.end, rod.start)
+    m.revolute("W", rod.end, piston)
+    m.slot("S", m.ground, piston, axis=(1, 0))
+    m.torque("load", crank, value=1.0)
+    system = m.system(layout)
+    kin = zd.kinematics(system, {"crank.angle": [angle, angle + np.pi / 2]}, speed=10.0)
+    with pytest.warns(zd.AccuracyWarning, match=r"piston\.position\.x cannot drive this motion of engine"):
+        inv = zd.inverse_dynamics(system, kin, efforts=["piston.position.x"])
+    assert inv.rank.tolist() == [0, 1]
+    assert inv["piston.position.x"][0] == 0.0
+    assert inv["piston.position.x"][1] * kin["piston.velocity.x"][1] == pytest.approx(
+        zd.inverse_dynamics(system, kin).power[1], rel=1e-9)
+    with refused("missing-argument", "^motion must have rates, .*give t or speed to zd.kinematics"):
+        zd.inverse_dynamics(system, zd.kinematics(system, {"crank.angle": [0.0, 0.5]}))

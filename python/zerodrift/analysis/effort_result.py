@@ -56,12 +56,17 @@ class Efforts:
         lines = [f"<efforts of a motion of {self.system.name}: {len(self.t)} samples, t = {self.t[0]:g} ... {self.t[-1]:g} s>"]
         for name, values in self.efforts.items():
             if values.ndim == 1:
-                lines.append(f"  {name:<24} {np.nanmin(values, initial=np.inf):.6g} ... {np.nanmax(values, initial=-np.inf):.6g}"
-                             f"{_unit(name)}")
-        lines.append(f"  power                    {np.nanmin(self.power):.6g} ... {np.nanmax(self.power):.6g} W")
+                lines.append(f"  {name:<24} {_range(values)}{_unit(name)}")
+        lines.append(f"  power                    {_range(self.power)} W")
         if (worst := np.nanmax(self.residual, initial=0.0)) > 0:
             lines.append(f"  residual                 {worst:.3g} N/sqrt(kg)")
         return "\n".join(lines)
+
+
+def _range(values: np.ndarray) -> str:
+    """Smallest and largest value, samples beyond a dead point left out."""
+    known = values[np.isfinite(values)]
+    return f"{known.min():.6g} ... {known.max():.6g}" if known.size else "nan"
 
 
 def _unit(name: str) -> str:

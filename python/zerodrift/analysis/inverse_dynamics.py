@@ -55,12 +55,12 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
     InconsistentStart
         If the motion violates the constraints (3), (5) or (6).
     ValueError, TypeError
-        For a wrong argument.
+        For a wrong argument, such as a `Kinematics` of positions alone.
 
     Warns
     -----
     AccuracyWarning
-        If the efforts cannot drive the motion; what they cannot is named.
+        If the efforts cannot drive the motion, as at a dead point; what they cannot is named.
 
     Examples
     --------
@@ -81,6 +81,9 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
             raise WrongType("p, v and vdot must be left out with what zd.kinematics returned", "conflicting-arguments")
         system, names = _in_coordinates_of(motion, given), list(motion.prescribed) if names is None else names
         samples = motion.t, motion.p, motion.v, motion.vdot
+        if (np.isfinite(motion.p).all(axis=1) & ~np.isfinite(motion.v).all(axis=1)).any():
+            raise WrongValue("motion must have rates, and these positions have none: give t or speed to zd.kinematics",
+                             "missing-argument")
     else:
         samples = _samples(system, motion, p, v, vdot)
     if names is None:
@@ -154,17 +157,32 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
 
 def _at(at: State, vdot: np.ndarray, rows: list[np.ndarray],
         weights: list[float]) -> tuple[np.ndarray, np.ndarray, np.ndarray, int]:
-    """Efforts, multipliers, the residual on the tangent space and the rank of the efforts there, at one sample."""
+    """Efforts, multipliers, the residual on the tangent space and the rank of the efforts there, at one sample.
+
+    An effort that the constraints take up does not count: its part on the tangent space is rounding of its whole.
+    """
     V = Tangent(at).velocities
     wanted = at.M @ vdot - at.force
     G = np.vstack(rows) if rows else np.zeros((0, at.system.nv))
     weight = np.concatenate([np.full(len(each), by) for each, by in zip(rows, weights, strict=True)]) if rows else np.zeros(0)
     acting = V.T @ G.T * weight
     values = np.linalg.svd(acting, compute_uv=False) if acting.size else np.zeros(0)
-    u = weight * np.linalg.lstsq(acting, V.T @ wanted, rcond=DEPENDENT)[0]
+    dependent = DEPENDENT * float((weight * _sizes(at, V, G)).max(initial=0.0))
+    largest = values.max(initial=0.0)
+    u = weight * np.linalg.lstsq(acting, V.T @ wanted, rcond=dependent / largest)[0] if largest > dependent else np.zeros(len(G))
     left = V.T @ (wanted - G.T @ u)
-    rank = int((values > DEPENDENT * values.max(initial=0.0)).sum())
+    rank = int((values > dependent).sum())
     return u, multipliers(at, G.T @ u - wanted), left, rank
+
+
+def _sizes(at: State, V: np.ndarray, G: np.ndarray) -> np.ndarray:
+    """Characteristic sizes (j,) of what efforts along the rows G (j, nv) do to the motions V (nv, k), wherever they stand.
+
+    A row counts as at least one radian or characteristic length: at a dead point it may be rounding itself.
+    """
+    scale = scales(at.system, at.p)
+    rows = np.maximum(np.abs(G * scale.v).max(axis=1, initial=0.0), min(scale.length, 1.0))
+    return rows * float(np.abs(V / scale.v[:, None]).max(initial=0.0))
 
 
 def _size(at: State, vdot: np.ndarray) -> float:
