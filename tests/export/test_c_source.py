@@ -81,6 +81,14 @@ def test_the_folder_has_what_the_mechanism_needs_and_no_more(tmp_path):
         zd.c_source(zd.models.four_bar(), folder, step=1e-2)
 
 
+def test_a_mechanism_that_is_refused_leaves_no_folder(tmp_path):
+    m = zd.models.four_bar()
+    m.torque("drive", m.bodies[0], value=lambda t: 1.0 + t)
+    with refused("not-portable", "callable"):
+        zd.c_source(m, tmp_path / "bar", step=1e-2)
+    assert not list(tmp_path.iterdir())
+
+
 def test_names_of_the_mechanism_cannot_end_a_comment(tmp_path):
     m = zd.Mechanism("a */ int x; /*")
     link = m.link("link", (0, 0), (1, 0), mass=1.0)

@@ -177,11 +177,16 @@ def test_expressions_come_back(expression):
     assert from_json(json.loads(json.dumps(to_json(expression, "law"))), "law") == plain
 
 
+@pytest.mark.parametrize("number", [sp.Float("0.123456789012345678"), sp.Float("0.1", 5), sp.Float(-0.1, 50)], ids=str)
+def test_numbers_of_any_precision_are_saved_as_doubles(number):
+    assert from_json(json.loads(json.dumps(to_json(number * t, "law"))), "law") == sp.Float(float(number)) * t
+
+
 @pytest.mark.parametrize(("expression", "sentence"), [
     (sp.gamma(t), "law is an expression with gamma, and cannot be saved; there are [+]"),
-    (sp.Float("0.1", 30) * t, "law is an expression with Float"),
+    (sp.Float("1e400") * t, "law is an expression with Float"),
     (sp.Add(t, t, evaluate=False), "law is an expression that would be simplified where it is read"),
-], ids=["function", "digits", "unevaluated"])
+], ids=["function", "beyond doubles", "unevaluated"])
 def test_expressions_that_cannot_be_saved(expression, sentence):
     with refused("not-portable", sentence.replace("; ", ": ", 1)):
         to_json(expression, "law")

@@ -75,8 +75,9 @@ def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[
 
 def write_core(made: Chosen, folder: Path) -> None:
     """Write the files of the core that these choices need, and the block."""
+    header = data(made)     # before any file, as it refuses what no block can have
     core_of(made).write(folder)
-    (folder / "data.h").write_text(data(made), encoding="utf-8")
+    (folder / "data.h").write_text(header, encoding="utf-8")
 
 
 def core_of(made: Chosen, more: Sequence[str] = ()) -> CoreFiles:

@@ -6,12 +6,12 @@ They are read without evaluating text as code, and only operations of the table 
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Callable
 from typing import Any
 
 from ...errors import WrongValue
 
-DOUBLE = 53         # bits of the numbers that JSON keeps exactly
 SIGNS = {"+": "Add", "*": "Mul", "^": "Pow", "<": "StrictLessThan", "<=": "LessThan", ">": "StrictGreaterThan",
          ">=": "GreaterThan", "=": "Equality", "!=": "Unequality", "and": "And", "or": "Or", "not": "Not", "cases": "Piecewise"}
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "exp",
@@ -61,7 +61,7 @@ def _written(expression: Any, what: str) -> Any:
         return expression.name
     if expression.is_Integer:
         return int(expression)
-    if expression.is_Float and expression._prec == DOUBLE:
+    if expression.is_Float and math.isfinite(float(expression)):    # a double, as in every run
         return float(expression)
     if expression.is_Rational:
         return ["/", int(expression.p), int(expression.q)]
