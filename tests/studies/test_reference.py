@@ -288,6 +288,15 @@ def test_an_error_below_round_off_is_refused_with_what_can_be_had():
     assert zd.reference(BAR, 8.0, error=2 * possible, precision="double").error <= 2 * possible
 
 
+def test_an_error_that_a_jump_excludes_is_refused_with_this_cause(monkeypatch):
+    """In 576 steps rounding decides on which side of the jump the force is evaluated, but it does not multiply roundings."""
+    monkeypatch.setattr("zerodrift.studies.reference_search.REFINEMENTS", 6)
+    t, x, v = sp.symbols("t x v")
+    system = zd.symbolic([x], speeds=[v], kinetic=v**2 / 2, force=[sp.Heaviside(t - sp.Rational(7, 10))], p0=[0], v0=[0])
+    with pytest.raises(zd.UnreachableTolerance, match=r"fall slowly, as where a term jumps|the terms jump or have corners"):
+        zd.reference(system, 2.0, error=1e-5)
+
+
 def test_a_motion_that_forgets_its_start_is_refused(monkeypatch):
     """Lorenz' equations: after 60 s two runs that round differently have nothing in common."""
     def force(v):

@@ -14,7 +14,7 @@ from ..systems.base import BaseSystem, stateless_system_of
 from .certificate import Reference
 from .reference_precise import PRECISIONS, PreciseSearch, functions_of
 from .reference_runs import Difference, Motion
-from .reference_search import ROUNDED, SLOWLY, SPACING, Search, SearchBySeries
+from .reference_search import SPACING, Search, SearchBySeries
 
 __all__ = ["Difference", "Reference", "reference"]
 
@@ -156,13 +156,14 @@ def _in_double(motion: Motion, pairs: list[tuple[str, str]], wanted: float | Non
     if wanted is not None and wanted < SPACING * motion.size:
         raise UnreachableTolerance(f"error must be at least {SPACING * motion.size:.2g}, the spacing of doubles at the size of "
                                    f"this motion, not {wanted:g}")
-    found = Search(motion, pairs, wanted).found()
+    search = Search(motion, pairs, wanted)
+    found = search.found()
     if (wanted is None or found.error > wanted) and motion.follows_series(pairs[0][0]):
         with contextlib.suppress(ZerodriftError):
             found = min(found, SearchBySeries(motion, pairs, wanted).found(), key=lambda each: each.error)
     if wanted is not None and not found.error <= wanted:
-        why = next((caveat for caveat in found.caveats if caveat.startswith(SLOWLY)), ROUNDED)
-        raise UnreachableTolerance(f"error = {wanted:g} cannot be certified: {why}; what can be certified is {found.error:.2g}")
+        raise UnreachableTolerance(f"error = {wanted:g} cannot be certified: {search.limit(found)}; what can be certified is "
+                                   f"{found.error:.2g}")
     return found
 
 

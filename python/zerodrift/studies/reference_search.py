@@ -56,6 +56,7 @@ RESOLVED = 1e-2     # part of the motion's size; where errors are larger, steps 
 REFINEMENTS = 14    # the largest number of times that this number of steps is doubled
 CHECKS = 4          # runs with which any motion is compared
 FORGOTTEN = 3       # a motion has forgotten its start where rounding alone makes another one of it, so many refinements in a row
+AT_JUMP = 1e4       # a jump is met where rounding changes one run so many times as much as another
 GROWTH = 1e4        # a motion is sensitive where it makes so many times as much of rounding as its own size and speed do
 LARGEST_GAP = 0.21  # part of a step, between the instants at which the integrator of highest order evaluates
 DENSE = 9000        # steps of the run that looks for what acts in a narrow place, or more
@@ -69,6 +70,7 @@ PLACE = ("not all terms are polynomials, sines and cosines, and neither max_move
 COORDINATES = "the mechanism's other coordinates cannot follow this motion, so that no run in these was compared"
 ROUNDED = ("the difference between runs stops falling at round-off and at the tolerance of corrections, which this motion "
            "multiplies")
+UNRESOLVED = "the differences between runs fall slowly, as where a term jumps"
 SLOWLY = "halving the steps divides the differences"
 SMOOTH = (SLOWLY + " by {ratio:.2g} only, where smooth terms give up to {most:.3g}: the terms jump or "
           "have corners, or change faster than the steps, and the error is a multiple of the differences that were seen")
@@ -81,6 +83,7 @@ class Search:
 
     def __init__(self, motion: Motion, pairs: list[tuple[str, str]], wanted: float | None) -> None:
         self.motion, self.pairs, self.wanted = motion, pairs, wanted or 0.0
+        self._least_rounded = math.inf      # smallest effect of rounding in the runs compared so far
 
     def found(self) -> Reference:
         """Certified reference with enough steps for the wanted error, or with as many as rounding allows."""
@@ -122,6 +125,7 @@ class Search:
             differences += self._in_other_coordinates(fine, steps)
         found = Reference(fine, *self._bounds(fine, differences), tuple(differences))
         caveats = tuple(self._caveats(found, steps, previous))
+        self._least_rounded = min(self._least_rounded, differences[1].p)
         if any(caveat.startswith(SLOWLY) for caveat in caveats):
             found = Reference(fine, *self._bounds(fine, differences, is_rough=True), tuple(differences))
         return dataclasses.replace(found, caveats=caveats)
@@ -217,6 +221,16 @@ class Search:
         size, steps = self.motion.size, max(d.steps for d in found.differences)
         seen = found.differences[1].p + self.motion.shift[0] + SPACING * size
         return max(d.p for d in found.differences) <= EXPLAINED * seen + steps * EPS / 2 * size
+
+    def limit(self, found: Reference) -> str:
+        """Reason why the error of a reference is not smaller.
+
+        A motion that multiplies roundings does so in all runs; at a jump, rounding matters in a run with a step that ends there.
+        """
+        if slowly := [caveat for caveat in found.caveats if caveat.startswith(SLOWLY)]:
+            return slowly[0]
+        at_jump = found.differences[1].p > AT_JUMP * (self._least_rounded + EPS * self.motion.size)
+        return ROUNDED if self._is_rounding(found) and not at_jump else UNRESOLVED
 
     def _caveats(self, found: Reference, steps: int, previous: float) -> Iterator[str]:
         motion = self.motion
