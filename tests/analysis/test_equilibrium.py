@@ -136,6 +136,8 @@ def test_what_cannot_balance_is_named():
         zd.equilibrium(m, stability="maybe")
     with refused("wrong-name", r"'stone\.angle'"):
         zd.equilibrium(m, hold=["stone.angle"])
+    with refused("wrong-measure", "^hold must name quantities of positions, and 'stone.velocity.x' is one of velocities"):
+        zd.equilibrium(m, hold=["stone.velocity.x"])
 
 
 def test_a_damped_run_ends_in_the_equilibrium():

@@ -200,6 +200,19 @@ def test_inputs_outputs_and_responses_in_closed_form(layout):
     assert lin.damping == pytest.approx([damping / 2 / np.sqrt(inertia * weight)] * 2, rel=1e-10)
 
 
+def test_an_undamped_resonance_is_infinite():
+    lin = zd.linearize(zd.systems.oscillator(stiffness=4.0), (0.0, [0.0], [0.0]), inputs=["x"], outputs=["x"])
+    found = lin.frequency_response([1.0, 2.0, 3.0])[:, 0, 0]
+    assert found[[0, 2]] == pytest.approx([1 / 3, -1 / 5], rel=1e-9)
+    assert np.abs(found[1]) > 1e9           # as far as A is the exact one, infinite
+    m = zd.Mechanism("stone")
+    m.particle("stone", 1.0, at=(0, 0))
+    free = zd.linearize(m, inputs=["stone.position.x"], outputs=["stone.position.x"])
+    found = free.frequency_response([0.0, 2.0])[:, 0, 0]
+    assert np.isinf(np.abs(found[0]))
+    assert found[1] == pytest.approx(-1 / 4, rel=1e-12)
+
+
 def test_the_governor_turns_at_the_angle_of_its_closed_form():
     for layout in ("joint", "absolute"):
         system = zd.models.flyball_governor().system(layout)

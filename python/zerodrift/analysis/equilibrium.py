@@ -84,9 +84,17 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     if v is not None:
         return _steady(system, t, p, values_of(v, "v"), names_of(hold, "hold"))
     at = state(system, t, p, np.zeros(system.nv))
-    held = {name: rows_of(at, {name: None})[0] for name in names_of(hold, "hold")}
+    held = {name: _held(at, name) for name in names_of(hold, "hold")}
     balance, iterations, how = _found(system, t, p, held, is_downhill=stability == "stable")
     return at_rest(balance, iterations, how)
+
+
+def _held(at: State, name: str) -> np.ndarray:
+    """The values (size,) at which a quantity is held."""
+    found = find(at, name, "hold")
+    if found.is_velocity:
+        raise WrongValue(f"hold must name quantities of positions, and {name!r} is one of velocities", "wrong-measure")
+    return found.value
 
 
 def _first(system: BaseSystem, near: Any) -> np.ndarray:

@@ -89,6 +89,9 @@ class Linearization:
     def frequency_response(self, omega: Any) -> np.ndarray:
         """Responses ``C (i omega - A)^-1 B + D`` at angular frequencies omega (j,) in rad/s, (j, outputs, inputs), complex.
 
+        They are infinite, ``complex(inf, nan)`` as in python-control, where i omega is an eigenvalue of A: at an undamped
+        resonance, and at zero with ignorable coordinates.
+
         Examples
         --------
         >>> import numpy as np
@@ -97,8 +100,14 @@ class Linearization:
         >>> bool(np.isclose(lin.frequency_response([0.5])[0, 0, 0], 1 / (10 - 0.25)))
         True
         """
-        unit = np.eye(len(self.A))
-        return np.array([self.C @ np.linalg.solve(1j * w * unit - self.A, self.B) + self.D for w in np.atleast_1d(omega)])
+        return np.array([self._response(w) for w in np.atleast_1d(omega)])
+
+    def _response(self, w: float) -> np.ndarray:
+        """The response (outputs, inputs) at an angular frequency."""
+        try:
+            return self.C @ np.linalg.solve(1j * w * np.eye(len(self.A)) - self.A, self.B) + self.D
+        except np.linalg.LinAlgError:
+            return np.full(self.D.shape, complex(np.inf, np.nan))
 
     def in_coordinates(self, names: Any) -> np.ndarray:
         """A (2 n, 2 n) in n quantities of positions and their rates, ignorable coordinates left out.

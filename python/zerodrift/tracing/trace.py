@@ -27,7 +27,7 @@ def trace(system: Any, measure: Any, values: Any = None, *, hold: Any = (), thro
     Parameters
     ----------
     system : Mechanism or its system
-        Besides what is held it has one freedom.
+        In the plane; mechanisms in space are refused. Besides what is held it has one freedom.
     measure : measure or str
         A scalar measure of positions: ``crank.angle``, ``"slide.displacement"``, ``"P.position.x"``.
     values : array_like (k,), optional
