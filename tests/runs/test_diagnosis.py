@@ -177,3 +177,20 @@ def test_where_nothing_moves_nothing_is_divided_by_its_energy():
     system = zd.System(["x"], mass=[[1.0]], potential=lambda t: 2.0 * t, p0=[0.0])
     with pytest.warns(zd.AccuracyWarning, match=r"^the energy balance is off by 4 J, and nothing was seen to move: "):
         zd.simulate(system, 2.0, step=0.1)
+
+
+@pytest.mark.parametrize(("potential", "force"), [(lambda p: p[0]**2 / 2, lambda p, v: -p - 0.2 * v),
+                                                  (lambda p: -p[0]**2 / 2, lambda p: -p)],
+                         ids=["a damper without power", "a potential of the wrong sign"])
+def test_energy_that_is_not_that_of_the_forces_is_a_cause_of_systems_with_their_own(potential, force):
+    """No tolerance removes the error of the balance; `check`, which the warning names, does find its cause."""
+    system = zd.System(["x"], mass=[[1.0]], force=force, potential=potential, p0=[1.0], v0=[0.0])
+    with pytest.warns(zd.AccuracyWarning, match=r"; or potential and power are not those of the forces: zd\.check\(system\)"):
+        zd.simulate(system, 5.0, rtol=1e-10)
+    assert "balance of power" in str(zd.check(system)).partition("\n")[2]
+
+
+def test_energy_that_is_derived_is_not_a_cause():
+    _, said = listened(SYSTEMS["oscillator"], 0.05, 1000, "euler")
+    assert any("energy balance" in each for each in said)
+    assert not any("zd.check" in each for each in said)

@@ -25,6 +25,7 @@ TOO_COARSE = ("steps are too long for what happens in some of them; take shorter
               "of step")
 TOO_LOOSE = ("the tolerances are too loose for what happens in some steps; take a smaller rtol and atol, or max_step where "
              "something acts for a short time")
+OTHER_ENERGY = "; or potential and power are not those of the forces: zd.check(system) compares them"
 CATEGORIES = (AccuracyWarning, CorrectionWarning, LockedWarning, StabilityWarning)
 
 
@@ -120,11 +121,13 @@ def _advice(solution: Solution) -> str:
 
 
 def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
-    found = list(_numerical_energy(solution))
+    advice = _advice(solution)
+    of_energy = advice + OTHER_ENERGY if solution.system._has_own_energy else advice
+    found = [f"{sentence}: {of_energy}" for sentence in _numerical_energy(solution)]
     if not found and not solution.stats["too_long"] and solution.stats["unresolved"]:
-        found = [_unresolved_part(solution)]        # otherwise the same has been said of the whole mechanism
+        found = [f"{_unresolved_part(solution)}: {advice}"]     # otherwise the same has been said of the whole mechanism
     for sentence in found:
-        yield AccuracyWarning, f"{sentence}: {_advice(solution)}"
+        yield AccuracyWarning, sentence
     if found or solution.stats["too_long"] or solution.stats["energy_skipped"]:
         yield from _other_branch(solution)
 

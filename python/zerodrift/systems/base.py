@@ -55,6 +55,7 @@ class BaseSystem:
     p0: np.ndarray | None
     v0: np.ndarray | None
     _core: _gateway.CoreSystem
+    _has_own_energy = False     # True if the user writes the potential energy and the power, beside the forces
 
     nq = property(lambda self: self._core.nq, doc="Number of coordinates, the entries of p.")
     nv = property(lambda self: self._core.nv, doc="Number of velocities, the entries of v.")

@@ -104,6 +104,8 @@ class System(BaseSystem):
     array([-0.98629, -0.16501])
     """
 
+    _has_own_energy = True
+
     def __init__(
         self, coordinates: int | Sequence[str], *, mass: Any, force: Any = None, bias: Any = None, constraints: Any = None,
         jacobian: Any = None, nonholonomic: Any = None, xi: Any = None, kinematics: Any = None,

@@ -143,6 +143,8 @@ def native(
 class Native(BaseSystem):
     """A system whose terms a compiled function evaluates."""
 
+    _has_own_energy = True
+
     def __init__(self, found: _gateway.Function, *, coordinates: Any, terms: Any, velocities: Any, constraints: Any,
                  nonholonomic: Any, parameters: Any, quaternions: Any, structure: Any, units: Any, p0: Any, v0: Any, scratch: int,
                  name: str | None) -> None:
