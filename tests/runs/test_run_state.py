@@ -1,5 +1,6 @@
 """Saved runs continue with the same bits, here and in another process; wrong states are refused with a reason."""
 
+import functools
 import os
 import subprocess
 import sys
@@ -157,7 +158,11 @@ def test_a_state_is_restored_in_another_process(tmp_path):
     run = zd.Run(zd.systems.four_bar(), step=0.01, energy=True)
     run.step(100)
     (tmp_path / "state").write_bytes(run.save())
-    (tmp_path / "other").write_bytes(zd.Run(lever(lambda q: -3.0 * q), step=0.01).save())
+
+    def pull(q):
+        return -3.0 * q
+
+    (tmp_path / "other").write_bytes(zd.Run(lever(pull), step=0.01).save())
     run.step(1000)
     said = subprocess.run([sys.executable, "-c", PROCESS, str(tmp_path / "state"), str(tmp_path / "other")], check=True,
                           capture_output=True, text=True, env=dict(os.environ)).stdout
@@ -254,6 +259,16 @@ def test_what_functions_keep_between_calls_does_not_make_another_system():
         alike.restore(run.save())
         assert same(run, alike)
     assert angles
+
+
+def test_what_does_not_pickle_is_left_out():
+    def made(stiffness):
+        return zd.Run(lever(functools.partial(lambda numbers, q, k=stiffness: -k * q, (number for number in ()))), step=0.01)
+
+    state = made(1.0).save()
+    made(1.0).restore(state)
+    with refused("wrong-state", "same system"):
+        made(2.0).restore(state)
 
 
 def test_a_state_of_one_of_many_runs_is_that_of_a_run_with_its_parameters():

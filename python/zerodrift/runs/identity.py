@@ -134,7 +134,12 @@ class Definition(Identity):
             return "object", kind.__qualname__, *([self.of(call)] if isinstance(call, FunctionType) else [])
         if kind.__qualname__ == "Dummy":    # of SymPy: numbered anew in each process
             return "symbol", what.name
-        return super()._object(what)
+        depth = len(self._open)
+        try:
+            return super()._object(what)
+        except Exception:       # it has no parts that pickle: its class counts alone
+            del self._open[depth:]
+            return "object", kind.__qualname__
 
 
 def _is_empty(cell: Any) -> bool:
