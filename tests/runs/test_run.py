@@ -264,8 +264,22 @@ def test_a_file_of_samples_begins_anew_where_the_run_does(tmp_path, back):
         for name in ("t", "p", "v", "energy_violation"):
             assert np.array_equal(getattr(each, name), getattr(solutions[1], name)), name
         assert 4 <= len(each.t) <= 5
-    assert set(solutions[0]["drive.torque"]) == {7.0}
+        assert set(each["drive.torque"]) == {7.0}
+        assert np.array_equal(each["pin.torque"], solutions[1]["pin.torque"])
     assert sorted(each.name for each in tmp_path.iterdir()) == ["samples.json", "samples.npy"]
+
+
+def test_inputs_are_in_a_file_once_the_run_has_ended(tmp_path):
+    m = zd.Mechanism("arm")
+    m.motor("drive", m.revolute("pin", m.ground, m.link("arm", (0, 0), (1, 0), mass=3.0).start), torque=0.0)
+    run = zd.Run(m, step=0.01, inputs=["drive.torque"], save_to=tmp_path / "samples")
+    run.step(3)
+    with refused("unreadable-file", "a run must have ended before inputs are read"):
+        zd.load(tmp_path / "samples.npy")["drive.torque"]
+    run["drive.torque"] = 2.0
+    run.step(2)
+    run.solution()
+    assert zd.load(tmp_path / "samples.npy")["drive.torque"].tolist() == [0.0, 0.0, 0.0, 0.0, 2.0, 2.0]
 
 
 def test_a_run_that_records_nothing_has_no_solution():

@@ -81,10 +81,10 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
     found = columns(path, begin, rows, row, layout["columns"], layout["integers"])
     description = json.loads(str(rest.pop("zerodrift"))) if rest else _unfinished(layout["solution"], found["t"])
     arrays = rest or {"position_size": np.array(layout["position size"])}
-    outputs = _split(found.pop("outputs", None), layout["outputs"])
+    solution, outputs = unpacked(description, arrays, rebuilt), _split(found.pop("outputs", None), layout["outputs"])
     energies = dict.fromkeys(("potential_energy", "energy_input", "energy_violation"))
     named = {NAMES.get(name, name): column for name, column in found.items()}
-    return unpacked(description, arrays, rebuilt) | energies | named | {"outputs": outputs}
+    return solution | energies | named | {"outputs": outputs | solution["outputs"]}
 
 
 def _header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any]]:

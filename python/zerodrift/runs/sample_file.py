@@ -2,7 +2,7 @@
 
 ``run.npy`` is an array of NumPy with a structured type, one field per column, which `numpy.load` opens, also with ``mmap_mode``.
 Its header has room for the largest number of samples and is rewritten after each flush, so that a killed run leaves what it
-flushed. After the array follow, once the run has ended, the other fields in the format of `Solution.save`. ``run.json`` has
+flushed. After the array follow, once the run has ended, inputs and the other fields in the format of `Solution.save`. ``run.json`` has
 offset and shape of each column, recorded outputs, and the fields of the solution that are known at the start.
 """
 
@@ -75,6 +75,7 @@ class SampleFile:
                   "columns": self._record.columns, "integers": _gateway.COUNTS,
                   "position size": position_size.tolist(), "outputs": outputs,
                   "solution": described({"outputs": (), **dict.fromkeys(EVENTS), **known})}
+        self._outputs = outputs
         names = {name: mapped_samples.NAMES.get(name, name) for name in self._record.columns}
         self._type = [*((names[name], "=f8", shape) for name, (_, shape) in self._record.columns.items()),
                       *((name, "=i4") for name in _gateway.COUNTS)]
@@ -135,8 +136,8 @@ class SampleFile:
 
     def finish(self, solution: Solution) -> None:
         """Write the number of samples, and after the samples the fields of the solution that are not columns of them."""
-        rest = io.BytesIO()
-        np.savez(rest, **packed({name: getattr(solution, name) for name in NOT_IN_ROWS} | {"outputs": {}}))
+        rest, inputs = io.BytesIO(), {name: values for name, values in solution.outputs.items() if name not in self._outputs}
+        np.savez(rest, **packed({name: getattr(solution, name) for name in NOT_IN_ROWS} | {"outputs": inputs}))
         with self._file:
             self._file.seek(self._begin + self.rows * self._row)
             self._put(rest.getvalue())

@@ -99,6 +99,9 @@ class Watching:
         if dynamic and any(place.is_speed for place in bound.places):
             raise WrongValue(f"{dynamic!r} depends on accelerations, and a speed is an input: it must be recorded by the run, by "
                              f"outputs=[{dynamic!r}]", "not-available")
+        if missing := [name for name in names if name not in solution.outputs]:
+            raise WrongValue(f"a run must have ended before inputs are read from its file, and {missing[0]!r} is not in it yet",
+                             "unreadable-file")
         given = np.column_stack([solution[name] for name in names])
         inputs = _gateway.Inputs(names, given[0].copy(), given[0], given[0], [bound])
         ends = [*(np.flatnonzero((given[1:] != given[:-1]).any(axis=1)) + 1), len(given)]
