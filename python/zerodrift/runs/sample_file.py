@@ -2,8 +2,8 @@
 
 ``run.npy`` is an array of NumPy with a structured type, one field per column, which `numpy.load` opens, also with ``mmap_mode``.
 Its header has room for the largest number of samples and is rewritten after each flush, so that a killed run leaves what it
-flushed. After the array follow, once the run has ended, inputs and the other fields in the format of `Solution.save`. ``run.json`` has
-offset and shape of each column, recorded outputs, and the fields of the solution that are known at the start.
+flushed. After the array follow, once the run has ended, inputs and the other fields in the format of `Solution.save`.
+``run.json`` has offset and shape of each column, recorded outputs, and the fields of the solution that are known at the start.
 """
 
 from __future__ import annotations
