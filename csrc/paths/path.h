@@ -38,8 +38,12 @@ int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t ne
  * step. */
 static inline int zd_has_closed_form(const zd_motion *motion) { return motion->path.direct != NULL; }
 static inline int zd_lands_directly(const zd_motion *motion) { return motion->path.lands; }
-/* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path. */
-static inline int zd_callable_failed(const zd_motion *motion, int status) { return status == ZD_CALLBACK && !motion->path.order; }
+/* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path, and terms may be
+ * finite at other states. */
+static inline int zd_callable_failed(const zd_motion *motion, int status)
+{
+    return status == ZD_CALLBACK && !motion->path.order && !motion->point->left_domain;
+}
 
 /* Moves the point to y at t1 and applies the corrections that are due in this step, or all if `forced`, to both. */
 static inline int zd_path_end(const zd_evaluation_path *path, zd_stepper *self, double t1, int64_t step, int forced, int within)

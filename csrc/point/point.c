@@ -143,6 +143,7 @@ int zd_point_need_missing(zd_point *point, int missing)
     const zd_system *system = point->system;
     point->statistics->evaluations++;
     int status = system->evaluate(system->data, missing | moved, point->t, point->p, point->v, &point->terms);
+    point->left_domain = status == ZD_NOT_FINITE;
     if (status) return ZD_CALLBACK;     /* for any nonzero value: a positive status would mean success */
     point->known |= missing | moved;
     return ZD_DONE;

@@ -59,6 +59,7 @@ typedef struct zd_point {
     int measured;           /* true if scales and sizes are computed */
     int failed_index, failed_column;    /* velocity or constraint of a failed factorization; for an asymmetric M, the column, too */
     double residual_left;   /* residual of a failed iteration */
+    int left_domain;        /* true if the last evaluation failed with ZD_NOT_FINITE: at this state only, for all that is known */
 } zd_point;
 
 zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics);

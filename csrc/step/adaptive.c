@@ -1,7 +1,8 @@
 /* Adaptive steps: the controller of Hairer, Norsett and Wanner, section II.4, which is SciPy's.
  *
  * A step is accepted if its error estimate, RMS in units of atol + rtol |y|, is at most one. A step that fails for other reasons
- * (a correction that does not converge, a singular matrix at a stage) is repeated with a quarter of its size.
+ * (a correction that does not converge, a singular matrix or terms that are not finite at a stage) is repeated with a quarter of its
+ * size.
  *
  * The safety factor is below the customary 0.9, with which every fourth step of order eight would be rejected where speeds change as
  * abruptly as in a four-bar. Predictive and proportional-integral controllers were tried and save nothing worth their code.
@@ -149,10 +150,10 @@ static double by_move(zd_control *control, double h, double next)
 }
 
 /* True if a shorter step would fail likewise. */
-static int is_final(int status)
+static int is_final(const zd_step_loop *loop, int status)
 {
-    return status == ZD_CALLBACK || status == ZD_NO_MEMORY || status == ZD_BIFURCATION || status == ZD_NOT_SYMMETRIC
-           || status == ZD_NOT_JACOBIAN;
+    if (status == ZD_CALLBACK) return !loop->motion->point->left_domain;
+    return status == ZD_NO_MEMORY || status == ZD_BIFURCATION || status == ZD_NOT_SYMMETRIC || status == ZD_NOT_JACOBIAN;
 }
 
 static int begin(zd_step_loop *loop)
@@ -210,7 +211,7 @@ static int repeats(zd_step_loop *loop, int *status)
         *status = accept(loop);
         return 0;
     }
-    if (is_final(*status)) return 0;
+    if (is_final(loop, *status)) return 0;
     loop->motion->statistics.rejected++;
     if (*status) control->h = h * AFTER_FAILURE, control->is_by_move = 0;
     else control->h = by_move(control, h, h * fmin(1, factor(loop, control->norm)));

@@ -110,7 +110,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     const constants *k = data;
     sines *a = (sines *)out->scratch;
     if (want & ZD_MOVED) *a = sines_of(p);
-    if (a->cl < FLAT) return ZD_CALLBACK;
+    if (a->cl < FLAT) return ZD_NOT_FINITE;
     if (want & ZD_A) write_kinematics(a, out->A);                                               /* (1) */
     if (want & ZD_M) write_mass(k, out->M);
     if (want & ZD_BIAS) write_bias(k, a, v, out->d);

@@ -1,10 +1,12 @@
 """Steps chosen by their error: what that reaches, how many they may be, and which settings are refused."""
 
+import math
 import re
 
 import numpy as np
 import pytest
 import sympy as sp
+from scipy.integrate import solve_ivp
 
 import zerodrift as zd
 from support import INTEGRATORS, SYSTEMS, refused
@@ -258,3 +260,54 @@ def test_ensembles_bound_moves_too():
     ens = zd.ensemble(bar, 1.0, parameters={"gravity": np.array([9.81, 9.0])}, **options)
     sol = zd.simulate(bar.with_parameters(gravity=9.0), 1.0, **options)
     assert np.abs(ens[1].p[-1] - sol.p[-1]).max() < 1e-12
+
+
+@pytest.mark.parametrize(("method", "rtol"), [("dop853", 1e-6), ("dormand_prince", 1e-6), ("radau", 1e-3)])
+def test_steps_whose_stages_leave_the_domain_of_a_force_are_repeated_shorter(method, rtol):
+    """A mass that falls on a repelling wall at x = 0, behind which the force is not a number; beside SciPy."""
+    values = []
+
+    def force(p):
+        with np.errstate(invalid="ignore"):
+            values.append(-9.81 + 0.01 / np.sqrt(p[0])**3)
+        return values[-1:]
+
+    system = zd.System(["x"], mass=[[1.0]], force=force, p0=[1.0], v0=[0.0])
+    sol = zd.simulate(system, 2.0, integrator=method, rtol=rtol, atol=rtol / 1000)
+    exact = solve_ivp(lambda t, y: [y[1], -9.81 + 0.01 / y[0]**1.5 if y[0] > 0 else np.nan], (0, 2), [1.0, 0.0], method="DOP853",
+                      rtol=1e-11, atol=1e-13)
+    assert np.isnan(values).any()
+    assert abs(sol.p[-1, 0] - exact.y[0, -1]) < 10 * rtol
+
+
+@pytest.mark.parametrize("method", ["dop853", "radau"])
+def test_where_the_domain_of_a_force_ends_it_is_named(method):
+    """Free fall reaches x = 0 at sqrt(2 / 9.81) = 0.4515 s."""
+    def force(p):
+        with np.errstate(invalid="ignore"):
+            return -9.81 + 0 * np.sqrt(p)
+
+    system = zd.System(["x"], mass=[[1.0]], force=force, p0=[1.0], v0=[0.0])
+    with refused("not-finite", r"^force is not finite at t = 0\.4515") as caught:
+        zd.simulate(system, 2.0, integrator=method)
+    assert abs(caught.value.solution.t[-1] - np.sqrt(2 / 9.81)) < 1e-6
+    with refused("not-finite", r"^mass is not finite at t = 0: "):
+        zd.simulate(zd.System(["x"], mass=lambda p: [[np.nan]], p0=[1.0], v0=[0.0]), 2.0, integrator=method)
+
+
+def test_an_exception_ends_adaptive_steps_at_once():
+    calls = []
+
+    def force(p):
+        calls.append(p[0])
+        return [-9.81 + 0.01 / math.pow(p[0], 1.5)]     # raises a ValueError below 0
+
+    with pytest.raises(ValueError, match="math domain error"):
+        zd.simulate(zd.System(["x"], mass=[[1.0]], force=force, p0=[1.0], v0=[0.0]), 2.0)
+    assert min(calls[:-1]) > 0 > calls[-1]
+
+
+def test_a_disc_that_nearly_falls_flat_in_trial_steps_swings_round():
+    disc = zd.systems.rolling_disc(lean=1.37)
+    exact = zd.simulate(disc, 3.0, rtol=1e-10, atol=1e-10)
+    assert np.abs(zd.simulate(disc, 3.0, rtol=1e-3, atol=1e-6).p[-1] - exact.p[-1]).max() < 0.02

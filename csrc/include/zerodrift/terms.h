@@ -86,7 +86,8 @@ typedef struct zd_terms {
     const double *inputs;   /* (2 inputs + 1,) values to read: see zd_input; NULL without inputs */
 } zd_terms;
 
-/* Writes the terms in `want` and no others. Must be a pure function, except for out->scratch. Returns ZD_DONE; any other value: failed. */
+/* Writes the terms in `want` and no others. Must be a pure function, except for out->scratch. Returns ZD_DONE; ZD_NOT_FINITE if
+ * terms are not finite or not defined at this state, where adaptive steps are repeated shorter; any other value: failed. */
 typedef int zd_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out);
 
 /* p <- g(q) of (18), on the branch of the estimate in p. Returns 0, or ZD_NO_CONVERGENCE if there is no such p. */

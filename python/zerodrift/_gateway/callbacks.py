@@ -24,7 +24,7 @@ class Evaluator:
     """
 
     def __init__(self, core: PythonCore) -> None:
-        self.error, self._write, terms = None, core.write, []
+        self.error, self.refusal, self._write, terms = None, None, core.write, []
         p, v = ffi.new("double[]", core.nq), ffi.new("double[]", core.nv)
         self._p, self._v = ffi.buffer(p), ffi.buffer(v)
         self._arrays = {"p": _read_only(self._p), "v": _read_only(self._v)}
@@ -53,10 +53,10 @@ class Evaluator:
         return DONE
 
     def refuse(self, term: int, t: float) -> int:
-        """Raise an error for a non-finite term, given as its bit; called by the core."""
+        """Store an error for a non-finite term, given as its bit; called by the core. A shorter step may avoid it."""
         name = next(name for name, (bit, *_) in TERMS.items() if bit == term)
-        self.error = self._write.not_finite(name, t, self._arrays[name])
-        return CALLBACK
+        self.refusal = self._write.not_finite(name, t, self._arrays[name])
+        return lib.ZD_NOT_FINITE
 
 
 def _read_only(memory: Any) -> np.ndarray:
@@ -182,5 +182,10 @@ class PythonCore(CoreSystem):
 
     @property
     def error(self) -> BaseException | None:
-        """Exception raised by a callable, or None."""
-        return self.evaluator.error if self.evaluator else None
+        """Exception raised by a callable, or else that for the last term that was not finite; None if there is neither."""
+        return self.evaluator and (self.evaluator.error or self.evaluator.refusal)
+
+    @property
+    def refusal(self) -> BaseException | None:
+        """Exception for the last term that was not finite, which shorter steps may have avoided since."""
+        return self.evaluator and self.evaluator.refusal

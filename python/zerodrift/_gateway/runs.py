@@ -14,7 +14,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from ..errors import NoMemory
-from .base import MESSAGE_SIZE, doubles, error_of, row_named, strided_doubles, text
+from .base import CALLBACK, MESSAGE_SIZE, doubles, error_of, row_named, strided_doubles, text
 from .callbacks import Watcher
 from .inputs import Inputs
 from .measures import Outputs
@@ -315,11 +315,13 @@ class Run:
 
     def error(self, status: int) -> BaseException:
         """Exception of a failed status: the one raised in Python, or one of this package."""
-        return self._raised or error_of(status, self.message)
+        raised = self._raised
+        is_past = status != CALLBACK and raised is not None and raised is getattr(self._core, "refusal", None)
+        return error_of(status, self.message) if raised is None or is_past else raised
 
     @property
     def _raised(self) -> BaseException | None:
-        return self._core.error or (self._watcher and self._watcher.error) or (self._outputs and self._outputs.error)
+        return (self._watcher and self._watcher.error) or (self._outputs and self._outputs.error) or self._core.error
 
     @property
     def has_raised(self) -> bool:
