@@ -82,7 +82,7 @@ OF_ARGUMENTS = {
     "shape": "An array or a list has another shape or number of entries than it must have.",
     "not-increasing": "Times or values are not in increasing order.",
     "step-size": "The step is missing, or it is too short or does not divide a period.",
-    "tolerance": "A tolerance is zero, negative, not finite or below round-off, or `rtol` is at least 1.",
+    "tolerance": "A tolerance is zero, negative, not finite or below round-off, or `rtol` is above 1.",
     "missing-argument": "An argument is missing that another one, or this system, requires.",
     "conflicting-arguments": "Arguments exclude each other; the message states which must be left out.",
     "wrong-dimension": "An argument or element of space is given to a mechanism in the plane, or vice versa.",

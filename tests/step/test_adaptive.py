@@ -125,8 +125,8 @@ BAR = SYSTEMS["four_bar"]
     ({"rtol": 1e-15}, "tolerance", "^rtol must.*least 2.2"),
     ({"rtol": -1.0}, "tolerance", "^rtol must"),
     ({"rtol": np.nan}, "tolerance", "^rtol must"),
-    ({"rtol": 1.0}, "tolerance", "^rtol must be below 1"),
-    ({"rtol": 1e300}, "tolerance", "^rtol must be below 1"),
+    ({"rtol": 1.1}, "tolerance", "^rtol must be at most 1"),
+    ({"rtol": 1e300}, "tolerance", "^rtol must be at most 1"),
     ({"atol": 0.0}, "tolerance", "^atol must.*than 0"),
     ({"max_step": 0.0}, "step-size", "max_step"),
     ({"first_step": -1.0}, "step-size", "first_step"),
@@ -262,22 +262,41 @@ def test_ensembles_bound_moves_too():
     assert np.abs(ens[1].p[-1] - sol.p[-1]).max() < 1e-12
 
 
+def falling(force):
+    """A mass of 1 kg at x = 1 m under a force of x, by equations."""
+    return zd.System(["x"], mass=[[1.0]], force=lambda p: [force(p[0])], p0=[1.0], v0=[0.0])
+
+
+def sliding(force, dimension=2):
+    """The same as a mechanism."""
+    m = zd.Mechanism("wall", dimension=dimension)
+    at = np.eye(dimension)[0]
+    body = m.particle("body", 1.0, at=at)
+    m.force("push", body, at, value=force, of={"x": body.position.x})
+    return m
+
+
+def sliding_in_space(force):
+    return sliding(force, 3)
+
+
+@pytest.mark.parametrize("make", [falling, sliding, sliding_in_space])
 @pytest.mark.parametrize(("method", "rtol"), [("dop853", 1e-6), ("dormand_prince", 1e-6), ("radau", 1e-3)])
-def test_steps_whose_stages_leave_the_domain_of_a_force_are_repeated_shorter(method, rtol):
+def test_steps_whose_stages_leave_the_domain_of_a_force_are_repeated_shorter(make, method, rtol):
     """A mass that falls on a repelling wall at x = 0, behind which the force is not a number; beside SciPy."""
     values = []
 
-    def force(p):
+    def force(x):
         with np.errstate(invalid="ignore"):
-            values.append(-9.81 + 0.01 / np.sqrt(p[0])**3)
-        return values[-1:]
+            values.append(-9.81 + 0.01 / np.sqrt(x)**3)
+        return values[-1]
 
-    system = zd.System(["x"], mass=[[1.0]], force=force, p0=[1.0], v0=[0.0])
+    system = make(force)
     sol = zd.simulate(system, 2.0, integrator=method, rtol=rtol, atol=rtol / 1000)
     exact = solve_ivp(lambda t, y: [y[1], -9.81 + 0.01 / y[0]**1.5 if y[0] > 0 else np.nan], (0, 2), [1.0, 0.0], method="DOP853",
                       rtol=1e-11, atol=1e-13)
     assert np.isnan(values).any()
-    assert abs(sol.p[-1, 0] - exact.y[0, -1]) < 10 * rtol
+    assert abs(sol.p[-1, 0] - exact.y[0, -1]) < 20 * rtol       # errors are means over as many as three coordinates
 
 
 @pytest.mark.parametrize("method", ["dop853", "radau"])
@@ -293,6 +312,17 @@ def test_where_the_domain_of_a_force_ends_it_is_named(method):
     assert abs(caught.value.solution.t[-1] - np.sqrt(2 / 9.81)) < 1e-6
     with refused("not-finite", r"^mass is not finite at t = 0: "):
         zd.simulate(zd.System(["x"], mass=lambda p: [[np.nan]], p0=[1.0], v0=[0.0]), 2.0, integrator=method)
+
+
+def test_a_drive_whose_rate_is_not_finite_is_named():
+    """The rate of sqrt(t) at 0, of sqrt(1 - t) at 1; compiled or not, its value is finite there."""
+    t = sp.symbols("t")
+    for angle, expected in ((sp.sqrt(t), "0"), (lambda t: np.sqrt(t), "0"), (sp.sqrt(1 - t), "1")):
+        m = zd.Mechanism("arm")
+        m.motor("drive", m.revolute("pin", m.ground, m.link("arm", (0, 0), (1, 0), mass=1.0).start), angle=angle)
+        with np.errstate(divide="ignore", invalid="ignore"), \
+                refused("not-finite", f"^angle of motor 'drive' must be finite, with its derivatives, at t = {expected}"):
+            zd.simulate(m, 1.5, step=0.1)
 
 
 def test_an_exception_ends_adaptive_steps_at_once():

@@ -14,7 +14,8 @@ int zd_rows_act(const zd_actions *self, double t, const double *lambda)
 {
     for (int i = 0; i < self->elements->m; i++) {
         zd_combined all;
-        if (zd_combine(self->elements, self->readings, self->elements->row + i, t, &all)) return ZD_CALLBACK;
+        const int status = zd_combine(self->elements, self->readings, self->elements->row + i, t, &all);
+        if (status) return status;
         add_row(self, self->elements->row + i, all.factors, -lambda[i], self->to);
     }
     return ZD_DONE;
@@ -34,13 +35,15 @@ int zd_drives_act(const zd_actions *self, int joint, double t, const double *lam
     double value;
     for (int i = 0; i < elements->forces; i++) {
         if (elements->force[i].joint != joint) continue;
-        if (zd_force_evaluate(elements, self->readings, elements->force + i, t, &value, NULL)) return ZD_CALLBACK;
+        const int status = zd_force_evaluate(elements, self->readings, elements->force + i, t, &value, NULL);
+        if (status) return status;
         self->add(self->readings, self->to, elements->force[i].quantity, value);
     }
     for (int i = 0; i < elements->relations; i++) {
         const zd_relation *row = elements->row + elements->row_of_relation[i];
         if (row->joint != joint) continue;
-        if (zd_drive_force(elements, self->readings, i, 0, t, lambda, &value)) return ZD_CALLBACK;
+        const int status = zd_drive_force(elements, self->readings, i, 0, t, lambda, &value);
+        if (status) return status;
         self->add(self->readings, self->to, elements->term[row->first].quantity, value);
     }
     return ZD_DONE;

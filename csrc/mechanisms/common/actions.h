@@ -13,7 +13,7 @@ typedef struct zd_actions {
     void *to;
 } zd_actions;
 
-/* Statuses are ZD_DONE or ZD_CALLBACK. With the sign of (2), a row acts with -lambda times its factors. */
+/* Statuses are those of laws.h. With the sign of (2), a row acts with -lambda times its factors. */
 int zd_rows_act(const zd_actions *self, double t, const double *lambda);        /* all rows */
 void zd_joint_rows_act(const zd_actions *self, int count, const int *rows, const double *lambda);  /* rows (count,) of a joint */
 /* Drives of a joint, by rows and by generalized forces, and its damping. */
@@ -27,7 +27,8 @@ ZD_INLINE int zd_forces_act(const zd_actions *self, double t)
     const zd_planned_elements *elements = self->elements;
     for (const zd_generalized_force *force = elements->force; force < elements->force + elements->forces; force++) {
         double value;
-        if (zd_force_evaluate(elements, self->readings, force, t, &value, NULL)) return ZD_CALLBACK;
+        const int status = zd_force_evaluate(elements, self->readings, force, t, &value, NULL);
+        if (status) return status;
         self->add(self->readings, self->to, force->quantity, value);
     }
     return ZD_DONE;

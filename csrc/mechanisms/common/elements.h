@@ -75,7 +75,7 @@ typedef struct zd_output_spec {
 
 /* User function, computed outside the core; k is the number of its terms. For a generalized force it writes out[0] alone. For a holonomic
  * relation: g, dg/dx_i (k), dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one: 0, a_i (k), a_0, and da_i/dt xdot_i +
- * da_0/dt. Returns ZD_DONE, or ZD_CALLBACK if it failed. */
+ * da_0/dt. Returns ZD_DONE; ZD_NOT_FINITE if a number is not finite at this state, or ZD_CALLBACK if it failed. */
 typedef int zd_law(void *owner, int law, double t, const double *x, const double *xdot, double *out);
 
 /* Compiled user function, with its own parameters `numbers`. */

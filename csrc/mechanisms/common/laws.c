@@ -28,7 +28,8 @@ static int ask(const zd_planned_elements *elements, const zd_readings *at, int l
         at->xdot[i] = zd_rate_of(at, quantity);
     }
     if (elements->compiled && has_said(elements->compiled + law, at, t, count)) return ZD_DONE;
-    return elements->law(elements->owner, law, t, at->x, at->xdot, at->out) ? ZD_CALLBACK : ZD_DONE;
+    const int status = elements->law(elements->owner, law, t, at->x, at->xdot, at->out);
+    return !status || status == ZD_NOT_FINITE ? status : ZD_CALLBACK;
 }
 
 /* Without a law: sum of factors x - constant - slope t; of a nonholonomic one with xdot in place of x. */
@@ -74,8 +75,9 @@ int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, 
             if (force->damping == 0) continue;
             rate = zd_rate_of(at, force->quantity);
             value = -force->damping * rate;
-        } else if (zd_force_evaluate(elements, at, force, t, &value, &rate)) {
-            return ZD_CALLBACK;
+        } else {
+            const int status = zd_force_evaluate(elements, at, force, t, &value, &rate);
+            if (status) return status;
         }
         *power += value * rate;
     }

@@ -13,7 +13,7 @@ typedef struct zd_combined {
     const double *factors;  /* dg/dx_i, or a_i: (terms,) */
 } zd_combined;
 
-/* These return ZD_DONE or ZD_CALLBACK. */
+/* These return ZD_DONE, or what the user function returns that failed: ZD_NOT_FINITE or ZD_CALLBACK. */
 int zd_combine(const zd_planned_elements *elements, const zd_readings *at, const zd_relation *row, double t, zd_combined *all);
 /* value <- the generalized force; rate <- the rate of its marker quantity, NULL: not wanted. */
 int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at, const zd_generalized_force *force, double t,

@@ -41,8 +41,9 @@ int zd_space_tree_evaluate(const void *data, int want, double t, const double *p
     if (want & ZD_M) zd_space_tree_mass(self, &frame, out->M);
     if (want & ZD_BIAS) zd_space_tree_bias(self, &frame, out->d);
     if (want & ZD_POTENTIAL) *out->V = zd_space_potential(self, &frame);
-    if ((want & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
-    if ((want & ZD_POWER) && zd_space_power(self, &frame, t, out->power)) return ZD_CALLBACK;
+    int status = want & ZD_FORCE ? write_force(self, &frame, t, out->f) : ZD_DONE;
+    if (!status && (want & ZD_POWER)) status = zd_space_power(self, &frame, t, out->power);
+    if (status) return status;
     if (want & ZD_C) memset(out->C, 0, (size_t)(self->elements.m * tree->nv) * sizeof *out->C);
     return want & ROWS ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;
 }

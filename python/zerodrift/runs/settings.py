@@ -244,8 +244,8 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
         name, value, least=least.get(name), code="tolerance" if name in least else "step-size") for name, value in values.items()}
     if found["max_move"] is not None:
         _check.number("max_move", found["max_move"], above=0, code="step-size")
-    if not found["rtol"] < 1:
-        raise WrongValue(f"rtol must be below 1, not {found['rtol']:g}: it is a part of the state", "tolerance")
+    if found["rtol"] > 1:
+        raise WrongValue(f"rtol must be at most 1, not {found['rtol']:g}: it is a part of the state", "tolerance")
     if found["atol"] == 0:
         raise WrongValue("atol must be greater than 0: parts of the state pass through zero", "tolerance")
     return found

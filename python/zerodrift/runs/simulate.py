@@ -70,7 +70,7 @@ def simulate(
         adaptive: the integrator chooses them by its error estimate with `rtol` and `atol`.
     rtol, atol : float, optional
         Adaptive steps keep the RMS local error of the state y below ``atol + rtol * abs(y)``; by default 1e-6 and 1e-9. `rtol`
-        must be below 1, `atol` has the units of y. The error of the motion accumulates over the steps and is larger than these;
+        must be at most 1, `atol` has the units of y. The error of the motion accumulates over the steps and is larger than these;
         `zerodrift.tune` finds settings for a given error of the motion.
     first_step, max_step : float, optional
         Adaptive steps: size of the first step, and largest size, in s. An action that is shorter than a step may be missed;

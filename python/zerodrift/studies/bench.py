@@ -27,7 +27,7 @@ OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simu
 
 
 class Setting(NamedTuple):
-    """Settings of a run: methods with a fixed step in s, or with adaptive steps at ``rtol = atol = tolerance``."""
+    """Settings of a run: methods with a fixed step in s, or with adaptive steps at ``rtol = atol = tolerance``, but rtol at most 1."""
 
     formulation: str
     integrator: str
@@ -39,7 +39,7 @@ class Setting(NamedTuple):
     @property
     def settings(self) -> dict[str, Any]:
         """Arguments of `simulate` for this setting."""
-        steps = {"step": self.step} if self.tolerance is None else {"rtol": self.tolerance, "atol": self.tolerance}
+        steps = {"step": self.step} if self.tolerance is None else {"rtol": min(self.tolerance, 1.0), "atol": self.tolerance}
         return {"formulation": self.formulation, "integrator": self.integrator, **steps,
                 "stabilization": self.stabilization, "energy": self.energy}
 

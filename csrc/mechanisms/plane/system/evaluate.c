@@ -101,7 +101,8 @@ int zd_plane_evaluate(const void *data, int want, double t, const double *p, con
     if (left & ZD_M) zd_plane_tree_mass(&self->tree, frame.pose, frame.composite, out->M);
     if (left & ZD_BIAS) write_bias(self, &frame, out->d);
     if (left & ZD_POTENTIAL) *out->V = zd_plane_potential(self, &frame);
-    if ((left & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
-    if ((left & ZD_POWER) && zd_plane_power(self, &frame, t, out->power)) return ZD_CALLBACK;
+    int status = left & ZD_FORCE ? write_force(self, &frame, t, out->f) : ZD_DONE;
+    if (!status && (left & ZD_POWER)) status = zd_plane_power(self, &frame, t, out->power);
+    if (status) return status;
     return left & ROWS ? zd_plane_rows_write(self, &frame, left, t, out) : ZD_DONE;
 }

@@ -38,8 +38,9 @@ int zd_space_evaluate(const void *data, int want, double t, const double *p, con
     if (want & ZD_M) zd_bodies_write_M(bodies, self->body, out->M);
     if (want & ZD_BIAS) zd_bodies_write_bias(bodies, self->body, v, out->d);
     if (want & ZD_POTENTIAL) *out->V = zd_space_potential(self, &frame);
-    if ((want & ZD_FORCE) && write_force(self, &frame, t, out->f)) return ZD_CALLBACK;
-    if ((want & ZD_POWER) && zd_space_power(self, &frame, t, out->power)) return ZD_CALLBACK;
+    int status = want & ZD_FORCE ? write_force(self, &frame, t, out->f) : ZD_DONE;
+    if (!status && (want & ZD_POWER)) status = zd_space_power(self, &frame, t, out->power);
+    if (status) return status;
     if (want & ZD_C) memset(out->C, 0, (size_t)self->packed.size_of_C * sizeof *out->C);
     zd_point_joints_write(&self->point_joints, &frame, want, out);
     return want & ROWS && !self->point_joints.are_all ? zd_space_rows_write(self, &frame, want, t, out) : ZD_DONE;

@@ -15,11 +15,24 @@ Law = Callable[[int, float, np.ndarray, np.ndarray], Any]
 
 
 class LawOwner:
-    """Evaluation of the user functions of one run; stores the exceptions that they raise."""
+    """Evaluation of the user functions of one run; stores exceptions that they raise, and errors for values that are not finite.
+
+    Attributes
+    ----------
+    error : exception or None
+        Raised by a user function, or else `refusal`.
+    refusal : WrongValue or None
+        For the last values that were not finite, which shorter steps may have avoided since.
+    """
 
     def __init__(self, law: Law, sizes: dict[int, tuple[int, int]]) -> None:
-        self.error: BaseException | None = None
+        self._error: BaseException | None = None
+        self.refusal: WrongValue | None = None
         self._law, self._sizes = law, sizes
+
+    @property
+    def error(self) -> BaseException | None:
+        return self._error or self.refusal
 
     def evaluate(self, law: int, t: float, x: Any, xdot: Any, out: Any) -> int:
         """Evaluate a user function for the core; `sizes` are the numbers of its marker quantities and results."""
@@ -31,7 +44,10 @@ class LawOwner:
             for i, value in enumerate(values):
                 out[i] = value
         except BaseException as error:      # raised again where the run was started
-            self.error = error
+            if isinstance(error, WrongValue) and error.code == "not-finite":
+                self.refusal = error
+                return lib.ZD_NOT_FINITE
+            self._error = error
             return CALLBACK
         return DONE
 

@@ -235,6 +235,11 @@ class MechanismCore(CoreSystem):
         """Exception raised by a user function, or None."""
         return self._owner.error if self._owner else None
 
+    @property
+    def refusal(self) -> BaseException | None:
+        """Error for the last values of a user function that were not finite, which shorter steps may have avoided since."""
+        return self._owner.refusal if self._owner else None
+
     def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
         """Poses (bodies, 3) of the mass centres, x, y, angle, and their rates where v is given; without the ground."""
         scratch, shape = np.zeros(max(1, lib.zd_plane_system(self._mechanism).scratch)), (len(self.tables.bodies), 3)

@@ -235,6 +235,11 @@ class SpaceCore(CoreSystem):
         """Exception raised by a user function, or None."""
         return self._owner.error if self._owner else None
 
+    @property
+    def refusal(self) -> BaseException | None:
+        """Error for the last values of a user function that were not finite, which shorter steps may have avoided since."""
+        return self._owner.refusal if self._owner else None
+
     # ---- between the state and bodies ----
 
     def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:

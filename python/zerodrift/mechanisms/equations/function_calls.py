@@ -156,7 +156,10 @@ class Laws:
         return mine, numbers
 
     def __call__(self, number: int, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
-        return self.rows[number](t, x, xdot)
+        values, law = self.rows[number](t, x, xdot), self.rows[number].law
+        if len(values) > 1 and not law.reactions and not np.isfinite(values).all():
+            raise WrongValue(f"{law.what} must be finite, with its derivatives, at t = {t:g}", "not-finite")
+        return values
 
     def compiled(self, sizes: Mapping[int, tuple[int, int]]) -> list[Any]:
         """Result of `function_code.compiled` for each user function; `sizes` has the number of its marker quantities."""
