@@ -27,7 +27,7 @@ OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simu
 
 
 class Setting(NamedTuple):
-    """Settings of a run: methods with a fixed step in s, or with adaptive steps at ``rtol = atol = tolerance``, rtol at most 1."""
+    """Settings of runs: methods with a fixed step in s, or with adaptive steps of ``rtol = atol = tolerance``, rtol at most 1."""
 
     formulation: str
     integrator: str
