@@ -55,7 +55,7 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
     InconsistentStart
         If the motion violates the constraints (3), (5) or (6).
     ValueError, TypeError
-        For a wrong argument, such as a `Kinematics` of positions alone.
+        For a wrong argument, such as kinematics of positions alone, which have no rates.
 
     Warns
     -----
