@@ -134,4 +134,4 @@ def test_a_long_run_takes_no_more_memory(bar):
 
     zd.simulate(bar, 1500.0, step=1e-3, save_every=10**5, progress=look)
     assert len(sizes) > 3
-    assert sizes[-1] - sizes[1] < 1000      # pages: the rows that are not saved would take more than ten thousand
+    assert sizes[-1] - sizes[1] < 1000      # pages: all samples would take more than ten thousand

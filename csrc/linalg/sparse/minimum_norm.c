@@ -1,7 +1,7 @@
-/* A block is eliminated together with the rows that have entries in it: the singular value decomposition of their columns of the block gives
- * the independent ones, which determine a part of it for given neighbours; the other rows remain for the neighbours. The part of the block
- * that no row determines minimizes the sum of squares, which leaves rows for the neighbours, too. Products of rows with each other, whose
- * condition number is squared, are never formed.
+/* Elimination of a block of unknowns uses all equations with coefficients in it. The singular value decomposition of these columns gives the
+ * independent equations, which determine a part of the block for given neighbours; the others remain as equations of the neighbours. The
+ * undetermined part of the block minimizes the sum of squares, which leaves equations of the neighbours, too. Products of rows with each
+ * other, whose condition number is squared, are never formed.
  *
  * Remaining rows are stored with the block that they come from, and are gathered by its parent: the neighbour that is eliminated
  * first. The order has little fill: the cost of chains, trees and rows of loops is proportional to their size.
@@ -119,7 +119,7 @@ static void assign_rows(elimination *self)
     }
 }
 
-/* Bounds of the rows that each block has and leaves; most (KINDS,) <- entries of the largest gathered matrices */
+/* Bounds of the numbers of equations in each block, and remaining after it; most (KINDS,) <- entries of the largest gathered matrices */
 static void count_rows(elimination *self, size_t *most)
 {
     for (int i = 0; i < self->equations->blocks; i++) {
