@@ -102,7 +102,7 @@ def test_a_solution_keeps_its_mechanism(tmp_path):
 
 WRONG = [
     ("body", {"rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 2]]}, "rotation of 'one' must be a rotation"),
-    ("body", {"inertia": [[1, 0, 0], [0, 1, 0], [0, 0, 3]]}, "inertia of 'one' is that of no body"),
+    ("body", {"inertia": [[1, 0, 0], [0, 1, 0], [0, 0, 3]]}, "inertia of 'one' must be that of a body"),
     ("link", {"rotation": np.eye(3).tolist()}, "rotation must have the link along its first column"),
     ("link", {"thickness": -1.0}, "thickness of 'arm' must be greater than 0"),
     ("revolute", {"frames": [np.eye(3).tolist()]}, "frames must be two matrices"),

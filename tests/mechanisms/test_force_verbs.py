@@ -202,3 +202,25 @@ def test_each_refusal_names_what_is_wrong():
     with refused("missing-argument", "'F'"):
         torque(m, "F", P, Q, value=1)
     assert "F" not in m._elements
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_refusals_name_what_can_be_given_instead(dimension):
+    """Whole bodies, and rods, which are joints, in place of points."""
+    m = zd.Mechanism("refused", dimension=dimension)
+    body, origin = m.body("one", 1.0, (1.0,) * dimension if dimension == 3 else 1.0), (0.0,) * dimension
+    rod = m.rod("stay", m.ground.point((1.0,) * dimension), body.point(origin))
+    for given, remedy in ((body, r"one\.point\(\(0\.0, 0\.0.* one\.point\(at=\.\.\.\)"), (rod, "'stay'.*a link has points")):
+        with refused("wrong-element", f"second must be a point.*{remedy}"):
+            m.spring("spring", m.ground.point(origin), given, stiffness=1.0)
+        with refused("wrong-element", f"at must be a point.*{remedy}"):
+            m.particle("mass", 1.0, at=given)
+
+
+def test_an_inertia_of_no_body_names_the_likely_mistake():
+    """Moments 3.33, 7.78 and 11.89, with the opposite products 2.80, 9.35 and 10.85; signs do not help a diagonal."""
+    m = zd.Mechanism("inertia", dimension=3)
+    with refused("inertia", r"must be that of a body: .*11\.89.*opposite signs of its products"):
+        m.body("one", 25.0, [[10, 1, 2], [1, 7, 3], [2, 3, 6]])
+    with refused("inertia", "must be that of a body: .*about the centre of mass"):
+        m.body("two", 25.0, (1.0, 1.0, 3.0))

@@ -144,3 +144,15 @@ def test_no_coordinate_moves_that_no_loop_connects_with_the_held_one(layout, in_
     words = [outcome(seed, in_space, layout)[0] for seed in range(40, 56)]
     assert "others move" not in words
     assert words.count("the others stay") > 2
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_particle_that_is_part_of_a_link_starts_where_it_is_put(layout, dimension):
+    """A pendulum by the place and the velocity of a mass on its rod: sin(angle) = 0.3 / 0.5, and 0.5 m times the rate."""
+    m = zd.Mechanism("pendulum", dimension=dimension)
+    link = m.link("link", (0, 0, 0)[:dimension], (1, 0, 0)[:dimension], mass=1.0)
+    m.particle("mass", 1.0, at=link.point((0.5, 0, 0)[:dimension]))
+    m.revolute("pin", m.ground, link.start, **({"axis": (0, 0, 1)} if dimension == 3 else {}))
+    m.start({"mass.position.y": 0.3, "mass.velocity.y": 0.8})
+    assert_close(first(m, layout, "pin.angle", "pin.speed"), [np.arcsin(0.6), 2.0], 1e-11)

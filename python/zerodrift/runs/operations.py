@@ -140,8 +140,7 @@ def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: s
 
     Parameters
     ----------
-    system : system
-        One of `zerodrift.systems`, or a `zerodrift.System`.
+    system : system or Mechanism
     p, v : array_like (nq,), (nv,)
         State to correct; these arrays are not modified.
     t : float
@@ -178,7 +177,7 @@ def _options(formulation: str, projection: settings.Projection) -> Any:
 
 
 def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndarray, np.ndarray]:
-    core = core_of(system)
+    core = core_of(system_of(system))
     p, v = _check.vector("p", p, core.nq), _check.vector("v", v, core.nv)
     _gateway.project(core, _options(formulation, projection), _check.number("t", t), p, v, *holds)
     return p, v
@@ -190,8 +189,7 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
 
     Parameters
     ----------
-    system : system
-        One of `zerodrift.systems`, or a `zerodrift.System`.
+    system : system or Mechanism
     p, v : array_like (nq,), (nv,)
         The state. It need not satisfy the constraints.
     t : float
@@ -217,6 +215,6 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     >>> vdot
     array([-1.])
     """
-    core = core_of(system)
+    core = core_of(system_of(system))
     return _gateway.acceleration(core, settings.formulation_row(formulation), settings.on_singular_row(on_singular),
                                  _check.number("t", t), _check.vector("p", p, core.nq), _check.vector("v", v, core.nv))

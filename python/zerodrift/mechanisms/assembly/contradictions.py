@@ -23,7 +23,9 @@ def contradiction(left: np.ndarray, size: np.ndarray, names: Sequence[str], rows
     moved = list(dict.fromkeys(names[i] for i in worst if names[i]))
     if len(moved) > 1:
         velocities, off = _listed(moved, " and "), np.abs(left * size).max()
-        return InconsistentStart(f"start: the velocities of {velocities} contradict each other, by {off:.3g}")
+        held = next((f": all but one must be left out, or approached only, as by wish={{{name!r}: ...}}" for name in moved
+                     if "." in name), "")
+        return InconsistentStart(f"start: the velocities of {velocities} contradict each other, by {off:.3g}{held}")
     row = max((i for i, name in enumerate(names) if name), key=lambda i: abs(left[i]))
     off = left @ left / abs(left[row]) * size[row] if row in worst else 0.0      # of this row, where all others are met
     residual = f"; it is off by {off:.3g}" if off else ""

@@ -27,9 +27,10 @@ def check_directions(tables: Tables, poses: np.ndarray, size: float) -> None:
         if isinstance(element, Actuator) or is_between_points(element.row):
             apart, length, damping = _apart(tables, element, poses)
             if apart <= COINCIDENT * size and (isinstance(element, Actuator) or length > COINCIDENT * size or damping):
-                or_slack = "" if isinstance(element, Actuator) else ", unless its length and its damping are 0"
+                or_slack, otherwise = ("", "") if isinstance(element, Actuator) else (
+                    ", unless its length and its damping are 0", "; a bushing has stiffness and damping in each direction there")
                 raise WrongValue(f"the points of {element.kind} {element.name!r} must be apart at the start{or_slack}: its force "
-                                 "has no direction where they coincide", "geometry")
+                                 f"has no direction where they coincide{otherwise}", "geometry")
         elif any(each.kind == "rotation" for each in element.quantities) and _is_half_turned(tables, element, poses):
             raise WrongValue(f"{element.kind} {element.name!r} must be turned by less than half a turn at the start: there its "
                              "torque has two directions", "geometry")

@@ -10,6 +10,7 @@ from ... import _check
 from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Particle, Point
 from ..elements.frames import Pose, Pose3, given_rotation, perpendicular
+from ..elements.immutable import Fixed
 from ..elements.space_bodies import SpaceBody, SpaceLink, SpaceParticle, tensor
 from .registry import Elements
 
@@ -174,7 +175,7 @@ class BodyVerbs(Elements):
         name = self._new_name(name, "particle")
         mass, at = _amount("mass", name, mass), self._named(f"at of {name!r}", at)
         made = SpaceParticle if self.dimension == 3 else Particle
-        if isinstance(at, Point | Particle):
+        if isinstance(at, Fixed):
             carrier = self._point("at", at)
             return self._add(made(name, carrier.drawn, mass, carrier))
         return self._add(made(name, _check.vector(f"at of {name!r}", at, self.dimension), mass))

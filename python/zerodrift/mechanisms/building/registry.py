@@ -86,7 +86,12 @@ class Elements:
         if center and isinstance(value, Body):
             return self._body(argument, value).center
         if isinstance(value, Body):
-            raise WrongType(f"{argument} must be a point, and {value.name!r} is a whole body: take {value.name}.point(...)",
+            raise WrongType(f"{argument} must be a point, not the whole body {value.name!r}: its origin is "
+                            f"{value.name}.point({(0.0,) * self.dimension}), a point of the drawing {value.name}.point(at=...)",
+                            "wrong-element")
+        if isinstance(value, Joint):
+            links = "; a link has points, and its mass may be 0" if value.kind == "rod" else ""
+            raise WrongType(f"{argument} must be a point of a body, not the {value.kind} {value.name!r}, a joint{links}",
                             "wrong-element")
         _check.instance(argument, value, Point, "a point of a body, such as link.end or body.point((x, y))")
         self._body(argument, value.body)

@@ -46,8 +46,16 @@ def check_tensor(argument: str, J: np.ndarray) -> None:
     if a < -TRIANGLE * abs(c):
         raise WrongValue(f"{argument} must have no negative moment, and about one of its axes it has {a:g} kg m^2", "inertia")
     if c - a - b > TRIANGLE * c:
-        raise WrongValue(f"{argument} is that of no body: its largest moment, {c:g} kg m^2, is more than the sum of the two "
-                         f"others, {a:g} and {b:g}", "inertia")
+        raise WrongValue(f"{argument} must be that of a body: its largest moment, {c:g} kg m^2, is more than the sum of the two "
+                         f"others, {a:g} and {b:g}; {_remedy(J)}", "inertia")
+
+
+def _remedy(J: np.ndarray) -> str:
+    """Advice for a tensor whose moments are not those of a body."""
+    a, b, c = np.linalg.eigvalsh(2 * np.diag(np.diag(J)) - J)
+    if a >= 0 and c <= a + b:
+        return "with the opposite signs of its products of inertia it is, and tables often give these"
+    return "it must be about the centre of mass, with the products of inertia negative, as they are in the matrix"
 
 
 class RotationMeasure(Measure):
