@@ -157,6 +157,19 @@ def along_manifold(C, nv):
     return np.linalg.svd(C)[2][len(C):].T if len(C) else np.eye(nv)
 
 
+def drawn_in(basis, rng):
+    """Coordinates z (k,) of a random vector basis @ z, basis (n, k).
+
+    It is drawn in all n coordinates and projected, since LAPACK decides signs and rotation of such a basis by the processor.
+    """
+    return np.linalg.lstsq(basis, rng.standard_normal(len(basis)), rcond=None)[0]
+
+
+def allowed_velocity(V, M, rng):
+    """Random velocities (nv,) in the space of V (nv, k), with a kinetic energy of about k / 2."""
+    return V @ drawn_in(np.linalg.cholesky(M).T @ V, rng)
+
+
 def difference(function, x, h=1e-3):
     """The derivative of a function of one number, by five points."""
     return (8 * (function(x + h) - function(x - h)) - (function(x + 2 * h) - function(x - 2 * h))) / (12 * h)

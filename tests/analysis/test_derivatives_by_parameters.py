@@ -5,22 +5,26 @@ import pytest
 
 import zerodrift as zd
 from covering import spread
+from support import allowed_velocity
 from zerodrift.analysis.comparison import Compared, derivatives_by_parameters
 from zerodrift.analysis.derivatives import Derivatives
 from zerodrift.analysis.state import state
 from zerodrift.analysis.tangent import Tangent
 
-NOT_COMPARED = {    # parameters that cannot be varied individually, and how many of each model
-    "andrews": 1, "bicycle": 0, "coin": 3, "flyball_governor": 4, "four_bar": 0, "heavy_top": 2, "rattleback": 0, "snakeboard": 0,
-    "spatial_slider_crank": 1, "whipple_bicycle": 2}
+NOT_COMPARED = {    # parameters that cannot be varied individually: others, redundant constraints or coordinates depend on them
+    "andrews": {"K1.com.y"}, "bicycle": set(), "coin": {"coin.inertia.xy", "coin.inertia.xz", "coin.inertia.yz"},
+    "flyball_governor": {"spindle.com.x", "spindle.com.y", "sleeve.com.x", "sleeve.com.y"}, "four_bar": set(),
+    "heavy_top": {"top.inertia.xy", "top.inertia.yz"}, "rattleback": set(), "snakeboard": set(),
+    "spatial_slider_crank": {"crank.inertia.yz"}, "whipple_bicycle": {"frame.inertia.xy", "frame.inertia.zz"}}
+NEAR = 1e-6     # relative: a parameter on its bound is varied to one side, by differences with errors of 4e-8
 
 
 def moving(name):
     """A state of a model that moves in all its free directions."""
     system = getattr(zd.models, name)().system()
     p, v = system.start_at(0.0)
-    V = Tangent(state(system, 0.0, p, v)).velocities
-    push = 0.3 * V @ np.random.default_rng(3).standard_normal(V.shape[1])
+    at = state(system, 0.0, p, v)
+    push = 0.3 * allowed_velocity(Tangent(at).velocities, at.M, np.random.default_rng(3))
     return system, *zd.project(system, p, v + push, projection=zd.Projection(tol=1e-13))
 
 
@@ -30,8 +34,9 @@ def test_derivatives_by_every_parameter_equal_differences_of_accelerations(name)
     found = derivatives_by_parameters(system, 0.0, p, v)
     assert set(found) == set(system.parameters)
     assert all(each.agrees for each in found.values() if isinstance(each, Compared))
-    compared = [each for each in found.values() if isinstance(each, Compared) and each.is_clear]
-    assert len(compared) == len(found) - NOT_COMPARED[name]
+    near = {name for name, each in found.items() if isinstance(each, Compared)
+            and max(each.error, np.abs(each.given - each.expected).max()) <= NEAR * each.size}
+    assert set(found) - near <= NOT_COMPARED[name]
 
 
 def test_a_parameter_on_its_bound_is_varied_to_one_side():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import refused
+from support import allowed_velocity, drawn_in, refused
 from zerodrift.analysis.derivatives import Derivatives, Direction, of_residuals, residuals
 from zerodrift.analysis.state import scales, state
 from zerodrift.analysis.tangent import Tangent
@@ -17,9 +17,9 @@ def moving(name, layout):
     """A model's state that moves in all its free directions."""
     system = getattr(zd.models, name)().system(layout)
     p, v = (np.array(each) for each in system.start_at(0.0))
-    tangent = Tangent(state(system, 0.0, p, v))
-    size = np.random.default_rng(3).standard_normal(tangent.velocities.shape[1])
-    return system, *zd.project(system, p, v + tangent.velocities @ size * 0.1, projection=zd.Projection(tol=1e-13))
+    at = state(system, 0.0, p, v)
+    push = 0.1 * allowed_velocity(Tangent(at).velocities, at.M, np.random.default_rng(3))
+    return system, *zd.project(system, p, v + push, projection=zd.Projection(tol=1e-13))
 
 
 @pytest.mark.parametrize(("name", "layout"), MODELS)
@@ -50,7 +50,7 @@ def test_freedoms_of_nonholonomic_and_redundant_constraints():
 def test_derivatives_of_accelerations_equal_differences_of_projected_states(name, layout):
     system, p, v = moving(name, layout)
     tangent = Tangent(state(system, 0.0, p, v))
-    column = tangent.basis @ np.random.default_rng(1).standard_normal(tangent.basis.shape[1])
+    column = tangent.basis @ drawn_in(tangent.basis, np.random.default_rng(1))
     dp, dv = column[:system.nq], column[system.nq:]
     h = 1e-3 / max(np.abs(column).max(), 1.0)
 
