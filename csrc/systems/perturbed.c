@@ -60,6 +60,7 @@ zd_system zd_perturbed(const zd_perturbation *perturbation)
     system.operations = system.followers && system.operations && system.operations->times_A ? &rates : NULL;
     system.follow = system.follow ? follow : NULL;
     system.magnitudes = system.magnitudes ? magnitudes : NULL;
+    system.force_magnitudes = NULL;
     system.closed_form = NULL;
     system.closed_forms = 0;
     system.series = perturbation->series;      /* Taylor series of the perturbed terms */

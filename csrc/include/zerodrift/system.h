@@ -141,6 +141,9 @@ typedef struct zd_system {
      * Returns ZD_DONE or ZD_CALLBACK. NULL: terms do not cancel. */
     int (*magnitudes)(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
     int magnitudes_scratch;
+    /* magnitude (nv,) <- for each entry of f, the sum of the magnitudes of its terms before they cancel: those of all forces and moments on
+     * bodies that it moves. `scratch` has as many doubles as for evaluate(). Returns as evaluate() does. NULL: not known. */
+    int (*force_magnitudes)(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */

@@ -180,6 +180,7 @@ static void carry_bodies(zd_space *self, const parts *from)
     system->follow = from->followers ? zd_space_tree_follow : NULL;
     system->magnitudes = zd_space_tree_magnitudes;
     system->magnitudes_scratch = system->scratch;
+    system->force_magnitudes = zd_space_tree_force_magnitudes;
 }
 
 static zd_space *refuse(zd_space *space, void *memory, const char *why, char *message, int message_size)

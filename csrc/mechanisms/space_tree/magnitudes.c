@@ -1,9 +1,9 @@
-/* Magnitudes of the gradients of constraints before cancellation, as in the plane (../plane/magnitudes.c). */
+/* Magnitudes of the gradients of constraints and of generalized forces before cancellation, as in the plane (../plane/magnitudes.c). */
 #include "magnitudes.h"
 
 #include "../common/actions.h"
-#include "../space/marker_quantity.h"
-#include "../space/plan.h"
+#include "../space/system/magnitudes.h"
+#include "links.h"
 
 static double norm(zd_vector3 a) { return sqrt(zd_inner3(a, a)); }
 
@@ -34,4 +34,23 @@ int zd_space_tree_magnitudes(const void *data, double t, const double *p, const 
     zd_space_frame_place(self, &frame, p);
     zd_space_frame_move(self, &frame, v);
     return zd_rows_magnitudes(&actions, t, magnitude);
+}
+
+int zd_space_tree_force_magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch)
+{
+    const zd_space *self = data;
+    const zd_space_tree *tree = zd_space_tree_of(self);
+    const zd_space_frame frame = zd_space_frame_of(self, scratch);
+    zd_space_frame_place(self, &frame, p);
+    zd_space_frame_move(self, &frame, v);
+    const int status = zd_space_force_sizes(self, &frame, t);
+    for (int i = tree->bodies - 1; i >= 0; i--) {
+        const int body = tree->order[i], parent = tree->link[body].inner;
+        const double force = frame.wrench[body].force.x, torque = frame.wrench[body].torque.x;
+        for (int k = tree->link[body].v; k < tree->link[body].v + tree->link[body].nv; k++)
+            magnitude[k] = self->system.lengths[tree->nq + k] ? force : torque;
+        frame.wrench[parent].force.x += force;
+        frame.wrench[parent].torque.x += torque + norm(zd_minus3(frame.pose[body].at, frame.pose[parent].at)) * force;
+    }
+    return status;
 }

@@ -217,6 +217,17 @@ class CoreSystem(Measuring):
         terms = magnitude[:len(C), is_angle]
         return np.where((np.abs(C) <= CANCELLED * terms).all(axis=1, keepdims=True), 0.0, C)
 
+    def force_magnitudes(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray | None:
+        """Sums of the magnitudes of the terms of f (nv,) before they cancel; None where the system does not provide them."""
+        if not self.c.force_magnitudes:
+            return None
+        magnitude, scratch, core = np.zeros(self.nv), np.zeros(max(1, self.c.scratch)), self.for_run()
+        to = doubles(magnitude, self.nv, writable=True), doubles(scratch, scratch.size, writable=True)
+        status = core.c.force_magnitudes(core.c.data, t, doubles(p, self.nq), doubles(v, self.nv), *to)
+        if status:
+            raise core.error or error_of(status, "the system's evaluation failed")
+        return magnitude
+
     def follower_rows(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """Rows of A (followers, nv) of dependent angles, which are not stored; computed column by column."""
         terms, scratch, inputs = ffi.new("zd_terms *"), ffi.new("double[]", max(1, self.c.scratch)), self.initial_inputs()

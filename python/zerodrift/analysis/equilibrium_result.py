@@ -116,8 +116,9 @@ def at_rest(balance: Balance, iterations: int, how: str) -> Equilibrium:
     """The result for a balance at rest."""
     at, m, k = balance.at, balance.at.system.m, balance.V.shape[1]
     K, D = balance.stiffness, balance.damping
-    spectrum = of_matrix(np.block([[np.zeros((k, k)), np.eye(k)], [-K, -D]]), has_vectors=False)
     free = _free(balance)
+    kept = np.eye(k) - sum((np.outer(axis, axis) for axis in free), np.zeros((k, k)))
+    spectrum = of_matrix(np.block([[np.zeros((k, k)), np.eye(k)], [-kept @ K @ kept, -D]]), has_vectors=False)
     state = (at.p, at.v, np.zeros_like(at.v), balance.multipliers[:m])
     return Equilibrium(at.system, at.t, state, _efforts(balance), stiffness=K, damping=D, basis=balance.V, spectrum=spectrum,
                        stable=_stable(balance, spectrum, len(free)), free=functools.partial(_names, balance, free),

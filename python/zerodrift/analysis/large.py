@@ -102,7 +102,8 @@ class SparseBalance:
 
     def magnitude(self) -> float:
         """Norm of the magnitudes of forces and reactions in the mass metric, by the diagonal of M."""
-        size = np.abs(self.force) + self.core.packing.times("C", np.abs(self.terms["C"]), np.abs(self.lam), transposed=True)
+        reactions = self.core.packing.times("C", np.abs(self.terms["C"]), np.abs(self.lam), transposed=True)
+        size = self.core.force_magnitudes(self.t, self.p, self.rest) + reactions
         return float(np.linalg.norm(size / np.sqrt(np.maximum(sparse(self, "M").diagonal(), 1e-300))))
 
     def stiffness(self, pattern: list[Entries]) -> Any:

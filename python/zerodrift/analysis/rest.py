@@ -27,9 +27,9 @@ from .tangent import Tangent, multipliers
 ITERATIONS = 300
 FIRST_RADIUS, LARGEST_RADIUS = 0.1, 0.3     # of the trust region, largest change of a coordinate in characteristic scales
 SMALLEST_RADIUS = 1e-14
-ROUGHLY_FLAT = 1e-6     # with the derivatives of an iteration, which are right to 1e-8
-FLAT = 1e-9         # relative to the largest stiffness: a smaller one is rounding; differences have errors of 1e-12
-BALANCED = 1e-12    # relative to the sum of magnitudes of the forces: a smaller resultant is rounding
+ROUGHLY_FLAT = 1e-7     # with the derivatives of an iteration, which are right to 1e-8
+FLAT = 1e-9         # relative to the terms of the stiffness: a smaller one is rounding; differences have errors of 1e-12
+BALANCED = 1e-13    # relative to the sum of magnitudes of the forces: a smaller resultant is rounding
 SYMMETRIC = 1e-3    # of the stiffness: the directions without stiffness are those of its symmetric part
 UPHILL, WANDERING = 1.2, 20     # towards any balance the residual may grow that much in a step, in so many first steps
 SHORT_STEP = 1e-6   # characteristic scales: the step after it, with accurate derivatives, leaves rounding
@@ -61,13 +61,17 @@ class Balance:
     def rounding(self) -> float:
         """The size of the force that counts as zero: from its terms, and from the rounding of positions times the stiffness."""
         unit = float(np.abs(self.reach).max(initial=0.0)) or 1.0
-        return BALANCED * float(self.magnitude + np.abs(self.stiffness).max(initial=0.0) / max(unit, 1e-300))
+        return BALANCED * float(np.linalg.norm(self.magnitudes) + self.stiffest / max(unit, 1e-300))
 
     @functools.cached_property
-    def magnitude(self) -> float:
-        """Sum of the magnitudes of the forces, those of the constraints included, along the basis."""
-        terms = np.abs(self.V.T) @ (np.abs(self.at.force) + np.abs(self.rows.T) @ np.abs(self.multipliers))
-        return math.sqrt(terms @ terms)
+    def magnitudes(self) -> np.ndarray:
+        """Sums (k,) of the magnitudes of the terms of the forces before they cancel, those of the constraints included."""
+        return np.abs(self.V.T) @ (self.at.magnitudes + np.abs(self.rows.T) @ np.abs(self.multipliers))
+
+    @functools.cached_property
+    def stiffest(self) -> float:
+        """The size of the stiffness before its terms cancel: forces that turn with the motion, and the stiffness itself."""
+        return float(np.abs(self.stiffness).max(initial=0.0) + (self.magnitudes * np.abs(self.reach)).max(initial=0.0))
 
     @functools.cached_property
     def curvature(self) -> tuple[np.ndarray, np.ndarray]:
@@ -78,11 +82,9 @@ class Balance:
     def flat(self) -> float:
         """The curvature that counts as zero.
 
-        Away from a balance the stiffness is symmetric up to the unbalanced force only; where it is zero in all directions, the
-        rounding of the forces remains.
+        Away from a balance the stiffness is symmetric up to the unbalanced force only.
         """
-        K, rounding = self.stiffness, BALANCED * self.magnitude * float(np.abs(self.reach).max(initial=0.0))
-        return self.zero * float(np.abs(K).max(initial=0.0)) + float(np.abs(K - K.T).max(initial=0.0)) + rounding
+        return self.zero * self.stiffest + float(np.abs(self.stiffness - self.stiffness.T).max(initial=0.0))
 
     @property
     def is_stable(self) -> bool:
@@ -167,14 +169,13 @@ class Balance:
 
 def downhill(here: Balance) -> np.ndarray:
     """A step z (k,) along which the forces do work, Newton's where no curvature is negative and it is short."""
-    (curvature, axes), flat = here.curvature, here.flat
+    curvature, axes = here.curvature
     if here.is_stable and here.size(step := nearest(here)) < FIRST_RADIUS and not _is_pushed(here, step, 0.5):
         return step
-    flat = min(flat, here.zero * np.abs(curvature).max(initial=0.0))
     along = axes.T @ here.force
     at_balance = np.abs(along) <= 10 * here.rounding
     along = np.where((curvature < -here.flat) & at_balance, np.abs(curvature), along)       # unstable: left along its curvature
-    step = along / np.maximum(np.abs(curvature), max(flat, 1e-300))
+    step = along / np.maximum(np.abs(curvature), max(here.zero * here.stiffest, 1e-300))
     return axes @ np.where((np.abs(curvature) <= here.flat) & at_balance, 0.0, step)
 
 
@@ -186,11 +187,10 @@ def _is_pushed(here: Balance, step: np.ndarray, share: float) -> bool:
 
 def nearest(here: Balance) -> np.ndarray:
     """Newton's step z (k,), flat directions left out."""
-    K, (curvature, axes) = here.stiffness, here.curvature
-    size = np.abs(K).max(initial=0.0)
-    if np.abs(K - K.T).max(initial=0.0) > SYMMETRIC * size:
-        return np.linalg.lstsq(K, here.force, rcond=here.zero)[0]
-    U = axes[:, np.abs(curvature) > here.zero * np.abs(curvature).max(initial=0.0)]
+    K, (curvature, axes), flat = here.stiffness, here.curvature, here.zero * here.stiffest
+    if np.abs(K - K.T).max(initial=0.0) > SYMMETRIC * here.stiffest:
+        return np.linalg.lstsq(K, here.force, rcond=flat / np.linalg.norm(K, 2))[0]
+    U = axes[:, np.abs(curvature) > flat]
     return U @ np.linalg.solve(U.T @ K @ U, U.T @ here.force)
 
 
@@ -227,6 +227,8 @@ class Search:
     def _polished(self, here: Balance) -> Balance:
         """The balance with accurate derivatives, after one more step of Newton's method where that is better."""
         try:
+            if (np.abs(here.curvature[0]) <= here.flat).any():      # accurate derivatives tell soft directions from flat ones
+                here = Balance(self.system, self.t, here.at.p, self.held)
             p = onto(self.system, self.t, moved(here.at, here.V @ nearest(here)), self.held)
             there = Balance(self.system, self.t, p, self.held)
             is_better = there.residual < here.residual

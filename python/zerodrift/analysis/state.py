@@ -35,6 +35,12 @@ class State(NamedTuple):
     xi: np.ndarray
 
     @property
+    def magnitudes(self) -> np.ndarray:
+        """Sums of the magnitudes of the terms of the generalized forces before they cancel, (nv,)."""
+        found = core_of(self.system).force_magnitudes(self.t, self.p, self.v)
+        return np.abs(self.force) if found is None else found
+
+    @property
     def holonomic(self) -> np.ndarray:
         """Holonomic rows of C, (mh, nv)."""
         return self.C[:self.system.mh]

@@ -258,6 +258,7 @@ static void make_system(const zd_plane_tables *tables, const parts *from, int co
         .pinned = self->packing && self->packing->pinned.pins ? &self->packing->pinned : NULL,
         .magnitudes = has_tree(tables) ? zd_plane_magnitudes : NULL,
         .magnitudes_scratch = zd_plane_frame_divide(self, &self->frame_at),
+        .force_magnitudes = zd_plane_force_magnitudes,
     };
     self->measures = zd_plane_measures(self, from->elements.measure);
 }

@@ -7,6 +7,7 @@
 #include "../products.h"
 #include "../unwrapped_angles.h"
 #include "evaluate.h"
+#include "magnitudes.h"
 #include "measures.h"
 
 /* Arrays that are filled during creation, and constant afterwards. */
@@ -139,6 +140,7 @@ static void make_system(const zd_space_tables *tables, const parts *from)
         .nq = from->nq, .nv = from->nv, .mh = self->elements.mh, .mn = self->elements.m - self->elements.mh,
         .provides = ZD_A | ZD_M | ZD_BIAS | ZD_POTENTIAL | ZD_FORCE | zd_elements_terms(&tables->elements, &self->elements),
         .scratch = zd_space_frame_size(self),
+        .force_magnitudes = zd_space_force_magnitudes,
         .evaluate = zd_space_evaluate,
         .data = self,
         .lengths = from->lengths,
