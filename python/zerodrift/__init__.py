@@ -20,6 +20,7 @@ from .errors import (
     CorrectionWarning,
     CostWarning,
     Diverged,
+    DrawingWarning,
     EquilibriumFailed,
     InconsistentStart,
     InconsistentSystem,
@@ -52,7 +53,7 @@ from .systems.structure import Structure
 __version__ = "0.1.0"
 __all__ = [
     "AccuracyWarning", "Baumgarte", "Bifurcation", "BranchJump", "CacheWarning", "CompilationFailed", "CorrectionFailed",
-    "CorrectionWarning", "CostWarning", "Diverged", "EnergyCorrection", "EquilibriumFailed", "Event", "InUse",
+    "CorrectionWarning", "CostWarning", "Diverged", "DrawingWarning", "EnergyCorrection", "EquilibriumFailed", "Event", "InUse",
     "InconsistentStart", "InconsistentSystem", "InputRefused", "Instant", "Interrupted", "LockedWarning", "ManyRuns",
     "Mechanism", "NoCompilerWarning", "Projection", "Run", "SingularSystem", "Solution", "StabilityWarning", "StaleCore",
     "StateWarning", "StepFailed", "Structure", "System", "UnreachableTolerance", "UnsuitedFormulation", "UnsuitedIntegrator",

@@ -316,6 +316,12 @@ class StabilityWarning(_Coded, UserWarning):
     code = "stability"
 
 
+class DrawingWarning(_Coded, UserWarning):
+    """A joint is drawn open by more than a hundredth of the drawing's size, and the start moves bodies to close it."""
+
+    code = "drawing"
+
+
 class LockedWarning(_Coded, UserWarning):
     """The mechanism cannot move, and constraints are redundant, for example because of skew hinge axes."""
 

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway, _webassembly
-from ..errors import Interrupted, NoMemory, WorkerLost, WrongValue
+from ..errors import DrawingWarning, Interrupted, NoMemory, WorkerLost, WrongValue
 from ..runs.progress import progress_of
 from ..runs.solution import Solution
 from ..runs.threads import Threads, processors
@@ -145,6 +145,8 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     if store is not None:
         options["vector"] = options.get("vector") or stores.vector_of(store)
     plan = checked(runs, t_span, options, outputs, reduce, keeps=keeps)
+    if said := plan.drawn_open:
+        warnings.warn(said, DrawingWarning, stacklevel=2)
     memory.check(plan.sizes, runs.count, None if store is None else Path(store), stacklevel=2)
     with nullcontext() if store is None else stores.Store(store, plan) as kept:
         return _Work(plan, place, threads, chunk, kept).done(progress)

@@ -47,6 +47,8 @@ class Plan:
         True if the core reads the numbers of all runs from tables.
     sizes : tuple of int, or None
         Bytes of each output over all runs, and of kept solutions; None if not known in advance.
+    drawn_open : str, optional
+        Sentence on a joint that the first run's drawing leaves open, where its start is not meant to differ.
     remembered : dict
         Cache of values that are computed once for all runs; not sent to other processes.
     """
@@ -60,6 +62,7 @@ class Plan:
     units: dict[str, str] = field(default_factory=dict)
     is_tabular: bool = False
     sizes: tuple[int, ...] | None = None
+    drawn_open: str | None = None
     remembered: dict[str, Any] = field(default_factory=dict, repr=False)
 
     @property
@@ -111,7 +114,8 @@ def checked(runs: Runs, t_span: Any, options: dict[str, Any], outputs: Any, redu
     units = {} if system is None else _units(system, names or [])
     sizes = None if system is None or rows is None else tuple(
         runs.count * rows * each for each in _row_bytes(system, names or [], keeps=keeps))
-    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps, units, is_tabular, sizes)
+    drawn_open = None if system is None or runs.states else system._drawn_open(runs.start_values)
+    return Plan(runs, t_span, options, tuple(names or ()), reduce, keeps, units, is_tabular, sizes, drawn_open)
 
 
 def _names(outputs: Any) -> list[str] | None:

@@ -224,7 +224,7 @@ class Runs:
         p, v = (None if (array := self.states.get(name)) is None else array[run] if array.ndim == 2 else array
                 for name in ("p0", "v0"))
         if isinstance(system, MechanismSystem) and p is None and v is None:
-            return None, None
+            return system._state_or_start(None, None, t=t)
         p, v = (system.p0 if p is None else p), (system.v0 if v is None else v)
         return assemble(system, p, v, self.hold, t=t) if self.assembles(system) and p is not None else (p, v)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -368,6 +368,14 @@ class MechanismSystem(BaseSystem):
             if reason:
                 return reason
         return advice.at_start(sentence(error), self._start, self.constraints)
+
+    def _drawn_open(self, also_held: Iterable[str] = ()) -> str | None:
+        """As of any system; None, too, if it cannot be assembled."""
+        try:
+            self.start_at(0.0)
+        except ZerodriftError:
+            return None
+        return self._start.changes and self._start.changes.warning(also_held)
 
     def _why_locked(self) -> str | None:
         """Sentence on skew axes; None if drives move what joints alone would lock."""

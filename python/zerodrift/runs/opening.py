@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import CostWarning, SingularSystem, WrongType, advised
+from ..errors import CostWarning, DrawingWarning, SingularSystem, WrongType, advised
 from ..systems.base import BaseSystem, core_of, direct_core_of
 from . import evaluation_path, recording, settings
 from . import events as _events
@@ -84,7 +84,10 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
             plan.settings["inputs"] = list(declared.names)
     if outputs is not None:
         plan.settings["outputs"] = _outputs.names(outputs, of)
+    starts_as_drawn = p0 is None and v0 is None
     p0, v0 = of._state_or_start(p0, v0, t=span[0])
+    if starts_as_drawn and (said := of._drawn_open()):
+        warnings.warn(said, DrawingWarning, stacklevel=stacklevel + 1)
     path = None if save_to is None else recording.file_of_samples().checked(save_to)
     if not is_open and (told := system._what_it_costs(plan.steps)):
         warnings.warn(told, CostWarning, stacklevel=stacklevel + 1)

@@ -180,6 +180,10 @@ def simulate(
     CostWarning
         Before the run: if the record takes more than half of the free memory, or if a mechanism with many joint coordinates
         would take some ten seconds, and less than a tenth of that in absolute coordinates.
+    DrawingWarning
+        Before the run: if a mechanism starts from its drawing, and a joint is drawn open by more than a hundredth of its size.
+        Not for a sketch, in which a dimension of a loop with that joint is given, such as ``length=`` of a link or a radius, or
+        a coordinate of it is held, wished or driven.
     AccuracyWarning
         If the error of the energy balance exceeds 0.5 % of the largest kinetic energy, or a single correction removed more
         than 2 % of it: the result satisfies the constraints, but is not the motion. Only for systems with a potential.

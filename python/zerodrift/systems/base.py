@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -405,6 +405,10 @@ class BaseSystem:
 
     def _what_it_costs(self, steps: int | None) -> str | None:
         """Advice on a cheaper description of the system for a number of steps (None: unknown); None: there is none."""
+        return None
+
+    def _drawn_open(self, also_held: Iterable[str] = ()) -> str | None:
+        """Sentence on a joint that is drawn open where the start, with values held besides, is not meant to differ; or None."""
         return None
 
     def _described(self) -> dict[str, Any]:

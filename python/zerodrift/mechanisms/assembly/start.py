@@ -22,6 +22,7 @@ from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import Tables
 from ..equations.tree import loop
 from .assembly import Assembly, Target, is_of_many
+from .drawing_changes import DrawingChanges
 from .free_coordinates import Coordinate, bodies_of, names_of, swings, unforced
 from .nudge import aside, way_out
 from .space_advice import of_angles
@@ -36,6 +37,7 @@ class Starting:
     def __init__(self, drawing: Drawing, numbers: Numbers, tables: Tables | None = None) -> None:
         self.drawing, self.numbers, self._known = drawing, numbers, tables
         self.has_speeds = bool(drives_of(drawing))
+        self.changes: DrawingChanges | None = None      # of the last assembly, if a joint was open
         self._stays: tuple[list[Coordinate], list[Coordinate]] | None = None
         self._check_held()
 
@@ -131,7 +133,10 @@ class Starting:
         p, _ = assembly.core.state(self._drawn(tables))
         held, wished = (self.targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
         try:
-            return assembly.positions(p, held, wished, self._staying(assembly.core, rates=False))
+            found = assembly.positions(p, held, wished, self._staying(assembly.core, rates=False))
+            changes = DrawingChanges(tables, assembly, found)
+            self.changes = changes if changes.may_be_open else None
+            return found
         except CorrectionFailed:
             raise CorrectionFailed(self._not_closed(assembly, p)) from None
         except InconsistentStart as error:

@@ -119,13 +119,19 @@ class BodyVerbs(Elements):
                              "geometry")
         if length is not None:
             length = _check.number(f"length of {name!r}", length, above=0)
+        made = self._made_link(name, start, end, _amount("mass", name, mass), length, inertia, thickness, normal)
+        made.has_given_length = length is not None
+        return self._add(made)
+
+    def _made_link(self, name: str, start: np.ndarray, end: np.ndarray, mass: float, length: float | None, inertia: Any,
+                   thickness: float | None, normal: Any) -> Link:
         if self.dimension == 3:
-            return self._space_link(name, start, end, _amount("mass", name, mass), length, inertia, thickness, normal)
+            return self._space_link(name, start, end, mass, length, inertia, thickness, normal)
         if thickness is not None or normal is not None:
             raise WrongValue(f"thickness and normal of {name!r} are for mechanisms in space", "wrong-dimension")
         if inertia is not None:
             inertia = _amount("inertia", name, inertia)
-        return self._add(Link(name, start, end, _amount("mass", name, mass), length, inertia))
+        return Link(name, start, end, mass, length, inertia)
 
     def _space_link(self, name: str, start: np.ndarray, end: np.ndarray, mass: float, length: float | None, inertia: Any,
                     thickness: float | None, normal: Any) -> Link:
@@ -141,7 +147,7 @@ class BodyVerbs(Elements):
             thickness = _check.number(f"thickness of {name!r}", thickness, above=0)
         inertia = None if inertia is None else tensor(f"inertia of {name!r}", inertia)
         length = float(np.linalg.norm(end - start)) if length is None else length
-        return self._add(SpaceLink(name, start, end, mass, length, rotation, thickness, inertia))
+        return SpaceLink(name, start, end, mass, length, rotation, thickness, inertia)
 
     def particle(self, name: str, mass: float, at: Any) -> Particle:
         """Add a mass in a point.

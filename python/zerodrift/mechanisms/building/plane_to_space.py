@@ -11,6 +11,7 @@ from ...errors import WrongValue
 from ..elements.bodies import Body, Link, Particle, Point, _Center
 from ..elements.drawing import Drawing
 from ..elements.frames import about
+from ..elements.immutable import amend
 from ..elements.joints import Joint
 from ..elements.space_joints import BY_KIND
 from ..elements.table_forces import TableForce
@@ -149,8 +150,9 @@ def _body(m: Any, body: Body) -> None:
 
 
 def _link(m: Any, link: Link) -> None:
-    m.link(link.name, _raised(link.pose.origin), _raised(link.drawn_end), link.mass, length=link.length,
-           inertia=_plate(link.inertia))
+    made = m.link(link.name, _raised(link.pose.origin), _raised(link.drawn_end), link.mass, length=link.length,
+                  inertia=_plate(link.inertia))
+    amend(made, has_given_length=link.has_given_length)
 
 
 def _particle(m: Any, particle: Particle) -> None:

@@ -34,7 +34,7 @@ class StartVerbs(Elements):
         their rates are zero: the angle of a pendulum on a cart does not change with the cart's place. Coordinates of a loop or a
         coupling that contains a forced one move as little as possible in the mass metric. Where joint coordinates cannot stay,
         as in a drawing that is singular, all bodies move as little as possible in the mass metric. The printed mechanism names
-        joints that are drawn open and bodies that start elsewhere than drawn.
+        joints that are drawn open and bodies that start elsewhere than drawn; a run warns of a large gap, see `DrawingWarning`.
 
         Parameters
         ----------

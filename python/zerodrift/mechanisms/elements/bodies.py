@@ -188,6 +188,7 @@ class Link(Body):
     """
 
     what = "link"
+    has_given_length = False        # True: the drawing is a sketch
     position = vector("position", "Where its start is, in the drawing's axes, in m; its middle is ``link.center.position``.")
     velocity = vector("velocity", "The velocity of its start, in the drawing's axes, in m/s.")
     acceleration = vector("acceleration", "The acceleration of its start, in the drawing's axes, in m/s^2.")

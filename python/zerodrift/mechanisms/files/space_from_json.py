@@ -46,7 +46,8 @@ def _link(m: Any, name: str, *, start: Any, end: Any, rotation: Any, mass: Any, 
     link = m.link(name, start, end, mass, length=length, thickness=thickness, inertia=inertia, normal=R[:, 2])
     if np.abs(link.pose.rotation - R).max() > SAME:
         raise WrongValue("rotation must have the link along its first column", "unreadable-file")
-    amend(link, pose=Pose3(link.pose.origin, R))
+    drawn = np.linalg.norm(link.drawn_end - link.pose.origin)
+    amend(link, pose=Pose3(link.pose.origin, R), has_given_length=abs(link.length - drawn) > SAME * drawn)
 
 
 def frames_from_json(first: Point, second: Point, given: Any) -> tuple[np.ndarray, np.ndarray]:

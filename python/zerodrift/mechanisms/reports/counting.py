@@ -11,6 +11,7 @@ from ..._gateway import Variable
 from ..._gateway.sparse_state import nearest_velocities, redundant_rows
 from ..assembly import space_advice
 from ..assembly.assembly import Assembly, is_of_many
+from ..assembly.drawing_changes import DrawingChanges
 from ..assembly.nudge import nudged
 from ..assembly.start import Starting
 from ..elements.drawing import Drawing
@@ -18,7 +19,6 @@ from ..elements.forces import Actuator, Motor
 from ..elements.numbers import AS_GIVEN
 from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import constraint_names
-from .drawing_changes import differences
 
 DEPENDENT = 1e-9        # of a constraint's own size: residual norm of a redundant one
 
@@ -85,7 +85,8 @@ def count(drawing: Drawing) -> Count:
 def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, singular: tuple[str, ...]) -> tuple[str, ...]:
     """Sentences on the pose; one on a singular pose comes first."""
     in_space = isinstance(tables, SpaceTables)
-    notes = [*differences(tables, assembly, p), *(space_advice.at_right_angles(tables, assembly.core, p) if in_space else ())]
+    notes = [*DrawingChanges(tables, assembly, p).sentences(),
+             *(space_advice.at_right_angles(tables, assembly.core, p) if in_space else ())]
     if singular:
         why = space_advice.flat_crosses(tables, assembly.core, p) if in_space else []
         reasons = f", as {' and '.join(why)}" if why else ""
@@ -103,7 +104,7 @@ def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:
     redundant = redundant_rows(core, assembly.t, p, v)
     names = [variable.name for variable in named.constraints]
     return Count(core.nv, core.m, core.m - len(redundant), _named(names, set(redundant)), (), (), is_of_many=True,
-                 notes=tuple(differences(tables, assembly, p)))
+                 notes=tuple(DrawingChanges(tables, assembly, p).sentences()))
 
 
 @dataclass(frozen=True)
