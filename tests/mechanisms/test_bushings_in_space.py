@@ -148,3 +148,57 @@ def test_half_a_turn_has_two_directions():
     m.bushing("mount", m.ground, block, at=(0, 0, 0), stiffness=STIFFNESS)
     m.start({"block.rotation": np.diag([1.0, -1.0, -1.0])})
     assert_close(zd.simulate(m, 0.1, step=0.1)["block.rotation"][-1], np.diag([1.0, -1.0, -1.0]), 1e-14)     # no torsion
+    m = zd.Mechanism("mount", dimension=3)      # dampers have a direction there
+    block = m.body("block", 2.0, (0.3, 0.4, 0.5))
+    m.bushing("mount", m.ground, block, at=(0, 0, 0), torsion_damping=TORSION_DAMPING)
+    m.start({"block.rotation": np.diag([1.0, -1.0, -1.0]), "block.angular_velocity": (1.0, 2.0, 3.0)})
+    assert_close(zd.Instant(m)["mount.torque"], -TORSION_DAMPING * (1.0, 2.0, 3.0), 1e-13)
+
+
+# ---- dampers ----
+
+
+def joined(angle, damping, inertia=(0.3, 0.4, 0.5)):
+    """Two bodies joined by dampers about the directions of R in the first, turned by `angle` about an axis between them."""
+    m = zd.Mechanism("joined", dimension=3)
+    one = m.body("one", 2.0, (0.5, 0.6, 0.7), rotation=R)
+    other = m.body("other", 1.0, inertia, rotation=R)
+    m.bushing("damper", one, other, at=(0, 0, 0), torsion_damping=damping)
+    turn = about((0.2, -0.7, 0.4), 0.8)
+    m.start({"one.rotation": turn @ R, "other.rotation": turn @ R @ about((0.6, 0.3, 0.5), angle),
+             "one.angular_velocity": (0.3, -0.4, 0.2), "other.angular_velocity": (-0.5, 0.7, 1.1)})
+    return m
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.5, 2.0, 3.1])
+@pytest.mark.parametrize("compiled", [False, True])
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_torque_of_dampers_is_of_the_relative_angular_velocity_at_any_pose(layout, compiled, angle):
+    system = joined(angle, TORSION_DAMPING).system(layout, compiled=compiled)
+    axes = about((0.2, -0.7, 0.4), 0.8) @ R
+    w = np.subtract((-0.5, 0.7, 1.1), (0.3, -0.4, 0.2))
+    torque, now = -axes @ (TORSION_DAMPING * (axes.T @ w)), system.evaluate(system.p0, system.v0)
+    assert_close(zd.Instant(system)["damper.torque"], torque, 1e-12)
+    other = axes @ about((0.6, 0.3, 0.5), angle)
+    expected = np.concatenate([np.zeros(3), -axes.T @ torque, np.zeros(3), other.T @ torque])
+    if layout == "absolute":
+        assert_close(now.f, expected, 1e-12)
+    assert_close(now.power, torque @ w, 1e-12)
+
+
+def test_equal_dampers_slow_a_ball_alike_in_all_directions():
+    """Exponential decay of the angular velocity of a body with equal moments, through more than half a turn; energy balance."""
+    m = zd.Mechanism("ball", dimension=3)
+    ball = m.body("ball", 1.0, (0.1, 0.1, 0.1))
+    m.bushing("damper", m.ground, ball, at=(0, 0, 0), torsion_damping=0.2)
+    w0 = np.array([3.0, 4.0, -5.0])
+    m.start({"ball.angular_velocity": w0})
+    for layout, compiled in (("joint", False), ("absolute", False), ("absolute", True)):
+        system = m.system(layout, compiled=compiled)
+        for integrator in ("rk4", "radau"):
+            sol = zd.simulate(system, 1.5, step=0.01, integrator=integrator)
+            assert_close(sol["ball.angular_velocity"], w0 * np.exp(-2.0 * sol.t)[:, None], 1e-7)
+            assert np.abs(sol.energy_violation).max() < 1e-6
+        together = zd.ensemble(system, 1.5, parameters={"damper.torsion_damping.x": [0.2, 0.1, 0.2]}, step=0.01,
+                               outputs=["ball.angular_velocity"])
+        assert_close(together["ball.angular_velocity"][::2, -1], np.tile(w0 * np.exp(-3.0), (2, 1)), 1e-7)

@@ -1,5 +1,6 @@
-/* Bushing: an elastic joint, with a stiffness and a damping along and about each of three directions of the first body. About them the
- * components of the rotation vector count, so that the torque is smooth up to half a turn, whatever its direction. */
+/* Bushing: an elastic joint, with a stiffness and a damping along and about each of three directions of the first body. Its torques are
+ * those of the components of the rotation vector, so that they are smooth up to half a turn, whatever its direction; dampers about the
+ * directions act on the components of the relative angular velocity. */
 #include "../joints/primitives.h"
 #include "element.h"
 
@@ -13,7 +14,8 @@ const zd_space_element_kind zd_space_bushing = {
         .equations = "(2), (28)",
         .description = "In space the angles about its directions are the components of the rotation vector: the unit axis about which the "
                        "second body has rotated, as seen from the first, times the angle. The angle is counted up to half a turn, where "
-                       "the torque changes its sign; in the plane it is counted on.",
+                       "the torque of its stiffness changes its sign; in the plane it is counted on. Dampers about the directions act on "
+                       "the components of the relative angular velocity.",
     },
     .quantities = 6,
     .pick = {ALONG(A), ALONG(N), ALONG(T), ABOUT(A), ABOUT(N), ABOUT(T)},

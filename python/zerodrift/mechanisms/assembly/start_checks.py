@@ -56,9 +56,9 @@ def _place(poses: np.ndarray, body: int, point: Any) -> np.ndarray:
 
 
 def _is_half_turned(tables: Tables, element: TableForce, poses: np.ndarray) -> bool:
-    """True if a bushing in space with torsional stiffness or damping is at half a turn, where the trace of its rotation is -1."""
-    about = [(i, each) for i, each in enumerate(paths(element.row)) if element.quantities[i].kind == "rotation"]
-    if not any(tables.numbers(element, path, element.values[path]) for _, each in about for path in each):
+    """True if a bushing in space with torsional stiffness is at half a turn, where the trace of its rotation is -1."""
+    about = [(i, path) for i, (path, _) in enumerate(paths(element.row)) if element.quantities[i].kind == "rotation"]
+    if not any(tables.numbers(element, path, element.values[path]) for _, path in about):
         return False
     quantity = tables.quantities[tables.quantity_number[f"{element.name} {about[0][0]}"]]
     first, second = (rotation_of(poses[body - 1][3:]) if body else np.eye(3) for body in (quantity.first, quantity.second))

@@ -504,7 +504,8 @@ class TableVerbs(Elements):
 
         It is slack as drawn. In space the angles about its directions are the components of the rotation vector: the unit axis
         about which the second body has rotated, as seen from the first, times the angle. The angle is counted up to half a
-        turn, where the torque changes its sign; in the plane it is counted on.
+        turn, where the torque of its stiffness changes its sign; in the plane it is counted on. Dampers about the directions
+        act on the components of the relative angular velocity.
 
         Parameters
         ----------

@@ -291,8 +291,11 @@ class Tables:
             if element.law is not None:
                 self._generalized_force("value", number, element)
                 continue
-            values = (self.numbers(element, path, element.values[path]) for path in paths(element.row)[i])
-            self.forces.append(entries.GeneralizedForce("spring", number, *values))
+            stiffness, damping = (self.numbers(element, path, element.values[path]) for path in paths(element.row)[i])
+            if quantity.kind == "rotation":         # damped by the angular velocity, not by the rate of the rotation vector
+                self.forces.append(entries.GeneralizedForce("spring", number, stiffness))
+                number, stiffness = self._quantity(f"{element.name} {i} turn", quantity._replace(kind="turn")), 0.0
+            self.forces.append(entries.GeneralizedForce("spring", number, stiffness, damping))
         self.observed += self._efforts(element, index)
 
     def _element_quantities(self, element: TableForce) -> list[Quantity]:
@@ -313,7 +316,7 @@ class Tables:
             yield OutputSpec(f"{element.name}.{entry.measure}", UNITS[entry.measure], "force value", index, scale=sign)
             return
         yield OutputSpec(f"{element.name}.force", "N", "force sum", index, size)
-        turning = ("torque sum", index + size, len(entry.quantities) - size)
+        turning = ("torque sum", index + size, len(self.forces) - index - size)
         yield OutputSpec(f"{element.name}.torque", "N m", *(turning if element.dimension == 3 else ("force value", index + size)))
 
 
