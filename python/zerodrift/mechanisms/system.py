@@ -11,6 +11,7 @@ import numpy as np
 from .. import _check, _gateway
 from .._gateway import Variable
 from .._gateway import is_length as is_length_of
+from .._gateway.base import row_named
 from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.plane import MechanismCore
@@ -195,6 +196,17 @@ class MechanismSystem(BaseSystem):
 
     def _program_of(self, name: str, component: int) -> tuple[Any, int, np.ndarray] | None:
         return measure_program(self._started_tables, name, component)
+
+    @functools.cached_property
+    def _formulation(self) -> str:      # type: ignore[override]
+        """As of any system; "augmented" where the mass matrix, which the default inverts, is singular at the start."""
+        usual = super()._formulation
+        if not all(self._tables.inertias.is_massive(body) for body in self._tables.parts):
+            try:
+                _gateway.acceleration(self._core, row_named("formulations", usual), 0, 0.0, *self.start_at(0.0))
+            except ZerodriftError as error:
+                return "augmented" if error.code == "mass-not-definite" else usual
+        return usual
 
     @property
     def _held_at_start(self) -> tuple[list[int], list[int]]:

@@ -135,7 +135,7 @@ def _name_of(held: Any, known: Mapping[str, Variable]) -> str:
 
 
 def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: settings.Projection | None = None,
-            formulation: str = settings.FORMULATION) -> tuple[np.ndarray, np.ndarray]:
+            formulation: str | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Project positions and velocities onto the constraints, (25)-(27), as after a step of `simulate`.
 
     Parameters
@@ -147,8 +147,8 @@ def project(system: BaseSystem, p: Any, v: Any, t: float = 0.0, *, projection: s
         Time in s.
     projection : Projection
         Settings of the projection: tolerance, metric, and so on.
-    formulation : str
-        Name of the formulation whose leading matrix is used.
+    formulation : str, optional
+        Name of the formulation whose leading matrix is used; left out: as in `simulate`.
 
     Returns
     -------
@@ -177,13 +177,14 @@ def _options(formulation: str, projection: settings.Projection) -> Any:
 
 
 def _corrected(system, p, v, t, projection, formulation, holds) -> tuple[np.ndarray, np.ndarray]:
-    core = core_of(system_of(system))
+    of = system_of(system)
+    core = core_of(of)
     p, v = _check.vector("p", p, core.nq), _check.vector("v", v, core.nv)
-    _gateway.project(core, _options(formulation, projection), _check.number("t", t), p, v, *holds)
+    _gateway.project(core, _options(formulation or of._formulation, projection), _check.number("t", t), p, v, *holds)
     return p, v
 
 
-def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation: str = settings.FORMULATION,
+def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation: str | None = None,
                  on_singular: str = "stop") -> tuple[np.ndarray, np.ndarray]:
     """Accelerations and multipliers at (t, p, v).
 
@@ -194,8 +195,8 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
         The state. It need not satisfy the constraints.
     t : float
         Time in s.
-    formulation : str
-        One of `formulations()`.
+    formulation : str, optional
+        One of `formulations()`; left out: as in `simulate`.
     on_singular : {"stop", "continue"}
         Behaviour at a bifurcation, a position in which constraints that are independent elsewhere become dependent. "stop"
         raises `Bifurcation`. "continue" returns the acceleration of the motion that passes the bifurcation with this
@@ -215,6 +216,8 @@ def acceleration(system: BaseSystem, p: Any, v: Any, t: float = 0.0, formulation
     >>> vdot
     array([-1.])
     """
-    core = core_of(system_of(system))
-    return _gateway.acceleration(core, settings.formulation_row(formulation), settings.on_singular_row(on_singular),
+    of = system_of(system)
+    core = core_of(of)
+    row = settings.formulation_row(formulation or of._formulation)
+    return _gateway.acceleration(core, row, settings.on_singular_row(on_singular),
                                  _check.number("t", t), _check.vector("p", p, core.nq), _check.vector("v", v, core.nv))

@@ -111,7 +111,7 @@ MAX_STEPS = 1_000_000     # default limit of adaptive steps
 TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None, "max_move": None}     # defaults of adaptive steps
 ARGUMENTS_OF_PLAN = {   # arguments of `plan` besides step and t_eval, with their defaults
     "save_every": 1, "rtol": None, "atol": None, "first_step": None, "max_step": None, "max_move": None, "max_steps": MAX_STEPS,
-    "formulation": FORMULATION, "integrator": None, "stabilization": STABILIZATION, "energy": None, "correction": None,
+    "formulation": None, "integrator": None, "stabilization": STABILIZATION, "energy": None, "correction": None,
     "on_singular": "stop", "direct": None, "vector": None}
 FINEST_RTOL = 100 * np.finfo(float).eps     # smallest rtol: below it, error estimates are rounding
 RESOLVED = 16 * float(np.finfo(float).eps)      # shortest step, relative to the time
@@ -148,6 +148,8 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
         correction = tuple(correction)
     if integrator is None:
         integrator = CHOOSING if step is None else INTEGRATOR
+    if formulation is None:
+        formulation = system._formulation
     given = (save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
              stabilization, energy, correction, on_singular, direct, vector_unit(vector))
     try:

@@ -36,7 +36,7 @@ def simulate(
     max_steps: int | None = settings.MAX_STEPS,
     t_eval: Any = None,
     events: Any = None,
-    formulation: str = settings.FORMULATION,
+    formulation: str | None = None,
     integrator: str | None = None,
     stabilization: str | settings.Stabilization = settings.STABILIZATION,
     energy: bool | settings.EnergyCorrection | None = None,
@@ -93,8 +93,9 @@ def simulate(
         discontinuity the state after the jump is reported. A zero at the start is not an event. The attribute
         `direction` = 1 or -1 selects zeros with increasing or decreasing values; `terminal` = True or a count ends the
         run at the first or at that occurrence, with a step to the zero.
-    formulation : str or settings
-        Equations of motion to solve: a name in `formulations()`, or ``formulations()[name].settings(...)``.
+    formulation : str or settings, optional
+        Equations of motion to solve: a name in `formulations()`, or ``formulations()[name].settings(...)``. By default "schur";
+        "augmented" for a mechanism with bodies without mass or inertia whose mass matrix is singular at the start.
     integrator : str or settings
         A name in `integrators()`, or ``integrators()[name].settings(...)``. By default "rk4" with `step`, and "dop853" with
         adaptive steps.

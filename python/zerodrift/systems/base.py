@@ -372,6 +372,11 @@ class BaseSystem:
         return None
 
     @property
+    def _formulation(self) -> str:
+        """Formulation of runs that name none."""
+        return _gateway.default("formulations")
+
+    @property
     def _held_at_start(self) -> tuple[list[int], list[int]]:
         """Coordinates and velocities that are given as doubles at the start, and from which all others follow."""
         return [], []

@@ -16,6 +16,7 @@ from ..assembly.start import Starting
 from ..elements.drawing import Drawing, Inertias
 from ..elements.forces import Actuator, Bushing, Force, Motor, Spring, Torque, TorsionSpring
 from ..elements.numbers import Numbers
+from ..elements.space_bodies import SpaceInertias
 from ..equations.space_tables import SpaceTables
 from ..equations.tables import Tables
 
@@ -30,7 +31,7 @@ def at_start(error: str, start: Starting, constraints: Sequence[Variable]) -> st
     """Advice on an error at the start: bodies without mass, or constraints that are singular as drawn."""
     drawing = start.drawing
     if "mass matrix" in error:
-        return _of_mass(drawing, start.numbers)
+        return _of_mass(drawing, start.numbers, "inverts it" in error)
     said = r"(?:\brows? |, | and )(\d+)\b" if "a bifurcation:" in error else r"\brow (\d+)"     # one constraint, or several
     rows = sorted(set(map(int, re.findall(said, error))))
     if not rows or "follow" not in error:
@@ -47,15 +48,14 @@ def _why(start: Starting) -> str:
     return f"as {' and '.join(flat)}" if flat else "as links in line are"
 
 
-def _of_mass(drawing: Drawing, numbers: Numbers) -> str | None:
+def _of_mass(drawing: Drawing, numbers: Numbers, can_be_held: bool) -> str | None:
     """Names of the bodies without mass or inertia, and a remedy."""
-    inertias = Inertias(drawing, numbers).of
-    without = [body.name for body in drawing.parts()
-               for mass, inertia, _ in [inertias[body.name]] if not (mass > 0 and (inertia > 0 or not body.turns))]
+    inertias = (SpaceInertias if drawing.dimension == 3 else Inertias)(drawing, numbers)
+    without = [body.name for body in drawing.parts() if not inertias.is_massive(body)]
     if not without:
         return None
     named, have = ", ".join(map(repr, without)), "has" if len(without) == 1 else "have"
-    return f"{named} {have} no mass or no inertia: give some, or take formulation='augmented'"
+    return f"{named} {have} no mass or no inertia: give some{', or take formulation=' + repr('augmented') if can_be_held else ''}"
 
 
 def dead_centre(tables: Tables, core: MechanismCore, t: float, p: np.ndarray) -> str | None:
