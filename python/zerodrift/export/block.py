@@ -24,6 +24,7 @@ from .grip import Grip
 from .law_programs import Programs
 
 MOST_MEASURES = 8192        # of a system of the core
+TABLES = blocks.SECTIONS[:blocks.SECTIONS.index("start")]      # sections whose words parameters may change
 
 
 class Chosen(NamedTuple):
@@ -129,8 +130,8 @@ def _inputs(inputs: Any) -> tuple[str, ...]:
     return tuple(inputs)
 
 
-def written(chosen: Chosen) -> bytes:
-    """The block of these choices."""
+def written(chosen: Chosen, words: _parameters.Words | None = None) -> bytes:
+    """The block of these choices; `words` are those of `table_words`, if they have been computed before."""
     system, texts = chosen.system, blocks.Texts()
     tables = system._started_tables
     sections, counts, measures = _tables(chosen, tables, texts)
@@ -139,7 +140,7 @@ def written(chosen: Chosen) -> bytes:
         "settings": blocks.settings(chosen.core_settings), "methods": blocks.methods(chosen.core_settings, texts),
         "names": [texts.offset(name) for name in (*(body.name for body in tables.parts), *(joint.name for joint in tables.joints),
                                                   *tables.relation_names)],
-        **_parameter_sections(chosen, sections, counts, texts)}
+        **_parameter_sections(chosen, words or table_words(chosen), sections, counts, texts)}
     return blocks.assembled(system._drawing.dimension, sections, counts, texts)
 
 
@@ -176,18 +177,24 @@ def _kept(own: int, quantities: Sequence[Any], observed: Sequence[OutputSpec]) -
     return kept, found
 
 
-def _parameter_sections(chosen: Chosen, sections: Mapping[str, list[float]], counts: Mapping[str, int],
-                        texts: blocks.Texts) -> dict[str, list[float]]:
-    """Sections of parameters, and of the words that they change."""
-    system, limits = chosen.system, chosen.limits
-    before = blocks.SECTIONS[:blocks.SECTIONS.index("start")]
+def table_words(chosen: Chosen) -> _parameters.Words:
+    """Words of the tables of a block, as functions of changed parameters."""
+    system = chosen.system
 
     def words(changed: Mapping[str, float]) -> np.ndarray:
         other = system._with(dict(changed)) if changed else system
-        tables = tables_of(other._drawing, other._numbers, in_tree=system.layout == "joint", starts=system._start.drives)
-        found = _tables(chosen, tables, texts)[0] if changed else sections
-        return np.concatenate([np.asarray(found[name], dtype=float) for name in before])
+        tables = system._started_tables if not changed else tables_of(
+            other._drawing, other._numbers, in_tree=system.layout == "joint", starts=system._start.drives)
+        found = _tables(chosen, tables, blocks.Texts())[0]
+        return np.concatenate([np.asarray(found[name], dtype=float) for name in TABLES])
 
+    return _parameters.computed_once(words)
+
+
+def _parameter_sections(chosen: Chosen, words: _parameters.Words, sections: Mapping[str, list[float]], counts: Mapping[str, int],
+                        texts: blocks.Texts) -> dict[str, list[float]]:
+    """Sections of parameters, and of the words that they change."""
+    system, limits = chosen.system, chosen.limits
     found, products = _parameters.effects(words, limits)
     first = 4 + len(blocks.SECTIONS)
     found = [each + first if i % 3 == 0 else each for i, each in enumerate(found)]
@@ -196,7 +203,7 @@ def _parameter_sections(chosen: Chosen, sections: Mapping[str, list[float]], cou
     if chosen.has_grip:
         drawing, width = system._drawing, len(sections["quantities"]) // counts["quantities"]
         grip = Grip(drawing.dimension, counts["quantities"] - drawing.dimension, 0, counts["bodies"])
-        begin = first + sum(len(sections[name]) for name in before[:before.index("quantities")])
+        begin = first + sum(len(sections[name]) for name in TABLES[:TABLES.index("quantities")])
         more = grip.effects(begin, width, len(limits), len(products) // 7)
         entries, found, products = entries + grip.parameters(texts), found + more[0], products + more[1]
     return {"parameters": entries, "effects": found, "products": products}

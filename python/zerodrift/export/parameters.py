@@ -15,11 +15,25 @@ import numpy as np
 from .. import _check
 from ..errors import WrongType, WrongValue
 
-DEGREES = {1: 6, 2: 3, 3: 2}        # of each parameter, by the number of parameters of a word
+DEGREES = {1: 3, 2: 3, 3: 2}        # of each parameter, by the number of parameters of a word; higher ones fit rational functions
 EXACT = 1e-11                       # relative to the largest value: rounding of tables and of the fit
-CHECKS = 3                          # values beside the nodes
+ROUNDING = 4e-16                    # of coordinates of about 1 m that cancel
+CHECKS = 3                          # values beside the nodes and the limits
 
 Words = Callable[[Mapping[str, float]], np.ndarray]     # words of the tables at these parameters
+
+
+def computed_once(words: Words) -> Words:
+    """The same words, each combination of parameters computed once."""
+    known: dict[tuple[tuple[str, float], ...], np.ndarray] = {}
+
+    def found(changed: Mapping[str, float]) -> np.ndarray:
+        key = tuple(sorted(changed.items()))
+        if key not in known:
+            known[key] = words(changed)
+        return known[key]
+
+    return found
 
 
 def ranges(given: Any, known: Mapping[str, float]) -> dict[str, tuple[float, float]]:
@@ -61,7 +75,7 @@ def effects(words: Words, limits: Mapping[str, tuple[float, float]]) -> tuple[li
         powers, coefficients = _fitted(words, group, limits, places)
         for place, column in zip(places, coefficients.T, strict=True):
             kept = [(factor, power) for factor, power in zip(column, powers, strict=True) if factor != 0]
-            found += [place, len(products) // 7, len(kept)]
+            found += [place, len(products) // 7, len(kept)] if kept else []     # none: rounding of zero
             for factor, power in kept:
                 pairs = [each for name, exponent in zip(group, power, strict=True) for each in (names.index(name), exponent)]
                 products += [factor, *pairs, *[0.0] * (6 - len(pairs))]
@@ -93,9 +107,10 @@ def _fitted(words: Words, group: Sequence[str], limits: Mapping[str, tuple[float
     size = np.abs(values).max(axis=0)
     coefficients[np.abs(coefficients) < EXACT * np.maximum(size, 1e-300)] = 0.0
     random = np.random.default_rng(0)
-    points = [tuple(random.uniform(*limits[name]) for name in group) for _ in range(CHECKS)]
+    points = [*itertools.product(*(limits[name] for name in group)),
+              *(tuple(random.uniform(*limits[name]) for name in group) for _ in range(CHECKS))]
     true = np.array([words(dict(zip(group, point, strict=True)))[places] for point in points])
-    if (np.abs(_terms(points, powers, scales) @ coefficients - true) > 10 * EXACT * np.maximum(size, 1e-300)).any():
+    if (np.abs(_terms(points, powers, scales) @ coefficients - true) > 10 * EXACT * size + ROUNDING).any():
         raise WrongValue(f"numbers of the tables must be polynomials of {' and '.join(group)}, and are not", "not-portable")
     factors = np.array([np.prod([scale ** -exponent for scale, exponent in zip(scales, power, strict=True)])
                         for power in powers])

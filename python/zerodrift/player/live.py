@@ -24,7 +24,7 @@ from .._writing import write_whole
 from ..errors import WrongValue, ZerodriftError
 from ..export import parameters as _parameters
 from ..export import wasm
-from ..export.block import choose, written
+from ..export.block import choose, table_words, written
 from ..mechanisms.elements.forces import Motor
 from ..mechanisms.system import MechanismSystem
 from ..runs.simulate import simulate
@@ -125,9 +125,11 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     speed = 1.0 if speed is None else _check.number("speed", speed, above=0)
     sol = _motion(system, step, options)
     points = body_points(system, sol.p)
-    inputs, limits = _given(system, sliders) if sliders is not None else _automatic(system, points)
-    chosen = choose(system, None, None, 0.0, step, [], list(inputs), options)
-    data = written(chosen._replace(limits=_parameters.ranges(limits, system.parameters), has_grip=True))
+    inputs, limits = _given(system, sliders) if sliders is not None else (_inputs(system), {})
+    chosen = choose(system, None, None, 0.0, step, [], list(inputs), options)._replace(has_grip=True)
+    words = table_words(chosen), _parameters.computed_once(functools.partial(_coordinates, system, points))
+    limits = _parameters.ranges(limits, system.parameters) if sliders is not None else _automatic(system, words)
+    data = written(chosen._replace(limits=limits), words[0])
     values = {**system.parameters, **BlockCore(data).inputs}
     shown = [{"name": name, "kind": kind, "least": least, "most": most, "value": values[name]}
              for kind, those in (("parameter", limits), ("input", inputs)) for name, (least, most) in those.items()]
@@ -136,7 +138,7 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     mass = sum(body.mass for body in system._started_tables.written().bodies)
     gravity = float(np.linalg.norm([value for name, value in system.parameters.items() if name.startswith("gravity.")]))
     return LiveView({
-        **kept, **_drawn(points), "changes": _changes(system, points, limits), "block": _encoded(data), "t": 0.0, "step": step,
+        **kept, **_drawn(points), "changes": _changes(words[1], limits), "block": _encoded(data), "t": 0.0, "step": step,
         "speed": speed, "sliders": shown, "mass": mass, "weight": mass * gravity, "names": bool(names), "arrow": 0})
 
 
@@ -171,7 +173,13 @@ def _drawn(points: BodyPoints) -> dict[str, Any]:
     return {"shapes": shapes, "fixed": fixed, "points": carried}
 
 
-def _changes(system: MechanismSystem, points: BodyPoints, limits: Mapping[str, Any]) -> dict[str, Any]:
+def _coordinates(system: MechanismSystem, points: BodyPoints, changed: Mapping[str, float]) -> np.ndarray:
+    """Coordinates in their bodies of the points that bodies carry, with changed parameters, in one row."""
+    other = system._with(dict(changed)) if changed else system
+    return np.round(moved(other, points)[points.bodies > 0], EXACT).ravel()
+
+
+def _changes(words: _parameters.Words, limits: Limits) -> dict[str, Any]:
     """Coordinates of points in their bodies as polynomials of the parameters that move them, as in a block.
 
     Raises
@@ -180,11 +188,6 @@ def _changes(system: MechanismSystem, points: BodyPoints, limits: Mapping[str, A
         If they are not polynomials.
     """
     moving = {name: each for name, each in limits.items() if not name.endswith(UNMOVED) and not name.startswith("gravity.")}
-    is_carried = points.bodies > 0
-
-    def words(changed: Mapping[str, float]) -> np.ndarray:
-        return np.round(moved(system._with(dict(changed)) if changed else system, points)[is_carried], EXACT).ravel()
-
     found, products = _parameters.effects(words, moving)
     return {"effects": found, "products": products, "names": list(moving)}
 
@@ -204,23 +207,28 @@ def _motors(system: MechanismSystem) -> dict[str, float]:
             if motor.law.constant is not None and motor.drives in ("speed", "torque", "force")}
 
 
-def _automatic(system: MechanismSystem, points: BodyPoints) -> tuple[Limits, Limits]:
-    """All motors, and some lengths, springs, masses and gravity whose change a block and the drawing can follow."""
+def _inputs(system: MechanismSystem) -> Limits:
+    return {name: _around(value) if value else (-1.0, 1.0) for name, value in _motors(system).items()}
+
+
+def _automatic(system: MechanismSystem, words: tuple[_parameters.Words, _parameters.Words]) -> Limits:
+    """Some lengths, springs, masses and gravity whose changes together a block and the drawing can follow."""
     limits: Limits = {}
     for kind, most in AUTOMATIC.items():
         names = [name for name, value in system.parameters.items() if value and (name.endswith(kind) or name.startswith(kind))]
         left = most
         for name in names[:TRIALS * most]:
-            around = _around(system.parameters[name])
-            if left and _can_change(system, points, {name: around}):
-                limits, left = {**limits, name: around}, left - 1
-    return {name: _around(value) if value else (-1.0, 1.0) for name, value in _motors(system).items()}, limits
+            more = {**limits, name: _around(system.parameters[name])}
+            if left and _go_together(words, more):
+                limits, left = more, left - 1
+    return limits
 
 
-def _can_change(system: MechanismSystem, points: BodyPoints, limits: Limits) -> bool:
+def _go_together(words: tuple[_parameters.Words, _parameters.Words], limits: Limits) -> bool:
+    """All numbers of the block and of the drawing are polynomials of these parameters."""
     try:
-        _changes(system, points, limits)
-        written(choose(system, None, None, 0.0, STEP, [], [], {})._replace(limits=limits))
+        _changes(words[1], limits)
+        _parameters.effects(words[0], limits)
     except ValueError:
         return False
     return True
