@@ -17,7 +17,7 @@ from ..errors import WrongType, WrongValue
 
 DEGREES = {1: 3, 2: 3, 3: 2}        # of each parameter, by the number of parameters of a word; higher ones fit rational functions
 EXACT = 1e-11                       # relative to the largest value: rounding of tables and of the fit
-ROUNDING = 4e-16                    # of coordinates of about 1 m that cancel
+ROUNDING_OF_ZERO = 4e-16            # of coordinates of about 1 m that cancel
 CHECKS = 3                          # values beside the nodes and the limits
 
 Words = Callable[[Mapping[str, float]], np.ndarray]     # words of the tables at these parameters
@@ -110,7 +110,7 @@ def _fitted(words: Words, group: Sequence[str], limits: Mapping[str, tuple[float
     points = [*itertools.product(*(limits[name] for name in group)),
               *(tuple(random.uniform(*limits[name]) for name in group) for _ in range(CHECKS))]
     true = np.array([words(dict(zip(group, point, strict=True)))[places] for point in points])
-    if (np.abs(_terms(points, powers, scales) @ coefficients - true) > 10 * EXACT * size + ROUNDING).any():
+    if (np.abs(_terms(points, powers, scales) @ coefficients - true) > 10 * EXACT * size + ROUNDING_OF_ZERO).any():
         raise WrongValue(f"numbers of the tables must be polynomials of {' and '.join(group)}, and are not", "not-portable")
     factors = np.array([np.prod([scale ** -exponent for scale, exponent in zip(scales, power, strict=True)])
                         for power in powers])
