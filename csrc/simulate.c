@@ -21,6 +21,7 @@ static int take_step(zd_run *run)
 {
     const zd_settings *settings = &run->settings;
     if (settings->t_eval || settings->events) zd_output_keep_beginning(&run->output);
+    if (settings->events) zd_watch_before(&run->watch);
     int status = zd_step(&run->loop);
     if (status || !settings->events) return status;
     return zd_watch_after(&run->watch, zd_step_loop_is_corrected(&run->loop), &run->loop.end);

@@ -2,8 +2,7 @@
 #ifndef ZD_BATCH_GROUP_H
 #define ZD_BATCH_GROUP_H
 
-#include "../linalg/bracket.h"
-#include "../output/reading.h"
+#include "../output/step_samples.h"
 #include "../run/run.h"
 #include "lanes/numbers.h"
 #include "single_run.h"
@@ -17,11 +16,18 @@ typedef struct zd_lane_energy {
 
 /* Event location in the step that a lane has just made. */
 typedef struct zd_lane_search {
-    enum { ZD_FOUND_ALL, ZD_LOCATES, ZD_LOCATES_END, ZD_CUTS, ZD_GOES_BEFORE, ZD_GOES_BEHIND } stage;
-    int event;              /* index of the event being located */
+    enum { ZD_FOUND_ALL, ZD_SAMPLES_STEP, ZD_FINDS_PAIRS, ZD_LOCATES, ZD_LOCATES_END, ZD_CUTS, ZD_GOES_BEFORE, ZD_GOES_BEHIND } stage;
+    int sample;             /* number of the next sample within the step */
+    int event, point;       /* the event being located; the second of the points between which it is */
+    int number;             /* number of its occurrences located in the step */
+    int index;              /* index of the occurrence whose state is found */
     double *before, *now;   /* (events,): event functions at the ends of the step */
     double number_of_now;   /* number of the step that ended at `now`; -1: none */
-    zd_bracket *bracket;    /* (events,): times of the events; infinite: none */
+    zd_zeros *zeros;        /* (events,): values within the step */
+    zd_occurrence *occurrence;  /* (events * ZD_MOST_POINTS,): in the step, by event and time */
+    int occurrences;        /* their number */
+    int last;               /* index of the one that ends the run; -1: none */
+    zd_occurrence cut;      /* the same, where the step was repeated up to it */
     double *early;          /* (size,): state before the event */
     double *mixed;          /* (size,): state at the event */
     int ended;              /* the event that ends the run, counted from 1; 0: none */
@@ -88,8 +94,20 @@ void zd_lane_group_correct_rest(void *group, const double *t, double *y, int for
 /* lane_checks.c: full checks of the last step, in lanes in which they are due: resolution of each velocity, and energy. */
 void zd_lane_group_check_closely(zd_lane_group *self);
 
-/* lane_events.c: locates the events of the last steps. */
 zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes);
+/* lane_event_samples.c: value of an event function at the gathered state; those of all at the state y. */
+double zd_lane_group_evaluate(zd_lane_group *self, int lane, int event, double t);
+void zd_lane_group_evaluate_all(zd_lane_group *self, int lane, double t, const double *y, double *values);
+/* Change of an event function when the gathered state changes by its rounding. */
+double zd_lane_group_rounding(zd_lane_group *self, int lane, int event, double t, double value);
+/* Begins the samples of the step: sets its ends in the points of all events. */
+void zd_lane_group_span(zd_lane_group *self, int lane);
+/* Values of event functions by cubic Hermite polynomials; returns 1 if an event may occur twice. */
+int zd_lane_group_predict(zd_lane_group *self, int lane);
+/* Adds the gathered state to the samples of the step. */
+void zd_lane_group_add_sample(zd_lane_group *self, int lane, double t);
+
+/* lane_events.c: locates the events of the last steps. */
 void zd_lane_group_locate(zd_lane_group *self);
 /* Sets the state of the lane to that at the event that ends its run. */
 void zd_lane_group_go_to_end(zd_lane_group *self, int lane);

@@ -1,6 +1,6 @@
-/* Events in lanes, as in output/events.c: a change of sign is located to the rounding of t, by dense output or by shorter steps; if an
- * event ends the run, the last step is repeated up to it. Each lane locates its own events, one after the other; the evaluations are
- * made in all lanes at once.
+/* Events in lanes, as in output/events.c: changes of sign between samples are located to the rounding of t, by dense output or by
+ * shorter steps; if an event ends the run, the last step is repeated up to it. Each lane locates its own events, one after the other;
+ * the evaluations are made in all lanes at once.
  */
 #include <math.h>
 
@@ -9,40 +9,31 @@
 #include "group.h"
 
 
-zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes)
+/* ---- samples and pairs ---- */
+
+static void locate_from(zd_lane_group *self, int lane);
+
+/* Proceeds from this event to the first whose pairs need a value; if there is none, to the location of events. */
+static void find_pairs_from(zd_lane_group *self, int lane, int event, int is_new)
 {
-    if (!lanes->watches) return (zd_lane_search){.ended = 0};
-    const size_t events = (size_t)lanes->events, size = (size_t)lanes->size;
-    return (zd_lane_search){
-        .before = zd_take_doubles(arena, events),
-        .now = zd_take_doubles(arena, events),
-        .bracket = zd_take(arena, events * sizeof(zd_bracket)),
-        .early = zd_take_doubles(arena, size),
-        .mixed = zd_take_doubles(arena, size),
-    };
+    zd_lane_search *search = &self->run_of[lane].search;
+    for (search->event = event; search->event < self->lanes.events; search->event++, is_new = 1) {
+        zd_zeros *zeros = &search->zeros[search->event];
+        if (is_new) zd_zeros_begin(zeros);
+        if (zeros->count > 2 && zd_zeros_next(zeros)) return;
+    }
+    search->stage = ZD_LOCATES;
+    search->event = search->number = search->occurrences = 0;
+    search->point = 1;
+    locate_from(self, lane);
 }
 
-/* ---- event functions ---- */
-
-/* Value of an event function at the gathered state. If it fails, the run is repeated individually, which reports the failure. */
-static double evaluate(zd_lane_group *self, int lane, int event, double t)
+static void sample_step(zd_lane_group *self, int lane)
 {
-    double value = 0;
-    if (zd_read_event(&self->reader, zd_lane_group_data(self, lane), event, t, self->p, self->v, &value)) self->lanes.leaves[lane] = 1;
-    return value;
-}
-
-static void evaluate_all(zd_lane_group *self, int lane, double t, const double *y, double *values)
-{
-    zd_lane_group_gather(self, lane, y);
-    for (int i = 0; i < self->lanes.events; i++) values[i] = evaluate(self, lane, i, t);
-}
-
-static int happens(const zd_lane_group *self, const zd_lane_search *search, int event)
-{
-    const double before = search->before[event], now = search->now[event];
-    const int direction = self->batch->settings->events->direction[event];
-    return (before < 0 && now >= 0 && direction >= 0) || (before > 0 && now <= 0 && direction <= 0);
+    zd_lane_search *search = &self->run_of[lane].search;
+    search->stage = ZD_SAMPLES_STEP;
+    search->sample = 1;
+    zd_lane_group_span(self, lane);
 }
 
 /* ---- sequence of events in a lane ---- */
@@ -57,50 +48,45 @@ static int is_wide(const zd_lanes *lanes, int lane, const zd_bracket *bracket)
     return bracket->b - bracket->a > resolution_of(lanes, lane);
 }
 
-/* True if the event precedes the end of the run and is not the one that ends it, which is reported last. */
-static int is_reported(const zd_lane_search *search, int event)
+/* Index of the next located occurrence to be reported, after this one; the one that ends the run is last; -1: there are no more. */
+static int next_reported(const zd_lane_search *search, int index)
 {
-    const double b = search->bracket[event].b;
-    return event != search->ended - 1 && b < INFINITY && b <= search->end;
-}
-
-/* Index of the next located event to be reported; the one that ends the run is last; -1: there are no more. */
-static int next_reported(const zd_lane_group *self, const zd_lane_search *search, int event)
-{
-    const int last = search->ended - 1;
-    if (event == last && last >= 0 && search->stage == ZD_GOES_BEHIND) return -1;
-    for (int i = search->stage == ZD_LOCATES ? 0 : event + 1; i < self->lanes.events; i++)
-        if (is_reported(search, i)) return i;
-    return last;
+    if (index >= 0 && index == search->last) return -1;
+    for (int i = index + 1; i < search->occurrences; i++)
+        if (i != search->last && search->occurrence[i].bracket.b <= search->end) return i;
+    return search->last;
 }
 
 /* True if the state at the event is interpolated between the states before and after. */
 static int is_mixed(const zd_lane_group *self, const zd_lane_search *search)
 {
-    return !zd_lanes_may_spread(&self->lanes) || zd_bracket_leaps(&search->bracket[search->event]);
+    return !zd_lanes_may_spread(&self->lanes) || zd_bracket_leaps(&search->occurrence[search->index].bracket);
 }
 
-static void proceed_to_next(zd_lane_group *self, zd_lane_search *search)
+static void proceed_to_next(zd_lane_group *self, zd_lane_search *search, int index)
 {
-    search->event = next_reported(self, search, search->event);
-    search->stage = search->event < 0 ? ZD_FOUND_ALL : is_mixed(self, search) ? ZD_GOES_BEFORE : ZD_GOES_BEHIND;
+    search->index = next_reported(search, index);
+    search->stage = search->index < 0 ? ZD_FOUND_ALL : is_mixed(self, search) ? ZD_GOES_BEFORE : ZD_GOES_BEHIND;
 }
 
-/* Records a located event as the end of the run, if it is the last that its count admits. */
-static void note_end(zd_lane_group *self, int lane)
+/* Records a located event as the end of the run, if it is the last that its count admits; proceeds to the next point. */
+static void note_located(zd_lane_group *self, int lane)
 {
     const zd_lane_run *run = &self->run_of[lane];
     zd_lane_search *search = &self->run_of[lane].search;
-    const double b = search->bracket[search->event].b;
-    const int64_t number = *zd_event_samples_count(self->batch, run->number, search->event) + 1;
+    const double b = search->occurrence[search->occurrences - 1].bracket.b;
+    const int64_t number = *zd_event_samples_count(self->batch, run->number, search->event) + ++search->number;
+    search->point++;
     if (search->is_cut || b >= search->end || number != self->batch->settings->events->terminal[search->event]) return;
     search->end = b;
     search->ended = search->event + 1;
+    search->last = search->occurrences - 1;
 }
 
-static zd_bracket bracket_of_step(const zd_lanes *lanes, const zd_lane_search *search, int lane, int event)
+static zd_bracket bracket_of(const zd_lanes *lanes, const zd_lane_search *search, int lane, int first, int last)
 {
-    return zd_bracket_of(lanes->t_before[lane], lanes->t[lane], search->before[event], search->now[event], resolution_of(lanes, lane));
+    const zd_zeros *it = &search->zeros[search->event];
+    return zd_bracket_of(it->t[first], it->t[last], it->g[first], it->g[last], resolution_of(lanes, lane));
 }
 
 /* Proceeds to the states, as all events are located. With dense output, the event that ends the run is located again by shorter steps,
@@ -108,29 +94,53 @@ static zd_bracket bracket_of_step(const zd_lanes *lanes, const zd_lane_search *s
 static void go_to_states(zd_lane_group *self, int lane)
 {
     zd_lane_search *search = &self->run_of[lane].search;
-    if (!search->ended || search->is_cut || !zd_lanes_may_spread(&self->lanes)) {
-        proceed_to_next(self, search);
+    if (search->is_cut) {
+        search->last = search->occurrences++;
+        search->occurrence[search->last] = search->cut;
+    } else if (search->last >= 0 && zd_lanes_may_spread(&self->lanes)) {
+        int first, last;
+        search->cut = search->occurrence[search->last];
+        search->event = search->cut.event;
+        zd_zeros_widen(&search->zeros[search->event], search->cut.point, &first, &last);
+        search->cut.bracket = zd_bracket_near(search->cut.bracket.b, bracket_of(&self->lanes, search, lane, first, last));
+        search->stage = ZD_LOCATES_END;
         return;
     }
-    search->event = search->ended - 1;
-    zd_bracket *bracket = &search->bracket[search->event];
-    *bracket = zd_bracket_near(bracket->b, bracket_of_step(&self->lanes, search, lane, search->event));
-    search->stage = ZD_LOCATES_END;
+    proceed_to_next(self, search, -1);
 }
 
-/* Proceeds from this event to the first that has to be located; if there is none, to the states. */
-static void locate_from(zd_lane_group *self, int lane, int event)
+/* Number of occurrences of the event that may be located in the step: of the one that ends the run, those before. */
+static int64_t most_of(const zd_lane_group *self, const zd_lane_run *run)
+{
+    const zd_lane_search *search = &run->search;
+    if (!search->is_cut || search->event != search->cut.event) return ZD_MOST_POINTS;
+    return self->batch->settings->events->terminal[search->event] - 1 - *zd_event_samples_count(self->batch, run->number, search->event);
+}
+
+/* Proceeds to the next change of sign of the event that has to be located; returns 0 if there is none. */
+static int find_change(const zd_lane_group *self, zd_lane_run *run)
+{
+    zd_lane_search *search = &run->search;
+    const zd_zeros *zeros = &search->zeros[search->event];
+    const int direction = self->batch->settings->events->direction[search->event];
+    const double *g = zeros->g;
+    while (search->point < zeros->count && !zd_passes_zero(g[search->point - 1], g[search->point], direction)) search->point++;
+    return search->point < zeros->count && search->number < most_of(self, run);
+}
+
+/* Proceeds from this event and point to the first that has to be located; if there is none, to the states. */
+static void locate_from(zd_lane_group *self, int lane)
 {
     const zd_lanes *lanes = &self->lanes;
     zd_lane_search *search = &self->run_of[lane].search;
-    for (search->event = event; search->event < lanes->events; search->event++) {
-        const int i = search->event;
-        if (search->is_cut && i == search->ended - 1) continue;
-        search->bracket[i].b = INFINITY;
-        if (!happens(self, search, i)) continue;
-        search->bracket[i] = bracket_of_step(lanes, search, lane, i);
-        if (is_wide(lanes, lane, &search->bracket[i])) return;
-        note_end(self, lane);
+    for (; search->event < lanes->events; search->event++, search->point = 1, search->number = 0) {
+        while (find_change(self, &self->run_of[lane])) {
+            const int k = search->point;
+            zd_occurrence *it = &search->occurrence[search->occurrences++];
+            *it = (zd_occurrence){search->event, k, bracket_of(lanes, search, lane, k - 1, k)};
+            if (is_wide(lanes, lane, &it->bracket)) return;
+            note_located(self, lane);
+        }
     }
     go_to_states(self, lane);
 }
@@ -142,9 +152,9 @@ static void locate_until_end(zd_lane_group *self, int lane)
     zd_lane_search *search = &self->run_of[lane].search;
     search->end = lanes->t[lane];
     search->is_cut = 1;
-    search->stage = ZD_LOCATES;
-    evaluate_all(self, lane, lanes->t[lane], lanes->y, search->now);
-    locate_from(self, lane, 0);
+    search->last = -1;
+    zd_lane_group_evaluate_all(self, lane, lanes->t[lane], lanes->y, search->now);
+    sample_step(self, lane);
 }
 
 /* ---- states at events ---- */
@@ -165,16 +175,17 @@ static void mix(const zd_lane_group *self, int lane, double share, double *mixed
 static void find_state(zd_lane_group *self, int lane)
 {
     zd_lane_run *run = &self->run_of[lane];
-    const zd_bracket *located = &run->search.bracket[run->search.event];
+    const zd_occurrence *occurrence = &run->search.occurrence[run->search.index];
+    const zd_bracket *located = &occurrence->bracket;
     zd_bracket it = zd_bracket_of(0, 1, located->ga, located->gb, ZD_TIME_RESOLUTION);
     while (is_mixed(self, &run->search) && it.gb != 0 && it.b - it.a > ZD_TIME_RESOLUTION) {
         const double share = zd_bracket_choose(&it);
         mix(self, lane, share, run->search.mixed);
-        zd_bracket_narrow(&it, share, evaluate(self, lane, run->search.event, located->b));
+        zd_bracket_narrow(&it, share, zd_lane_group_evaluate(self, lane, occurrence->event, located->b));
     }
     mix(self, lane, it.b, run->search.mixed);
     zd_event_samples found = {self->batch, run->number};
-    zd_event_samples_add(&found, run->search.event, located->b, self->p, self->v);
+    zd_event_samples_add(&found, occurrence->event, located->b, self->p, self->v);
 }
 
 void zd_lane_group_go_to_end(zd_lane_group *self, int lane)
@@ -196,19 +207,56 @@ static void begin(zd_lane_group *self, int lane)
     double *now = search->before;
     search->before = search->now;
     search->now = now;
-    if (search->number_of_now != lanes->number[lane] - 1) evaluate_all(self, lane, lanes->t_before[lane], lanes->y0, search->before);
-    evaluate_all(self, lane, lanes->t[lane], lanes->y, search->now);
+    const int is_known = search->number_of_now == lanes->number[lane] - 1;
+    if (!is_known) zd_lane_group_evaluate_all(self, lane, lanes->t_before[lane], lanes->y0, search->before);
+    zd_lane_group_evaluate_all(self, lane, lanes->t[lane], lanes->y, search->now);
     search->number_of_now = lanes->number[lane];
-    search->stage = ZD_LOCATES;
     search->end = INFINITY;
-    if (self->lanes.leaves[lane] == 0) locate_from(self, lane, 0);
+    search->last = -1;
+    if (self->lanes.leaves[lane] != 0) return;
+    sample_step(self, lane);
+    if (lanes->is_fixed && !zd_lane_group_predict(self, lane)) find_pairs_from(self, lane, 0, 1);
 }
 
-static double time_requested(const zd_lane_search *search)
+static double time_requested(const zd_lanes *lanes, int lane, const zd_lane_search *search)
 {
-    const zd_bracket *bracket = &search->bracket[search->event];
-    const int locates = search->stage == ZD_LOCATES || search->stage == ZD_LOCATES_END;
-    return locates ? zd_bracket_choose(bracket) : search->stage == ZD_GOES_BEFORE ? bracket->a : bracket->b;
+    const double t0 = lanes->t_before[lane];
+    switch (search->stage) {
+    case ZD_SAMPLES_STEP: return t0 + zd_sample_share(search->sample) * (lanes->t[lane] - t0);
+    case ZD_FINDS_PAIRS: return search->zeros[search->event].next;
+    case ZD_LOCATES: return zd_bracket_choose(&search->occurrence[search->occurrences - 1].bracket);
+    case ZD_LOCATES_END: return zd_bracket_choose(&search->cut.bracket);
+    case ZD_CUTS: return search->cut.bracket.b;
+    case ZD_GOES_BEFORE: return search->occurrence[search->index].bracket.a;
+    case ZD_GOES_BEHIND: return search->occurrence[search->index].bracket.b;
+    case ZD_FOUND_ALL: break;
+    }
+    return lanes->t[lane];
+}
+
+/* Continues a bracket with the gathered state; returns 1 when it is located. */
+static int narrow(zd_lane_group *self, int lane, zd_bracket *bracket)
+{
+    const double t = self->lanes.t_sample[lane];
+    zd_bracket_narrow(bracket, t, zd_lane_group_evaluate(self, lane, self->run_of[lane].search.event, t));
+    return !is_wide(&self->lanes, lane, bracket);
+}
+
+/* Continues the samples and the search for pairs with the gathered state. */
+static void resume_samples(zd_lane_group *self, int lane)
+{
+    zd_lane_search *search = &self->run_of[lane].search;
+    const double t = self->lanes.t_sample[lane];
+    if (search->stage == ZD_FINDS_PAIRS) {
+        const double g = zd_lane_group_evaluate(self, lane, search->event, t);
+        zd_zeros_narrow(&search->zeros[search->event], g, zd_lane_group_rounding(self, lane, search->event, t, g));
+        find_pairs_from(self, lane, search->event, 0);
+        return;
+    }
+    zd_lane_group_add_sample(self, lane, t);
+    if (search->sample++ < ZD_SAMPLES) return;
+    search->stage = ZD_FINDS_PAIRS;
+    find_pairs_from(self, lane, 0, 1);
 }
 
 /* Continues the location with the state at the time that the lane requested. */
@@ -216,19 +264,17 @@ static void resume(zd_lane_group *self, int lane)
 {
     const zd_lanes *lanes = &self->lanes;
     zd_lane_search *search = &self->run_of[lane].search;
-    zd_bracket *bracket = &search->bracket[search->event];
+    zd_lane_group_gather(self, lane, lanes->y_sample);
     switch (search->stage) {
+    case ZD_SAMPLES_STEP:
+    case ZD_FINDS_PAIRS: resume_samples(self, lane); return;
     case ZD_LOCATES:
+        if (!narrow(self, lane, &search->occurrence[search->occurrences - 1].bracket)) return;
+        note_located(self, lane);
+        locate_from(self, lane);
+        return;
     case ZD_LOCATES_END:
-        zd_lane_group_gather(self, lane, lanes->y_sample);
-        zd_bracket_narrow(bracket, lanes->t_sample[lane], evaluate(self, lane, search->event, lanes->t_sample[lane]));
-        if (is_wide(lanes, lane, bracket)) return;
-        if (search->stage == ZD_LOCATES_END) {
-            search->stage = ZD_CUTS;
-            return;
-        }
-        note_end(self, lane);
-        locate_from(self, lane, search->event + 1);
+        if (narrow(self, lane, &search->cut.bracket)) search->stage = ZD_CUTS;
         return;
     case ZD_CUTS: locate_until_end(self, lane); return;
     case ZD_GOES_BEFORE:
@@ -237,7 +283,7 @@ static void resume(zd_lane_group *self, int lane)
         return;
     case ZD_GOES_BEHIND:
         find_state(self, lane);
-        proceed_to_next(self, search);
+        proceed_to_next(self, search, search->index);
         return;
     case ZD_FOUND_ALL: return;
     }
@@ -260,7 +306,7 @@ static int request(zd_lane_group *self, int lane, int way)
     const int is_checking = run->number >= 0 && lanes->leaves[lane] == 0 && run->search.stage != ZD_FOUND_ALL;
     const int requests = is_checking && way_of(&run->search) == way;
     lanes->is_wanted[lane] = requests;
-    lanes->t_sample[lane] = requests ? time_requested(&run->search) : lanes->t[lane];
+    lanes->t_sample[lane] = requests ? time_requested(lanes, lane, &run->search) : lanes->t[lane];
     return requests;
 }
 

@@ -135,8 +135,8 @@ static void take_events(zd_lanes *self, zd_arena *arena, const zd_events *events
     self->watches = ZD_WATCHES_NUMBERS;
     for (int i = 0; i < events->count; i++) {
         const int entry = entry_of(self, events, i);
-        if (entry < 0) self->watches = ZD_WATCHES_STEPS;
-        else if (watched) watched[i] = (zd_watched){entry, events->direction[i], events->known[i].value};
+        if (entry < 0 || !self->is_fixed) self->watches = ZD_WATCHES_STEPS;
+        else if (watched) watched[i] = (zd_watched){entry, events->known[i].value};
     }
 }
 

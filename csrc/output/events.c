@@ -1,9 +1,10 @@
 /* Events: instants at which a function of the motion passes through zero.
  *
- * A step at whose ends the function has different signs brackets such an instant. The bracket is narrowed to the rounding of t by values
- * within the step, see between.c: of the dense output, with adaptive steps of a method that has one, or else of shorter steps. All these
- * points are corrected. So the ends of the step are corrected, too, before events are evaluated, even if the run itself continues without
- * correction (every k-th step only): otherwise the function would jump at the ends, and change its sign without a zero.
+ * Two points of a step at which the function has different signs bracket such an instant, see step_samples.c. The bracket is narrowed to
+ * the rounding of t by values within the step, see between.c: of the dense output, with adaptive steps of a method that has one, or else
+ * of shorter steps. All these points are corrected. So the ends of the step are corrected, too, before events are evaluated, even if the
+ * run itself continues without correction (every k-th step only): otherwise the function would jump at the ends, and change its sign
+ * without a zero.
  *
  * A terminal event ends the run with a step to its instant. Shorter steps locate the event again, near the instant given by the dense
  * output, and the last of them is the last step of the run; other events in it are located on its own dense output.
@@ -19,11 +20,18 @@
 
 #include <math.h>
 
-#include "../constraints/rank.h"
 #include "../paths/choose.h"
 #include "../point/quaternions.h"
 #include "../step_limits.h"
 
+
+/* Rates at one end of a step that is not sampled by dense output or a series. */
+static zd_end_rates take_rates(zd_arena *arena, const zd_output *output)
+{
+    const zd_system *system = &output->stepper->motion->system;
+    if (zd_is_adaptive(output->loop) || output->stepper->integrator->takes_series) return (zd_end_rates){0};
+    return (zd_end_rates){zd_take_doubles(arena, (size_t)system->nq), zd_take_doubles(arena, (size_t)system->nv), 0};
+}
 
 zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *output)
 {
@@ -36,7 +44,10 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
         .reader = zd_reader_take(arena, events, &motion->system, motion->rate.inputs, motion->point),
         .before = zd_take_doubles(arena, count),
         .now = zd_take_doubles(arena, count),
-        .bracket = zd_take(arena, count * sizeof(zd_bracket)),
+        .zeros = zd_take(arena, count * sizeof(zd_zeros)),
+        .occurrence = zd_take(arena, count * ZD_MOST_POINTS * sizeof(zd_occurrence)),
+        .at_start = take_rates(arena, output),
+        .at_end = take_rates(arena, output),
         .end = zd_state_take(arena, motion),
         .early = zd_state_take(arena, motion),
         .late = zd_state_take(arena, motion),
@@ -45,120 +56,91 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
     };
 }
 
-static int evaluate(zd_watch *self, int event, double t, const double *p, const double *v, double *value)
-{
-    const zd_events *events = self->events;
-    const zd_system *system = &self->output->stepper->motion->system;
-    const int reads = events->known && events->known[event].readings;
-    int status = reads ? zd_read_event(&self->reader, system->data, event, t, p, v, value)
-                       : events->evaluate(events->data, event, t, p, v, NULL, value);
-    if (status) self->failed = event + 1;
-    return status;
-}
-
-static int reads_accelerations(const zd_watch *self, int event)
-{
-    return zd_reads_accelerations(self->events, &self->output->stepper->motion->system, event);
-}
-
-static int evaluate_here(zd_watch *self, int event, double *value)
-{
-    const zd_stepper *stepper = self->output->stepper;
-    const zd_point *point = stepper->motion->point;
-    const int is_dynamic = reads_accelerations(self, event), status = is_dynamic ? zd_motion_accelerate(stepper->motion) : ZD_DONE;
-    if (status) return status;
-    if (is_dynamic) zd_rank_find_multipliers(point);
-    return evaluate(self, event, stepper->t, point->p, point->v, value);
-}
-
-static int evaluate_all(zd_watch *self, double *values)
-{
-    int status = ZD_DONE;
-    for (int i = 0; !status && i < self->events->count; i++) status = evaluate_here(self, i, &values[i]);
-    return status;
-}
-
 int zd_watch_start(zd_watch *self)
 {
-    return evaluate_all(self, self->before);
+    return zd_watch_evaluate_all(self, self->before);
 }
 
-/* True if the event occurs in the step. A function that is zero at the start of the step does not occur: it did before, or the run starts. */
-static int happens(const zd_watch *self, int event)
+static zd_bracket bracket_of(const zd_watch *self, int event, int first, int last)
 {
-    double before = self->before[event], now = self->now[event];
-    int direction = self->events->direction[event];
-    return (before < 0 && now >= 0 && direction >= 0) || (before > 0 && now <= 0 && direction <= 0);
+    const zd_zeros *it = &self->zeros[event];
+    const double t0 = self->output->before.t, resolution = ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(self->end.t));
+    return zd_bracket_of(it->t[first], it->t[last], it->g[first], it->g[last], resolution);
 }
 
-static int correct(zd_stepper *stepper)
+/* The widest bracket of an occurrence by points of the same signs, near the instant that is known. */
+static zd_bracket widened(const zd_watch *self, const zd_occurrence *of)
 {
-    return zd_path_end(zd_path_of_state(stepper->motion), stepper, stepper->t, 0, 1, 0);
+    int first, last;
+    zd_zeros_widen(&self->zeros[of->event], of->point, &first, &last);
+    return zd_bracket_near(of->bracket.b, bracket_of(self, of->event, first, last));
 }
 
-/* Moves to a time within the step or at its ends, corrected. */
-static int move(zd_watch *self, double t)
+static int locate(zd_watch *self, zd_occurrence *occurrence)
 {
-    zd_stepper *stepper = self->output->stepper;
-    const zd_state *before = &self->output->before, *end = &self->end;
-    if (t > before->t && t < end->t) return zd_output_go(self->output, t);
-    int status = zd_stepper_return_to(stepper, t == end->t ? end : before);
-    return status || t == end->t ? status : correct(stepper);
-}
-
-static zd_bracket bracket_of_step(const zd_watch *self, int event)
-{
-    const double t0 = self->output->before.t, t1 = self->end.t;
-    return zd_bracket_of(t0, t1, self->before[event], self->now[event], ZD_TIME_RESOLUTION * fmax(fabs(t0), fabs(t1)));
-}
-
-static int locate(zd_watch *self, int event, zd_bracket *it)
-{
+    zd_bracket *it = &occurrence->bracket;
     while (it->b - it->a > it->resolution) {
         double g, t = zd_bracket_choose(it);
-        int status = move(self, t);
-        if (!status) status = evaluate_here(self, event, &g);
+        int status = zd_watch_move(self, t);
+        if (!status) status = zd_watch_evaluate(self, occurrence->event, &g);
         if (status) return status;
         zd_bracket_narrow(it, t, g);
     }
     return ZD_DONE;
 }
 
-/* Locates all events in the step, with brackets at infinity for those that do not occur; and the first terminal one, unless it is known. */
-static int locate_all(zd_watch *self, double *end)
+/* Locates at most this number of occurrences of an event in the step. The first terminal one before `end` becomes the last of the run. */
+static int locate_event(zd_watch *self, int event, int most, double *end)
 {
     const zd_events *events = self->events;
-    const int known = self->ended;
-    for (int i = 0; i < events->count; i++) {
-        zd_bracket *it = &self->bracket[i];
-        if (known == i + 1) continue;
-        it->b = INFINITY;
-        if (!happens(self, i)) continue;
-        *it = bracket_of_step(self, i);
-        int status = locate(self, i, it);
+    const zd_zeros *zeros = &self->zeros[event];
+    for (int k = 1, number = 0; k < zeros->count && number < most; k++) {
+        if (!zd_passes_zero(zeros->g[k - 1], zeros->g[k], events->direction[event])) continue;
+        zd_occurrence *it = &self->occurrence[self->occurrences++];
+        *it = (zd_occurrence){event, k, bracket_of(self, event, k - 1, k)};
+        int status = locate(self, it);
         if (status) return status;
-        if (known || it->b >= *end || self->found[i] + 1 != events->terminal[i]) continue;
-        *end = it->b;
-        self->ended = i + 1;
+        if (self->found[event] + ++number != events->terminal[event] || it->bracket.b >= *end) continue;
+        *end = it->bracket.b;
+        self->ended = event + 1;
+        self->last = self->occurrences - 1;
     }
     return ZD_DONE;
+}
+
+static int locate_all(zd_watch *self, double *end)
+{
+    int status = ZD_DONE;
+    self->occurrences = 0;
+    self->last = -1;
+    for (int i = 0; !status && i < self->events->count; i++) status = locate_event(self, i, ZD_MOST_POINTS, end);
+    return status;
 }
 
 /* Repeats the step up to a terminal event, located near its instant on the dense output, and locates the events before it. */
 static int cut(zd_watch *self, double *end)
 {
     zd_output *output = self->output;
-    const int event = self->ended - 1;
-    zd_bracket *it = &self->bracket[event];
-    *it = zd_bracket_near(it->b, bracket_of_step(self, event));
+    zd_occurrence last = self->occurrence[self->last];
+    const int earlier = self->events->terminal[last.event] - self->found[last.event] - 1;
+    last.bracket = widened(self, &last);
     output->is_spread = 0;
-    int status = locate(self, event, it);
-    if (!status) status = zd_output_make_shorter(output, *end = it->b);
-    if (!status) status = evaluate_all(self, self->now);
+    int status = locate(self, &last);
+    if (!status) status = zd_output_make_shorter(output, last.bracket.b);
+    if (!status) status = zd_watch_evaluate_all(self, self->now);
     if (status) return status;
     zd_stepper_keep_place(output->stepper, &self->end);
+    zd_watch_span(self);
     status = zd_output_leave(output, 0);
-    return status ? status : locate_all(self, end);
+    if (!status) status = zd_watch_sample(self);
+    *end = -INFINITY;       /* no other event is the last */
+    self->occurrences = 0;
+    for (int i = 0; !status && i < self->events->count; i++)
+        status = locate_event(self, i, i == last.event ? earlier : ZD_MOST_POINTS, end);
+    *end = last.bracket.b;
+    self->last = self->occurrences++;
+    self->occurrence[self->last] = last;
+    return status;
 }
 
 static void mix_doubles(int n, const double *a, const double *b, double share, double *mixed)
@@ -182,14 +164,12 @@ static const zd_state *mix(zd_watch *self, double share)
 }
 
 /* *there <- the interpolated state at which the event function is zero. */
-static int settle_between(zd_watch *self, int event, const zd_state **there)
+static int settle_between(zd_watch *self, const zd_occurrence *found, const zd_state **there)
 {
-    const zd_bracket *found = &self->bracket[event];
-    zd_bracket it = zd_bracket_of(0, 1, found->ga, found->gb, ZD_TIME_RESOLUTION);
+    zd_bracket it = zd_bracket_of(0, 1, found->bracket.ga, found->bracket.gb, ZD_TIME_RESOLUTION);
     while (it.gb != 0 && it.b - it.a > ZD_TIME_RESOLUTION) {
         double g, share = zd_bracket_choose(&it);
-        const zd_state *mixed = mix(self, share);
-        int status = evaluate(self, event, mixed->t, mixed->p, mixed->v, &g);
+        int status = zd_watch_evaluate_at(self, found->event, mix(self, share), &g);
         if (status) return status;
         zd_bracket_narrow(&it, share, g);
     }
@@ -198,36 +178,37 @@ static int settle_between(zd_watch *self, int event, const zd_state **there)
 }
 
 /* *there <- the state at the event; the motion is moved to it or next to it. */
-static int settle(zd_watch *self, int event, const zd_state **there)
+static int settle(zd_watch *self, const zd_occurrence *found, const zd_state **there)
 {
-    const zd_bracket *found = &self->bracket[event];
     const zd_stepper *stepper = self->output->stepper;
-    const int is_mixed = (!self->output->is_spread || zd_bracket_leaps(found)) && !reads_accelerations(self, event);
-    int status = is_mixed ? move(self, found->a) : ZD_DONE;
+    const int jumps = !self->output->is_spread || zd_bracket_leaps(&found->bracket);
+    const int is_mixed = jumps && !zd_watch_reads_accelerations(self, found->event);
+    int status = is_mixed ? zd_watch_move(self, found->bracket.a) : ZD_DONE;
     if (is_mixed) zd_stepper_keep_place(stepper, &self->early);
-    if (!status) status = move(self, found->b);
+    if (!status) status = zd_watch_move(self, found->bracket.b);
     zd_stepper_keep_place(stepper, &self->late);
     *there = &self->late;
-    return status || !is_mixed ? status : settle_between(self, event, there);
+    return status || !is_mixed ? status : settle_between(self, found, there);
 }
 
-static int report_one(zd_watch *self, int event)
+static int report_one(zd_watch *self, int index)
 {
     const zd_events *events = self->events;
+    const zd_occurrence *found = &self->occurrence[index];
     const zd_state *there;
-    int status = settle(self, event, &there);
-    if (!status) status = events->found(events->data, event, there->t, there->p, there->v);
-    if (!status) self->found[event]++;
-    return status || event != self->ended - 1 || there == &self->late ? status : zd_stepper_return_to(self->output->stepper, there);
+    int status = settle(self, found, &there);
+    if (!status) status = events->found(events->data, found->event, there->t, there->p, there->v);
+    if (!status) self->found[found->event]++;
+    return status || index != self->last || there == &self->late ? status : zd_stepper_return_to(self->output->stepper, there);
 }
 
 /* Reports the events of the step, the terminal one last: the run ends at its state. */
 static int report(zd_watch *self, double end)
 {
-    int status = ZD_DONE, last = self->ended - 1;
-    for (int i = 0; !status && i < self->events->count; i++)
-        if (i != last && self->bracket[i].b < INFINITY && self->bracket[i].b <= end) status = report_one(self, i);
-    return status || !self->ended ? status : report_one(self, last);
+    int status = ZD_DONE;
+    for (int i = 0; !status && i < self->occurrences; i++)
+        if (i != self->last && self->occurrence[i].bracket.b <= end) status = report_one(self, i);
+    return status || self->last < 0 ? status : report_one(self, self->last);
 }
 
 /* Locates and reports the events of a step. Called at its corrected end; dense output belongs to the uncorrected step. */
@@ -235,9 +216,9 @@ static int find_all(zd_watch *self, double *end)
 {
     zd_output *output = self->output;
     double first_end = INFINITY;
-    zd_stepper_keep_place(output->stepper, &self->end);
     int status = output->is_away && zd_output_may_spread(output) ? zd_output_come_back(output) : ZD_DONE;
     if (!status && !output->is_away) status = zd_output_leave(output, 0);
+    if (!status) status = zd_watch_sample(self);
     if (!status) status = locate_all(self, &first_end);
     if (!status && self->ended && output->is_spread) status = cut(self, &first_end);
     if (!status) status = report(self, first_end);
@@ -245,22 +226,15 @@ static int find_all(zd_watch *self, double *end)
     return status;
 }
 
-/* *happening <- true if any event occurs between the previous evaluation and this one, at the corrected end of the step. */
-static int find_happening(zd_watch *self, int *happening)
-{
-    int status = evaluate_all(self, self->now);
-    for (int i = 0; !status && i < self->events->count; i++) *happening |= happens(self, i);
-    return status;
-}
-
 int zd_watch_after(zd_watch *self, int corrected, double *end)
 {
     zd_output *output = self->output;
-    int happening = 0;
+    int occurs = 0;
     if (!corrected) zd_output_leave_end(output);
-    int status = corrected ? ZD_DONE : correct(output->stepper);
-    if (!status) status = find_happening(self, &happening);
-    if (!status && happening) status = find_all(self, end);
+    int status = corrected ? ZD_DONE : zd_watch_correct(output->stepper);
+    if (!status) status = zd_watch_evaluate_all(self, self->now);
+    if (!status) status = zd_watch_predict(self, &occurs);
+    if (!status && occurs) status = find_all(self, end);
     if (!status && output->is_away && !self->ended) status = zd_output_come_back(output);
     output->is_away = 0;
     double *now = self->now;

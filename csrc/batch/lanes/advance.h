@@ -92,17 +92,23 @@ ZD_KERNEL zd_condition ZD_NAMED(is_due)(zd_lanes *self)
     return (*REAL(self->t) >= *REAL(self->next_t)) | (number >= *REAL(self->next_number)) | (number >= next);
 }
 
+/* True in lanes in which an entry of y passes zero in the last fixed step, or its cubic Hermite polynomial may. */
+ZD_KERNEL zd_condition ZD_NAMED(may_pass)(const zd_lanes *self, const zd_watched *event, zd_real h)
+{
+    const int i = event->entry, nq = self->nq;
+    const zd_real before = REAL(self->y0)[i] - event->level, now = REAL(self->y)[i] - event->level, change = now - before;
+    const zd_real rate1 = i < nq ? REAL(ZD_NAMED(rates_at)(self, self->y, self->pdot))[i] : REAL(self->vdot)[i - nq];
+    const zd_real bow = ZD_NAMED(size_of)(h * REAL(self->k)[i] - change) + ZD_NAMED(size_of)(h * rate1 - change);
+    const zd_condition changes = ((before < 0.0) & (now >= 0.0)) | ((before > 0.0) & (now <= 0.0));
+    return changes | (SMALLER(ZD_NAMED(size_of)(before), ZD_NAMED(size_of)(now)) <= bow);
+}
+
 /* True in lanes in which events may have occurred in the last step. */
 ZD_KERNEL zd_condition ZD_NAMED(has_events)(const zd_lanes *self)
 {
     zd_condition any = ZD_SPLAT(0.0) != 0.0;
     if (self->watches == ZD_WATCHES_STEPS) return ~any;
-    for (int i = 0; i < self->events; i++) {
-        const zd_watched *event = self->watched + i;
-        const zd_real before = REAL(self->y0)[event->entry] - event->level, now = REAL(self->y)[event->entry] - event->level;
-        if (event->direction >= 0) any |= (before < 0.0) & (now >= 0.0);
-        if (event->direction <= 0) any |= (before > 0.0) & (now <= 0.0);
-    }
+    for (int i = 0; i < self->events; i++) any |= ZD_NAMED(may_pass)(self, self->watched + i, *REAL(self->t) - *REAL(self->t_before));
     return any;
 }
 

@@ -23,7 +23,7 @@ typedef struct zd_method {
 
 /* Event that is one entry of y reaching a level. */
 typedef struct zd_watched {
-    int entry, direction;
+    int entry;
     double level;
 } zd_watched;
 
@@ -42,7 +42,7 @@ typedef struct zd_lanes {
     double astray, nearby, limit;       /* limits of safeguards/guard.h */
     double weight;                      /* weight of safeguards/resolution.h for this order of the method */
     int order_of_method;
-    enum { ZD_WATCHES_NOTHING, ZD_WATCHES_NUMBERS, ZD_WATCHES_STEPS } watches;  /* events: entries of y alone, or evaluated after each step */
+    enum { ZD_WATCHES_NOTHING, ZD_WATCHES_NUMBERS, ZD_WATCHES_STEPS } watches;  /* entries of y in fixed steps, or others */
     int events;
     /* Corrections besides the projection, of y at t in the lanes with is_corrected; NULL: none. `forced`: in any step. */
     void (*correct_rest)(void *of, const double *t, double *y, int forced);

@@ -1,0 +1,110 @@
+/* Values of event functions in lanes, and their samples within a step. */
+#include <math.h>
+
+#include "../step_limits.h"
+#include "group.h"
+
+zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes)
+{
+    if (!lanes->watches) return (zd_lane_search){.ended = 0};
+    const size_t events = (size_t)lanes->events, size = (size_t)lanes->size;
+    return (zd_lane_search){
+        .before = zd_take_doubles(arena, events),
+        .now = zd_take_doubles(arena, events),
+        .zeros = zd_take(arena, events * sizeof(zd_zeros)),
+        .occurrence = zd_take(arena, events * ZD_MOST_POINTS * sizeof(zd_occurrence)),
+        .early = zd_take_doubles(arena, size),
+        .mixed = zd_take_doubles(arena, size),
+    };
+}
+
+/* ---- event functions ---- */
+
+/* Value of an event function at the gathered state. If it fails, the run is repeated individually, which reports the failure. */
+double zd_lane_group_evaluate(zd_lane_group *self, int lane, int event, double t)
+{
+    double value = 0;
+    if (zd_read_event(&self->reader, zd_lane_group_data(self, lane), event, t, self->p, self->v, &value)) self->lanes.leaves[lane] = 1;
+    return value;
+}
+
+void zd_lane_group_evaluate_all(zd_lane_group *self, int lane, double t, const double *y, double *values)
+{
+    zd_lane_group_gather(self, lane, y);
+    for (int i = 0; i < self->lanes.events; i++) values[i] = zd_lane_group_evaluate(self, lane, i, t);
+}
+
+/* Change of an event function when the gathered state changes by its rounding. */
+double zd_lane_group_rounding(zd_lane_group *self, int lane, int event, double t, double value)
+{
+    const zd_lanes *lanes = &self->lanes;
+    double *p = self->run_of[lane].search.mixed, *v = p + lanes->nq, rounding = 0;
+    for (unsigned seed = 1; seed <= 2; seed++) {
+        double g = value;
+        zd_perturb(lanes->nq, self->p, seed, p);
+        zd_perturb(lanes->nv, self->v, seed + 2, v);
+        t *= 1 + (seed > 1 ? 2 * ZD_TIME_RESOLUTION : -ZD_TIME_RESOLUTION);
+        if (zd_read_event(&self->reader, zd_lane_group_data(self, lane), event, t, p, v, &g)) self->lanes.leaves[lane] = 1;
+        rounding += fabs(g - value);
+    }
+    return rounding;
+}
+
+/* ---- samples within the step ---- */
+
+/* Sets the ends of the step in the points of all events. */
+void zd_lane_group_span(zd_lane_group *self, int lane)
+{
+    const zd_lanes *lanes = &self->lanes;
+    const zd_lane_search *search = &self->run_of[lane].search;
+    const int last = ZD_SAMPLES + 1;
+    for (int i = 0; i < lanes->events; i++) {
+        zd_zeros *zeros = &search->zeros[i];
+        zeros->count = last + 1;
+        zeros->t[0] = lanes->t_before[lane], zeros->g[0] = search->before[i];
+        zeros->t[last] = lanes->t[lane], zeros->g[last] = search->now[i];
+    }
+}
+
+/* One part of the state, or its rates, by the cubic Hermite polynomial of the step. */
+static void predict_part(const zd_lanes *lanes, int lane, double x, int first, int count, const double *rate1, double *to)
+{
+    const double h = lanes->t[lane] - lanes->t_before[lane];
+    for (int i = 0; i < count; i++) {
+        const double y0 = zd_lane_number(lanes, lanes->y0, first + i, lane), y1 = zd_lane_number(lanes, lanes->y, first + i, lane);
+        const double slope0 = zd_lane_number(lanes, lanes->k, first + i, lane), slope1 = zd_lane_number(lanes, rate1, i, lane);
+        zd_interpolate_cubic(1, x, h, &y0, &slope0, &y1, &slope1, to + i);
+    }
+}
+
+/* Values of the event functions by cubic Hermite polynomials; events that cannot occur twice keep the ends of the step alone. */
+int zd_lane_group_predict(zd_lane_group *self, int lane)
+{
+    const zd_lanes *lanes = &self->lanes;
+    const zd_lane_search *search = &self->run_of[lane].search;
+    int any = 0;
+    for (int k = 1; k <= ZD_SAMPLES; k++) {
+        const double x = zd_sample_share(k), t = lanes->t_before[lane] + x * (lanes->t[lane] - lanes->t_before[lane]);
+        predict_part(lanes, lane, x, 0, lanes->nq, lanes->has_A ? lanes->pdot : lanes->y + lanes->nq * lanes->lanes, self->p);
+        predict_part(lanes, lane, x, lanes->nq, lanes->nv, lanes->vdot, self->v);
+        for (int i = 0; i < lanes->events; i++) {
+            search->zeros[i].t[k] = t;
+            search->zeros[i].g[k] = zd_lane_group_evaluate(self, lane, i, t);
+        }
+    }
+    for (int i = 0; i < lanes->events; i++)
+        if (zd_zeros_are_paired(&search->zeros[i])) any = 1;
+        else zd_zeros_keep_ends(&search->zeros[i]);
+    return any;
+}
+
+/* Adds the gathered state to the samples of the step. */
+void zd_lane_group_add_sample(zd_lane_group *self, int lane, double t)
+{
+    const zd_lane_search *search = &self->run_of[lane].search;
+    for (int i = 0; i < self->lanes.events; i++) {
+        if (search->zeros[i].count == 2) continue;
+        search->zeros[i].t[search->sample] = t;
+        search->zeros[i].g[search->sample] = zd_lane_group_evaluate(self, lane, i, t);
+    }
+}

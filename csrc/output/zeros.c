@@ -1,0 +1,180 @@
+#include "zeros.h"
+
+#include <math.h>
+
+enum { MOST_TRIES = 40 };
+static const double DEPTH = 0.25;       /* least relative decrease from the smallest value for which an extremum is followed */
+static const double LEAST_ROUNDING = 0x1p-40;   /* least rounding of a function, relative to its range in the step */
+static const double SHIFT = 0.05;       /* least distance of a new point from m, relative to b - a */
+
+/* sin^2((2 k - 1) pi / 64) */
+static const double share[ZD_SAMPLES / 2] = {
+    0.0024076366639016, 0.0215298321338956, 0.0590393678258225, 0.1134947733186315,
+    0.1828033579181773, 0.2643016315870011, 0.3548576613727688, 0.4509914298352196,
+};
+
+double zd_sample_share(int k)
+{
+    if (k == 0 || k > ZD_SAMPLES) return k > 0;
+    return k <= ZD_SAMPLES / 2 ? share[k - 1] : 1 - share[ZD_SAMPLES - k];
+}
+
+void zd_zeros_add(zd_zeros *self, double t, double g)
+{
+    self->t[self->count] = t;
+    self->g[self->count++] = g;
+}
+
+void zd_zeros_keep_ends(zd_zeros *self)
+{
+    const int last = self->count - 1;
+    self->t[1] = self->t[last], self->g[1] = self->g[last];
+    self->count = 2;
+}
+
+/* ---- shape of the function at the points ---- */
+
+static int count_changes(const zd_zeros *self)
+{
+    int changes = 0;
+    for (int k = 1; k < self->count; k++) changes += zd_passes_zero(self->g[k - 1], self->g[k], 0);
+    return changes;
+}
+
+static int has_superfluous_changes(const zd_zeros *self)
+{
+    return count_changes(self) > zd_passes_zero(self->g[0], self->g[self->count - 1], 0);
+}
+
+/* True if point k is an extremum towards zero, among points of the same sign. */
+static int is_dip(const zd_zeros *self, int k)
+{
+    const double sign = copysign(1, self->g[k]), f = sign * self->g[k], before = sign * self->g[k - 1], after = sign * self->g[k + 1];
+    return f > 0 && f <= before && f <= after && (f < before || f < after);
+}
+
+static double range_of(const zd_zeros *self)
+{
+    double range = 0;
+    for (int k = 0; k < self->count; k++) range = fmax(range, fabs(self->g[k]));
+    return range;
+}
+
+int zd_zeros_are_paired(const zd_zeros *self)
+{
+    const double range = range_of(self);
+    if (has_superfluous_changes(self)) return 1;
+    for (int k = 1; k + 1 < self->count; k++)
+        if (is_dip(self, k) && 2 * fabs(self->g[k]) < range) return 1;
+    return 0;
+}
+
+void zd_zeros_widen(const zd_zeros *self, int k, int *first, int *last)
+{
+    *first = k - 1, *last = k;
+    while (*first > 0 && self->g[*first - 1] * self->g[*first] > 0) --*first;
+    while (*last + 1 < self->count && self->g[*last + 1] * self->g[*last] > 0) ++*last;
+}
+
+/* ---- search ---- */
+
+void zd_zeros_begin(zd_zeros *self)
+{
+    self->at = 1;
+    self->tries = 0;
+    self->range = range_of(self);
+    self->verifies = has_superfluous_changes(self);
+}
+
+static void remove_point(zd_zeros *self, int k)
+{
+    self->count--;
+    for (; k < self->count; k++) self->t[k] = self->t[k + 1], self->g[k] = self->g[k + 1];
+}
+
+static void insert_point(zd_zeros *self, int k, double t, double g)
+{
+    for (int i = self->count++; i > k; i--) self->t[i] = self->t[i - 1], self->g[i] = self->g[i - 1];
+    self->t[k] = t, self->g[k] = g;
+}
+
+/* Time and value of the vertex of the parabola through the three points; m if there is none. */
+static double vertex(const zd_zeros *self, double *f)
+{
+    const double x = self->a - self->m, y = self->b - self->m, p = (self->fa - self->fm) / x, q = (self->fb - self->fm) / y;
+    const double curvature = (q - p) / (y - x), slope = p - curvature * x;
+    *f = self->fm;
+    if (!(curvature > 0)) return self->m;
+    *f -= slope * slope / (4 * curvature);
+    return self->m - slope / (2 * curvature);
+}
+
+/* The next point of the minimization, by the parabola at a distance from m; false if no value beyond rounding is expected below zero. */
+static int continues(zd_zeros *self)
+{
+    double f, t = vertex(self, &f);
+    const double width = self->b - self->a, middle = self->a + width / 2, least = SHIFT * width;
+    if (self->tries++ == MOST_TRIES || (self->fm > 0 && f > (1 - DEPTH) * self->fm)) return 0;
+    if (self->fm <= self->rounding && f >= -self->rounding) return 0;
+    if (fabs(t - self->m) < least) t = self->m + copysign(least, middle - self->m);
+    self->next = t;
+    return self->a < t && t < self->b && t != self->m;
+}
+
+static void minimize_from(zd_zeros *self, int k)
+{
+    self->sign = copysign(1, self->g[k]);
+    self->a = self->t[k - 1], self->m = self->t[k], self->b = self->t[k + 1];
+    self->fa = fabs(self->g[k - 1]), self->fm = fabs(self->g[k]), self->fb = fabs(self->g[k + 1]);
+    self->rounding = 0;
+}
+
+static int verifies_next(zd_zeros *self)
+{
+    while (self->at + 1 < self->count && self->g[self->at] * self->g[self->at - 1] > 0) self->at++;
+    self->next = self->t[self->at];
+    return self->at + 1 < self->count;
+}
+
+int zd_zeros_next(zd_zeros *self)
+{
+    if (self->verifies && verifies_next(self)) return 1;
+    if (self->verifies) self->verifies = 0, self->at = 1;
+    for (; self->at + 1 < self->count; self->at++) {
+        if (!self->tries && !is_dip(self, self->at)) continue;
+        if (!self->tries) minimize_from(self, self->at);
+        if (continues(self)) return 1;
+        self->tries = 0;
+    }
+    return 0;
+}
+
+/* A value f of the minimization at t: the smallest, or one end of the new interval. */
+static void narrow(zd_zeros *self, double t, double f)
+{
+    const int is_before = t < self->m;
+    if (f >= self->fm) {
+        if (is_before) self->a = t, self->fa = f;
+        else self->b = t, self->fb = f;
+        return;
+    }
+    if (is_before) self->b = self->m, self->fb = self->fm;
+    else self->a = self->m, self->fa = self->fm;
+    self->m = t, self->fm = f;
+}
+
+void zd_zeros_narrow(zd_zeros *self, double g, double rounding)
+{
+    const double f = self->sign * g, bound = fmax(rounding, LEAST_ROUNDING * self->range);
+    if (self->verifies) {
+        if (fabs(g) <= bound) remove_point(self, self->at);
+        else self->at++;
+    } else if (f < -bound) {
+        insert_point(self, self->at + (self->next > self->t[self->at]), self->next, g);
+        self->at++;
+        self->tries = 0;
+    } else {
+        self->rounding = bound;
+        narrow(self, self->next, f);
+    }
+}
