@@ -62,7 +62,7 @@ def kinematics(system: Any, motion: Mapping[Any, Any], t: Any = None, *, speed: 
     Warns
     -----
     LockedWarning
-        If a dead point ends the motion; the message has the limit.
+        If samples lie beyond a dead point; the message has the limit. Later ones that are within reach again are found.
     AccuracyWarning
         If an array over time is too coarse for its derivatives.
 
@@ -129,21 +129,24 @@ def _check_quantities(system: BaseSystem, t: float, p: np.ndarray, wanted: Mappi
 
 
 def _tracked(tracker: Tracker, p: np.ndarray, times: np.ndarray, wanted: Mapping[str, Prescribed]) -> np.ndarray:
-    """Positions (k, nq) at the samples, NaN beyond a dead point."""
+    """Positions (k, nq) at the samples, NaN beyond a dead point; from the last position before it to samples within reach."""
     tracker.check_determined(times[0], p)
     found, here = np.full((len(times), tracker.system.nq), np.nan), tracker.target(times[0], p)
+    first: DeadPoint | None = None
     for i, t in enumerate(times):
         there = Target(float(t), {name: each.value[i] for name, each in wanted.items()})
         try:
             p = tracker.follow(p, here, there)
         except DeadPoint as dead:
-            _check_agreement(tracker, dead, there)
-            limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}"
-                              for name, value in dead.reached.values.items())
-            warnings.warn(f"the motion of {tracker.system.name} ends at a dead point, {limit}: {len(times) - i} samples beyond "
-                          "it are NaN", LockedWarning, stacklevel=3)
-            break
+            if first is None:
+                _check_agreement(tracker, dead, there)
+                first = dead
+            continue
         found[i], here = p, there
+    if first is not None:
+        limit = ", ".join(f"{name} = {np.array2string(value, precision=9)[1:-1]}" for name, value in first.reached.values.items())
+        warnings.warn(f"the motion of {tracker.system.name} comes to a dead point, {limit}: {np.isnan(found).any(axis=1).sum()} "
+                      "samples beyond it are NaN", LockedWarning, stacklevel=3)
     return found
 
 

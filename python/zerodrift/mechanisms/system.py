@@ -23,11 +23,11 @@ from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
 from .assembly import space_advice
 from .assembly.free_coordinates import is_driven
-from .assembly.start import Starting
+from .assembly.start import Starting, size_of
 from .assembly.variants import are_plain, varied
 from .building.start_verbs import targets
 from .elements.drawing import Drawing
-from .elements.forces import driven, inputs_of
+from .elements.forces import Actuator, Motor, driven, inputs_of
 from .elements.numbers import Numbers
 from .elements.space_bodies import SpaceInertias
 from .equations.generated_code import Written, measure_program
@@ -396,12 +396,29 @@ class MechanismSystem(BaseSystem):
         return space_advice.locked(self._tables, self.name)
 
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
-        """Known cause of a failure at p: a motor at a dead centre; in space a disc lying flat, or shafts at a right angle."""
-        if isinstance(self._tables, SpaceTables):
-            reason = space_advice.on_failure(self._started_tables, self._interpreted, t, p)
-            if reason:
-                return reason
-        return advice.dead_centre(self._started_tables, self._interpreted, t, p)
+        """Known cause of a failure at p in space: a disc lying flat, or shafts at a right angle."""
+        if not isinstance(self._tables, SpaceTables):
+            return None
+        return space_advice.on_failure(self._started_tables, self._interpreted, t, p)
+
+    def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str | None:
+        """Sentence on the drive, and the dead point to which it moves the mechanism within a time ahead."""
+        from ..analysis.quantities import find  # slow to import and rarely needed
+        from ..analysis.reach_of_drives import dead_point
+
+        length = size_of(self._drawing, self._numbers)
+        drives = {row: each for row, constraint in enumerate(self.constraints[:self.mh])
+                  for each in [self._drawing.elements.get(constraint.name)] if isinstance(each, Motor | Actuator)}
+        sizes = {row: 1.0 if each.coordinate == "angle" else length for row, each in drives.items()}
+        found = dead_point(self, sizes, t, p, ahead)
+        if found is None:
+            return None
+        names = [drives[row] for row in found.rows]
+        limits = [f"{each.joint.name if isinstance(each, Motor) else each.name}.{each.coordinate}" for each in names]
+        reached = ", ".join(f"{name} = {float(find(found.at, name, 'drives').value[0]):.9g}" for name in limits)
+        return (f"{' and '.join(repr(each.name) for each in names)} must not drive {self.name!r} beyond its reach: at t = "
+                f"{found.at.t:.9g} it comes to a dead point, {reached}, where the joints let no motion go on; end before it, or "
+                "drive another joint")
 
     def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
         """Also the forces and torques that jump there."""

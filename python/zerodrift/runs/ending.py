@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import Interrupted
+from ..errors import CorrectionFailed, Interrupted
 from ..systems.base import BaseSystem
 from . import diagnosis, evaluation_path
 from . import outputs as _outputs
@@ -18,6 +18,9 @@ from .inputs import History
 from .opening import Prepared
 from .saving import EVENTS
 from .solution import Solution
+
+STEPS_AHEAD = 4         # steps of fixed size in which a dead point may be the cause of a failure
+SHARE_AHEAD = 1e-3      # of the time span, with adaptive steps
 
 
 class Outcome(NamedTuple):
@@ -116,21 +119,21 @@ def finished(solution: Solution, run, results, outcome, on_failure, keyboard) ->
 def _raise_failure(run: _gateway.Run, solution: Solution) -> None:
     if solution.status == _gateway.INTERRUPTED:
         raise Interrupted(solution.message, solution) from None
-    match solution.status:
-        case _gateway.CALLBACK:
-            note = run.message
-        case _gateway.COLLAPSED:
-            note = on_collapse(solution.system, run)
-        case _:
-            note = _advice(solution)
-    raise with_solution(run.error(solution.status), solution, note)
+    error, note = failure_of(solution.system, run, solution.status, solution.settings, solution.t_span)
+    raise with_solution(error, solution, note)
 
 
-def _advice(solution: Solution) -> str | None:
-    """Advice of the system on the state at which its run failed; None if it has none."""
-    if not len(solution.t):
-        return None
-    return solution.system._advice_on_failure(float(solution.t[-1]), np.ascontiguousarray(solution.p[-1]))
+def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dict[str, Any],
+               span: tuple[float, float]) -> tuple[BaseException, str | None]:
+    """Error of a failed run, and advice on it; beyond the reach of a drive it is one error for all methods and steps."""
+    t, p, _ = run.place()
+    if status == _gateway.CALLBACK:
+        return run.error(status), run.message
+    ahead = STEPS_AHEAD * settings["step"] if settings.get("step") else SHARE_AHEAD * (span[1] - span[0])
+    if said := system._beyond_reach(t, p, ahead):
+        return CorrectionFailed(said), None
+    note = on_collapse(system, run) if status == _gateway.COLLAPSED else system._advice_on_failure(t, p)
+    return run.error(status), note
 
 
 def on_collapse(system: BaseSystem, run: _gateway.Run) -> str:

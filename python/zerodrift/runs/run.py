@@ -14,7 +14,7 @@ from ..errors import InUse, StateWarning, WrongName, WrongState, WrongType, Wron
 from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
-from .ending import Outcome, finish_file, on_collapse, solution_of, with_solution
+from .ending import Outcome, failure_of, finish_file, solution_of, with_solution
 from .inputs import Drives, History, Jump, Speeds
 from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
@@ -334,13 +334,10 @@ class Run:
         core = self._core
         if status == _gateway.BAD_ARGUMENT:
             raise WrongValue("steps must be at least 0", "out-of-range")
-        error = core.error(status)
+        error, note = core.error(status), None
+        if status != _gateway.BAD_INPUT:
+            error, note = failure_of(self._of, core, status, self.settings, self._ready.span)
         core.forget_errors()
-        note = core.message if status == _gateway.CALLBACK else None
-        if status == _gateway.COLLAPSED:
-            note = on_collapse(self.system, core)
-        elif status not in (_gateway.CALLBACK, _gateway.BAD_INPUT):
-            note = self.system._advice_on_failure(self.t, self.p)
         if self._record is not None and self._ready.path is None and isinstance(error, Exception):
             with_solution(error, self._solution(Outcome(status, self._seconds, None)))
         if note:

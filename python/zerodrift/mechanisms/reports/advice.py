@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from ..._gateway import Variable
-from ..._gateway.mechanisms.plane import MechanismCore
 from ...systems.measure_values import Watching
 from ..assembly import space_advice
 from ..assembly.nudge import OTHERWISE
@@ -18,13 +17,10 @@ from ..elements.forces import Actuator, Bushing, Force, Motor, Spring, Torque, T
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..equations.space_tables import SpaceTables
-from ..equations.tables import Tables
 
-NEAR = 0.2          # of the largest singular value of unit rows: smallest singular value near a dead centre
-TAKES_PART = 0.2    # of the largest share: constraints with smaller shares in the dependency do not matter
+TAKES_PART = 0.2    # of the largest jump: elements with smaller ones do not matter
 BESIDE = np.array([1e-3, 1e-4, 1e-5, 1e-6])    # of the largest entry of a state: distances from it at which forces are evaluated
 WITH_LAWS = (Motor, Spring, TorsionSpring, Bushing, Force, Torque)
-MOST_ROWS = 300     # constraints, at most, for a singular value decomposition
 
 
 def at_start(error: str, start: Starting, constraints: Sequence[Variable]) -> str | None:
@@ -56,25 +52,6 @@ def _of_mass(drawing: Drawing, numbers: Numbers, can_be_held: bool) -> str | Non
         return None
     named, have = ", ".join(map(repr, without)), "has" if len(without) == 1 else "have"
     return f"{named} {have} no mass or no inertia: give some{', or take formulation=' + repr('augmented') if can_be_held else ''}"
-
-
-def dead_centre(tables: Tables, core: MechanismCore, t: float, p: np.ndarray) -> str | None:
-    """Sentence on the motor that has driven the mechanism to a dead centre, where it cannot move on, or None."""
-    motors: Mapping[str, Motor] = {motor.name: motor for motor in tables.drawing.of(Motor) if motor.prescribes}
-    if not motors or core.m > MOST_ROWS:
-        return None
-    C = core.evaluate(t, p, np.zeros(core.nv))["C"]
-    u, s, _ = np.linalg.svd(C / np.maximum(np.linalg.norm(C, axis=1, keepdims=True), 1e-300))
-    if len(C) <= core.nv and s[-1] > NEAR * s[0]:
-        return None
-    part = np.abs(u[:, -1])
-    for row, share in zip(core.rows, part, strict=True):
-        name = tables.relation_names[row.index] if row.owner == "relation" else None
-        if name in motors and share > TAKES_PART * part.max():
-            joint = motors[name].joint.name
-            return (f"near t = {t:g} the mechanism comes to a dead centre of motor {name!r}, where its joints do not let "
-                    f"{joint!r} move on: drive another joint, or end before it")
-    return None
 
 
 def jumping(drawing: Drawing, watching: Watching, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
