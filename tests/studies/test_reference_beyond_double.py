@@ -195,3 +195,10 @@ def test_the_certificate_tells_its_evidence():
     assert {each.integrator for each in in_double} >= {"dop853", "extrapolation"}
     assert ref.error >= 5 * np.hypot(truncated.p, rounded.p)
     assert "double-double arithmetic" in repr(ref)
+
+
+def test_events_that_never_come_are_empty():
+    spring = zd.systems.oscillator(mass=1.0, stiffness=4.0, x0=0.1)
+    found = zd.reference(spring, 2.0, precision="double-double").events(zd.Event("x", value=0.5))
+    assert [len(each) for each in (found.t, found.low)] == [0, 0]
+    assert [each.shape for each in (found.p, found.p_low, found.v, found.v_low)] == [(0, 1)] * 4

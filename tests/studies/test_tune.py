@@ -24,6 +24,20 @@ def test_the_error_is_met_on_every_system(system, error):
     assert f"Tuning of {system.name}" in repr(tuning)
 
 
+def test_errors_are_those_at_the_steps_of_the_run():
+    """Output times that all runs share are fewer, and miss up to some per cent of a run's error."""
+    from zerodrift.studies.bench import Setting
+
+    reference = zd.reference(BAR, 4.0, error=1e-11)
+    bench, missed = Bench(BAR, (0.0, 4.0), None, None, reference, direct=None), []
+    for row in bench.timed([Setting("schur", "dop853", 4 / steps, None) for steps in (320, 480, 640)]):
+        sol = zd.simulate(BAR, 4.0, **row.setting.settings)
+        error = np.abs(compare.difference(sol, reference)).max()
+        assert bench.verified(row).error >= error - 2 * reference.error
+        missed.append(error - row.error)
+    assert max(missed) > 0
+
+
 def test_the_evidence_has_every_setting_once():
     tuning = zd.tune(BAR, 1.0, error=1e-6, **FEW)
     assert len(tuning.evidence.rows) == len({row.setting for row in tuning.evidence.rows})

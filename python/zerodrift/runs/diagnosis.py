@@ -14,6 +14,7 @@ from ..errors import AccuracyWarning, CorrectionWarning, LockedWarning, Stabilit
 from ..systems.base import core_of
 from . import branches
 from .methods import integrators, name_of
+from .settings import Projection
 from .solution import Solution
 
 # Both energy limits are relative to the largest kinetic energy. Among the runs that were measured, none whose error of the energy
@@ -124,12 +125,21 @@ def _inaccuracy(solution: Solution) -> Iterator[tuple[type[Warning], str]]:
     advice = _advice(solution)
     of_energy = advice + OTHER_ENERGY if solution.system._has_own_energy else advice
     found = [f"{sentence}: {of_energy}" for sentence in _numerical_energy(solution)]
+    if _is_prescribed(solution):
+        yield from _other_branch(solution) if found else ()
+        return
     if not found and not solution.stats["too_long"] and solution.stats["unresolved"]:
         found = [f"{_unresolved_part(solution)}: {advice}"]     # otherwise the same has been said of the whole mechanism
     for sentence in found:
         yield AccuracyWarning, sentence
     if found or solution.stats["too_long"] or solution.stats["energy_skipped"]:
         yield from _other_branch(solution)
+
+
+def _is_prescribed(solution: Solution) -> bool:
+    """True if constraints leave no freedom and positions are projected onto them: steps affect the work of drives alone."""
+    stabilization = solution.settings["stabilization"]
+    return solution.stats["rank"] == solution.system.nv and isinstance(stabilization, Projection) and stabilization.positions
 
 
 def _rounding_at_rest(solution: Solution) -> float:

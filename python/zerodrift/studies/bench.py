@@ -20,6 +20,7 @@ from . import reference as certified
 from .compare import states_of
 
 TIMES = 200         # at which errors are measured, at most
+TIMES_OF_STEPS = 4000       # the same, at the ends and the middles of steps
 TOGETHER = 0.5      # s of runs whose errors are found together; at least as many runs as there are processors
 PARTS = 4           # for each thread, so that all end at about the same time
 OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simulate).parameters.items()
@@ -106,6 +107,7 @@ class Bench:
         self.system, self.span, self.start, self.direct = system, span, (p0, v0), direct
         is_certified = isinstance(reference, certified.Reference)
         self.reference_error, self.caveats = (reference.error_in_double, reference.caveats) if is_certified else (np.nan, ())
+        self._reference = reference
         self._times = _times(reference, span)
         self._exact = states_of(reference, self._times, system.nq)[:, :system.nq]
 
@@ -144,6 +146,15 @@ class Bench:
     def timed_again(self, row: Row) -> Row:
         """Entry with the smaller of its time and a second one."""
         return row._replace(seconds=min(row.seconds, self.run(row.setting).seconds))
+
+    def verified(self, row: Row) -> Row:
+        """Entry whose error includes that at the ends and in the middle of the run's own steps; for references with all steps."""
+        with unwarned():
+            own = simulate(self.system, self.span, *self.start, **row.setting.settings, direct=self.direct).t
+        times = np.sort(np.concatenate([own, (own[1:] + own[:-1]) / 2]))
+        times = times[np.unique(np.linspace(0, len(times) - 1, TIMES_OF_STEPS).round().astype(int))]
+        exact = states_of(self._reference, times, self.system.nq)[:, :self.system.nq]
+        return row._replace(error=max(row.error, _largest(self.run(row.setting, t_eval=times).p - exact)))
 
     def _rows(self, combinations: Sequence[Setting], outcomes: Sequence[Outcome], stop: _gateway.Stop | None) -> list[Row]:
         """Entries of finished runs; successful runs are repeated with output at the times of the reference."""

@@ -210,5 +210,8 @@ def located(runs: Runs, solution: Solution, given: Any) -> EventTimes:
     value = value_of("events", event.what, solution.system, event.of or {})
     settings = {name: value for name, value in solution.settings.items() if name != "t_eval"}
     run = simulate(solution.system, solution.t_span, **settings, events=event)
+    if not len(run.t_events[0]):
+        p, v = run.p_events[0], run.v_events[0]
+        return EventTimes(run.t_events[0], run.t_events[0], 0.0, p, p, v, v)
     level = Decimal(_check.number("value of events", event.value))
     return runs.events(lambda t, p, v: value(t, p, v) - level, run.t_events[0])

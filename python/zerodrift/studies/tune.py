@@ -62,7 +62,7 @@ def tune(
     """Find the fastest settings that reach an error, or the most accurate ones within a time.
 
     All methods are swept first; then the step or tolerance of the promising ones is refined, and the best are timed again.
-    Errors and times are measured as in `work_precision`.
+    Errors and times are measured as in `work_precision`, and those of the best also at the ends and in the middle of their steps.
 
     Parameters
     ----------
@@ -207,12 +207,16 @@ class _Search:
             self._measure(self._closer_to_goal(rows) for rows in candidates[:PROMISING])
 
     def best(self, rounds: int) -> Row:
-        """Best setting, after the leading ones were timed again."""
+        """Best setting, after the leading ones were timed again and their errors measured at their own steps."""
         met = sorted(self._rows_meeting_goal(), key=self.goal.cost)
-        if not met:
-            raise self.goal.refusal(list(self.rows.values()))
-        self._measure((row.setting for row in met[:PROMISING]), rounds)
-        return min((self.rows[row.setting] for row in met[:PROMISING]), key=self.goal.cost)
+        while met:
+            leading, met = [row.setting for row in met[:PROMISING]], met[PROMISING:]
+            self._measure(leading, rounds)
+            self.rows |= {setting: self.bench.verified(self.rows[setting]) for setting in leading}
+            verified = [self.rows[setting] for setting in leading if self._meets_goal(self.rows[setting])]
+            if verified:
+                return min(verified, key=self.goal.cost)
+        raise self.goal.refusal(list(self.rows.values()))
 
     def evidence(self, rounds: int) -> WorkPrecision:
         rows = sorted(self.rows.values(), key=lambda row: (*map(str, row.setting.method), -_fineness(row.setting)))
