@@ -212,3 +212,19 @@ def test_a_motion_prescribed_throughout_is_exact_at_any_step(dimension):
     assert np.abs(sol["A.angle"] - sol["A.angle"][0] - 2 * np.pi * sol.t).max() < 1e-9
     assert np.abs(sol.energy_violation).max() > 0.005 * sol.kinetic_energy.max()
     assert listened(m, 0.1, 10, "heun", stabilization=None)[1]
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_nothing_is_said_of_what_rests_to_rounding(dimension):
+    """Springs at their natural length, on which nothing acts: adaptive steps let roundings grow up to the tolerance."""
+    place = (0.3, 0.4, 0.1)[:dimension]
+    for stiffness in (1e2, 1e4, 1e6):
+        m = zd.Mechanism("at rest", dimension=dimension)
+        link = m.link("link", (0.1, 0.2, 0)[:dimension], place, mass=0.7)
+        m.revolute("pin", m.ground, link.start, **({"axis": (0, 0, 1)} if dimension == 3 else {}))
+        m.spring("spring", link.end, m.ground.point((1.1, 0.7, 0.3)[:dimension]), stiffness=stiffness)
+        for layout in ("joint", "absolute"):
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", zd.AccuracyWarning)
+                sol = zd.simulate(m.system(layout), 1.0)
+            assert np.abs(sol.p - sol.p[0]).max() < 1e-7
