@@ -141,6 +141,17 @@ typedef struct zd_chain {
     double *picked;         /* (size,): the independent entries of `rates` */
 } zd_chain;
 
+/* Memory for reactions and accelerations r that user functions of forces read: reactions.c */
+typedef struct zd_reactions {
+    int count;              /* n; 0: none are read */
+    const zd_inputs *inputs;    /* measures r, and their places in the data of the system */
+    double *r, *R, *F;      /* (n,): r; r measured with the forces at r; r - R */
+    double *change, *scale; /* (n,): change of r, in units of its scale */
+    double *matrix, *inverse;   /* (n, n): factors of I - dR/dr, in the scales of r; its inverse */
+    int *order;             /* (n,): of the factors */
+    double *measured, *scratch; /* a measure; scratch memory of the measures */
+} zd_reactions;
+
 struct zd_motion {
     zd_system system;
     zd_statistics statistics;
@@ -167,6 +178,7 @@ struct zd_motion {
     zd_balance balance;
     zd_path path;
     zd_chain chain;
+    zd_reactions reactions;
     zd_store store;         /* memory allocated on demand, after rare events */
     int in_run;             /* true if steps begin at states that satisfy the constraints */
 };

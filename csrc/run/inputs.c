@@ -1,14 +1,11 @@
 /* Inputs are constant within a step, except speeds: these follow an input linearly, so that velocities do not jump: over one fixed step, or
  * over a given time in which steps are adaptive, and which ends with one of them. Or they jump, see jump.c. A change
  * makes what is known at the start of the step invalid; without a change nothing is done, and the bits are those of a run without inputs.
- * Reactions and accelerations that user functions read are inputs, too, which are read from the accepted state before each step.
  */
 #include "inputs.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "../constraints/rank.h"
 
 static size_t count_speeds(const zd_inputs *inputs)
 {
@@ -37,14 +34,10 @@ static void take_jump(zd_held_inputs *held, zd_arena *arena, const zd_motion *mo
 
 zd_held_inputs zd_inputs_take(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion)
 {
-    const size_t count = inputs ? (size_t)inputs->count : 0, measures = inputs ? (size_t)inputs->measures : 0;
-    zd_held_inputs held = {.value = zd_take_doubles(arena, count + measures), .has_changed = zd_take(arena, count)};
+    const size_t count = inputs ? (size_t)inputs->count : 0;
+    zd_held_inputs held = {.value = zd_take_doubles(arena, count), .has_changed = zd_take(arena, count)};
     held.before.place = zd_take_doubles(arena, 3 * count_speeds(inputs));
     if (inputs && inputs->jumps) take_jump(&held, arena, motion);
-    if (measures) {
-        held.measured = zd_take_doubles(arena, (size_t)zd_largest_measure(inputs->of->measures));
-        held.scratch = zd_take_doubles(arena, (size_t)inputs->of->measures->scratch);
-    }
     if (held.value && count) memcpy(held.value, inputs->value, count * sizeof(double));
     if (held.before.place) keep_speeds(inputs, held.before.place);
     return held;
@@ -110,29 +103,6 @@ void zd_inputs_write(zd_run *run)
 {
     write(run, 0);
     run->held.is_new = 0;
-}
-
-/* Reads the measures of the accepted state, once before each step, also before one that is made again after a failure. */
-static int read_measures(zd_run *run, int *have_changed)
-{
-    const zd_inputs *inputs = run->settings.inputs;
-    zd_held_inputs *held = &run->held;
-    const zd_point *point = run->motion.point;
-    if (!inputs->measures || held->measured_step == run->loop.step + 1) return ZD_DONE;
-    int status = zd_motion_accelerate(&run->motion);
-    if (status) return status;
-    zd_rank_find_multipliers(run->motion.point);
-    for (int i = 0; i < inputs->measures; i++) {
-        const zd_measured out = {.value = held->measured};
-        double *value = held->value + inputs->count + i;
-        const zd_measures *measures = inputs->of->measures;
-        if (measures->evaluate(inputs->of->data, point->terms.inputs, inputs->measure[i].measure, point->t, point->p, point->v, point->vdot,
-                               point->lambda, &out, held->scratch)) return ZD_CALLBACK;
-        *have_changed |= *value != held->measured[inputs->measure[i].component];
-        *value = held->measured[inputs->measure[i].component];
-    }
-    held->measured_step = run->loop.step + 1;
-    return ZD_DONE;
 }
 
 /* ---- speeds over several steps ---- */
@@ -219,14 +189,11 @@ int zd_inputs_begin_step(zd_run *run)
 {
     const zd_inputs *inputs = run->settings.inputs;
     zd_held_inputs *held = &run->held;
-    int have_changed = 0;
-    const int status = read_measures(run, &have_changed);
-    if (status) return status;
     keep(run);
     if (inputs->ramp > 0 && !inputs->jumps) {
-        if (!follow(run) && !have_changed) return ZD_DONE;
+        if (!follow(run)) return ZD_DONE;
         held->is_new = 0;
         return renew(run);
     }
-    return held->is_new || held->has_ramp || have_changed ? begin(run) : ZD_DONE;
+    return held->is_new || held->has_ramp ? begin(run) : ZD_DONE;
 }

@@ -31,14 +31,12 @@ typedef struct zd_speeds_before {   /* speeds at the start of the step, to which
 } zd_speeds_before;
 
 typedef struct zd_held_inputs {     /* inputs of the settings, as the present step has them */
-    double *value;          /* (count + measures,) */
+    double *value;          /* (count,) */
     unsigned char *has_changed;     /* (count,): 1 for inputs that changed since the last step */
     zd_speeds_before before;
     zd_jump jump;           /* the last one; open for runs whose speeds jump only */
     zd_state start;         /* state at which it is made */
     double *rhs, *x;        /* (m,), (nv,): Psi, and the change of velocities */
-    double *measured, *scratch;     /* a measure; scratch memory of the measures */
-    int64_t measured_step;  /* number of steps made when the measures were read, + 1 */
     int is_new;             /* true if they changed since the last step */
     int has_ramp;           /* true if the last step followed a speed, which is constant in the next */
 } zd_held_inputs;

@@ -73,8 +73,10 @@ typedef struct zd_inputs {
     int derivations;            /* functions that recompute what the system derives from its data */
     void (*const *derive)(double *data);    /* (derivations,) */
     double *const *data;        /* (derivations,) */
-    int measures;               /* reactions and accelerations that the core reads of each accepted state, as inputs of the next step */
-    const zd_input_measure *measure;    /* (measures,): their places have the indices from `count` on, and hold 0 until the first step */
+    int measures;               /* reactions and accelerations that user functions of forces read, solved with the accelerations */
+    const zd_input_measure *measure;    /* (measures,) */
+    int measure_places;
+    const zd_input_place *measure_place;    /* (measure_places,): `input` is the index of the measure */
     const struct zd_system *of; /* system whose measures these are, with the same inputs */
 } zd_inputs;
 

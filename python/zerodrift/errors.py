@@ -236,6 +236,12 @@ class Bifurcation(SingularSystem):
     code = "bifurcation"
 
 
+class NoUniqueMotion(SingularSystem):
+    """Friction has no unique solution: forces depend too strongly on the reactions that they read (Painleve)."""
+
+    code = "no-unique-motion"
+
+
 class Diverged(ZerodriftError, ArithmeticError):
     """The state left the range of doubles."""
 

@@ -39,7 +39,9 @@
     STATUS(ZD_NOT_JACOBIAN, -23, "InconsistentSystem", "C or Phi_t are not the derivatives of Phi") \
     STATUS(ZD_NOT_KEPT, -24, "InconsistentSystem", "A v changes the length of a unit quaternion") \
     STATUS(ZD_BAD_INPUT, -25, "InputRefused", "an input is not finite, or beyond its limits") \
-    STATUS(ZD_COLLAPSED, -26, "StepFailed", "the step size has collapsed at one place")
+    STATUS(ZD_COLLAPSED, -26, "StepFailed", "the step size has collapsed at one place") \
+    STATUS(ZD_SEVERAL_MOTIONS, -27, "NoUniqueMotion", \
+           "friction has no unique solution: forces must not depend so strongly on the reactions that they read")
 
 #define ZD_STATUS_NUMBER(name, number, error, sentence) name = number,
 enum zd_status { ZD_STATUS_LIST(ZD_STATUS_NUMBER) };

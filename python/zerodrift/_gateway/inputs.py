@@ -38,6 +38,10 @@ class Following(NamedTuple):
     ramp: float = 0.0
 
 
+def _rows(places: Sequence[Place], names: Sequence[str]) -> Any:
+    return ffi.new("zd_input_place[]", [(names.index(each.name), each.is_speed, each.address) for each in places])
+
+
 class Inputs:
     """Inputs of one run.
 
@@ -50,8 +54,8 @@ class Inputs:
     values : ndarray (k,), optional
         Memory for the values, which holds the initial ones.
     reactions : dict of str to (int, int), optional
-        Measures of the last system in `bound`, and their components, that the core reads of each accepted state and writes to the
-        places of their names.
+        Measures of the last system in `bound`, and their components, that the core solves for with the accelerations and
+        writes to the places of their names.
     follows : Following
         Way in which speeds reach their inputs.
 
@@ -69,22 +73,24 @@ class Inputs:
         self._bound = tuple(bound)
         places = [place for each in self._bound for place in each.places]
         derivations = [each for bound in self._bound for each in bound.derivations]
-        held = reactions or {}
-        index = {name: i for i, name in enumerate((*self.names, *held))}
-        rows = ffi.new("zd_input_place[]", [(index[each.name], each.is_speed, each.address) for each in places])
-        measures = ffi.new("zd_input_measure[]", list(held.values()))
+        read = reactions or {}
+        of_reactions = [place for place in places if place.name in read and place.name not in self.names]
+        places = [place for place in places if place not in of_reactions]
+        rows, of_measures = _rows(places, self.names), _rows(of_reactions, tuple(read))
+        measures = ffi.new("zd_input_measure[]", list(read.values()))
         functions = ffi.new("void (*[])(double *)", [ffi.cast("void (*)(double *)", address) for address, _ in derivations])
         data = ffi.new("double *[]", [each for _, each in derivations])
         k = len(names)
         follows = follows or Following()
         texts = [ffi.new("char[]", name.encode()) for name in names]
         listed = ffi.new("const char *[]", texts)
-        self._memory = rows, functions, data, measures, texts, listed, places
+        self._memory = rows, functions, data, measures, of_measures, texts, listed, places
         self.c = ffi.new("zd_inputs *", {
             "count": k, "value": doubles(self.values, k), "lower": doubles(lower, k), "upper": doubles(upper, k),
             "places": len(places), "place": rows, "derivations": len(derivations), "derive": functions, "data": data,
-            "name": listed, "jumps": follows.jumps, "ramp": follows.ramp, "measures": len(held), "measure": measures,
-            "of": self._bound[-1].core.c if held else ffi.NULL})
+            "name": listed, "jumps": follows.jumps, "ramp": follows.ramp, "measures": len(read), "measure": measures,
+            "measure_places": len(of_reactions), "measure_place": of_measures,
+            "of": self._bound[-1].core.c if read else ffi.NULL})
 
     @property
     def at_places(self) -> np.ndarray:

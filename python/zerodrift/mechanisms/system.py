@@ -359,7 +359,7 @@ class MechanismSystem(BaseSystem):
         """Check that samples alone give the measure: reactions that user functions read are not among them."""
         if self._drawing.reactions() and self._watching.find(name) and not reading(name, self._drawing.elements):
             raise WrongValue(f"{name!r} must be recorded by the run, by outputs=[{name!r}], as user functions of {self.name} "
-                             "read reactions of the last accepted state")
+                             "read reactions")
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
         elements, drawing, numbers = chosen(self._drawing, names), self._drawing, self._numbers

@@ -10,6 +10,7 @@ import numpy as np
 from .. import _gateway
 from ..errors import WrongValue
 from ..systems.base import direct_core_of
+from .inputs import Declared
 from .settings import core_settings
 
 
@@ -18,9 +19,9 @@ def states_between(solution: Any, rows: np.ndarray, times: np.ndarray) -> tuple[
     settings = core_settings(solution.t_span, solution.settings)
     samples = (solution.t, solution.p, solution.v, solution.energy_input, solution.status == _gateway.EVENT)
     p, v = np.empty((len(times), solution.p.shape[1])), np.empty((len(times), solution.v.shape[1]))
+    is_own = "inputs" in solution.settings or bool(solution.system._held_reactions())
     for core, part in _cores(solution, settings, rows):
-        p[part], v[part] = _gateway.states_between(core, settings, *samples, times[part],
-                                                     is_own="inputs" in solution.settings)
+        p[part], v[part] = _gateway.states_between(core, settings, *samples, times[part], is_own=is_own)
     return p, v
 
 
@@ -28,21 +29,20 @@ def _cores(solution: Any, settings: Any, rows: np.ndarray) -> Iterator[tuple[Any
     """The core's system with the inputs of these steps, and which of them have these."""
     system, vector = solution.system, solution.settings.get("vector") or "baseline"
     names = solution.settings.get("inputs", ())
-    if system._held_reactions():
-        raise _wrong(f"user functions of {system.name} read reactions of the last accepted state")
-    if not names:
+    if not names and not system._held_reactions():
         yield direct_core_of(system, vector, settings), np.ones(len(rows), dtype=bool)
         return
     of = system._with_inputs(names)
-    bound = of.bound(direct_core_of(of.system, vector, settings), names)
-    if any(place.is_speed for place in bound.places):
+    given = np.column_stack([solution[name] for name in names]) if names else np.empty((len(solution.t), 0))
+    declared = Declared(tuple(names), given[0], given[0], of, _gateway.Following())
+    inputs, (core, _) = declared.bound(direct_core_of(of.system, vector, settings), of.system._watching.core)
+    if any(inputs.c.place[i].is_speed for i in range(inputs.c.places)):
         raise _wrong("a speed is an input")
-    given = np.column_stack([solution[name] for name in names])
-    inputs = _gateway.Inputs(names, given[0].copy(), given[0], given[0], [bound])
+    settings.inputs = inputs.c if of.reactions else settings.inputs
     each, which = np.unique(given[rows + 1], axis=0, return_inverse=True)
     for i, values in enumerate(each):
         inputs.set_constant(values)
-        yield bound.core, which.reshape(-1) == i
+        yield core, which.reshape(-1) == i
 
 
 def _wrong(reason: str) -> Exception:

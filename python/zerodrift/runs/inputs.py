@@ -76,7 +76,7 @@ def following(speeds: Speeds, names: Sequence[str], step: float | None) -> _gate
 def declared(given: Any, system: BaseSystem, speeds: Speeds, step: float | None) -> Declared | None:
     """Check the argument `inputs`: None, names, or a dict of names to limits (lower, upper), None for no limits.
 
-    A system whose user functions read reactions has inputs, perhaps none by name: the core sets these.
+    A system whose user functions read reactions has inputs, perhaps none by name: the core writes the reactions.
     """
     if given is None and not system._held_reactions():
         following(speeds, (), step)

@@ -99,8 +99,7 @@ class Run:
     A step that fails raises the error that `simulate` raises, and leaves the run at the start of that step: it can be read and go
     on, for example after another input. The same holds for Ctrl-C, and for what events and controllers raise.
 
-    Forces of a mechanism may read reactions of the last accepted state by name, see `Mechanism.motor`: with fixed steps as a
-    controller that is called before each of them.
+    Forces of a mechanism may read reactions and accelerations by name, see `Mechanism.motor`.
 
     Examples
     --------

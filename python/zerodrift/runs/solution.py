@@ -308,8 +308,7 @@ class Solution:
         Raises
         ------
         ValueError
-            For times outside the samples, if not every step was saved, or if speeds are inputs or user functions read reactions
-            of the last accepted state.
+            For times outside the samples, if not every step was saved, or if speeds are inputs.
 
         Examples
         --------

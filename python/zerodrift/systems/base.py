@@ -30,7 +30,7 @@ class WithInputs(NamedTuple):
     initial: list[float]
     units: list[str]
     bound: Any      # function of a core of this system and of the names: the core of one run, with the places of its inputs
-    reactions: Mapping[str, Place] = MappingProxyType({})   # measures of the last accepted state that its user functions read
+    reactions: Mapping[str, Place] = MappingProxyType({})   # reactions and accelerations that its user functions read
 
 
 class BaseSystem:
@@ -333,7 +333,7 @@ class BaseSystem:
                          f"parameters of a zd.System or zd.native system, and {self.name} has none", "not-available")
 
     def _held_reactions(self) -> Mapping[str, Place]:
-        """Measures of the last accepted state that its user functions read, by name."""
+        """Reactions and accelerations that its user functions read, by name."""
         return {}
 
     def _names_of_inputs(self) -> list[str]:
@@ -447,11 +447,11 @@ def system_of(given: Any, *state: Any) -> Any:
 
 
 def stateless_system_of(given: Any, *state: Any) -> Any:
-    """System of an argument of a study, in which equations of motion must not read reactions of the last accepted state."""
+    """System of an argument of a study, in which user functions must not read reactions."""
     system = system_of(given, *state)
     if isinstance(system, BaseSystem) and (names := system._held_reactions()):
         raise WrongValue(f"user functions must depend on t, positions and velocities in a study, and those of {system.name} read "
-                         f"{', '.join(names)} of the last accepted state, which a run has: simulate or Run")
+                         f"{', '.join(names)}, which a run solves for: simulate or Run")
     return system
 
 

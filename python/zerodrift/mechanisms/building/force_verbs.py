@@ -41,9 +41,8 @@ class ForceVerbs(Elements):
             The rate of that coordinate, in rad/s or m/s: a number, or a function of t, parameters and measures of positions.
         torque, force : float, callable or expression
             What acts on the joint's second body, its opposite on the first, in N m or N; of t, parameters and measures of
-            positions and velocities; and of reactions and accelerations of the last accepted state, such as ``"pin.force.x"``.
-            These are read before each step and held during it, so that the motion tends to that of the law itself with the first
-            order of the step size. The first step is made with those of a motion in which they are 0 in the law.
+            positions and velocities; and of reactions and accelerations, such as ``"pin.force.x"``. These are solved for together
+            with the accelerations; `NoUniqueMotion` is raised where they have no unique solution.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 

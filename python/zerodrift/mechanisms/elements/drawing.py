@@ -42,7 +42,7 @@ class Drawing(NamedTuple):
         return [point for point in sides if isinstance(point, Point)]
 
     def reactions(self) -> list[str]:
-        """Reactions and accelerations of the last accepted state that user functions read, by name."""
+        """Reactions and accelerations that user functions read, by name."""
         laws = (getattr(element, "law", None) for element in self.elements.values())
         return list(dict.fromkeys(name for law in laws if law is not None for name in law.reactions.values()))
 

@@ -30,7 +30,7 @@ class Law:
     measures : tuple of str
         The measures of positions and velocities it depends on, in the order in which `value` takes them.
     reactions : dict of str to str
-        Reactions and accelerations of the last accepted state, by its own names; a run holds them as parameters in each step.
+        Reactions and accelerations by its own names; a run solves for them with its accelerations.
     constant : float or None
         Its value where it is a plain number.
     """

@@ -37,7 +37,7 @@ class Call:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
 
     def held(self, numbers: Mapping[str, np.ndarray]) -> Call:
-        """Call with reactions read from `numbers`, arrays (1,) by name, which the core changes between steps."""
+        """Call with reactions read from `numbers`, arrays (1,) by name, which the core writes."""
         other = copy.copy(self)
         other.parameters = Held(self.parameters, {name: numbers[name] for name in self.law.reactions.values()})
         return other
