@@ -46,8 +46,9 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
         In a steady motion they are constant, at values that it needs, such as the steering angle of a bicycle in a turn.
     v : dict of measure to value, optional
         A steady motion is found in place of a position of rest: speeds that are prescribed, with drives running. All bodies keep
-        their rates in a frame that turns about the direction of gravity.
-        The steady motion nearest to the start is found, stable or not.
+        their rates in a frame that turns about the direction of gravity, without gravity about any axis, or shifts along a line,
+        and the equations of motion hold at 16 instants of one turn of each rate, or of one characteristic length.
+        One near the start is found, stable or not.
     stability : {"stable", "any"}
         "stable" leaves an unstable equilibrium downhill; "any" takes Newton's method to one nearby, stable or not.
     t : float
@@ -61,7 +62,7 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     Raises
     ------
     EquilibriumFailed
-        If none was found; the message names the direction in which a force remains.
+        If none was found; the message names the direction in which a force remains, or the force that changes along the motion.
     ValueError, TypeError
         For a wrong argument.
 
@@ -116,8 +117,8 @@ def _steady(system: BaseSystem, t: float, p: np.ndarray, speeds: Mapping[str, fl
     at = state(system, t, p, np.zeros(system.nv))
     held = [part for name in hold for part in components(name, len(rows_of(at, {name: None})[0]))]
     search = Steady(system, t, {name: _speed(at, name, value) for name, value in speeds.items()}, held)
-    found = search.run(p, np.array(system._state_or_start(None, None, "near", "v", t)[1]))
-    return in_motion(found.at, dict(zip(held, map(float, found.u), strict=True)), search.iterations)
+    flow, efforts = search.run(p, np.array(system._state_or_start(None, None, "near", "v", t)[1]))
+    return in_motion(flow, dict(zip(held, map(float, efforts), strict=True)), search.iterations)
 
 
 def _speed(at: State, name: str, value: Any) -> np.ndarray:

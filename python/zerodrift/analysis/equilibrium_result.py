@@ -17,7 +17,7 @@ from .quantities import components
 from .rest import Balance, nearest
 from .retraction import consistent, onto, rows_of
 from .spectrum import Spectrum, of_matrix
-from .state import State, scales
+from .state import scales
 
 SYMMETRIC = 1e-7        # of the largest stiffness: forces with a potential
 STEPS_ASIDE = 6
@@ -125,16 +125,14 @@ def at_rest(balance: Balance, iterations: int, how: str) -> Equilibrium:
                        residual=balance.residual, iterations=iterations, how=how)
 
 
-def in_motion(at: State, effort: dict[str, float], iterations: int) -> Equilibrium:
+def in_motion(flow: Flow, effort: dict[str, float], iterations: int) -> Equilibrium:
     """The result for a steady motion, whose stability is that of its linearization, with constant efforts."""
-    flow = Flow(at, efforts=effort)
-    spectrum = of_matrix(flow.A)
+    at, spectrum = flow.at, of_matrix(flow.A)
     stable = False if spectrum.grows else True if spectrum.decays else None
     return Equilibrium(at.system, at.t, (at.p, at.v, flow.vdot, flow.lam), effort, stiffness=None, damping=None,
                        basis=flow.tangent.velocities, spectrum=spectrum, stable=stable,
                        free=functools.partial(pivots, at, flow.tangent.basis @ spectrum.removed),
-                       residual=0.0 if flow.is_steady else float(np.linalg.norm(flow.acc)),
-                       iterations=iterations, how="Gauss-Newton method")
+                       residual=0.0, iterations=iterations, how="Gauss-Newton method")
 
 
 def of_many(balance: SparseBalance, stable: bool | None, iterations: int) -> Equilibrium:

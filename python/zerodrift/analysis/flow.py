@@ -15,14 +15,17 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._gateway import acceleration
+from .._rotations import rotation_of, turn
 from ..runs import settings
+from ..runs.instant import KnownInstant
 from ..systems.base import core_of
 from . import differences
 from .derivatives import Derivatives, sizes_of
 from .frames import STEADY, frame_of
+from .orbit import Orbit, changed
 from .quantities import find
 from .state import State, scales, state
-from .tangent import Tangent
+from .tangent import Tangent, row_lengths
 
 POSITION_ROUNDING = 1e-12    # of characteristic scales: displacements from a steady motion by rounding, times its stiffness
 
@@ -62,6 +65,7 @@ class Flow:
 
     def __init__(self, at: State, rest: Rest | None = None, efforts: Mapping[str, float] | None = None) -> None:
         self.at, self.tangent, self.frame = at, Tangent(at), frame_of(at.system)
+        self.is_at_rest, self.efforts = rest is not None, efforts
         if rest is None:
             self.vdot, self.lam = accelerate(at)
             self.derivatives = Derivatives(self.tangent, self.vdot, self.lam, efforts)
@@ -104,16 +108,40 @@ class Flow:
         return self._fit[0] if self.is_steady else np.zeros(3)
 
     @property
-    def left(self) -> tuple[np.ndarray, float]:
-        """Differences of accelerations and their derivatives from a steady motion, (2 n,), and the size of accelerations."""
-        return self._fit[1], self._size()
+    def left(self) -> np.ndarray:
+        """Differences of accelerations and their derivatives from a steady motion, (2 n,)."""
+        return self._fit[1]
 
     @functools.cached_property
     def is_steady(self) -> bool:
-        """All rates turn with one angular velocity, and go on to do so."""
-        left = float(np.abs(self._fit[1]).max(initial=0.0))
-        return left <= STEADY * max(self._size(), self.frame.weight) or left <= POSITION_ROUNDING * self._stiffness()
+        """All rates turn with one angular velocity, and go on to do so along the orbit that follows."""
+        return self._is_small(self._fit[1]) and self.change is None
 
+    def _is_small(self, left: np.ndarray) -> bool:
+        """Differences of accelerations are rounding."""
+        largest = float(np.abs(left).max(initial=0.0))
+        return largest <= STEADY * max(self.size, self.frame.weight) or largest <= POSITION_ROUNDING * self._stiffness
+
+    @functools.cached_property
+    def change(self) -> str | None:
+        """The action that changes along the orbit, so that the motion is steady for an instant only; None: none does."""
+        orbit, n = Orbit(self.at, self.frame, self.w, self._fit[0]), self.w.size
+        acc = self.frame.rotation(orbit.Omega, n) @ self.w
+        for s in () if self.is_at_rest else orbit.times(STEADY * np.sqrt(self.size)):
+            there, turned = Flow(orbit.state(s), efforts=self.efforts), orbit.turned(s)
+            violations = [there.at.Phi, there.at.C @ there.at.v + there.at.Phi_t]
+            unit = row_lengths(there.at.C * there.tangent.scale)
+            apart = max(float(np.abs(each / unit[:each.size]).max(initial=0.0)) for each in violations)
+            if apart > STEADY * (1 + np.abs(self.w).max()) or not self._is_small(there.acc - turned @ acc):
+                return changed(self.instant, there.instant, rotation_of(turn(orbit.Omega * s)))
+        return None
+
+    @property
+    def instant(self) -> KnownInstant:
+        """Any quantity there, with these accelerations."""
+        return KnownInstant(self.at.system, self.at.t, self.at.p, self.at.v, self.vdot, self.lam)
+
+    @functools.cached_property
     def _stiffness(self) -> float:
         """Largest change of the accelerations by a displacement of one characteristic scale, with the velocities that follow."""
         at, k = self.at, self.tangent.displacements.shape[1]
@@ -121,7 +149,8 @@ class Flow:
         changes = np.abs(self.frame.rows(at) @ self.columns[2][:, :k]).max(axis=0, initial=0.0)
         return float((changes / np.maximum(sizes, 1e-300)).max(initial=0.0))
 
-    def _size(self) -> float:
+    @functools.cached_property
+    def size(self) -> float:
         """The size of accelerations here: those there are, and those of the forces before they cancel."""
         largest = np.abs(self.acc).max(initial=0.0) + np.abs(self.w).max(initial=0.0)**2
         mass = np.maximum(np.diag(self.at.M), 1e-300)

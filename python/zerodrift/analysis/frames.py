@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..systems.base import BaseSystem
+from ..systems.base import BaseSystem, core_of
 from . import differences
 from .quantities import rates_of
 from .state import State, scales, state
@@ -68,6 +68,10 @@ class Frame:
         """The matrix (n, n) of omega x eta."""
         return self._blocks(w.size, {first: cross(w[first:first + 3]) for first in self.turning})
 
+    def angular_velocities(self, at: State, w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Angular velocities (k, 3) of bodies, and (j, 3) of the places of their mass centres about the origin."""
+        return np.zeros((0, 3)), np.zeros((0, 3))
+
     def rotation(self, Omega: np.ndarray, n: int) -> np.ndarray:
         """The matrix (n, n) of Omega x eta, of all vectors."""
         size = self.dimension
@@ -82,13 +86,15 @@ class Frame:
 
     def steady_rotation(self, w: np.ndarray, acc: np.ndarray) -> np.ndarray:
         """Omega (3,), with which acc = Omega x w for rows of both (j, n) as nearly as can be, about axes that keep gravity."""
-        axes, (j, n) = self._axes(), w.shape
+        axes, (j, n) = self.axes, w.shape
         columns = np.array([w @ self.rotation(axis, n).T for axis in axes]).reshape(len(axes), j * n).T
         if not columns.size or np.abs(columns).max() <= STEADY * np.abs(w).max(initial=0.0):
             return np.zeros(3)
         return axes.T @ np.linalg.lstsq(columns, acc.ravel(), rcond=STEADY)[0]
 
-    def _axes(self) -> np.ndarray:
+    @property
+    def axes(self) -> np.ndarray:
+        """Axes (a, 3) about which a rotation keeps gravity."""
         if self.gravity is None:
             return np.zeros((0, 3))
         size = float(np.linalg.norm(self.gravity))
@@ -125,6 +131,17 @@ class BodyFrame(Frame):
     def _at(self, at: State) -> tuple[np.ndarray, np.ndarray]:
         rows, bias = self.each(at.system, np.array([at.t]), at.p[None], at.v[None])
         return rows[0], bias[0]
+
+    def angular_velocities(self, at: State, w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        places = [first for first in self.vectors if first not in self.turning]
+        is_spin = np.ones(w.size, dtype=bool)
+        is_spin[[first + i for first in self.vectors for i in range(self.dimension)]] = False
+        spins = [w[first:first + 3] for first in self.turning] + [np.array([0.0, 0.0, each]) for each in w[is_spin]]
+        centres = core_of(at.system).poses(at.p)[0][:, :self.dimension]
+        space = np.zeros((2, len(places), 3))
+        space[:, :, :self.dimension] = centres, [w[first:first + self.dimension] for first in places]
+        about = np.cross(*space) / np.maximum((space[0]**2).sum(axis=1), 1e-300)[:, None]
+        return np.array(spins).reshape(-1, 3), about
 
     def rows(self, at: State) -> np.ndarray:
         return self._at(at)[0]

@@ -80,7 +80,7 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
     here, rest = _state(system, at, v), _rest(at)
     flow = Flow(here, rest, at.effort if isinstance(at, Equilibrium) else None)
     if not flow.is_steady:
-        left = float(np.abs(flow.left[0]).max())
+        left = float(np.abs(flow.left).max())
         warnings.warn(f"{system.name} is not in an equilibrium or a steady motion here: accelerations of {left:.3g} m/s^2 or "
                       "rad/s^2 remain or arise, and A is that of an instant; zd.equilibrium finds one", AccuracyWarning,
                       stacklevel=2)
