@@ -204,6 +204,26 @@ def test_sparse_and_dense_matrices_have_the_same_equilibrium(monkeypatch):
         zd.equilibrium(system, near={"l5.angle": 0.1})
 
 
+def test_a_chain_drawn_as_a_sketch_hangs_as_its_closed_form():
+    """Slopes of n bars that are longer than drawn: tan(slope_i) = (i - (n - 1) / 2) w / H."""
+    n, length = 400, 1.4 / 400
+    x = np.linspace(0, 1, n + 1)
+    y, m = -0.4 * np.sin(np.pi * x), zd.Mechanism("chain", gravity=(0, -9.81))
+    last = m.ground.point((0, 0))
+    for i in range(n):
+        link = m.link(f"link{i}", (x[i], y[i]), (x[i + 1], y[i + 1]), mass=10 / n, length=length)
+        m.revolute(f"pin{i}", last, link.start)
+        last = link.end
+    m.revolute("end", last, m.ground.point((1.0, 0)))
+    slope = np.arange(n) - (n - 1) / 2
+    low, high = 1e-6, 1e9
+    for _ in range(200):        # bisection of H
+        H = np.sqrt(low * high)
+        low, high = (H, high) if (length / np.hypot(1, slope / H)).sum() < 1 else (low, H)
+    sag = np.cumsum(length * (slope / H) / np.hypot(1, slope / H)).min()
+    assert zd.equilibrium(m)[f"link{n // 2}.start.position.y"] == pytest.approx(sag, abs=1e-9)
+
+
 def test_many_bodies_that_fall_are_refused(monkeypatch):
     m = zd.Mechanism("two stones", gravity=(0, -G))
     for i in range(2):

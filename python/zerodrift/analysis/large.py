@@ -29,9 +29,10 @@ from .retraction import consistent
 from .state import scales
 
 MANY = 200              # velocities: with fewer, dense matrices are faster
-ITERATIONS = 200
+ITERATIONS = 600
 STEP = 1e-4             # of a central difference, in characteristic scales
-LARGEST_STEP = 0.3      # largest change of a coordinate in a step, in characteristic scales
+LARGEST_STEP = 1.0      # largest change of a coordinate in a step, in characteristic scales
+LARGEST_MOVE = 30.0     # the same before it is shortened: longer ones have the direction of a stiffness that is almost singular
 SMALLEST_PART = 1e-9
 BALANCED = 1e-12        # relative to the magnitudes of the forces
 ROUNDED = 1e-9          # a balance that no step improves counts up to here
@@ -195,11 +196,11 @@ def found(system: BaseSystem, t: float, p: np.ndarray, meet: list[set[int]]) -> 
 
 
 def _downhill(here: SparseBalance, K: Any) -> np.ndarray:
-    """Newton's step z (nv,), with as much of M added to K as makes the forces do work along it."""
+    """Newton's step z (nv,), with as much of M added to K as makes it short enough and the forces do work along it."""
     C, M, added = sparse(here, "C"), sparse(here, "M"), 0.0
     for _ in range(30):
         z = _solved(K + added * M, C, here.unbalanced)
-        if np.isfinite(z).all() and z @ here.unbalanced > 0:
+        if np.isfinite(z).all() and z @ here.unbalanced > 0 and here.size(z) < LARGEST_MOVE:
             return z
         added = 10 * added or 1e-6 * float(max(np.abs(K.diagonal() / M.diagonal()).max(), np.abs(here.vdot).max()))
     return here.vdot
