@@ -16,7 +16,7 @@ from .measures import Measure, vector
 from .numbers import AS_GIVEN, Numbers
 
 SLENDER = 1 / 20        # of its length: default diameter of a link
-ROUNDING_OF_PRODUCTS = 4 * np.finfo(float).eps     # of the trace of an inertia: products that count as zero, where axes would be any
+ROUNDING_OF_PRODUCTS = 4 * np.finfo(float).eps     # of the trace of an inertia: products that count as zero
 TRIANGLE = 1e-9         # of the largest moment: its excess over the sum of the two others, at most
 SYMMETRIC = 1e-9        # of the largest entry: asymmetry, at most
 PATHS = tuple(f"{AXES[i]}{AXES[j]}" for i in range(3) for j in range(i, 3))
