@@ -98,6 +98,13 @@ def test_it_is_valid(unit):
     assert variables["elbow.force[1]"].unit == "N"
 
 
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_a_unit_without_inputs_and_outputs_is_valid(version, tmp_path):
+    from fmpy.validation import validate_fmu
+
+    assert validate_fmu(str(zd.fmu(crane(), tmp_path / "crane", step=STEP, version=version))) == []
+
+
 def test_a_constant_input_gives_the_numbers_of_simulate(unit):
     given = np.array([(0.0, 2.0), (2.0, 2.0)], dtype=[("time", float), ("drive.torque", float)])
     found = fmpy.simulate_fmu(str(unit), stop_time=1.0, step_size=0.01, output_interval=0.01, input=given)

@@ -216,7 +216,7 @@ def _description2(made: Chosen, identifier: str, token: str, scalars: Sequence[S
         f'    <ScalarVariable name={_quoted(each.name)} valueReference="{each.reference}" causality="{each.causality}" '
         f'variability="continuous"><Real{_unit(each)}{_start(each)}/>'
         "</ScalarVariable>\n" for each in scalars)
-    unknowns = "".join(f'      <Unknown index="{i}"/>\n' for i, each in enumerate(scalars, 1) if each.causality == "output")
+    unknowns = "".join(f'      <Unknown index="{i}"/>\n' for i, each in enumerate(scalars, 2) if each.causality == "output")
     kinds = ("Outputs", "InitialUnknowns") if unknowns else ()
     structure = "".join(f"    <{kind}>\n{unknowns}    </{kind}>\n" for kind in kinds)
     sources = "".join(f'      <File name="{name}"/>\n' for name in ["fmi2.c", *files.sources])
@@ -226,6 +226,8 @@ def _description2(made: Chosen, identifier: str, token: str, scalars: Sequence[S
 {sources}    </SourceFiles>
   </CoSimulation>
 {_units(scalars)}{_experiment(made)}  <ModelVariables>
+    <ScalarVariable name="time" valueReference="0" causality="independent" variability="continuous">\
+<Real unit="s"/></ScalarVariable>
 {variables}  </ModelVariables>
   <ModelStructure>
 {structure}  </ModelStructure>
