@@ -1,9 +1,12 @@
 /* Measures are marker quantities with their first and second derivatives, reactions of joints, and forces of springs and drives. */
 #include "measures.h"
 
+#include "least_reactions.h"
+
 #include <math.h>
 
 #include "../../linalg/small.h"
+#include "../../workspace.h"
 
 /* Places the frame at the state, and moves it if the measure needs twists, unless the previous call has done so. */
 static void place_and_move(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, const zd_measured *out)
@@ -96,6 +99,21 @@ static int measure_force(const zd_measuring *self, const zd_output_spec *measure
     }
 }
 
+/* As measure_force(); of a measure that depends on multipliers, with those of the least reactions. */
+static int measure_with_least(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *value)
+{
+    const int kind = measure->kind, m = self->elements->m;
+    if (m == 0 || (kind >= ZD_FORCE_VALUE && kind != ZD_DRIVE_VALUE && kind != ZD_DRIVE_POWER))
+        return measure_force(self, measure, at, value);
+    double *lambda = zd_allocate(sizeof(double) * (size_t)m);
+    zd_measured_state least = *at;
+    least.lambda = lambda;
+    int status = lambda ? zd_least_reactions(self, at, lambda) : ZD_NO_MEMORY;
+    if (!status) status = measure_force(self, measure, &least, value);
+    zd_release(lambda);
+    return status;
+}
+
 int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measured_state *at, const zd_measured *out)
 {
     const zd_output_spec *output = self->elements->output + measure;
@@ -106,7 +124,7 @@ int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measure
         return ZD_DONE;
     }
     if (!out->value) return ZD_DONE;
-    const int status = measure_force(self, output, at, out->value);
+    const int status = out->is_given ? measure_force(self, output, at, out->value) : measure_with_least(self, output, at, out->value);
     const int size = zd_output_size(output, self->numerics->forces, self->numerics->torques);
     for (int i = 0; i < size; i++) out->value[i] *= output->scale;
     return status;

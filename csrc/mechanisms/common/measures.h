@@ -28,7 +28,7 @@ typedef struct zd_measuring {
     const zd_measure_numerics *numerics;
     const zd_planned_elements *elements;
     zd_readings readings;
-    int nv;
+    int nv, joints;
     double *is_placed, *is_moving;      /* 1 if poses, twists belong to the current state */
     double *row;                        /* (nv,) scratch */
 } zd_measuring;

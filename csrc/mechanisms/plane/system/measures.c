@@ -70,7 +70,7 @@ static int evaluate(const void *data, const double *inputs, int measure, double 
     const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
     const zd_measured_state at = {t, p, v, vdot, lambda};
     const zd_measuring measuring = {
-        &NUMERICS, &self->elements, zd_plane_frame_readings(self, &frame), self->tree.nv, frame.is_placed, frame.is_moving, frame.row};
+        &NUMERICS, &self->elements, zd_plane_frame_readings(self, &frame), self->tree.nv, self->joints, frame.is_placed, frame.is_moving, frame.row};
     return zd_measures_evaluate(&measuring, measure, &at, out);
 }
 

@@ -81,7 +81,7 @@ class Tables:
         bodies = [entries.Body(*self.inertias.of[body.name][:2], not body.turns, inboard)
                   for body, inboard in zip(self.parts, self.inboard, strict=True)]
         quantities = self.quantities if quantities is None else quantities
-        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity())
+        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._length(), self._gravity())
 
     def drawn(self) -> np.ndarray:
         """Poses (bodies, 3) of the mass centres as drawn."""
@@ -100,6 +100,12 @@ class Tables:
         hung = [(body, self.joints[inboard]) for body, inboard in zip(self.parts, self.inboard, strict=True) if inboard >= 0]
         free = sum(3 if body.turns else 2 for body, inboard in zip(self.parts, self.inboard, strict=True) if inboard < 0)
         return free + sum(_freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
+
+    def _length(self) -> float:
+        """Largest distance of two joint points of the drawing, in m; 1 if there is none."""
+        points = np.array([joint.second.drawn_with(self.numbers) for joint in self.joints])
+        apart = [float(np.linalg.norm(points - point, axis=1).max()) for point in points]
+        return max(apart, default=0.0) or 1.0
 
     def _gravity(self) -> Any:
         return tuple(columns.plain(self.numbers.changed.get(f"gravity.{axis}", value))
