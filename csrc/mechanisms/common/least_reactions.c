@@ -35,6 +35,15 @@ static void take(least_reactions *to, zd_arena *arena, const zd_measuring *self)
     to->z = zd_take_doubles(arena, (size_t)m);
 }
 
+/* Magnitude of the entries that a marker quantity can have in a constraint */
+static double largest_arm(const zd_measuring *self, int quantity)
+{
+    double wrench[ZD_WRENCH_SIZE] = {0};
+    self->numerics->unit_wrench(self->readings.mechanism, self->readings.frame, quantity, wrench);
+    const double pull = zd_dot(ZD_WRENCH_FORCE, wrench, wrench), turn = zd_dot(ZD_WRENCH_FORCE, wrench + 3, wrench + 3);
+    return fmax(sqrt(pull) * fmin(self->elements->length, 1), sqrt(turn));
+}
+
 /* C (m, nv) <- constraints, each divided by its norm; norm (m,), 0 where one is zero up to rounding */
 static int write_constraints(const zd_measuring *self, double t, double *C, double *norm)
 {
@@ -50,6 +59,7 @@ static int write_constraints(const zd_measuring *self, double t, double *C, doub
         for (int k = 0; k < row->terms; k++) {
             self->numerics->write_row(of->mechanism, of->frame, elements->term[row->first + k].quantity, all.factors[k], self->row);
             zd_add_scaled(n, C + i * n, 1, self->row);
+            longest = fmax(longest, fabs(all.factors[k]) * largest_arm(self, elements->term[row->first + k].quantity));
         }
         norm[i] = sqrt(zd_dot(n, C + i * n, C + i * n));
         longest = fmax(longest, norm[i]);
