@@ -55,14 +55,18 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
 }
 
 int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
-                      const double *v, const double *vdot, const double *multipliers, double *values, double *scratch)
+                      const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch)
 {
     const zd_measures *all = system->measures;
-    int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    const int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    zd_measured at = *first;
     int status = ZD_DONE;
-    for (int64_t i = 0; i < rows && !status; i++)
+    for (int64_t i = 0; i < rows && !status; i++) {
         status = all->evaluate(system->data, inputs, measure, t[i], p + i * nq, v + i * nv, vdot ? vdot + i * nv : NULL,
-                               multipliers ? multipliers + i * m : NULL, &(zd_measured){.value = values + i * size}, scratch);
+                               multipliers ? multipliers + i * m : NULL, &at, scratch);
+        if (at.value) at.value += size;
+        if (at.redundant) at.redundant += size * m;
+    }
     return status;
 }
 

@@ -46,7 +46,7 @@ static int evaluate(zd_motion *motion)
     if (status) return status;
     zd_rank_find_multipliers(point);
     for (int i = 0; i < inputs->measures; i++) {
-        const zd_measured out = {.value = self->measured};
+        const zd_measured out = {.value = self->measured, .is_given = 1};
         if (measures->evaluate(inputs->of->data, point->terms.inputs, inputs->measure[i].measure, point->t, point->p, point->v, point->vdot,
                                point->lambda, &out, self->scratch)) return ZD_CALLBACK;
         self->R[i] = self->measured[inputs->measure[i].component];

@@ -25,10 +25,10 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
 /* The same at many states: t (rows,), p (rows, nq), v (rows, nv) give vdot (rows, nv) and multipliers (rows, m). */
 int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
                      const double *p, const double *v, double *vdot, double *multipliers, char *message, int message_size);
-/* A measure at many states: values (rows, size); scratch of the size that the measures declare. vdot and multipliers may be NULL if the
- * measure does not depend on them. */
+/* A measure at many states: `first` has the memory of the first, value and redundant of the others follow it; scratch of the size
+ * that the measures declare. vdot and multipliers may be NULL if the measure does not depend on them. */
 int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
-                      const double *v, const double *vdot, const double *multipliers, double *values, double *scratch);
+                      const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch);
 
 /* The terms in `want` at many states t (states,), p (states, nq), v (states, nv): `first` has the memory of the first, the others follow
  * it, (states, size) of each term, with a single scratch. */

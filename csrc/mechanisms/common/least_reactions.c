@@ -13,6 +13,7 @@
 #include "../../linalg/small.h"
 
 static const double DEPENDENT = 1e-8;       /* relative to the norm of a constraint: residual norm below which it is redundant */
+static const double SINGULAR = 1e-11;       /* relative to the longest row of S N: residual norm below which one is redundant */
 static const double ZERO_ROW = 1e-12;       /* relative to the longest constraint: norm below which one is zero */
 
 typedef struct least_reactions {
@@ -20,9 +21,10 @@ typedef struct least_reactions {
     double *N;              /* (m, m): null vectors, one after another */
     double *wrenches;       /* (2, rows): weighted wrenches at lambda and at lambda + n */
     double *moved, *z;      /* (m,) */
+    double *norm;           /* (m,) of each constraint; 0: zero up to rounding */
 } least_reactions;
 
-static int rows_of_wrenches(const zd_measuring *self) { return ZD_WRENCH_SIZE * self->joints + self->elements->relations; }
+static int rows_of_wrenches(const zd_measuring *self) { return ZD_WRENCH_SIZE * self->joints + 2 * self->elements->relations; }
 
 static void take(least_reactions *to, zd_arena *arena, const zd_measuring *self)
 {
@@ -33,6 +35,7 @@ static void take(least_reactions *to, zd_arena *arena, const zd_measuring *self)
     to->wrenches = zd_take_doubles(arena, 2 * (size_t)rows);
     to->moved = zd_take_doubles(arena, (size_t)m);
     to->z = zd_take_doubles(arena, (size_t)m);
+    to->norm = zd_take_doubles(arena, (size_t)m);
 }
 
 /* Magnitude of the entries that a marker quantity can have in a constraint */
@@ -89,7 +92,32 @@ static int write_null_vectors(least_reactions *of, int m, const double *norm)
     return m - C->rank;
 }
 
-/* to (rows,) <- wrenches of all joints, and the largest forces of relations without a joint, weighted */
+/* size (2,) <- largest force, and moment about the centre of mass, that a relation puts on a body */
+static int find_largest(const zd_measuring *self, const zd_measured_state *at, int relation, double *size)
+{
+    const zd_readings *of = &self->readings;
+    const zd_relation *row = self->elements->row + self->elements->row_of_relation[relation];
+    const zd_quantity_term *term = self->elements->term + row->first;
+    size[0] = size[1] = 0;
+    for (int side = 0; side < 2 * row->terms; side++) {
+        int of_side[2], body[2];
+        double sum[ZD_WRENCH_SIZE] = {0}, force, wrench[2 * ZD_WRENCH_SIZE];
+        self->numerics->unit_wrenches(of->mechanism, of->frame, term[side / 2].quantity, of_side, wrench);
+        const int chosen = of_side[side % 2];
+        for (int k = 0; k < row->terms && chosen; k++) {
+            const int status = zd_drive_force(self->elements, of, relation, k, at->t, at->lambda, &force);
+            if (status) return status;
+            self->numerics->unit_wrenches(of->mechanism, of->frame, term[k].quantity, body, wrench);
+            for (int i = 0; i < 2; i++)
+                if (body[i] == chosen) zd_add_scaled(ZD_WRENCH_SIZE, sum, force, wrench + i * ZD_WRENCH_SIZE);
+        }
+        size[0] = fmax(size[0], sqrt(zd_dot(3, sum, sum)));
+        size[1] = fmax(size[1], sqrt(zd_dot(3, sum + ZD_WRENCH_FORCE, sum + ZD_WRENCH_FORCE)));
+    }
+    return ZD_DONE;
+}
+
+/* to (rows,) <- wrenches of all joints, and the largest ones of relations without a joint, weighted; linear in the multipliers */
 static int write_wrenches(const zd_measuring *self, const zd_measured_state *at, double *to)
 {
     const zd_readings *of = &self->readings;
@@ -100,61 +128,105 @@ static int write_wrenches(const zd_measuring *self, const zd_measured_state *at,
         if (status) return status;
         for (int k = 0; k < self->numerics->torques; k++) to[ZD_WRENCH_FORCE + k] /= elements->length;
     }
-    for (int i = 0; i < elements->relations; i++) {
-        const zd_relation *row = elements->row + elements->row_of_relation[i];
-        double largest = 0;
-        for (int term = 0; term < row->terms && row->joint < 0; term++) {
-            double force, wrench[ZD_WRENCH_SIZE] = {0};
-            const int status = zd_drive_force(elements, of, i, term, at->t, at->lambda, &force);
-            if (status) return status;
-            self->numerics->unit_wrench(of->mechanism, of->frame, elements->term[row->first + term].quantity, wrench);
-            const double pull = zd_dot(ZD_WRENCH_FORCE, wrench, wrench), turn = zd_dot(ZD_WRENCH_FORCE, wrench + 3, wrench + 3);
-            const double size = force * (pull > 0 ? sqrt(pull) : sqrt(turn) / elements->length);
-            if (fabs(size) > fabs(largest)) largest = size;
-        }
-        to[i] = largest;
+    for (int i = 0; i < elements->relations; i++, to += 2) {
+        const int row = elements->row_of_relation[i];
+        double size[2] = {0, 0};
+        const int status = elements->row[row].joint < 0 ? find_largest(self, at, i, size) : ZD_DONE;
+        if (status) return status;
+        to[0] = copysign(size[0], at->lambda[row]);
+        to[1] = copysign(size[1], at->lambda[row]) / elements->length;
     }
     return ZD_DONE;
 }
 
-/* SN <- columns of weighted wrenches; z <- coefficients of the null vectors in the least multipliers */
-static int find_coefficients(const zd_measuring *self, const zd_measured_state *at, least_reactions *of, int count)
+/* Column j of SN <- change of the weighted wrenches by the null vector j, whose norm is written to `norm` */
+static int write_column(const zd_measuring *self, const zd_measured_state *at, least_reactions *of, int j, double *norm)
 {
     const int m = self->elements->m, rows = rows_of_wrenches(self);
-    double *base = of->wrenches, *other = base + rows;
-    int status = write_wrenches(self, at, base);
+    double sum = 0;
+    for (int i = 0; i < m; i++) of->moved[i] = at->lambda[i] + of->N[j * m + i];
+    const zd_measured_state there = {at->t, at->p, at->v, at->vdot, of->moved};
+    const int status = write_wrenches(self, &there, of->wrenches + rows);
+    for (int i = 0; i < rows; i++) {
+        const double change = of->wrenches[rows + i] - of->wrenches[i];
+        of->SN.A[i * of->SN.n + j] = change;
+        sum += change * change;
+    }
+    *norm = sqrt(sum);
+    return status;
+}
+
+/* SN <- columns of weighted wrenches. Null vectors change them at least as much as all are at lambda, against rounding; `total` <- |SN|. */
+static int write_columns(const zd_measuring *self, const zd_measured_state *at, least_reactions *of, int count, double *total)
+{
+    const int m = self->elements->m, rows = rows_of_wrenches(self);
+    int status = write_wrenches(self, at, of->wrenches);
+    const double size = sqrt(zd_dot(rows, of->wrenches, of->wrenches));
+    double sum = 0;
     of->SN.n = count;
     for (int j = 0; j < count && !status; j++) {
-        for (int i = 0; i < m; i++) of->moved[i] = at->lambda[i] + of->N[j * m + i];
-        const zd_measured_state there = {at->t, at->p, at->v, at->vdot, of->moved};
-        status = write_wrenches(self, &there, other);
-        for (int i = 0; i < rows; i++) of->SN.A[i * count + j] = base[i] - other[i];
+        double norm;
+        status = write_column(self, at, of, j, &norm);
+        if (!status && norm > 0 && norm < size) {
+            for (int i = 0; i < m; i++) of->N[j * m + i] *= size / norm;
+            status = write_column(self, at, of, j, &norm);
+        }
+        sum += norm * norm;
     }
+    *total = sqrt(sum);
+    return status;
+}
+
+/* C and its null vectors, `count` of them, SN and its norm */
+static int find_redundant(const zd_measuring *self, const zd_measured_state *at, least_reactions *of, int *count, double *total)
+{
+    const int m = self->elements->m;
+    const int status = write_constraints(self, at->t, of->C.A, of->norm);
+    *count = 0;
     if (status) return status;
-    zd_row_space_factor(&of->SN, rows, 1e-11, 0);
-    zd_row_space_solve(&of->SN, base, of->z);
-    return ZD_DONE;
+    zd_row_space_factor(&of->C, m, DEPENDENT, 0.5 * DEPENDENT);
+    if (of->C.rank == m) return ZD_DONE;
+    *count = write_null_vectors(of, m, of->norm);
+    return write_columns(self, at, of, *count, total);
+}
+
+/* Memory of all arrays, to be released; NULL: there is none */
+static void *allocate(least_reactions *of, const zd_measuring *self)
+{
+    zd_arena arena = {NULL, 0, NULL};
+    take(of, &arena, self);
+    void *memory = zd_allocate(arena.used);
+    arena = (zd_arena){memory, 0, NULL};
+    if (memory) take(of, &arena, self);
+    return memory;
 }
 
 int zd_least_reactions(const zd_measuring *self, const zd_measured_state *at, double *to)
 {
-    const int m = self->elements->m;
+    const int m = self->elements->m, rows = rows_of_wrenches(self);
     least_reactions of;
-    zd_arena size = {NULL, 0, NULL};
-    take(&of, &size, self);
-    void *memory = zd_allocate(size.used + sizeof(double) * (size_t)m);
+    void *memory = allocate(&of, self);
     if (!memory) return ZD_NO_MEMORY;
-    zd_arena arena = {memory, 0, NULL};
-    take(&of, &arena, self);
-    double *norm = (double *)(void *)((char *)memory + size.used);
-    int status = write_constraints(self, at->t, of.C.A, norm);
+    int count;
+    double total;
+    const int status = find_redundant(self, at, &of, &count, &total);
     memcpy(to, at->lambda, (size_t)m * sizeof *to);
-    if (!status) zd_row_space_factor(&of.C, m, DEPENDENT, 0.5 * DEPENDENT);
-    if (!status && of.C.rank < m) {
-        const int count = write_null_vectors(&of, m, norm);
-        status = find_coefficients(self, at, &of, count);
-        for (int j = 0; j < count && !status; j++) zd_add_scaled(m, to, of.z[j], of.N + j * m);
+    if (!status && count) {
+        zd_row_space_factor(&of.SN, rows, SINGULAR, 0);
+        zd_row_space_solve(&of.SN, of.wrenches, of.z);
+        for (int j = 0; j < count; j++) zd_add_scaled(m, to, -of.z[j], of.N + j * m);
     }
+    zd_release(memory);
+    return status;
+}
+
+int zd_redundant_multipliers(const zd_measuring *self, const zd_measured_state *at, double *N, int *count, double *total)
+{
+    least_reactions of;
+    void *memory = allocate(&of, self);
+    if (!memory) return ZD_NO_MEMORY;
+    const int status = find_redundant(self, at, &of, count, total);
+    memcpy(N, of.N, (size_t)*count * (size_t)self->elements->m * sizeof *N);
     zd_release(memory);
     return status;
 }

@@ -8,11 +8,13 @@
 #include "../../linalg/small.h"
 #include "../../workspace.h"
 
+enum { MOST_CONSTRAINTS = 200 };        /* largest number for the least reactions: the work grows with its cube */
+
 /* Places the frame at the state, and moves it if the measure needs twists, unless the previous call has done so. */
 static void place_and_move(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, const zd_measured *out)
 {
     const zd_readings *of = &self->readings;
-    if (!out->is_same_state) *self->is_placed = *self->is_moving = 0;
+    if (!out->is_same_state) *self->is_placed = *self->is_moving = *self->is_least = 0;
     if (*self->is_placed == 0) self->numerics->place(of->mechanism, of->frame, at->p);
     *self->is_placed = 1;
     if (*self->is_moving != 0 || (measure->kind == ZD_VALUES && !out->rate && !out->bias)) return;
@@ -99,18 +101,60 @@ static int measure_force(const zd_measuring *self, const zd_output_spec *measure
     }
 }
 
-/* As measure_force(); of a measure that depends on multipliers, with those of the least reactions. */
-static int measure_with_least(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, double *value)
+static int depends_on_multipliers(const zd_measuring *self, int kind)
 {
-    const int kind = measure->kind, m = self->elements->m;
-    if (m == 0 || (kind >= ZD_FORCE_VALUE && kind != ZD_DRIVE_VALUE && kind != ZD_DRIVE_POWER))
-        return measure_force(self, measure, at, value);
-    double *lambda = zd_allocate(sizeof(double) * (size_t)m);
-    zd_measured_state least = *at;
-    least.lambda = lambda;
-    int status = lambda ? zd_least_reactions(self, at, lambda) : ZD_NO_MEMORY;
-    if (!status) status = measure_force(self, measure, &least, value);
-    zd_release(lambda);
+    return self->elements->m && (kind < ZD_FORCE_VALUE || kind == ZD_DRIVE_VALUE || kind == ZD_DRIVE_POWER);
+}
+
+/* self->least <- multipliers of the least reactions, unless the previous call has done so; with many constraints, those given */
+static int find_least(const zd_measuring *self, const zd_measured_state *at, const zd_measured *out)
+{
+    const int m = self->elements->m;
+    if (out->is_same_state && *self->is_least != 0) return ZD_DONE;
+    int status = ZD_DONE;
+    if (m <= MOST_CONSTRAINTS) status = zd_least_reactions(self, at, self->least);
+    else memcpy(self->least, at->lambda, (size_t)m * sizeof *self->least);
+    *self->is_least = !status;
+    return status;
+}
+
+/* redundant (size, m) <- changes of a measure by redundant multipliers, relative to the norm of those of all wrenches */
+static int find_changes(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, int size, double *redundant)
+{
+    const int m = self->elements->m;
+    const double unit = measure->kind == ZD_JOINT_TORQUE ? self->elements->length : 1;
+    double base[ZD_WRENCH_SIZE], other[ZD_WRENCH_SIZE], total, *N = zd_allocate(sizeof(double) * (size_t)m * (size_t)(m + 1));
+    int count = 0;
+    if (!N) return ZD_NO_MEMORY;
+    double *moved = N + m * m;
+    memset(redundant, 0, (size_t)size * (size_t)m * sizeof *redundant);
+    int status = zd_redundant_multipliers(self, at, N, &count, &total);
+    if (!status) status = measure_force(self, measure, at, base);
+    for (int j = 0; j < count && total > 0 && !status; j++) {
+        for (int i = 0; i < m; i++) moved[i] = at->lambda[i] + N[j * m + i];
+        status = measure_force(self, measure, &(zd_measured_state){at->t, at->p, at->v, at->vdot, moved}, other);
+        for (int k = 0; k < size; k++) redundant[k * m + j] = (other[k] - base[k]) / (unit * total);
+    }
+    zd_release(N);
+    return status;
+}
+
+/* Results of a measure of forces */
+static int measure_with_least(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, const zd_measured *out)
+{
+    const int size = zd_output_size(measure, self->numerics->forces, self->numerics->torques);
+    zd_measured_state of = *at;
+    int status = ZD_DONE;
+    if (depends_on_multipliers(self, measure->kind)) {
+        if (!out->is_given) {
+            status = find_least(self, at, out);
+            of.lambda = self->least;
+        }
+        if (!status && out->redundant) status = find_changes(self, measure, &of, size, out->redundant);
+    }
+    if (status || !out->value) return status;
+    status = measure_force(self, measure, &of, out->value);
+    for (int i = 0; i < size; i++) out->value[i] *= measure->scale;
     return status;
 }
 
@@ -123,9 +167,5 @@ int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measure
         for (int i = 0; i < output->size; i++) measure_quantity(self, output, i, at, out);
         return ZD_DONE;
     }
-    if (!out->value) return ZD_DONE;
-    const int status = out->is_given ? measure_force(self, output, at, out->value) : measure_with_least(self, output, at, out->value);
-    const int size = zd_output_size(output, self->numerics->forces, self->numerics->torques);
-    for (int i = 0; i < size; i++) out->value[i] *= output->scale;
-    return status;
+    return measure_with_least(self, output, at, out);
 }

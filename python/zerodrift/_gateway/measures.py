@@ -56,18 +56,21 @@ class Measuring:
         return DEPENDS[self.c.measures.measure[index].depends]
 
     def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
-                multipliers: np.ndarray | None = None, *, is_own: bool = False) -> np.ndarray:
+                multipliers: np.ndarray | None = None, *, is_own: bool = False,
+                wanted: str = "value") -> np.ndarray:
         """A measure at many states: t (k,), p (k, nq), v (k, nv), vdot (k, nv), multipliers (k, m) give values (k, size).
 
         vdot and multipliers may be None where the measure depends on positions or velocities alone (`measure_depends`).
-        is_own: the system's data belong to the caller.
+        is_own: the system's data belong to the caller. wanted: "value", or "redundant": changes (k, size, m) by redundant
+        multipliers, relative to the norm of those of all wrenches.
         """
-        core, k = self if is_own else self.for_run(), len(t)
-        values, scratch = np.zeros((k, self.measure_size(index))), np.zeros(max(1, self.c.measures.scratch))
+        core, k, size = self if is_own else self.for_run(), len(t), self.measure_size(index)
+        values = np.zeros((k, size, self.m) if wanted == "redundant" else (k, size))
+        scratch = np.zeros(max(1, self.c.measures.scratch))
+        out = ffi.new("zd_measured *", {wanted: doubles(values, values.size, writable=True)})
         status = lib.zd_measure_states(core.c, core.initial_inputs(), index, k, doubles(t, k),
                                        doubles(p, k * self.nq), doubles(v, k * self.nv),
-                                       given(vdot, k * self.nv), given(multipliers, k * self.m),
-                                       doubles(values, values.size, writable=True),
+                                       given(vdot, k * self.nv), given(multipliers, k * self.m), out,
                                        doubles(scratch, scratch.size, writable=True))
         if status:
             raise core.error or self._lacks(index)

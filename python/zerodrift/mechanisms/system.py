@@ -351,9 +351,9 @@ class MechanismSystem(BaseSystem):
         found = orientation(self._watching, getattr(name, "name", name), solution) if self._drawing.dimension == 3 else None
         return super()._measured(name, solution) if found is None else found
 
-    def _unique(self, name: Any, solution: Any) -> Any:
+    def _unique(self, name: Any, solution: Any, body: Any = None) -> Any:
         self._check_recorded(getattr(name, "name", name))
-        return super()._unique(name, solution)
+        return super()._unique(name, solution, body)
 
     def _check_recorded(self, name: str) -> None:
         """Check that samples alone give the measure: reactions that user functions read are not among them."""

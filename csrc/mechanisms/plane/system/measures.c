@@ -44,6 +44,16 @@ static void unit_wrench(const void *mechanism, const void *frame, int quantity, 
     write_wrench(zd_plane_quantity_read(self->quantity + quantity, at->pose).second, wrench);
 }
 
+static void unit_wrenches(const void *mechanism, const void *frame, int index, int *body, double *wrench)
+{
+    const zd_plane_quantity *quantity = ((const zd_plane *)mechanism)->quantity + index;
+    const zd_plane_reading reading = zd_plane_quantity_read(quantity, ((const zd_plane_frame *)frame)->pose);
+    body[0] = quantity->first, body[1] = quantity->second;
+    memset(wrench, 0, 2 * ZD_WRENCH_SIZE * sizeof *wrench);
+    write_wrench(reading.first, wrench);
+    write_wrench(reading.second, wrench + ZD_WRENCH_SIZE);
+}
+
 static int reaction_of(const void *mechanism, const void *frame, int joint, const zd_measured_state *at, double *wrench)
 {
     zd_plane_wrench reaction;
@@ -60,7 +70,7 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
     vector[0] = apart.x, vector[1] = apart.y;
 }
 
-static const zd_measure_numerics NUMERICS = {2, 1, place, move, zd_plane_bias, write_row, unit_wrench, reaction_of, apart_of};
+static const zd_measure_numerics NUMERICS = {2, 1, place, move, zd_plane_bias, write_row, unit_wrench, unit_wrenches, reaction_of, apart_of};
 
 static int evaluate(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
                     const double *lambda, const zd_measured *out, double *scratch)
@@ -70,7 +80,9 @@ static int evaluate(const void *data, const double *inputs, int measure, double 
     const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
     const zd_measured_state at = {t, p, v, vdot, lambda};
     const zd_measuring measuring = {
-        &NUMERICS, &self->elements, zd_plane_frame_readings(self, &frame), self->tree.nv, self->joints, frame.is_placed, frame.is_moving, frame.row};
+        .numerics = &NUMERICS, .elements = &self->elements, .readings = zd_plane_frame_readings(self, &frame), .nv = self->tree.nv,
+        .joints = self->joints, .is_placed = frame.is_placed, .is_moving = frame.is_moving, .is_least = frame.is_least,
+        .least = frame.least, .row = frame.row};
     return zd_measures_evaluate(&measuring, measure, &at, out);
 }
 

@@ -49,6 +49,15 @@ static void unit_wrench(const void *mechanism, const void *frame, int quantity, 
     write_wrench(zd_space_quantity_read(self->quantity + quantity, at->pose).second, wrench);
 }
 
+static void unit_wrenches(const void *mechanism, const void *frame, int index, int *body, double *wrench)
+{
+    const zd_space_quantity *quantity = ((const zd_space *)mechanism)->quantity + index;
+    const zd_space_reading reading = zd_space_quantity_read(quantity, ((const zd_space_frame *)frame)->pose);
+    body[0] = quantity->first, body[1] = quantity->second;
+    write_wrench(reading.first, wrench);
+    write_wrench(reading.second, wrench + ZD_WRENCH_SIZE);
+}
+
 static int reaction_of(const void *mechanism, const void *frame, int joint, const zd_measured_state *at, double *wrench)
 {
     zd_space_wrench reaction;
@@ -66,7 +75,7 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
     write_vector(zd_minus3(second, first), vector);
 }
 
-static const zd_measure_numerics NUMERICS = {3, 3, place, move, zd_space_bias, write_row, unit_wrench, reaction_of, apart_of};
+static const zd_measure_numerics NUMERICS = {3, 3, place, move, zd_space_bias, write_row, unit_wrench, unit_wrenches, reaction_of, apart_of};
 
 static int evaluate(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
                     const double *lambda, const zd_measured *out, double *scratch)
@@ -76,7 +85,9 @@ static int evaluate(const void *data, const double *inputs, int measure, double 
     const zd_space_frame frame = zd_space_frame_of(self, scratch);
     const zd_measured_state at = {t, p, v, vdot, lambda};
     const zd_measuring measuring = {
-        &NUMERICS, &self->elements, zd_space_frame_readings(self, &frame), self->system.nv, self->joints, frame.is_placed, frame.is_moving, frame.row};
+        .numerics = &NUMERICS, .elements = &self->elements, .readings = zd_space_frame_readings(self, &frame), .nv = self->system.nv,
+        .joints = self->joints, .is_placed = frame.is_placed, .is_moving = frame.is_moving, .is_least = frame.is_least,
+        .least = frame.least, .row = frame.row};
     return zd_measures_evaluate(&measuring, measure, &at, out);
 }
 

@@ -20,7 +20,7 @@ from ..elements.drawing import Drawing, Inertias
 from ..elements.forces import Actuator, Motor
 from ..elements.frames import turned
 from ..elements.joints import Coupling, Joint
-from ..elements.numbers import Numbers
+from ..elements.numbers import AS_GIVEN, Numbers
 from ..elements.space_joints import SpaceJoint
 from ..elements.table_forces import UNITS, TableForce, lengths, paths
 from . import function_calls, transmission
@@ -81,7 +81,8 @@ class Tables:
         bodies = [entries.Body(*self.inertias.of[body.name][:2], not body.turns, inboard)
                   for body, inboard in zip(self.parts, self.inboard, strict=True)]
         quantities = self.quantities if quantities is None else quantities
-        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._length(), self._gravity())
+        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._length(),
+                              self._gravity())
 
     def drawn(self) -> np.ndarray:
         """Poses (bodies, 3) of the mass centres as drawn."""
@@ -102,8 +103,8 @@ class Tables:
         return free + sum(_freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
 
     def _length(self) -> float:
-        """Largest distance of two joint points of the drawing, in m; 1 if there is none."""
-        points = np.array([joint.second.drawn_with(self.numbers) for joint in self.joints])
+        """Largest distance of two joint points of the drawing without changed parameters, in m; 1 if there is none."""
+        points = np.array([joint.second.drawn_with(AS_GIVEN) for joint in self.joints])
         apart = [float(np.linalg.norm(points - point, axis=1).max()) for point in points]
         return max(apart, default=0.0) or 1.0
 
