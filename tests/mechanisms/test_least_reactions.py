@@ -53,7 +53,7 @@ def test_reactions_depend_neither_on_coordinates_nor_on_cuts_nor_on_the_axes_of_
 
 
 def self_stresses():
-    """Basis (s, 24) of weighted wrenches that hold each other in balance on the drawn four-bar, from the balances of its bodies."""
+    """Basis (s, 24) of weighted wrenches in balance with each other on the drawn four-bar, from the balances of its bodies."""
     ends = {"crank": [(0, 1), (1, -1)], "coupler": [(1, 1), (2, -1)], "rocker": [(2, 1), (3, 1)]}
     rows = []
     for joints in ends.values():

@@ -99,8 +99,8 @@ class Tables(NamedTuple):
     relations: Sequence[Relation] = ()
     forces: Sequence[GeneralizedForce] = ()
     measures: Sequence[OutputSpec] = ()
-    length: float = 1.0         # m: that moments are divided by in the least reactions
     gravity: tuple[float, float] = (0.0, 0.0)
+    length: float = 1.0         # m: that moments are divided by in the least reactions
 
 
 class Coordinate(NamedTuple):

@@ -110,8 +110,8 @@ class Tables(NamedTuple):
     relations: Sequence[Relation] = ()
     forces: Sequence[GeneralizedForce] = ()
     measures: Sequence[OutputSpec] = ()
-    length: float = 1.0         # m: that moments are divided by in the least reactions
     gravity: Vector = NONE
+    length: float = 1.0         # m: that moments are divided by in the least reactions
 
 
 def _joint_kind(number: int) -> JointKind:

@@ -81,8 +81,8 @@ class Tables:
         bodies = [entries.Body(*self.inertias.of[body.name][:2], not body.turns, inboard)
                   for body, inboard in zip(self.parts, self.inboard, strict=True)]
         quantities = self.quantities if quantities is None else quantities
-        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._length(),
-                              self._gravity())
+        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
+                              self._length())
 
     def drawn(self) -> np.ndarray:
         """Poses (bodies, 3) of the mass centres as drawn."""
