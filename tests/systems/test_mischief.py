@@ -105,7 +105,7 @@ def write(self, function, p, v):
     value = np.array(function(p, v))
     for array in (p, v):
         for way in WAYS_TO_WRITE:
-            with contextlib.suppress(ValueError, TypeError, RuntimeError):
+            with contextlib.suppress(ValueError, TypeError, RuntimeError, IndexError):      # of arrays without a base, too
                 way(array)
     return value if self.name != "events" else float(value)
 
