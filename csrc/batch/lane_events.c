@@ -48,7 +48,7 @@ static int is_wide(const zd_lanes *lanes, int lane, const zd_bracket *bracket)
     return bracket->b - bracket->a > resolution_of(lanes, lane);
 }
 
-/* Index of the next located occurrence to be reported, after this one; the one that ends the run is last; -1: there are no more. */
+/* Index of the next located occurrence to be reported, after this one; the one that ends the run is last; -1 if all are reported. */
 static int next_reported(const zd_lane_search *search, int index)
 {
     if (index >= 0 && index == search->last) return -1;

@@ -37,7 +37,8 @@ class Event:
     Notes
     -----
     The event is evaluated at 16 points of each step, and near extremes towards zero: zeros further apart than a tenth of a step
-    are found. Set `max_step` for those of a function that changes faster. A touch of zero, to rounding, is not an event.
+    are found. Set `max_step` for those of a function that changes faster. A touch of zero, to rounding, is not an event,
+    except exactly at the end of a step.
 
     Reactions and accelerations are those of the state at which the event is evaluated. Where an input jumps, they jump with
     it: the event happens there, and the state after the jump is reported.
