@@ -2,11 +2,8 @@
 
 import contextlib
 import gc
-import os
 import signal
 import sys
-import threading
-import time
 import traceback
 from pathlib import Path
 
@@ -17,68 +14,65 @@ import tolerances as tol
 import zerodrift as zd
 from covering import draws
 from large_mechanisms import chain
-from support import assert_close, assert_same_bits, motion
+from support import assert_same_bits, motion
 from watched import At, pendulum
 from zerodrift import _gateway
 from zerodrift.runs import simulate as simulation
 
 PACKAGE = str(Path(zd.__file__).parent)
-posix = pytest.mark.skipif(os.name != "posix", reason="there is no timer that sends signals")
 
 
-def interrupted(bar, after=0.15, **options):
-    """A long run, Ctrl-C after a while: what came back, and how long that took."""
-    sent = []
+@pytest.fixture
+def slices(monkeypatch):
+    """Seconds that each slice of the core is given; Ctrl-C is pressed during the twentieth, and each ends after a few steps."""
+    given, advance = [], _gateway.Run.advance
 
-    def press():
-        time.sleep(after)
-        sent.append(time.perf_counter())
-        signal.raise_signal(signal.SIGINT)      # os.kill would end the process on Windows
+    def advancing(run, record, seconds):
+        given.append(seconds)
+        if len(given) == 20:
+            signal.raise_signal(signal.SIGINT)      # os.kill would end the process on Windows
+        return advance(run, record, 0.0)
 
-    threading.Thread(target=press).start()
-    try:
-        result = zd.simulate(bar, 1e5, step=1e-3, save_every=1000, **options)
-    except KeyboardInterrupt as error:
-        result = error
-    return result, time.perf_counter() - sent[0]
+    monkeypatch.setattr(_gateway.Run, "advance", advancing)
+    return given
 
 
-def interrupted_after_samples(bar, **options):
-    """The same with more than one sample: on a busy machine the first one may take longer."""
-    for after in (0.15, 1.0, 5.0):
-        result, _ = interrupted(bar, after, **options)
-        if len(getattr(result, "solution", result).t) > 1:
-            break
-    return result
-
-
-def test_ctrl_c_keeps_what_was_computed(bar):
-    error = interrupted_after_samples(bar)
-    assert isinstance(error, zd.errors.Interrupted)
-    sol = error.solution
-    assert zd.errors.sentence(error) == sol.message == "interrupted from the keyboard"
+def test_ctrl_c_keeps_what_was_computed(bar, slices):
+    with pytest.raises(zd.errors.Interrupted) as caught:
+        zd.simulate(bar, 100.0, step=1e-3)
+    sol = caught.value.solution
+    assert zd.errors.sentence(caught.value) == sol.message == "interrupted from the keyboard"
     assert not sol.success
     assert sol.status > 0
-    assert 1 < len(sol.t) < 1e5
-    assert_close(sol.p, zd.simulate(bar, sol.t[-1], step=1e-3, save_every=1000).p, tol.CONVERGED)
+    assert 20 <= len(sol.t) < 1e5
+    assert_same_bits(zd.simulate(bar, sol.t[-1] + 0.01, step=1e-3), sol, slice(len(sol.t)))
 
 
-def test_ctrl_c_may_return(bar):
-    sol = interrupted_after_samples(bar, on_failure="return", integrator="trapezoidal")
+def test_ctrl_c_may_return(bar, slices):
+    sol = zd.simulate(bar, 100.0, step=1e-3, on_failure="return", integrator="trapezoidal")
     assert sol.message == "interrupted from the keyboard"
-    assert len(sol.t) > 1
+    assert len(sol.t) >= 20
 
 
-def test_ctrl_c_is_heard_at_once(bar):
-    """The best of a few: a busy machine may delay any one of them."""
-    assert min(interrupted(bar)[1] for _ in range(3)) <= tol.KEYBOARD
+def test_ctrl_c_is_heard_at_once(bar, slices):
+    """No slice begins after it, and none is given more than a part of what is promised."""
+    zd.simulate(bar, 100.0, step=1e-3, on_failure="return")
+    assert len(slices) == 20
+    assert max(slices) <= tol.KEYBOARD / 2
+    del slices[:]
+    with pytest.raises(KeyboardInterrupt):
+        zd.Run(bar, step=1e-3).advance_to(100.0)
+    assert len(slices) == 20
+    assert max(slices) <= tol.KEYBOARD / 2
 
 
 class Presser:
-    """Presses Ctrl-C before the k-th bytecode of the package; notes whether the core had run, and whether the run was over."""
+    """Presses Ctrl-C before the k-th bytecode of the package, or at the k-th call of one of its functions; notes whether the core
+    had run, and whether the run was over.
+    """
 
-    def __init__(self, k, monkeypatch):
-        self.k, self.count, self.advanced, self.over = k, 0, False, False
+    def __init__(self, k, monkeypatch, event="opcode"):
+        self.k, self.event, self.count, self.advanced, self.over = k, event, 0, False, False
         advance = _gateway.Run.advance
 
         def advancing(*arguments):
@@ -91,15 +85,15 @@ class Presser:
     def trace(self, frame, event, argument):
         if not frame.f_code.co_filename.startswith(PACKAGE):
             return None
-        frame.f_trace_opcodes, frame.f_trace_lines = True, False
-        if event == "opcode":
+        frame.f_trace_opcodes, frame.f_trace_lines = self.event == "opcode", False
+        if event == self.event:
             self.count += 1
             if self.count == self.k:
                 sys.settrace(None)
                 self.over = self.ran and signal.getsignal(signal.SIGINT) is signal.default_int_handler
                 self.advanced = self.ran
                 signal.raise_signal(signal.SIGINT)
-        return self.trace
+        return self.trace if self.event == "opcode" else None
 
     def __call__(self, call):
         sys._getframe().f_trace_opcodes = True      # since CPython 3.12 one frame has to ask for bytecodes before others can
@@ -159,40 +153,34 @@ def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure
     assert over < draws(4, 15)
 
 
-def pressed_after(seconds, call):
-    """A call's outcome, Ctrl-C meanwhile. The collector is off: a KeyboardInterrupt within a watch over it is ignored."""
-    gc.disable()
-    before = signal.signal(signal.SIGALRM, lambda *_: signal.raise_signal(signal.SIGINT))
-    try:
-        signal.setitimer(signal.ITIMER_REAL, seconds)
-        try:
-            return call()
-        finally:
-            signal.setitimer(signal.ITIMER_REAL, 0)     # it may be pressed here, too
-    except KeyboardInterrupt as error:
-        return error
-    finally:
-        signal.signal(signal.SIGALRM, before)
+def pressed_at_calls(call, monkeypatch, samples):
+    """The outcomes of pressing at so many calls of the package's functions in this thread; the collector is off, as a
+    KeyboardInterrupt within a watch over it is ignored.
+    """
+    with monkeypatch.context() as patch:
+        presser = Presser(0, patch, "call")
+        presser(call)
+    for k in np.unique(np.linspace(1, presser.count, samples).astype(int)):
+        gc.disable()
+        with monkeypatch.context() as patch:
+            outcome = (presser := Presser(k, patch, "call"))(call)
         gc.enable()
+        if presser.count == k:      # other threads may have left less to do for this one
+            yield outcome
 
 
-@posix
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # within a finalizer
 @pytest.mark.parametrize("what", ["simulate", "reference", "work_precision", "tune"])
-def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar):
-    known = zd.reference(bar, 0.5, error=None)
+def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar, monkeypatch):
+    known, few = zd.reference(bar, 0.1, error=None), {"formulations": ["schur"], "integrators": ["rk4", "dop853"]}
     call = {
-        "simulate": lambda: zd.simulate(pendulum(), 3.0, step=1e-3),
-        "reference": lambda: zd.reference(bar, 2.0, error=None),
-        "work_precision": lambda: zd.work_precision(bar, 0.5, reference=known, rounds=3),
-        "tune": lambda: zd.tune(bar, 0.5, error=1e-6, formulations=["schur"]),
+        "simulate": lambda: zd.simulate(pendulum(), 0.05, step=1e-3),
+        "reference": lambda: zd.reference(bar, 0.1, error=None),
+        "work_precision": lambda: zd.work_precision(bar, 0.1, reference=known, rounds=1, **few),
+        "tune": lambda: zd.tune(bar, 0.1, error=1e-6, rounds=1, **few),
     }[what]
     kept = 0
-    later = (0.5, 1.0, 2.0)     # on a busy machine it takes longer until there is something to keep
-    for seconds in (*np.random.default_rng(2002).uniform(0.001, 0.25, size=12), *later):
-        if seconds in later and (kept or what == "reference"):
-            break
-        outcome = pressed_after(seconds, call)
+    for outcome in pressed_at_calls(call, monkeypatch, draws(8, 30)):
         if isinstance(outcome, zd.Interrupted):
             assert "interrupted from the keyboard" in str(outcome)
             assert repr(outcome.solution)
@@ -200,20 +188,27 @@ def test_ctrl_c_at_any_time_ends_what_goes_on(what, bar):
     assert kept or what == "reference"      # whose result exists only at the end
 
 
-@posix
 @pytest.mark.parametrize("links", [100, 2000])
 def test_ctrl_c_ends_an_assembly(links):
-    """With dense matrices and without: the core finds in seconds that the end of a chain is held beyond its reach."""
+    """With dense matrices and without: the core asks while it finds that the end of a chain is held beyond its reach."""
     m = chain(links)
     m.start({f"link{links - 1}.end.position.y": 2.0 * links})
-    heard = []
-    for seconds in (0.3, 0.6, 1.2):     # Python prepares the conditions first, for longer on a busy machine
-        outcome = pressed_after(seconds, lambda: m.system("absolute").p0)
-        assert isinstance(outcome, KeyboardInterrupt)
-        heard = [frame.name for frame in traceback.extract_tb(outcome.__traceback__)]
-        if "zd_interrupted_in_python" in heard:
-            break
-    assert "zd_interrupted_in_python" in heard
+    asked = []
+
+    def press(frame, event, argument):
+        if frame.f_code.co_name == "zd_interrupted_in_python" and event == "call":
+            asked.append(frame)
+            if len(asked) == 3:
+                signal.raise_signal(signal.SIGINT)
+
+    sys.setprofile(press)
+    try:
+        with pytest.raises(KeyboardInterrupt) as caught:
+            _ = m.system("absolute").p0
+    finally:
+        sys.setprofile(None)
+    assert len(asked) == 3
+    assert "zd_interrupted_in_python" in [frame.name for frame in traceback.extract_tb(caught.value.__traceback__)]
 
 
 def test_another_handler_of_ctrl_c_is_left_alone(bar):
