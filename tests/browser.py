@@ -9,12 +9,13 @@ import time
 
 import pytest
 
+import tolerances as tol
+
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 needs_chromium = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium")
 FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-extensions",
          "--mute-audio", "--disable-background-networking", "--disable-component-update", "--disable-dev-shm-usage",
          "--remote-debugging-pipe", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1")      # no network
-SECONDS = 120       # for one answer
 
 
 class Browser:
@@ -90,7 +91,7 @@ class Browser:
                  "prefers-reduced-motion": "reduce" if still else "no-preference"}
         self("Emulation.setEmulatedMedia", features=[{"name": name, "value": value} for name, value in media.items()])
         loader = self("Page.navigate", url=url)["loaderId"]
-        end = time.monotonic() + SECONDS
+        end = time.monotonic() + tol.HUNG
         while (loader, "load") not in self._loaded:
             assert time.monotonic() < end, url
             self._read()
@@ -100,6 +101,13 @@ class Browser:
         found = self("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         assert "exceptionDetails" not in found, found
         return found["result"].get("value")
+
+    def until(self, condition):
+        """Wait until an expression of JavaScript is true."""
+        end = time.monotonic() + tol.HUNG
+        while not self.evaluate(condition):
+            assert time.monotonic() < end, (condition, self.errors)
+            time.sleep(0.02)
 
     def screenshot(self, path, whole=True):
         """PNG file of the page."""

@@ -9,6 +9,7 @@ import threading
 
 import pytest
 
+import tolerances as tol
 import zerodrift as zd
 from support import environment_of_tests
 from zerodrift import _locking
@@ -73,7 +74,7 @@ def test_a_killed_process_holds_nothing(tmp_path, which):
     holder = subprocess.Popen([sys.executable, "-c", HOLDER, path, which], stdin=subprocess.PIPE, env=environment_of_tests())
     assert holder.wait() == -signal.SIGKILL
     assert path.exists()
-    for _ in range(1000):       # until the child has closed what it inherited
+    for _ in range(100 * tol.HUNG):     # until the child has closed what it inherited
         try:
             with Lock(path, "held by"):
                 break

@@ -6,6 +6,7 @@ A process of this machine takes them away; the wheel for Pyodide itself is not r
 import subprocess
 import sys
 
+import tolerances as tol
 from support import environment_of_tests
 
 LACKS = """
@@ -45,7 +46,7 @@ for request in (lambda: zd.ensemble(m, 0.1, executor="processes", **ONE), lambda
 
 
 def run(script):
-    result = subprocess.run([sys.executable, "-c", LACKS + script], capture_output=True, text=True, check=False, timeout=120,
+    result = subprocess.run([sys.executable, "-c", LACKS + script], capture_output=True, text=True, check=False, timeout=tol.HUNG,
                             env=environment_of_tests())
     assert result.returncode == 0, result.stderr
     return result.stdout.splitlines()

@@ -6,6 +6,7 @@ from scipy.linalg import qr
 
 import zerodrift as zd
 from mechanisms.random_starts import mechanism
+from support import drawn_in
 
 RANK = 1e-9     # of the largest singular value
 
@@ -18,10 +19,10 @@ def largest_error(seed, in_space, layout):
     free = null_space(system, p)
     if not free.shape[1]:
         return None
-    p, v = zd.project(system, p, v + free @ random.standard_normal(free.shape[1]), projection=zd.Projection(tol=1e-13))
+    p, v = zd.project(system, p, v + free @ drawn_in(free, random), projection=zd.Projection(tol=1e-13))
     terms, free = system.evaluate(p, v), null_space(system, p)
     C, xi = constraints(system, terms)
-    vdot = np.linalg.lstsq(C, xi, rcond=RANK)[0] + free @ random.standard_normal(free.shape[1])
+    vdot = np.linalg.lstsq(C, xi, rcond=RANK)[0] + free @ drawn_in(free, random)
     names = [each.name for each in system.velocities]
     inv = zd.inverse_dynamics(system, 0.0, p, v, vdot, efforts=names)
     assert inv.residual[0] < 1e-9 * (1 + np.abs(terms.f).max())

@@ -1,7 +1,6 @@
 """Runs that the core makes from tables: each has the bits that `simulate` gives it, and fails by itself."""
 
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -69,12 +68,11 @@ def test_runs_that_are_stopped_say_so():
 
 
 def test_long_runs_are_stopped_within_them():
+    """A run of 10^10 steps; one that has ended would have its samples."""
     stop = _gateway.Stop()
-    timer = threading.Timer(0.1, stop.set)
+    timer = threading.Timer(0.05, stop.set)
     timer.start()
-    begin = time.perf_counter()
-    assert not len(made(zd.systems.four_bar(), 1e4, {"gravity": [1.0]}, step=0.001, save_every=100_000, stop=stop).rows)
-    assert time.perf_counter() - begin < 2
+    assert not len(made(zd.systems.four_bar(), 1e7, {"gravity": [1.0]}, step=0.001, save_every=10**9, stop=stop).rows)
     timer.join()
 
 

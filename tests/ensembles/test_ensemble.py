@@ -6,6 +6,7 @@ import threading
 import numpy as np
 import pytest
 
+import tolerances as tol
 import zerodrift as zd
 from support import refused
 from zerodrift.ensembles import ensemble as module
@@ -194,7 +195,7 @@ def test_ctrl_c_leaves_what_was_done(monkeypatch):
 
     class Interrupting(threading.Thread):
         def join(self, timeout=None):
-            begun.wait(10)
+            begun.wait(tol.HUNG)
             if timeout is not None:
                 raise KeyboardInterrupt
             super().join()

@@ -11,6 +11,7 @@ import subprocess
 import numpy as np
 import pytest
 
+import tolerances as tol
 import zerodrift as zd
 from browser import Browser, needs_chromium
 from zerodrift._rotations import rotation_of
@@ -43,7 +44,7 @@ def web(tmp_path_factory):
         for name, data in blocks.items():
             (folder / name).write_bytes(data)
         (folder / "main.mjs").write_text(SCRIPT + script)
-        result = subprocess.run([NODE, "main.mjs"], cwd=folder, capture_output=True, text=True, check=False, timeout=500)
+        result = subprocess.run([NODE, "main.mjs"], cwd=folder, capture_output=True, text=True, check=False, timeout=tol.HUNG)
         assert result.returncode == 0, result.stderr
         return [json.loads(line) for line in result.stdout.splitlines()]
 

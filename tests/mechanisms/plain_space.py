@@ -9,6 +9,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 import zerodrift as zd
+from support import drawn_in
 
 H = 1e-4        # of central differences, whose error is some H^2 and round-off over H
 KINDS = ("revolute", "prismatic", "cylindrical", "universal", "spherical", "planar", "rod", "slot", "weld", "screw")
@@ -207,7 +208,8 @@ class Compared:
         rank = int((s > 1e-6 * s[0]).sum())
         # nearly dependent rows would need more digits than differences have
         self.can_be = self.plain.system.nv > 0 and s[:rank].min() >= 1e-2 * s[0]
-        self.v = vt[rank:].T @ rng.normal(size=len(vt) - rank)
+        free = vt[rank:].T
+        self.v = free @ drawn_in(free, rng)
 
     def _run(self, formulation, span, step):
         system, own = self.plain.system, self.v.reshape(-1, 6).copy()

@@ -11,6 +11,7 @@ import warnings
 import pytest
 import sympy as sp
 
+import tolerances as tol
 import zerodrift as zd
 from cached_system import Q, made
 from support import assert_close
@@ -143,7 +144,7 @@ def left_hanging(folder, monkeypatch):
     monkeypatch.setattr(shared_library, "PATIENCE", 0.1)
     met = []
     with socket.create_server(("127.0.0.1", 0)) as server:
-        server.settimeout(60)
+        server.settimeout(tol.HUNG)
         line = [sys.executable, "-c", HANGING, str(server.getsockname()[1])]
         with pytest.raises(zd.CompilationFailed, match=r"did not end within 0.1 s"):
             shared_library._run(line, folder, None, lambda: met.append(server.accept()[0]))
@@ -152,7 +153,7 @@ def left_hanging(folder, monkeypatch):
 
 def assert_all_ended(connection):
     with connection, contextlib.suppress(ConnectionResetError):
-        connection.settimeout(20)
+        connection.settimeout(tol.HUNG)
         assert connection.recv(1) == b""
 
 
