@@ -211,13 +211,12 @@ static int report(zd_watch *self, double end)
     return status || self->last < 0 ? status : report_one(self, self->last);
 }
 
-/* Locates and reports the events of a step. Called at its corrected end; dense output belongs to the uncorrected step. */
+/* Locates and reports the events of a step. */
 static int find_all(zd_watch *self, double *end)
 {
     zd_output *output = self->output;
     double first_end = INFINITY;
-    int status = output->is_away && zd_output_may_spread(output) ? zd_output_come_back(output) : ZD_DONE;
-    if (!status && !output->is_away) status = zd_output_leave(output, 0);
+    int status = zd_watch_leave(self);
     if (!status) status = zd_watch_sample(self);
     if (!status) status = locate_all(self, &first_end);
     if (!status && self->ended && output->is_spread) status = cut(self, &first_end);

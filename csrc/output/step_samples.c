@@ -1,6 +1,7 @@
-/* Samples of event functions within a step, between which they pass zero at most once: of the dense output with adaptive steps of a method
- * that has one, and of shorter steps of a series. With other fixed steps, values of the cubic Hermite polynomial show the steps in which a
- * function may pass zero and return; there, they are replaced by those of shorter steps.
+/* Samples of event functions within a step, between which they pass zero at most once. Values of a polynomial without corrections, which
+ * costs little, show the steps in which a function may pass zero and return: dense output with adaptive steps, a cubic Hermite polynomial
+ * with fixed steps. There, they are replaced by corrected ones: of dense output or shorter steps. These are taken at once if there is no
+ * such polynomial: for series, states in independent velocities, and accelerations within adaptive steps.
  */
 #include "step_samples.h"
 
@@ -8,9 +9,16 @@
 #include "../point/matrices.h"
 #include "../point/quaternions.h"
 
-static int is_sampled_directly(const zd_watch *self)
+static int is_fixed(const zd_watch *self)
 {
-    return !self->at_end.vdot;
+    return self->at_end.vdot != NULL;
+}
+
+static int reads_any_accelerations(const zd_watch *self)
+{
+    int any = 0;
+    for (int i = 0; i < self->events->count; i++) any |= zd_watch_reads_accelerations(self, i);
+    return any;
 }
 
 int zd_watch_correct(zd_stepper *stepper)
@@ -46,7 +54,7 @@ static int find_rates(const zd_watch *self, zd_end_rates *rates)
 
 void zd_watch_before(zd_watch *self)
 {
-    if (!is_sampled_directly(self)) find_rates(self, &self->at_start);
+    if (is_fixed(self)) find_rates(self, &self->at_start);
 }
 
 /* y (n,) <- the cubic Hermite polynomial of a step of size h, at a fraction x of it */
@@ -60,21 +68,40 @@ void zd_interpolate_cubic(int n, double x, double h, const double *y0, const dou
     }
 }
 
-/* Moves `mixed` to the cubic Hermite polynomial, and the point, too, if `moves`. */
+static void predict_by_rates(zd_watch *self, double x)
+{
+    const zd_system *system = &self->output->stepper->motion->system;
+    const zd_state *before = &self->output->before, *end = &self->end;
+    const double h = end->t - before->t;
+    zd_interpolate_cubic(system->nq, x, h, before->p, self->at_start.pdot, end->p, self->at_end.pdot, self->mixed.p);
+    zd_interpolate_cubic(system->nv, x, h, before->v, self->at_start.vdot, end->v, self->at_end.vdot, self->mixed.v);
+}
+
+static void predict_by_dense_output(zd_watch *self, double x)
+{
+    const zd_stepper *stepper = self->output->stepper;
+    const zd_system *system = &stepper->motion->system;
+    double *y = self->output->y;
+    stepper->integrator->between(stepper->memory, x, stepper->last.y, y);
+    zd_copy_all(system->nq, y, self->mixed.p);
+    zd_copy_all(system->nv, y + system->nq, self->mixed.v);
+}
+
+/* Moves `mixed` to the polynomial, and the point, too, if `moves`. */
 static int predict_state(zd_watch *self, double x, int moves)
 {
     zd_stepper *stepper = self->output->stepper;
     const zd_system *system = &stepper->motion->system;
-    const zd_state *before = &self->output->before, *end = &self->end;
+    const double t0 = self->output->before.t;
     zd_state *there = &self->mixed;
-    const double h = end->t - before->t;
-    there->t = before->t + x * h;
-    zd_interpolate_cubic(system->nq, x, h, before->p, self->at_start.pdot, end->p, self->at_end.pdot, there->p);
-    zd_interpolate_cubic(system->nv, x, h, before->v, self->at_start.vdot, end->v, self->at_end.vdot, there->v);
+    there->t = t0 + x * (self->end.t - t0);
+    if (is_fixed(self)) predict_by_rates(self, x);
+    else predict_by_dense_output(self, x);
     zd_quaternions_normalise(system, there->p);
     if (system->followers) system->follow(system->data, there->p);
-    zd_copy_all(stepper->motion->rate.size - stepper->motion->formulation_size, end->extra, there->extra);
-    return moves ? zd_stepper_return_to(stepper, there) : ZD_DONE;
+    if (!moves) return ZD_DONE;
+    zd_copy_all(stepper->motion->rate.size - stepper->motion->formulation_size, self->end.extra, there->extra);
+    return zd_stepper_return_to(stepper, there);
 }
 
 static int predict_values(zd_watch *self, int k, int moves)
@@ -89,20 +116,36 @@ static int predict_values(zd_watch *self, int k, int moves)
     return status;
 }
 
-static int predict_all(zd_watch *self)
+static int may_predict(const zd_watch *self)
 {
-    int moves = 0, status = find_rates(self, &self->at_end);
-    for (int i = 0; i < self->events->count; i++) moves |= zd_watch_reads_accelerations(self, i);
-    if (!status && moves && !self->output->is_away) zd_output_leave_end(self->output);
-    for (int k = 1; !status && k <= ZD_SAMPLES; k++) status = predict_values(self, k, moves);
+    const zd_stepper *stepper = self->output->stepper;
+    if (is_fixed(self)) return self->at_start.are_known;
+    return zd_output_may_spread(self->output) && stepper->last.p == stepper->last.y && !reads_any_accelerations(self);
+}
+
+/* Prepares the polynomial; *is_known <- 0 if dense output failed. */
+static int prepare_prediction(zd_watch *self, int moves, int *is_known)
+{
+    zd_output *output = self->output;
+    int status = is_fixed(self) ? find_rates(self, &self->at_end) : zd_watch_leave(self);
+    if (!status && moves && !output->is_away) zd_output_leave_end(output);
+    *is_known = is_fixed(self) || output->is_spread;
     return status;
 }
 
-/* Events that pass zero at most once by the prediction keep the ends of the step alone. */
-static int occurs_by(zd_watch *self, int event)
+static int predict_all(zd_watch *self, int *is_known)
+{
+    const int moves = is_fixed(self) && reads_any_accelerations(self);
+    int status = prepare_prediction(self, moves, is_known);
+    for (int k = 1; !status && *is_known && k <= ZD_SAMPLES; k++) status = predict_values(self, k, moves);
+    return status;
+}
+
+/* Events that pass zero at most once by the prediction keep the ends of the step alone, as those of fixed steps without it. */
+static int occurs_by(zd_watch *self, int event, int is_known)
 {
     zd_zeros *zeros = &self->zeros[event];
-    if (!self->at_start.are_known || !zd_zeros_are_paired(zeros)) zd_zeros_keep_ends(zeros);
+    if (is_known ? !zd_zeros_are_paired(zeros) : is_fixed(self)) zd_zeros_keep_ends(zeros);
     return zeros->count > 2 || zd_passes_zero(self->before[event], self->now[event], self->events->direction[event]);
 }
 
@@ -117,14 +160,20 @@ void zd_watch_span(zd_watch *self)
     }
 }
 
+int zd_watch_leave(zd_watch *self)
+{
+    zd_output *output = self->output;
+    const int is_corrected = output->is_away && !output->is_spread;
+    int status = is_corrected && zd_output_may_spread(output) ? zd_output_come_back(output) : ZD_DONE;
+    return status || output->is_away ? status : zd_output_leave(output, 0);
+}
+
 int zd_watch_predict(zd_watch *self, int *occurs)
 {
     zd_stepper_keep_place(self->output->stepper, &self->end);
     zd_watch_span(self);
-    *occurs = is_sampled_directly(self);
-    if (*occurs) return ZD_DONE;
-    int status = self->at_start.are_known ? predict_all(self) : ZD_DONE;
-    for (int i = 0; !status && i < self->events->count; i++) *occurs |= occurs_by(self, i);
+    int is_known = may_predict(self), status = is_known ? predict_all(self, &is_known) : ZD_DONE;
+    for (int i = 0; !status && i < self->events->count; i++) *occurs |= occurs_by(self, i, is_known);
     return status;
 }
 

@@ -13,7 +13,9 @@ void zd_watch_before(zd_watch *self);
 int zd_watch_correct(zd_stepper *stepper);
 /* Moves to a time within the step or at its ends, corrected. */
 int zd_watch_move(zd_watch *self, double t);
-/* *occurs <- true if any event may occur in the step to the point, by both ends and by cubic Hermite polynomials between them. */
+/* Leaves the end of the step for values within it. Dense output belongs to the step before the corrections at the point. */
+int zd_watch_leave(zd_watch *self);
+/* *occurs <- true if any event may occur in the step to the point, by both ends and by values between them. */
 int zd_watch_predict(zd_watch *self, int *occurs);
 /* Sets the ends of the step in the points of all events, and the number of samples between them. */
 void zd_watch_span(zd_watch *self);
