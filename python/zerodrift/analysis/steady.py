@@ -26,6 +26,7 @@ from .tangent import DEPENDENT, Tangent
 
 ITERATIONS, ITERATIONS_ON_ORBIT = 60, 20
 LARGEST_STEP = 0.2      # characteristic scales
+STALLED = 6, 0.98       # iterations after which less than this part must be left, or the search ends
 RANK = 1e-7      # of the largest singular value: directions that change nothing, to the error of the differences
 INSTANTS = 3        # of an orbit at which accelerations are compared, a radian apart
 GUESSES = 2         # angular velocities of each kind that are tried
@@ -138,8 +139,11 @@ class Steady:
 
     def _searched(self, here: Motion, iterations: int = ITERATIONS) -> Motion:
         """The motion with which iterations end."""
-        for _ in range(iterations):
-            if np.abs(here.left).max(initial=0.0) <= 1e-12 * here.size:
+        (steps, part), norms = STALLED, []
+        for k in range(iterations):
+            norms.append(float(np.linalg.norm(here.left)))
+            is_stalled = k >= steps and norms[k] > part * norms[k - steps]
+            if is_stalled or np.abs(here.left).max(initial=0.0) <= 1e-12 * here.size:
                 break
             found = self._step(here)
             if found is None:
