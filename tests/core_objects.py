@@ -3,10 +3,12 @@
 import ctypes
 import hashlib
 import os
+import re
 import shutil
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
@@ -38,7 +40,7 @@ def core_objects(tmp_path_factory):
 def objects_of(sources, include, shared):
     """The object of each source, compiled without a warning and once for all processes that share a folder.
 
-    Its name is a hash of what the preprocessor leaves of the source, so that exported copies of the core are not compiled again.
+    Its name is a hash of the source and the headers that it includes, so that exported copies of the core are not compiled again.
     """
     folder = shared / "objects"
     folder.mkdir(exist_ok=True)
@@ -47,8 +49,8 @@ def objects_of(sources, include, shared):
         sources = sources[::-1]     # two processes of pytest-xdist meet in the middle
 
     def compile_one(source):
-        text = subprocess.run([CC, "-E", "-P", *flags, source], check=True, capture_output=True).stdout
-        target = folder / f"{hashlib.sha256(text).hexdigest()[:32]}.o"
+        texts = sorted(with_headers(source, Path(include), {}).values())
+        target = folder / f"{hashlib.sha256(chr(0).join(texts).encode()).hexdigest()[:32]}.o"
         if not target.exists():
             unfinished = folder / f"{target.stem}.{os.getpid()}"
             subprocess.run([CC, "-c", *flags, *STRICT, "-o", unfinished, source], check=True)
@@ -57,6 +59,17 @@ def objects_of(sources, include, shared):
 
     with ThreadPoolExecutor(2) as pool:
         return dict(zip(sources, pool.map(compile_one, sources), strict=True))
+
+
+def with_headers(path, include, found):
+    """Text of a file and of all headers of the core that it includes, by their path."""
+    path = path.resolve()
+    if path not in found:
+        found[path] = path.read_text(encoding="utf-8")
+        for name in re.findall(r'^#include "(.+)"', found[path], re.MULTILINE):
+            beside = path.parent / name
+            with_headers(beside if beside.is_file() else include / name, include, found)
+    return found
 
 
 def library_of(folder, program, *units):

@@ -20,8 +20,11 @@ def read(path):
 # Parts of the longest notebooks, of which the last cells assert the same; all of them with ZERODRIFT_PRODUCTS=1.
 THINNED = {
     "speed_against_accuracy": {"in SCENES.items()}": "in list(SCENES.items())[:3]}"},
+    "why_does_a_bicycle_stay_up": {"np.linspace(0.0, 10.0, 61)": "np.linspace(0.0, 10.0, 61)[::4]",
+                                   "np.linspace(0.5, 12.0, 47)": "np.linspace(0.5, 12.0, 47)[::5]"},
     "andrews": {"np.arange(3, 12)": "np.arange(3, 12, 2)"},
     "stability_at_the_extremes": {
+        "np.geomspace(1, 3000, 12)": "np.geomspace(1, 3000, 12)[::2]",
         "np.geomspace(0.002, 0.05, 7)": "np.geomspace(0.002, 0.05, 7)[::2]",
         "STARTS = (np.pi / 2, 1.0, 2.0)": "STARTS = (np.pi / 2, 1.0)",
         "np.geomspace(1, 1000, 60)": "np.geomspace(1, 1000, 60)[::4]",
