@@ -267,7 +267,7 @@ class MechanismSystem(BaseSystem):
                 return None
             wrong |= [not _is_right(name, value) for value in each.tolist()]
         right = {name: np.where(wrong, own[name], each) for name, each in parameters.items()}       # invalid ones are not built
-        family = varied(self._drawing, self._changed, right, self.layout, self._measuring, wrong=wrong,
+        family = varied(self._drawing, self._changed, right, self.layout, self._measuring, self._start, wrong=wrong,
                         starts_are_known=starts_are_known)
         if family is None:
             return None
@@ -387,7 +387,8 @@ class MechanismSystem(BaseSystem):
             self.start_at(0.0)
         except ZerodriftError:
             return None
-        return self._start.changes and self._start.changes.warning(also_held)
+        drawn_open = self._start.changes and self._start.changes.warning(also_held)
+        return drawn_open or (None if also_held else self._start.moved_drives(0.0))
 
     def _why_locked(self) -> str | None:
         """Sentence on skew axes; None if drives move what joints alone would lock."""

@@ -41,7 +41,7 @@ static int report_unmet(zd_assembly *self, int roles, double *p)
 
 static int is_closed(zd_assembly *self, const double *p)
 {
-    const zd_conditions all = {.choice = ZD_OF_ALL, .roles = ZD_HELD};
+    const zd_conditions all = {.choice = ZD_OF_ALL, .roles = ZD_HELD | ZD_DRAWN};
     if (!zd_assembly_has(self, ZD_TARGET_HELD, 0) && zd_assembly_gap(self, p) <= ZD_CLOSED * ZD_SMALLEST_SIZE * self->given->length)
         return 1;           /* for any sizes of the constraints, whose computation requires the Jacobian */
     return zd_assembly_find(self, &all, p) <= ZD_CLOSED;
@@ -51,7 +51,8 @@ static int is_closed(zd_assembly *self, const double *p)
  * Returns 1 if that is possible, 0 otherwise. p (nq,): closed positions on entry, changed on success only. */
 static int meet_staying(zd_assembly *self, double *p)
 {
-    const zd_conditions drawing = {.choice = ZD_OF_DRAWING}, all = {.choice = ZD_OF_ALL, .roles = ZD_HELD | ZD_STAYING};
+    const zd_conditions drawing = {.choice = ZD_OF_DRAWING, .roles = ZD_DRAWN};
+    const zd_conditions all = {.choice = ZD_OF_ALL, .roles = ZD_HELD | ZD_STAYING | ZD_DRAWN};
     const size_t nq = (size_t)self->system->nq;
     memcpy(self->found, p, nq * sizeof *p);
     if (!zd_assembly_newton(self, &drawing, self->found)) return 0;
@@ -70,13 +71,13 @@ static int meet_staying(zd_assembly *self, double *p)
 /* Closes the joints, and meets constraints and held targets from there; roles <- roles of the targets that are met. */
 static int meet(zd_assembly *self, double *p, int *roles)
 {
-    const zd_conditions joints = {.choice = ZD_OF_JOINTS}, all = {.choice = ZD_OF_ALL, .roles = ZD_HELD};
+    const zd_conditions joints = {.choice = ZD_OF_JOINTS, .roles = ZD_DRAWN}, all = {.choice = ZD_OF_ALL, .roles = ZD_HELD | ZD_DRAWN};
     memcpy(self->drawn, p, (size_t)self->system->nq * sizeof *p);
     if (!(zd_assembly_least_squares(self, &joints, p) <= 1e3 * ZD_CLOSED)) return ZD_JOINTS_OPEN;
-    *roles = ZD_HELD | ZD_STAYING;
+    *roles = ZD_HELD | ZD_STAYING | ZD_DRAWN;
     if (zd_assembly_has(self, ZD_TARGET_STAYS, 0) && meet_staying(self, p)) return ZD_ASSEMBLED;
-    *roles = ZD_HELD;
-    if (!zd_assembly_track(self, ZD_HELD, p)) return report_unmet(self, ZD_HELD, p);
+    *roles = ZD_HELD | ZD_DRAWN;
+    if (!zd_assembly_track(self, *roles, p)) return report_unmet(self, *roles, p);
     zd_assembly_approach_drawing(self, &all, p);
     return ZD_ASSEMBLED;
 }
@@ -84,7 +85,7 @@ static int meet(zd_assembly *self, double *p, int *roles)
 int zd_assemble_positions(const zd_assembly_given *given, double *p)
 {
     zd_assembly self;
-    int roles = ZD_HELD | ZD_STAYING, outcome = zd_assembly_open(&self, given, p);
+    int roles = ZD_HELD | ZD_STAYING | ZD_DRAWN, outcome = zd_assembly_open(&self, given, p);
     if (outcome) return outcome;
     if (!is_closed(&self, p)) outcome = meet(&self, p, &roles);
     else zd_assembly_keep(&self, p);

@@ -18,7 +18,8 @@ enum zd_assembly_row {
 enum zd_target_role {
     ZD_TARGET_HELD,
     ZD_TARGET_STAYS,        /* met if possible; of positions the value is that of the assembled reference configuration */
-    ZD_TARGET_WISHED        /* approached as nearly as all others allow */
+    ZD_TARGET_WISHED,       /* approached as nearly as all others allow */
+    ZD_TARGET_DRAWN         /* coordinate of the reference configuration that keeps its value while joints close, as driven ones do */
 };
 
 /* Component of a measure of positions or velocities, and the value that the start prescribes. In the order of their roles. */

@@ -8,7 +8,8 @@
 #include "solver.h"
 
 /* Set of roles of targets, as bits */
-enum { ZD_HELD = 1 << ZD_TARGET_HELD, ZD_STAYING = 1 << ZD_TARGET_STAYS, ZD_WISHED = 1 << ZD_TARGET_WISHED, ZD_ROLE_SETS = 8 };
+enum { ZD_HELD = 1 << ZD_TARGET_HELD, ZD_STAYING = 1 << ZD_TARGET_STAYS, ZD_WISHED = 1 << ZD_TARGET_WISHED,
+       ZD_DRAWN = 1 << ZD_TARGET_DRAWN, ZD_ROLE_SETS = 16 };
 
 typedef struct zd_assembly {
     const zd_assembly_given *given;

@@ -13,7 +13,7 @@ from ..systems import CoreSystem
 
 ROWS = {"joint": lib.ZD_ROW_OF_JOINT, "coupling": lib.ZD_ROW_OF_COUPLING, "drive": lib.ZD_ROW_OF_DRIVE,
         "left out": lib.ZD_ROW_LEFT_OUT}
-HELD, STAYS, WISHED = lib.ZD_TARGET_HELD, lib.ZD_TARGET_STAYS, lib.ZD_TARGET_WISHED
+HELD, STAYS, WISHED, DRAWN = (getattr(lib, f"ZD_TARGET_{role}") for role in ("HELD", "STAYS", "WISHED", "DRAWN"))
 ASSEMBLED, JOINTS_OPEN, TARGETS_UNMET = lib.ZD_ASSEMBLED, lib.ZD_JOINTS_OPEN, lib.ZD_TARGETS_UNMET
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..._core import ffi, lib
 from ..base import doubles
+from .assembly import HELD
 from .plane import Tables, written_tables
 
 
@@ -19,7 +20,7 @@ class Held(NamedTuple):
     component: int
     is_rate: bool
     value: float
-    stays: bool = False         # behind all others; of positions the value is that of the drawing with its joints closed
+    role: int = HELD
 
 
 class Varied:

@@ -71,13 +71,13 @@ class Assembly:
     # ---- positions ----
 
     def positions(self, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
-                  staying: Sequence[Target] = ()) -> np.ndarray:
+                  staying: Sequence[Target] = (), drawn: Sequence[Target] = ()) -> np.ndarray:
         """Positions (nq,) nearest to p that satisfy all constraints and held targets, and approach wished targets.
 
         Staying targets are kept at the values that their coordinates have in the drawing with its joints closed, where that is
-        possible; their own values are not used.
+        possible; their own values are not used. Drawn targets are met throughout, already while the joints close.
         """
-        return self._found("assemble_positions", p, held, wished, staying)
+        return self._found("assemble_positions", p, held, wished, staying, drawn)
 
     def is_closed(self, p: np.ndarray, held: Sequence[Target]) -> bool:
         """True if all constraints and all held targets are satisfied."""
@@ -96,8 +96,8 @@ class Assembly:
         return self._core.run("assembly_minimize", p).found
 
     def _found(self, operation: str, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
-               staying: Sequence[Target]) -> np.ndarray:
-        outcome = self._core.run(operation, p, _targets(held, staying, wished))
+               staying: Sequence[Target], drawn: Sequence[Target] = ()) -> np.ndarray:
+        outcome = self._core.run(operation, p, _targets(held, staying, wished, drawn))
         if outcome.outcome == core_assembly.JOINTS_OPEN:
             raise CorrectionFailed("joints")
         if outcome.outcome:
@@ -152,9 +152,10 @@ class Assembly:
         return [*owners, *(target.name for target in held)]
 
 
-def _targets(held: Sequence[Target], staying: Sequence[Target] = (), wished: Sequence[Target] = (), *,
-             are_rates: bool = False) -> list[CoreTarget]:
-    roles = (held, core_assembly.HELD), (staying, core_assembly.STAYS), (wished, core_assembly.WISHED)
+def _targets(held: Sequence[Target], staying: Sequence[Target] = (), wished: Sequence[Target] = (),
+             drawn: Sequence[Target] = (), *, are_rates: bool = False) -> list[CoreTarget]:
+    roles = ((held, core_assembly.HELD), (staying, core_assembly.STAYS), (wished, core_assembly.WISHED),
+             (drawn, core_assembly.DRAWN))
     return [CoreTarget(each.measure, each.component, are_rates, each.value, role) for targets, role in roles for each in targets]
 
 

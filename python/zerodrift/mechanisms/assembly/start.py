@@ -23,6 +23,7 @@ from ..equations.tables import Tables
 from ..equations.tree import loop
 from .assembly import Assembly, Target, is_of_many
 from .drawing_changes import DrawingChanges
+from .drive_starts import Conditions, DriveStarts, drawn_targets, drive_starts, driven_coordinate, speed_drives
 from .free_coordinates import Coordinate, bodies_of, names_of, swings, unforced
 from .nudge import aside, way_out
 from .space_advice import of_angles
@@ -39,6 +40,7 @@ class Starting:
         self.has_speeds = bool(drives_of(drawing))
         self.changes: DrawingChanges | None = None      # of the last assembly, if a joint was open
         self._stays: tuple[list[Coordinate], list[Coordinate]] | None = None
+        self._drive_starts: dict[float, DriveStarts] = {}       # by time
         self._check_held()
 
     def _check_held(self) -> None:
@@ -49,17 +51,36 @@ class Starting:
     @property
     def drives_by_name(self) -> list[str]:
         """Coordinates driven at constant speed."""
-        return [f"{motor.joint.name}.{motor.coordinate}" for motor in drives_of(self.drawing)]
+        return [driven_coordinate(motor) for motor in drives_of(self.drawing)]
+
+    def drive_starts(self, t: float) -> DriveStarts:
+        """Coordinates driven by speeds that keep their drawn values; those of drives of constant speed do at t = 0."""
+        t = 0.0 if self.has_speeds else t
+        if t not in self._drive_starts:
+            tables = self._tables({})
+            assembly = self._assembly(tables, t, without_speeds=True)
+            conditions = self._conditions(tables, assembly)
+            self._drive_starts[t] = drive_starts(speed_drives(self.drawing), assembly, conditions)
+        return self._drive_starts[t]
+
+    def moved_drives(self, t: float) -> str | None:
+        """Sentence on drives of speeds whose coordinates cannot keep their drawn values; None without such drives."""
+        drives = self.drive_starts(t).unmet
+        if not drives:
+            return None
+        names = " and ".join(repr(motor.name) for motor in drives)
+        places = " and ".join(f"{driven_coordinate(motor)} = 0" for motor in drives)
+        return (f"drive {names} of {self.drawing.name!r} must start as drawn, at {places}, where the joints cannot close, and "
+                "the start moves it: draw it where they can, or hold a coordinate of its loop by start()")
 
     @functools.cached_property
     def drives(self) -> dict[str, float]:
         """Values at t = 0 of the coordinates that motors of constant speed drive."""
         if not self.has_speeds:
             return {}
-        tables = self._tables({})
-        names = self.drives_by_name
-        assembly = self._assembly(tables, 0.0, speeds=names)
-        p = self._positions(tables, assembly)
+        tables, names = self._tables({}), self.drives_by_name
+        assembly = self._assembly(tables, 0.0, without_speeds=True)
+        p = self._positions(tables, assembly, self.drive_starts(0.0).drawn)
         index = {row.name: i for i, row in enumerate(assembly.core.measures)}
         zero = np.zeros(assembly.core.nv)
         return {name: float(assembly.core.measure_at(index[name], 0.0, p, zero)["value"][0]) for name in names}
@@ -85,10 +106,12 @@ class Starting:
     def closed(self, t: float) -> tuple[Tables, Assembly, np.ndarray]:
         """Tables, assembly and positions at a time, also if something moves without mass."""
         tables = self._tables(self.drives)
-        assembly = self._assembly(tables, t)
+        assembly, drawn = self._assembly(tables, t), self.drive_starts(t).drawn
         if t and self.has_speeds:
-            return tables, assembly, assembly.led_to(self.closed(0.0)[2], staying=self._staying(assembly.core, rates=False))
-        return tables, assembly, self._positions(tables, assembly)
+            by_functions = drawn_targets([name for name in drawn if name not in self.drives], assembly.core)
+            staying = self._staying(assembly.core, rates=False)
+            return tables, assembly, assembly.led_to(self.closed(0.0)[2], by_functions, staying)
+        return tables, assembly, self._positions(tables, assembly, drawn)
 
     def at(self, t: float, *, nudge: float = 0.0) -> tuple[np.ndarray, ...]:
         """Poses (bodies, 3) of the mass centres at a time, and their rates; nudged as far as asked for.
@@ -115,32 +138,38 @@ class Starting:
             return tables_of(self.drawing, self.numbers, in_tree=False, starts=starts)
         return self._known.absolute()
 
-    def _assembly(self, tables: Tables, t: float, *, speeds: Sequence[str] = ()) -> Assembly:
-        """Assembly at a time, without the drives of the coordinates in `speeds`, which it measures instead."""
+    def _assembly(self, tables: Tables, t: float, *, without_speeds: bool = False) -> Assembly:
+        """Assembly at a time, optionally without drives of constant speed; it measures what drives of speeds move."""
         staying = [each for rates in (False, True) for each in self._unforced(tables)[rates]]
+        speeds = map(driven_coordinate, speed_drives(self.drawing))
         measured = [*self.drawing.held, *self.drawing.wished, *speeds, *names_of(staying)]
         quantities, observed = read(tables, measured)
         more, of_swings = swings(tables, dict.fromkeys(staying), len(quantities))
         core = tables.core([*quantities, *more], [*observed, *of_swings]) if measured else tables.core()
         names = [tables.joints[row.index].name if row.owner == "joint" else tables.relation_names[row.index] for row in core.rows]
-        motors = {motor.name for motor in self.drawing.of(Motor) if _is_constant_speed(motor)} if speeds else set()
+        motors = {motor.name for motor in drives_of(self.drawing)} if without_speeds else set()
         left_out = [i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in motors]
         linear = {each.name for each in self.drawing.of(Coupling) if each.law is None}
         couplings = {i for i, row in enumerate(core.rows) if row.owner == "relation" and names[i] in linear}
         return Assembly(core, names, left_out, size_of(self.drawing, self.numbers), t, couplings)
 
-    def _positions(self, tables: Tables, assembly: Assembly) -> np.ndarray:
+    def _conditions(self, tables: Tables, assembly: Assembly) -> Conditions:
         p, _ = assembly.core.state(self._drawn(tables))
         held, wished = (self.targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
+        return Conditions(p, held, wished, self._staying(assembly.core, rates=False))
+
+    def _positions(self, tables: Tables, assembly: Assembly, drawn: Sequence[str]) -> np.ndarray:
+        """Positions from the drawing, in which the driven coordinates `drawn` keep their values."""
+        conditions = self._conditions(tables, assembly)
         try:
-            found = assembly.positions(p, held, wished, self._staying(assembly.core, rates=False))
+            found = assembly.positions(*conditions, drawn_targets(drawn, assembly.core))
             changes = DrawingChanges(tables, assembly, found)
             self.changes = changes if changes.may_be_open else None
             return found
         except CorrectionFailed:
-            raise CorrectionFailed(self._not_closed(assembly, p)) from None
+            raise CorrectionFailed(self._not_closed(assembly, conditions.p)) from None
         except InconsistentStart as error:
-            raise InconsistentStart(f"{sentence(error)}{self._loop_in_words(tables, assembly, p)}") from None
+            raise InconsistentStart(f"{sentence(error)}{self._loop_in_words(tables, assembly, conditions.p)}") from None
 
     def _unforced(self, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
         """Coordinates whose positions, and whose rates, neither held values nor drives determine."""
@@ -273,8 +302,4 @@ def size_of(drawing: Drawing, numbers: Numbers) -> float:
 
 def drives_of(drawing: Drawing) -> list[Motor]:
     """Motors of constant speed."""
-    return [motor for motor in drawing.of(Motor) if _is_constant_speed(motor)]
-
-
-def _is_constant_speed(motor: Motor) -> bool:
-    return motor.drives == "speed" and motor.law.constant is not None
+    return [motor for motor in speed_drives(drawing) if motor.law.constant is not None]

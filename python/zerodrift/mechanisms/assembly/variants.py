@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from ..._gateway.mechanisms.assembly import DRAWN, STAYS
 from ..._gateway.mechanisms.element_tables import OutputSpec
 from ..._gateway.mechanisms.parameter_variants import Held, Varied
 from ..._gateway.mechanisms.plane import MechanismCore
@@ -28,7 +29,7 @@ def are_plain(drawing: Drawing, tables: Tables, start: Starting) -> bool:
 
 
 def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[str, np.ndarray], layout: str, core: MechanismCore,
-           *, wrong: np.ndarray, starts_are_known: bool) -> Varied | None:
+           start: Starting, *, wrong: np.ndarray, starts_are_known: bool) -> Varied | None:
     """Mechanisms that differ from the drawing in the changed numbers and in `parameters`, each (count,) by its path.
 
     None if they differ in more than numbers. Mechanisms marked in `wrong` (count,) are not assembled.
@@ -44,10 +45,11 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
         if starts_are_known and drives:
             return None
         places, rates = unforced(drawing, tables)
-        quantities, observed = read(absolute, [*drawing.held, *names_of([*places, *rates])])
+        drawn_names = start.drive_starts(0.0).drawn
+        quantities, observed = read(absolute, [*drawing.held, *drawn_names, *names_of([*places, *rates])])
         index = {row.name: i for i, row in enumerate(observed)}
         staying = [*_staying(places, observed, index, is_rate=False), *_staying(rates, observed, index, is_rate=True)]
-        held = [*_held(drawing, index), *staying]
+        held = [*_held(drawing, index), *staying, *(Held(index[name], 0, False, 0.0, DRAWN) for name in drawn_names)]
         poses, length = _drawn(tables, count), spread(size_of(drawing, numbers), count)
         moving, drawn = tables.written(*read(tables)), absolute.written(quantities, observed)
     except Varies:
@@ -78,7 +80,7 @@ def _staying(coordinates: Sequence[Coordinate], observed: Sequence[OutputSpec], 
     for each in coordinates:
         measure = index[each.rate if is_rate else each.position]
         components = range(observed[measure].size) if each.axis is None else ["xy".index(each.axis)]
-        yield from (Held(measure, i, is_rate, 0.0, stays=True) for i in components)
+        yield from (Held(measure, i, is_rate, 0.0, STAYS) for i in components)
 
 
 def _drawn(tables: Tables, count: int) -> np.ndarray:

@@ -32,9 +32,11 @@ class StartVerbs(Elements):
 
         Joint coordinates that neither values given here nor drives force stay as in the drawing with its joints closed, and
         their rates are zero: the angle of a pendulum on a cart does not change with the cart's place. Coordinates of a loop or a
-        coupling that contains a forced one move as little as possible in the mass metric. Where joint coordinates cannot stay,
-        as in a drawing that is singular, all bodies move as little as possible in the mass metric. The printed mechanism names
-        joints that are drawn open and bodies that start elsewhere than drawn; a run warns of a large gap, see `DrawingWarning`.
+        coupling that contains a forced one move as little as possible in the mass metric. A coordinate of which a drive
+        prescribes the speed keeps its drawn value, also where lengths change, unless values given here move it. Where joint
+        coordinates cannot stay, as in a drawing that is singular, all bodies move as little as possible in the mass metric. The
+        printed mechanism names joints that are drawn open and bodies that start elsewhere than drawn; a run warns of a large
+        gap, and of a drive that cannot start as drawn, see `DrawingWarning`.
 
         Parameters
         ----------
