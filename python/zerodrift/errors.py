@@ -323,7 +323,7 @@ class StabilityWarning(_Coded, UserWarning):
 
 
 class DrawingWarning(_Coded, UserWarning):
-    """A joint is drawn open by more than a hundredth of the drawing's size, and the start moves bodies to close it."""
+    """The start moves what is drawn: a joint open by more than a hundredth of the drawing's size, or a drive that cannot stay."""
 
     code = "drawing"
 

@@ -184,7 +184,7 @@ def simulate(
     DrawingWarning
         Before the run: if a mechanism starts from its drawing, and a joint is drawn open by more than a hundredth of its size.
         Not for a sketch, in which a dimension of a loop with that joint is given, such as ``length=`` of a link or a radius, or
-        a coordinate of it is held, wished or driven.
+        a coordinate of it is held, wished or driven. Also if the joints do not close where a driven coordinate is drawn.
     AccuracyWarning
         If the error of the energy balance exceeds 0.5 % of the largest kinetic energy, or a single correction removed more
         than 2 % of it: the result satisfies the constraints, but is not the motion. Only for systems with a potential.

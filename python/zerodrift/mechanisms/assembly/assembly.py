@@ -17,6 +17,7 @@ from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction, unit_of
 
 NUDGE = 1e-3            # step from a singular pose to nearby ones, in rad or parts of the mechanism's length
+LEAST_MASS = 1e-6       # of the largest, in the metric of velocities: mass of massless directions
 RANK = 1e-9             # of the largest singular value: bound below which rows are redundant
 MOST_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
 
@@ -145,6 +146,25 @@ class Assembly:
             count = self.core.m + len(held)
             raise contradiction(outcome.residual[:count], outcome.size[:count], self._asked(held), self.rows)
         return outcome.found
+
+    def rows_by_owner(self, p: np.ndarray) -> dict[str, np.ndarray]:
+        """Rows of C (k, nv) of each joint, drive and coupling, by its name."""
+        C = self._evaluate(p)["C"] if self.core.m else np.zeros((0, self.core.nv))
+        return {name: C[[i for i, each in enumerate(self.rows) if each == name]] for name in dict.fromkeys(self.rows)}
+
+    def undetermined(self, p: np.ndarray, v: np.ndarray, given: Sequence[Target], staying: Sequence[Target]) -> np.ndarray:
+        """Basis (nv, k) of velocities that constraints and given targets leave undetermined, and staying ones if v meets them."""
+        rest = np.zeros(self.core.nv)
+        measured, stay = (np.array([self.core.measure_at(each.measure, self.t, p, rest)["jacobian"][each.component] * self.scale
+                                    for each in targets]).reshape(-1, self.core.nv) for targets in (given, staying))
+        rows, scaled = self._evaluate(p)["C"] * self.scale if self.core.m else measured[:0], v / self.scale
+        is_met = np.abs(stay @ scaled).max(initial=0.0) <= RANK * np.abs(scaled).max(initial=0.0)
+        return nullspace(np.vstack([rows, measured, *([stay] if is_met else [])])) * self.scale[:, None]
+
+    def roots_of_masses(self, p: np.ndarray) -> np.ndarray:
+        """Square roots (nv,) of masses and moments of inertia, with a small one for massless directions."""
+        masses = np.diag(self._evaluate(p)["M"]) * self.scale**2
+        return np.sqrt(np.maximum(masses, LEAST_MASS * (masses.max() or 1.0))) / self.scale
 
     def _asked(self, held: Sequence[Target]) -> list[str]:
         """Names of the drives, couplings and targets that prescribe velocities, one per constraint; "" for those of joints."""

@@ -64,6 +64,13 @@ def unforced(drawing: Drawing, tables: Tables) -> tuple[list[Coordinate], list[C
     return coordinates.unforced(_forced(drawing, rates=False)), coordinates.unforced(_forced(drawing, rates=True))
 
 
+def rates_of_tree(drawing: Drawing, tables: Tables) -> list[str]:
+    """Names of the measures of the rates of all joint coordinates; of spherical joints the angular velocity of the body."""
+    coordinates = _Coordinates(drawing, tables).coordinates
+    return list(dict.fromkeys(f"{tables.parts[each.body - 1].name}.angular_velocity" if each.joint else each.rate
+                              for each in coordinates))
+
+
 def names_of(coordinates: Iterable[Coordinate]) -> list[str]:
     """Names of the measures of positions and rates."""
     return [name for each in coordinates for name in (each.position, each.rate)]

@@ -22,10 +22,12 @@ from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import Tables
 from ..equations.tree import loop
 from .assembly import Assembly, Target, is_of_many
+from .carriers import carriers
 from .drawing_changes import DrawingChanges
 from .drive_starts import Conditions, DriveStarts, drawn_targets, drive_starts, driven_coordinate, speed_drives
 from .free_coordinates import Coordinate, bodies_of, names_of, swings, unforced
 from .nudge import aside, way_out
+from .relative_rates import Rates, least_relative, motions, translates
 from .space_advice import of_angles
 from .start_checks import check_directions
 
@@ -47,6 +49,11 @@ class Starting:
         for what, given in (("start", self.drawing.held), ("wish", self.drawing.wished)):
             for name, value in given.items():
                 checked_reading(what, name, value, self.drawing.elements)
+
+    @functools.cached_property
+    def is_relative(self) -> bool:
+        """True if start velocities at t = 0 depend on the motions of carriers."""
+        return self.velocities(*self.closed(0.0)).is_relative
 
     @property
     def drives_by_name(self) -> list[str]:
@@ -120,12 +127,26 @@ class Starting:
         """
         tables, assembly, p = self.closed(t)
         self._check_mass(tables, assembly, p)
-        held, wished = (self.targets(given, assembly.core, rates=True) for given in (self.drawing.held, self.drawing.wished))
         if nudge:
-            p = aside(assembly, p, nudge, held)
-        poses = assembly.core.poses(p, assembly.velocities(p, held, wished, self._staying(assembly.core, rates=True)))
+            p = aside(assembly, p, nudge, self.targets(self.drawing.held, assembly.core, rates=True))
+        poses = assembly.core.poses(p, self.velocities(tables, assembly, p).v)
         check_directions(tables, poses[0], assembly.length)
         return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
+
+    def velocities(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> Rates:
+        """Velocities at p, of least kinetic energy relative to carriers where they are undetermined."""
+        drawing, core = self.drawing, assembly.core
+        held, wished = (self.targets(given, core, rates=True) for given in (drawing.held, drawing.wished))
+        staying = self._staying(core, rates=True)
+        v, none = assembly.velocities(p, held, wished, staying), np.zeros((core.nv, 0))
+        if not v.any() or is_of_many(core):
+            return Rates(v, none)
+        free = assembly.undetermined(p, v, [*held, *wished], staying)
+        if not free.shape[1]:
+            return Rates(v, free)
+        of, given = motions(core, p), {target.name for target in [*held, *wished]}
+        found = carriers(drawing, tables, given, functools.partial(translates, of, assembly.rows_by_owner(p), v))
+        return Rates(least_relative(of, v, free, assembly.roots_of_masses(p), found) if found else v, free, bool(found))
 
     def way_out(self) -> str:
         """Advice for a singular start: a nudge, if that leads to a regular pose that the drives allow."""

@@ -42,7 +42,7 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
         if layout == "absolute" and not all(tables.inertias.is_massive(body) for body in tables.parts):
             return None
         drives = drives_of(drawing)
-        if starts_are_known and drives:
+        if (drives if starts_are_known else start.is_relative):
             return None
         places, rates = unforced(drawing, tables)
         drawn_names = start.drive_starts(0.0).drawn

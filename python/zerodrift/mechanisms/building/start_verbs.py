@@ -38,6 +38,11 @@ class StartVerbs(Elements):
         printed mechanism names joints that are drawn open and bodies that start elsewhere than drawn; a run warns of a large
         gap, and of a drive that cannot start as drawn, see `DrawingWarning`.
 
+        Velocities that this leaves undetermined are those of least kinetic energy relative to what carries each body: to the
+        rigid motion of the body through which all its connections lead to the ground, or of the point on which drives move it.
+        The printed mechanism lists them. Mechanisms of more than 1,000 constraints or velocities in absolute coordinates take
+        velocities of least kinetic energy relative to the ground.
+
         Parameters
         ----------
         held : dict of measure to value

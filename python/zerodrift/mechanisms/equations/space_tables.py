@@ -90,7 +90,7 @@ class SpaceTables(Tables):
 
     # ---- joints ----
 
-    def _place(self, point: Point) -> tuple[int, Any]:
+    def place(self, point: Point) -> tuple[int, Any]:
         return self.number[point.body.name], triple(self.inertias.local(point, self.numbers))
 
     def _direction(self, body: Body, local: np.ndarray) -> Any:
@@ -98,7 +98,7 @@ class SpaceTables(Tables):
 
     def _joint(self, joint: SpaceJoint) -> space.Joint:     # type: ignore[override]
         """Entry of the table of joints."""
-        (first, point1), (second, point2) = self._place(joint.first), self._place(joint.second)
+        (first, point1), (second, point2) = self.place(joint.first), self.place(joint.second)
         frames = (tuple(self._direction(body, row) for row in frame)
                   for body, frame in zip(joint.bodies, joint.frames, strict=True))
         along = joint.offset_as_drawn(self.numbers) if joint.row.axes else 0.0
@@ -123,7 +123,7 @@ class SpaceTables(Tables):
         """Marker quantities x, y and z of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
             of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, np.zeros(3))
-        body, local = self._place(of)
+        body, local = self.place(of)
         return tuple(Quantity(axis, 0, body, point2=local) for axis in AXES)
 
     def spin_quantities(self, body: Body) -> tuple[Quantity, ...]:
@@ -143,7 +143,7 @@ class SpaceTables(Tables):
 
     def length_quantity(self, spring: TableForce | Actuator) -> Quantity:     # type: ignore[override]
         """Marker quantity of the length of a spring or an actuator."""
-        (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
+        (first, point1), (second, point2) = self.place(spring.first), self.place(spring.second)
         return Quantity("distance", first, second, point1, point2)
 
     # ---- forces ----

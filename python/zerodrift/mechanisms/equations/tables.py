@@ -114,12 +114,12 @@ class Tables:
         weights = [(float(body.turns), self.inertias.of[body.name][0]) for body in self.parts]
         return inboard_joints(len(self.parts), edges, weights)
 
-    def _place(self, point: Point) -> tuple[int, tuple[float, float]]:
+    def place(self, point: Point) -> tuple[int, tuple[float, float]]:
         return self.number[point.body.name], self.inertias.local(point, self.numbers)
 
     def _joint(self, joint: Joint) -> entries.Joint:
         """Entry of the table of joints."""
-        (first, point1), (second, point2) = self._place(joint.first), self._place(joint.second)
+        (first, point1), (second, point2) = self.place(joint.first), self.place(joint.second)
         axis = (1.0, 0.0) if joint.axis is None else _pair(joint.axis)
         if joint.is_of_one_body:
             return entries.Joint(joint.row.number, second, second, point2, point2, axis)
@@ -158,7 +158,7 @@ class Tables:
         """Marker quantities x and y of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
             of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, ORIGIN)
-        body, local = self._place(of)
+        body, local = self.place(of)
         return Quantity("x", 0, body, (0.0, 0.0), local), Quantity("y", 0, body, (0.0, 0.0), local)
 
     def angle_quantity(self, body: Body) -> Quantity:
@@ -182,7 +182,7 @@ class Tables:
 
     def length_quantity(self, spring: TableForce | Actuator) -> Quantity:
         """Marker quantity of the length of a spring or an actuator."""
-        (first, point1), (second, point2) = self._place(spring.first), self._place(spring.second)
+        (first, point1), (second, point2) = self.place(spring.first), self.place(spring.second)
         return Quantity("distance", first, second, point1, point2)
 
     def _damp(self) -> None:
@@ -306,7 +306,7 @@ class Tables:
 
     def _end(self, end: Body | Point) -> tuple[int, tuple[float, ...]]:
         """Number of a body, and the point of it that a marker quantity belongs to."""
-        return (self.number[end.name], (0.0,) * self.drawing.dimension) if isinstance(end, Body) else self._place(end)
+        return (self.number[end.name], (0.0,) * self.drawing.dimension) if isinstance(end, Body) else self.place(end)
 
     def _efforts(self, element: TableForce, index: int) -> Iterator[OutputSpec]:
         """Measures of the generalized forces of an element, of which the first has this index."""

@@ -9,11 +9,13 @@ import numpy as np
 
 from ..._gateway import Variable
 from ..._gateway.sparse_state import nearest_velocities, redundant_rows
+from ...errors import InconsistentStart
 from ..assembly import space_advice
 from ..assembly.assembly import Assembly, is_of_many
 from ..assembly.drawing_changes import DrawingChanges
 from ..assembly.nudge import nudged
 from ..assembly.start import Starting
+from ..assembly.unsaid_rates import moving_unsaid
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor
 from ..elements.numbers import AS_GIVEN
@@ -86,13 +88,22 @@ def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, sing
     """Sentences on the pose; one on a singular pose comes first."""
     in_space = isinstance(tables, SpaceTables)
     notes = [*DrawingChanges(tables, assembly, p).sentences(),
-             *(space_advice.at_right_angles(tables, assembly.core, p) if in_space else ())]
+             *(space_advice.at_right_angles(tables, assembly.core, p) if in_space else ()), *_unsaid(start, tables, assembly, p)]
     if singular:
         why = space_advice.flat_crosses(tables, assembly.core, p) if in_space else []
         reasons = f", as {' and '.join(why)}" if why else ""
         named = f"{', '.join(singular)} {'is' if len(singular) == 1 else 'are'} redundant"
         return f"a singular pose: {named} as drawn, and not nearby{reasons}; {start.way_out()}", *notes
     return tuple(notes)
+
+
+def _unsaid(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray) -> list[str]:
+    """Sentence on coordinates that start moving unsaid; none where start velocities contradict each other."""
+    try:
+        said = moving_unsaid(start.drawing, tables, assembly, p, start.velocities(tables, assembly, p))
+    except InconsistentStart:
+        return []
+    return [said] if said else []
 
 
 def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:
