@@ -2,6 +2,7 @@
 
 import warnings
 
+import numpy as np
 import pytest
 
 import zerodrift as zd
@@ -48,6 +49,30 @@ def test_each_kind_of_run_warns_once_of_a_joint_that_is_drawn_open(dimension, la
 def test_a_gap_of_a_hundredth_of_the_size_is_a_rounded_number(dimension):
     for gap, count in ((0.038, 0), (0.042, 1)):        # 4 m
         assert len(warned(zd.simulate, drawn_linkage(dimension, gap), 0.01, step=0.01)) == count
+
+
+@pytest.mark.parametrize("slope", [0.0, 1.0])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_the_size_is_the_extent_of_all_that_is_drawn(dimension, slope):
+    """Two links of 1 m in line: a hundredth is 0.02 m."""
+    for gap, count in ((0.019, 0), (0.021, 1)):
+        m, z = zd.Mechanism("links", dimension=dimension), (0,) * (dimension - 2)
+        along = np.array([np.cos(slope), np.sin(slope), *z])
+        a, b = m.link("a", 0 * along, along, mass=1.0), m.link("b", (1 + gap) * along, (2 + gap) * along, mass=1.0)
+        for name, one, other in (("A", m.ground, a.start), ("B", a.end, b.start)):
+            m.revolute(name, one, other, **({"axis": (0, 0, 1)} if dimension == 3 else {}))
+        assert len(warned(zd.simulate, m, 0.01, step=0.01)) == count
+
+
+def test_bodies_with_local_points_are_advised_to_have_a_place():
+    m = zd.Mechanism("arm")
+    one, other = m.body("one", 1.0, 0.1), m.body("other", 1.0, 0.1)
+    m.revolute("A", m.ground, one, at=(0, 0))
+    m.revolute("B", one.point((1, 0)), other.point((0, 0)))
+    m.revolute("C", other.point((0, 1)), one.point((2, 0)))
+    said, = warned(zd.simulate, m, 0.01, step=0.01)
+    assert "joint 'C' of 'arm'" in said
+    assert "give 'other' and 'one' a place by at=, as points such as body.point((x, y)) are in the frame of their body" in said
 
 
 SKETCHES = {"length": lambda m: None, "held": lambda m: m.start({"A.angle": 0.01}),

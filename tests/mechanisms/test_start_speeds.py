@@ -62,13 +62,6 @@ def moved_particle(m):
     return pivot
 
 
-def held_particle(m):
-    pivot = m.particle("pivot", 0.01, at=placed(m, 0, 0))
-    m.slot("shaker", m.ground, pivot, axis=placed(m, 0, 1))
-    m.start({"shaker.speed": SPEED})
-    return pivot
-
-
 def prescribe(m, place):
     for axis in "xyz"[:m.dimension]:
         law = (lambda y, t: y - 0.02 * np.sin(100 * np.pi * t)) if axis == "y" else lambda y, t: y
@@ -81,7 +74,7 @@ def prescribed_particle(m):
     return pivot
 
 
-SHAKERS = [moved_body, heavy_body, related_body, pushed_body, moved_particle, held_particle, prescribed_particle]
+SHAKERS = [moved_body, heavy_body, related_body, pushed_body, moved_particle, prescribed_particle]
 
 
 def hang_rod(m, pivot):

@@ -1,4 +1,4 @@
-"""Carriers of bodies: the body through which all joints and drives of a body lead to the ground.
+"""Carriers of bodies that drives move: the body through which all joints and drives of a body lead to the ground.
 
 A body that hangs on one other, by whatever elements, is carried by it; one with several ways to the ground is carried by the last
 body that all of them contain, at least by the ground. Where drives move a single point of a body, and all else that leads it to
@@ -8,7 +8,7 @@ the ground lets it translate with that point, it hangs on the point, as on a par
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -56,30 +56,29 @@ class Connection(NamedTuple):
 
 def carriers(drawing: Drawing, tables: Tables, held: Iterable[str],
              translates: Callable[[str, int, Carrier], bool]) -> dict[int, Carrier]:
-    """Carriers by the number of the body; bodies are left out that the ground carries and that hang on no driven point.
+    """Carriers by the number of the body; bodies are left out that the ground carries, or that no drive moves.
 
     `held` are names of velocities that the start holds or wishes. `translates` is true if an element, by name, lets a body
     translate with a driven point.
     """
     connections = list(_connections(drawing, tables, held))
-    count = len(tables.parts)
-    fixed = _reached([each for each in connections if not each.is_held], count)
-    behind = {body: fixed - _reached(connections, count, body) - {body} for body in fixed - {0}}
+    fixed = _reached([each for each in connections if not each.is_held])
+    behind = {body: fixed - _reached(connections, body) - {body} for body in fixed - {0}}
     found = {}
-    for body in sorted(behind):
+    for body in sorted(behind.keys() & _with_drives(connections)):
         carrying = min((each for each in behind if body in behind[each]), key=lambda each: len(behind[each]), default=0)
         inward = [each for each in connections if body in each.bodies and each.bodies - behind[body] - {body}]
         found[body] = Carrier(carrying, _driven_point(inward, body, carrying, translates))
     return {body: each for body, each in found.items() if each.body or each.point is not None}
 
 
-def _reached(connections: Sequence[Connection], count: int, without: int = -1) -> set[int]:
-    """Bodies that are connected with the ground by bodies other than `without`."""
+def _reached(connections: Sequence[Connection], without: int = -1, start: Collection[int] = (0,)) -> set[int]:
+    """Bodies that are connected with those of the start, such as the ground, by bodies other than `without`."""
     of_body: dict[int, list[int]] = defaultdict(list)
     for i, each in enumerate(connections):
         for body in each.bodies:
             of_body[body].append(i)
-    found, left, used = {0}, [0], set()
+    found, left, used = {*start}, [*start], set()
     while left:
         for i in of_body[left.pop()]:
             if i in used:
@@ -88,6 +87,15 @@ def _reached(connections: Sequence[Connection], count: int, without: int = -1) -
             new = connections[i].bodies - found - {without}
             found |= new
             left += new
+    return found
+
+
+def _with_drives(connections: Sequence[Connection]) -> set[int]:
+    """Bodies that a drive moves, or that other bodies connect with such ones."""
+    found: set[int] = set()
+    for each in connections:
+        if each.is_driven:
+            found |= _reached(connections, 0, each.bodies - {0})
     return found
 
 

@@ -38,10 +38,10 @@ class StartVerbs(Elements):
         printed mechanism names joints that are drawn open and bodies that start elsewhere than drawn; a run warns of a large
         gap, and of a drive that cannot start as drawn, see `DrawingWarning`.
 
-        Velocities that this leaves undetermined are those of least kinetic energy relative to what carries each body: to the
-        rigid motion of the body through which all its connections lead to the ground, or of the point on which drives move it.
-        The printed mechanism lists them. Mechanisms of more than 1,000 constraints or velocities in absolute coordinates take
-        velocities of least kinetic energy relative to the ground.
+        Velocities that this leaves undetermined are those of least kinetic energy. That of bodies which drives move is relative
+        to what carries them: to the rigid motion of the body through which all their connections lead to the ground, or to the
+        point at which a drive moves them; only in mechanisms of more than 1,000 constraints or velocities in absolute coordinates
+        it is relative to the ground. The printed mechanism lists such velocities.
 
         Parameters
         ----------

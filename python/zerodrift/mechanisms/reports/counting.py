@@ -15,12 +15,12 @@ from ..assembly.assembly import Assembly, is_of_many
 from ..assembly.drawing_changes import DrawingChanges
 from ..assembly.nudge import nudged
 from ..assembly.start import Starting
-from ..assembly.unsaid_rates import moving_unsaid
 from ..elements.drawing import Drawing
 from ..elements.forces import Actuator, Motor
 from ..elements.numbers import AS_GIVEN
 from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import constraint_names
+from .unsaid_rates import moving_unsaid
 
 DEPENDENT = 1e-9        # of a constraint's own size: residual norm of a redundant one
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..assembly.assembly import Assembly
+from ..assembly.free_coordinates import rates_of_tree
+from ..assembly.relative_rates import Rates
 from ..elements.drawing import Drawing
 from ..equations.measure_tables import read
 from ..equations.tables import Tables
-from .assembly import Assembly
-from .free_coordinates import rates_of_tree
-from .relative_rates import Rates
 
 MOST_NAMED = 8
-LEAST = 1e-9            # of the largest velocity: rate of a coordinate that rests
+LEAST_RATE = 1e-9       # of the largest velocity: rate of a coordinate that rests
 
 
 def moving_unsaid(drawing: Drawing, tables: Tables, assembly: Assembly, p: np.ndarray, rates: Rates) -> str | None:
@@ -25,13 +25,14 @@ def moving_unsaid(drawing: Drawing, tables: Tables, assembly: Assembly, p: np.nd
     for i, measure in enumerate(core.measures):
         found = core.measure_at(i, assembly.t, p, rates.v)
         unit = assembly.length if measure.unit == "m/s" else 1.0
-        is_open = np.abs(found["jacobian"] @ rates.free).max() > LEAST * unit * np.abs(rates.free / assembly.scale[:, None]).max()
-        if measure.name in names and is_open and np.abs(found["value"]).max() > LEAST * unit * size:
+        most = LEAST_RATE * unit * np.abs(rates.free / assembly.scale[:, None]).max()
+        is_open = np.abs(found["jacobian"] @ rates.free).max() > most
+        if measure.name in names and is_open and np.abs(found["value"]).max() > LEAST_RATE * unit * size:
             said.append(f"{measure.name} = {_numbers(found['value'])} {measure.unit}")
     others = [f"{len(said) - MOST_NAMED} others"] if len(said) > MOST_NAMED else []
     return f"starts moving, with the least energy: {', '.join([*said[:MOST_NAMED], *others])}" if said else None
 
 
 def _numbers(values: np.ndarray) -> str:
-    words = [f"{value if abs(value) > LEAST * np.abs(values).max() else 0.0:.3g}" for value in values]
+    words = [f"{value if abs(value) > LEAST_RATE * np.abs(values).max() else 0.0:.3g}" for value in values]
     return words[0] if len(words) == 1 else f"({', '.join(words)})"
