@@ -5,6 +5,7 @@
 
 #include "linalg/norms.h"
 #include "motion/derivatives.h"
+#include "motion/reactions.h"
 #include "paths/spread.h"
 #include "point/point.h"
 #include "point/quaternions.h"
@@ -25,18 +26,27 @@ static int finish(zd_run *run, int status, char *message, int size)
     return status;
 }
 
+/* A run at a state, with its accelerations; NULL if it could not be created, with *status */
+static zd_run *accelerated(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p,
+                           const double *v, int *status, char *message, int message_size)
+{
+    zd_settings settings = {.formulation = formulation, .on_singular = on_singular};
+    *status = zd_check_method(system, &settings, message, message_size);
+    if (!*status) *status = zd_check_quaternions(system, p, 0, message, message_size);
+    zd_run *run = *status ? NULL : zd_run_open(system, &settings, t, p, v, status, message, message_size);
+    if (!run) return NULL;
+    if (!*status) *status = zd_stepper_place(&run->stepper, t, p, v);
+    if (!*status) *status = zd_motion_accelerate(&run->motion);
+    if (!*status && !zd_is_finite(system->nv, run->motion.point->vdot)) *status = ZD_NOT_FINITE;
+    return run;
+}
+
 int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, char *message, int message_size)
 {
-    zd_settings settings = {.formulation = formulation, .on_singular = on_singular};
-    int status = zd_check_method(system, &settings, message, message_size);
-    if (!status) status = zd_check_quaternions(system, p, 0, message, message_size);
-    if (status) return status;
-    zd_run *run = zd_run_open(system, &settings, t, p, v, &status, message, message_size);
+    int status;
+    zd_run *run = accelerated(system, formulation, on_singular, t, p, v, &status, message, message_size);
     if (!run) return status;
-    if (!status) status = zd_stepper_place(&run->stepper, t, p, v);
-    if (!status) status = zd_motion_accelerate(&run->motion);
-    if (!status && !zd_is_finite(system->nv, run->motion.point->vdot)) status = ZD_NOT_FINITE;
     memcpy(vdot, run->motion.point->vdot, (size_t)system->nv * sizeof *vdot);
     zd_rank_find_multipliers(run->motion.point);
     if (zd_constraints(system)) memcpy(multipliers, run->motion.point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
@@ -54,15 +64,41 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
     return status;
 }
 
+int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const double *t, const double *p, const double *v, double *u,
+                   char *message, int message_size)
+{
+    int64_t nq = system->nq, nv = system->nv, k = system->reading->functions;
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < rows && !status; i++) {
+        zd_run *run = accelerated(system, formulation, ZD_CONTINUE, t[i], p + i * nq, v + i * nv, &status, message, message_size);
+        if (!run) return status;
+        memcpy(u + i * k, run->motion.point->inputs, (size_t)k * sizeof *u);
+        status = finish(run, status, message, message_size);
+    }
+    return status;
+}
+
+int zd_read_given(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
+                  const double *multipliers, double *u)
+{
+    int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system), k = system->reading->functions;
+    int status = ZD_DONE;
+    for (int64_t i = 0; i < rows && !status; i++)
+        status = zd_reactions_given(system, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m, u + i * k);
+    return status;
+}
+
 int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
                       const double *v, const double *vdot, const double *multipliers, double *values, double *scratch)
 {
     const zd_measures *all = system->measures;
     int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    int64_t k = system->reading ? system->reading->functions : 0;
     int status = ZD_DONE;
     for (int64_t i = 0; i < rows && !status; i++)
-        status = all->evaluate(system->data, inputs, measure, t[i], p + i * nq, v + i * nv, vdot ? vdot + i * nv : NULL,
-                               multipliers ? multipliers + i * m : NULL, &(zd_measured){.value = values + i * size}, scratch);
+        status = all->evaluate(system->data, inputs ? inputs + i * k : NULL, measure, t[i], p + i * nq, v + i * nv,
+                               vdot ? vdot + i * nv : NULL, multipliers ? multipliers + i * m : NULL,
+                               &(zd_measured){.value = values + i * size}, scratch);
     return status;
 }
 
@@ -72,6 +108,7 @@ int zd_evaluate_states(const zd_system *system, int want, int64_t states, const 
     zd_terms at = *first;
     int status = ZD_DONE;
     for (int64_t i = 0; i < states && !status; i++) {
+        if (system->reading && first->inputs) at.inputs = first->inputs + i * system->reading->functions;
         status = system->evaluate(system->data, want | ZD_MOVED, t[i], p + i * system->nq, v + i * system->nv, &at);
         for (int row = 0; zd_term_at(row); row++)
             if (want & zd_term_at(row)->term) *zd_term_in(&at, row) += zd_term_size(system, row);
@@ -79,9 +116,9 @@ int zd_evaluate_states(const zd_system *system, int want, int64_t states, const 
     return status;
 }
 
-int zd_residuals_along(const zd_system *system, int parts, double t, const double *p, const double *v, const double *vdot,
-                       const double *lambda, int is_rough, int64_t directions, const double *dt, const double *dp, const double *dv,
-                       const double *sizes, double *derivatives)
+int zd_residuals_along(const zd_system *system, const double *inputs, int parts, double t, const double *p, const double *v,
+                       const double *vdot, const double *lambda, int is_rough, int64_t directions, const double *dt, const double *dp,
+                       const double *dv, const double *sizes, double *derivatives)
 {
     const enum zd_accuracy accuracy = is_rough ? ZD_CENTRAL : ZD_ACCURATE;
     const int64_t nq = system->nq, nv = system->nv;
@@ -94,6 +131,7 @@ int zd_residuals_along(const zd_system *system, int parts, double t, const doubl
     zd_arena arena = zd_arena_in(memory);
     zd_residual_state state = zd_residual_state_take(&arena, system, &statistics, accuracy);
     zd_point *point = zd_point_take(&arena, system, &statistics);
+    if (system->reading && inputs) memcpy(point->inputs, inputs, (size_t)system->reading->functions * sizeof *inputs);
     zd_point_move(point, t, p, v);
     zd_residual_state_begin(&state, parts, point, vdot, lambda);
     int status = ZD_DONE;

@@ -255,7 +255,7 @@ static int jacobian(void *context, double t, const double *y, const double *incr
     zd_motion *motion = context;
     const int size = motion->rate.size;
     int status = ZD_SINGULAR;
-    if (motion->is_stabilized || motion->corrections_size || motion->reactions.count) return status;
+    if (motion->is_stabilized || motion->corrections_size || motion->reactions.reading) return status;
     if (motion->system.jacobian) status = take_own(motion, t, y, increment, J);
     if (status) status = take_by_residuals(motion, t, y, increment, J);
     if (status) return status;

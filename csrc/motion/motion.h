@@ -141,14 +141,19 @@ typedef struct zd_chain {
     double *picked;         /* (size,): the independent entries of `rates` */
 } zd_chain;
 
-/* Memory for reactions and accelerations r that user functions of forces read: reactions.c */
+/* Memory for reactions and accelerations r that user functions u of forces read: reactions.c */
 typedef struct zd_reactions {
-    int count;              /* n; 0: none are read */
-    const zd_inputs *inputs;    /* measures r, and their places in the data of the system */
-    double *r, *R, *F;      /* (n,): r; r measured with the forces at r; r - R */
-    double *change, *scale; /* (n,): change of r, in units of its scale */
-    double *matrix, *inverse;   /* (n, n): factors of I - dR/dr, in the scales of r; its inverse */
+    const zd_reading *reading;      /* n, k, and pairs of them; NULL: none are read */
+    double *r, *r0, *r1;    /* (n,): r; R at the values u0 of those that read none, and 0; the solution */
+    double *u, *u0, *u1;    /* (k,): u; u0; another u */
+    double *u_r;            /* (reads,): derivative of each u with respect to each r that it reads */
+    double *G;              /* (k, n): dR/du */
+    double *R, *change, *scale; /* (n,): measured; change of r, in units of its scale */
+    double *matrix, *inverse;   /* (n, n): factors of I - G du/dr, in the scales of r; its inverse */
     int *order;             /* (n,): of the factors */
+    double force;           /* N, N m: largest force there */
+    double determinant, condition;      /* those of the last matrix, for messages */
+    int strongest;          /* user function with the largest entry in it */
     double *measured, *scratch; /* a measure; scratch memory of the measures */
 } zd_reactions;
 

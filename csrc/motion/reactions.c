@@ -1,11 +1,12 @@
-/* User functions u(r) of forces that read reactions and accelerations r. These are affine in vdot and lambda, which are in the forces:
+/* User functions u(r) of forces that read reactions and accelerations r. These are affine in vdot and lambda, as these are in the forces:
  *
- *     r = R(r),     R(r): measured at the vdot and lambda of (8), (9), (13) with the forces u(r)
+ *     r = R(u(r)),     R(u) = r0 + G u: measured at the vdot and lambda of (8), (9), (13) with the forces u
  *
- * Newton's method for r - R(r) = 0 starts at r0 = R(0) of the same state, so that no number depends on earlier evaluations. The columns of
- * dr/dr - dR/dr = I - G du/dr are differences, each of one evaluation of the forces and one solve with the same factors. They are taken away
- * from r = 0, where friction has a kink. A correction with the matrix of the iteration before that is small ends the iteration, as the
- * matrix has hardly changed; friction proportional to a reaction needs one matrix.
+ * The columns of G are exact differences, each of one solve with the factors at the state. So a user function is evaluated for Newton's
+ * method alone, which starts at r0 of the same state, so that no number depends on earlier evaluations; and those that read no reaction are
+ * evaluated once. Derivatives du/dr are differences away from r = 0, where friction has a kink. The ratio of two corrections with one
+ * matrix tells by how much that has changed between them: while it is small, the matrix is kept. Friction proportional to a reaction needs
+ * one.
  *
  * The motion is unique if det(I - G du/dr) > 0 from r0 to r. Beyond that (Painleve) there are several accelerations, or none.
  */
@@ -17,75 +18,137 @@
 #include "../constraints/rank.h"
 #include "../linalg/lu.h"
 #include "../linalg/norms.h"
+#include "../linalg/small.h"
 
 static const double INCREMENT = 1e-6;       /* difference, in scales of a reaction */
 static const double FLOOR = 1e-3;           /* least scale of a reaction, in units of the largest force, against rounding */
-static const double LAST = 1e-8;            /* last correction, in scales of a reaction: hardly an error is left after it */
+static const double LEFT = 1e-13;           /* error that is left, in scales of a reaction */
+static const double ALIKE = 0.03;           /* ratio of two corrections with one matrix, with which that matrix is kept */
 static const double CONDITION = 1e10;       /* largest condition of I - G du/dr, in the scales of the reactions */
 enum { ITERATIONS = 30 };
+/* Matrices between r0 and r, for functions that are not affine there: friction of a reaction with one change of sign has two. */
+enum { BETWEEN = 3 };
 
-static void write(const zd_motion *motion)
-{
-    const zd_reactions *self = &motion->reactions;
-    const zd_inputs *inputs = self->inputs;
-    for (int k = 0; k < inputs->measure_places; k++)
-        *inputs->measure_place[k].place = self->r[inputs->measure_place[k].input];
-    for (int i = 0; i < inputs->derivations; i++) inputs->derive[i](inputs->data[i]);
-}
+/* A state, and the way in which vdot and lambda are found there: solved for with the forces u, or given. */
+typedef struct zd_state_read {
+    const zd_system *system;
+    zd_motion *motion;      /* NULL: vdot and lambda are given */
+    double t;
+    const double *p, *v, *vdot, *lambda;
+} zd_state_read;
 
-/* R <- R(r), with vdot and lambda at the point */
-static int evaluate(zd_motion *motion)
+/* ---- R(u) ---- */
+
+/* vdot and lambda at the point, with the forces u */
+static int solve_with(zd_motion *motion)
 {
-    const zd_reactions *self = &motion->reactions;
-    const zd_inputs *inputs = self->inputs;
-    const zd_measures *measures = inputs->of->measures;
     zd_point *point = motion->point;
-    write(motion);
-    point->known &= ~(ZD_FORCE | ZD_POWER | ZD_ACCELERATED);
-    const int status = zd_equations_by_matrices.accelerate(motion);
-    if (status) return status;
-    zd_rank_find_multipliers(point);
-    for (int i = 0; i < inputs->measures; i++) {
-        const zd_measured out = {.value = self->measured};
-        if (measures->evaluate(inputs->of->data, point->terms.inputs, inputs->measure[i].measure, point->t, point->p, point->v, point->vdot,
-                               point->lambda, &out, self->scratch)) return ZD_CALLBACK;
-        self->R[i] = self->measured[inputs->measure[i].component];
-    }
-    return ZD_DONE;
-}
-
-/* scale <- of each reaction at r, from the forces at the point */
-static void find_scales(const zd_motion *motion)
-{
     const zd_reactions *self = &motion->reactions;
-    const zd_point *point = motion->point;
-    const double of_f = point->terms.f ? zd_max_abs(motion->system.nv, point->terms.f) : 0;
-    const double largest = fmax(of_f, zd_max_abs(zd_constraints(&motion->system), point->lambda));
-    for (int i = 0; i < self->count; i++) {
-        self->scale[i] = fmax(fabs(self->r[i]), FLOOR * largest);
-        if (!(self->scale[i] > 0)) self->scale[i] = 1;
-    }
+    memcpy(point->inputs, self->u, (size_t)self->reading->functions * sizeof *self->u);
+    point->known &= ~(ZD_FORCE | ZD_POWER | ZD_ACCELERATED);
+    return zd_equations_by_matrices.accelerate(motion);
 }
 
-/* matrix <- I - G du/dr at r, in the scales of the reactions; F has r - R(r) */
-static int differentiate(zd_motion *motion)
+/* R <- R(u) */
+static int measure(zd_reactions *self, const zd_state_read *at)
 {
-    zd_reactions *self = &motion->reactions;
-    const int n = self->count;
-    for (int j = 0; j < n; j++) {
-        const double r = self->r[j], increment = copysign(INCREMENT * self->scale[j], r);
-        self->r[j] = r + increment;
-        const double step = self->r[j] - r;
-        const int status = evaluate(motion);
-        self->r[j] = r;
-        if (status) return status;
-        for (int i = 0; i < n; i++) {
-            const double at_r = self->r[i] - self->F[i];
-            self->matrix[i * n + j] = (i == j) - (self->R[i] - at_r) / step * self->scale[j] / self->scale[i];
-        }
+    const zd_measures *measures = at->system->measures;
+    const int status = at->motion ? solve_with(at->motion) : ZD_DONE;
+    if (status) return status;
+    if (at->motion) zd_rank_find_multipliers(at->motion->point);
+    for (int i = 0; i < self->reading->count; i++) {
+        const zd_read_reaction *of = self->reading->reaction + i;
+        const zd_measured out = {.value = self->measured};
+        const int failed = measures->evaluate(at->system->data, self->u, of->measure, at->t, at->p, at->v, at->vdot, at->lambda, &out,
+                                              self->scratch);
+        if (failed) return ZD_CALLBACK;
+        self->R[i] = self->measured[of->component];
     }
     return ZD_DONE;
 }
+
+/* Largest force at r0 */
+static double largest_force(const zd_reactions *self, const zd_state_read *at)
+{
+    const double of_lambda = zd_max_abs(zd_constraints(at->system), at->lambda);
+    const double largest = fmax(of_lambda, zd_max_abs(self->reading->count, self->r0));
+    return at->motion && at->motion->point->terms.f ? fmax(largest, zd_max_abs(at->system->nv, at->motion->point->terms.f)) : largest;
+}
+
+/* Scale of a reaction or a force */
+static double size_of(const zd_reactions *self, double value)
+{
+    const double size = fmax(fabs(value), FLOOR * self->force);
+    return size > 0 ? size : 1;
+}
+
+/* Column of G of a user function, from the difference for a change of it as large as its value. */
+static int find_column(zd_reactions *self, const zd_state_read *at, int function)
+{
+    const int n = self->reading->count;
+    const double size = size_of(self, self->u1[function]);
+    double *column = self->G + function * n;
+    memcpy(self->u, self->u0, (size_t)self->reading->functions * sizeof *self->u);
+    self->u[function] = size;
+    const int status = measure(self, at);
+    for (int i = 0; i < n; i++) column[i] = (self->R[i] - self->r0[i]) / size;
+    return status;
+}
+
+/* ---- u(r) ---- */
+
+static int evaluate(zd_reactions *self, const zd_state_read *at, int function, int is_same_state, double *u)
+{
+    return self->reading->evaluate(at->system->data, function, at->t, at->p, at->v, self->r, is_same_state, u, self->scratch);
+}
+
+static int reads(const zd_reading *reading, int function)
+{
+    for (int i = 0; i < reading->reads; i++)
+        if (reading->read[i].function == function) return 1;
+    return 0;
+}
+
+/* u, u0 <- values of the user functions that read no reaction, zero for the others */
+static int evaluate_others(zd_reactions *self, const zd_state_read *at)
+{
+    int status = ZD_DONE;
+    for (int i = 0, count = 0; i < self->reading->functions && !status; i++) {
+        self->u0[i] = 0;
+        if (!reads(self->reading, i)) status = evaluate(self, at, i, count++ > 0, self->u0 + i);
+    }
+    memcpy(self->u, self->u0, (size_t)self->reading->functions * sizeof *self->u);
+    return status;
+}
+
+/* u <- values of those that read reactions, at r */
+static int evaluate_readers(zd_reactions *self, const zd_state_read *at)
+{
+    int status = ZD_DONE, before = -1;
+    for (const zd_read *read = self->reading->read; read < self->reading->read + self->reading->reads && !status; read++) {
+        if (read->function != before) status = evaluate(self, at, read->function, before >= 0, self->u + read->function);
+        before = read->function;
+    }
+    return status;
+}
+
+/* u_r at r, where u is known */
+static int differentiate(zd_reactions *self, const zd_state_read *at)
+{
+    int status = ZD_DONE;
+    for (int k = 0; k < self->reading->reads && !status; k++) {
+        const zd_read read = self->reading->read[k];
+        const double r = self->r[read.reaction];
+        double u = 0;
+        self->r[read.reaction] = r + copysign(INCREMENT * self->scale[read.reaction], r);
+        status = evaluate(self, at, read.function, 1, &u);
+        self->u_r[k] = (u - self->u[read.function]) / (self->r[read.reaction] - r);
+        self->r[read.reaction] = r;
+    }
+    return status;
+}
+
+/* ---- Newton's method ---- */
 
 /* Sum of magnitudes in the row of the (n, n) matrix where it is largest */
 static double largest_row(int n, const double *A)
@@ -99,99 +162,189 @@ static double largest_row(int n, const double *A)
     return largest;
 }
 
-/* Factors the matrix; ZD_SEVERAL_MOTIONS unless its determinant is positive, and its condition small. */
+/* matrix <- factors of I - G du/dr at r; ZD_SEVERAL_MOTIONS unless its determinant is positive, and its condition small. */
 static int factor(zd_reactions *self)
 {
-    const int n = self->count;
-    const double size = 1 + largest_row(n, self->matrix);
-    if (zd_lu_factor(n, self->matrix, self->order) < n || !(zd_lu_determinant(n, self->matrix, self->order) > 0)) return ZD_SEVERAL_MOTIONS;
+    const int n = self->reading->count;
+    double largest = 0;
+    for (int i = 0; i < n * n; i++) self->matrix[i] = i % (n + 1) == 0;
+    for (int k = 0; k < self->reading->reads; k++) {
+        const zd_read read = self->reading->read[k];
+        const double slope = self->u_r[k] * self->scale[read.reaction], *column = self->G + read.function * n;
+        for (int i = 0; i < n; i++) {
+            const double entry = column[i] * slope / self->scale[i];
+            self->matrix[i * n + read.reaction] -= entry;
+            if (fabs(entry) > largest) largest = fabs(entry), self->strongest = read.function;
+        }
+    }
+    if (!zd_is_finite(n * n, self->matrix)) return ZD_NOT_FINITE;
+    const double size = largest_row(n, self->matrix);
+    self->determinant = self->condition = 0;
+    if (zd_lu_factor(n, self->matrix, self->order) < n) return ZD_SEVERAL_MOTIONS;
+    self->determinant = zd_lu_determinant(n, self->matrix, self->order);
     for (int j = 0; j < n; j++) {
         double *row = self->inverse + j * n;
         for (int i = 0; i < n; i++) row[i] = i == j;
         zd_lu_solve_transposed(n, self->matrix, self->order, row);
     }
-    return size * largest_row(n, self->inverse) <= CONDITION ? ZD_DONE : ZD_SEVERAL_MOTIONS;
+    self->condition = size * largest_row(n, self->inverse);
+    return self->determinant > 0 && self->condition <= CONDITION ? ZD_DONE : ZD_SEVERAL_MOTIONS;
 }
 
-/* change <- matrix^-1 F; returns true if it is small. */
-static int is_last(const zd_reactions *self)
+/* The same at r, where u is known */
+static int linearize(zd_reactions *self, const zd_state_read *at)
 {
-    for (int i = 0; i < self->count; i++) self->change[i] = self->F[i] / self->scale[i];
-    zd_lu_solve(self->count, self->matrix, self->order, self->change);
-    return zd_max_abs(self->count, self->change) <= LAST;
+    for (int i = 0; i < self->reading->count; i++) self->scale[i] = size_of(self, self->r[i]);
+    const int status = differentiate(self, at);
+    return status ? status : factor(self);
 }
 
+/* change <- matrix^-1 (r - r0 - G (u - u0)); returns the largest */
+static double find_change(const zd_reactions *self)
+{
+    const int n = self->reading->count;
+    for (int i = 0; i < n; i++) self->change[i] = self->r[i] - self->r0[i];
+    for (int k = 0; k < self->reading->functions; k++)
+        if (reads(self->reading, k)) zd_add_scaled(n, self->change, -self->u[k], self->G + k * n);
+    for (int i = 0; i < n; i++) self->change[i] /= self->scale[i];
+    zd_lu_solve(n, self->matrix, self->order, self->change);
+    return zd_max_abs(n, self->change);
+}
+
+/* r, and u along its derivatives, which is its value where the correction is small */
 static void correct(zd_reactions *self)
 {
-    for (int i = 0; i < self->count; i++) self->r[i] -= self->change[i] * self->scale[i];
+    for (int k = 0; k < self->reading->reads; k++) {
+        const zd_read read = self->reading->read[k];
+        self->u[read.function] -= self->u_r[k] * self->change[read.reaction] * self->scale[read.reaction];
+    }
+    for (int i = 0; i < self->reading->count; i++) self->r[i] -= self->change[i] * self->scale[i];
 }
 
-/* F <- r - R(r) */
-static int find_residual(zd_motion *motion)
+/* Newton's method from r = r0, where u is known; *matrices <- their number */
+static int iterate(zd_reactions *self, const zd_state_read *at, int *matrices)
 {
-    const zd_reactions *self = &motion->reactions;
-    const int status = evaluate(motion);
-    for (int i = 0; i < self->count; i++) self->F[i] = self->r[i] - self->R[i];
+    double before = 0, now = INFINITY;
+    int status = ZD_DONE;
+    *matrices = 0;
+    for (int k = 0; k < ITERATIONS && !status; k++) {
+        if (k) status = evaluate_readers(self, at);
+        if (k && !status) now = find_change(self);
+        const int is_last = now <= LEFT || now * now <= LEFT * before;
+        if (!status && !is_last && !(now <= ALIKE * before)) {
+            status = linearize(self, at);
+            if (!status) now = find_change(self);
+            ++*matrices;
+        }
+        if (!status) correct(self);
+        if (is_last) return status;
+        before = now;
+    }
+    return status ? status : ZD_SEVERAL_MOTIONS;
+}
+
+/* Checks the matrices between r0 and r; u remains. */
+static int check_between(zd_reactions *self, const zd_state_read *at)
+{
+    const size_t n = (size_t)self->reading->count, k = (size_t)self->reading->functions;
+    int status = ZD_DONE;
+    memcpy(self->r1, self->r, n * sizeof *self->r);
+    memcpy(self->u1, self->u, k * sizeof *self->u);
+    for (int i = 1; i <= BETWEEN && !status; i++) {
+        const double share = (double)i / (BETWEEN + 1);
+        for (size_t j = 0; j < n; j++) self->r[j] = self->r0[j] + share * (self->r1[j] - self->r0[j]);
+        status = evaluate_readers(self, at);
+        if (!status) status = linearize(self, at);
+    }
+    memcpy(self->u, self->u1, k * sizeof *self->u);
     return status;
 }
 
-/* Newton's method from r */
-static int iterate(zd_motion *motion)
+/* G, where u is known; u remains */
+static int find_columns(zd_reactions *self, const zd_state_read *at)
 {
-    zd_reactions *self = &motion->reactions;
-    int ends = 0;
-    for (int k = 0; k < ITERATIONS && !ends; k++) {
-        int status = find_residual(motion);
-        if (status) return status;
-        if (!zd_is_finite(self->count, self->F)) return ZD_DONE;       /* as vdot, which the step checks */
-        ends = k && is_last(self);
-        if (!ends) {
-            find_scales(motion);
-            status = differentiate(motion);
-            if (!status) status = factor(self);
-            if (status) return status;
-            ends = is_last(self);
-        }
-        correct(self);
-    }
-    return ends ? evaluate(motion) : ZD_SEVERAL_MOTIONS;
+    int status = ZD_DONE;
+    memcpy(self->u1, self->u, (size_t)self->reading->functions * sizeof *self->u);
+    for (int i = 0; i < self->reading->functions && !status; i++)
+        if (reads(self->reading, i)) status = find_column(self, at, i);
+    memcpy(self->u, self->u1, (size_t)self->reading->functions * sizeof *self->u);
+    return status;
 }
+
+/* u <- the values with which r = R(u(r)) */
+static int solve(zd_reactions *self, const zd_state_read *at)
+{
+    const size_t n = (size_t)self->reading->count;
+    int matrices, status = evaluate_others(self, at);
+    if (!status) status = measure(self, at);
+    if (!status && !zd_is_finite((int)n, self->R)) status = ZD_NOT_FINITE;
+    if (status) return status;
+    memcpy(self->r, self->R, n * sizeof *self->r);
+    memcpy(self->r0, self->R, n * sizeof *self->r);
+    self->force = largest_force(self, at);
+    status = evaluate_readers(self, at);
+    if (!status) status = find_columns(self, at);
+    if (!status) status = iterate(self, at, &matrices);
+    return !status && matrices > 1 ? check_between(self, at) : status;
+}
+
+/* ---- in a motion ---- */
 
 static int accelerate(zd_motion *motion)
 {
-    const zd_reactions *self = &motion->reactions;
-    memset(self->r, 0, (size_t)self->count * sizeof *self->r);
-    int status = evaluate(motion);
-    memcpy(self->r, self->R, (size_t)self->count * sizeof *self->r);
-    if (!status && zd_is_finite(self->count, self->r)) status = iterate(motion);
-    if (status) motion->point->known &= ~(ZD_FORCE | ZD_POWER | ZD_ACCELERATED);
+    zd_point *point = motion->point;
+    const zd_state_read at = {&motion->system, motion, point->t, point->p, point->v, point->vdot, point->lambda};
+    int status = solve(&motion->reactions, &at);
+    if (!status) status = solve_with(motion);
+    if (status) point->known &= ~(ZD_FORCE | ZD_POWER | ZD_ACCELERATED);
     return status;
 }
 
 static const zd_equations equations = {
     accelerate, zd_motion_rate, zd_motion_leave, zd_motion_expand, zd_motion_reduce, ~(ZD_FORCE | ZD_POWER), 1};
 
-void zd_reactions_take(zd_motion *motion, zd_arena *arena, const zd_inputs *inputs)
+static zd_reactions take(zd_arena *arena, const zd_system *system)
 {
-    if (!inputs || !inputs->measures) return;
-    const size_t n = (size_t)inputs->measures;
-    const zd_measures *measures = inputs->of->measures;
+    const size_t n = (size_t)system->reading->count, k = (size_t)system->reading->functions;
+    const zd_measures *measures = system->measures;
     int largest = 0;
     for (int i = 0; i < measures->count; i++)
         if (measures->measure[i].size > largest) largest = measures->measure[i].size;
-    motion->reactions = (zd_reactions){
-        .count = inputs->measures,
-        .inputs = inputs,
-        .r = zd_take_doubles(arena, n),
-        .R = zd_take_doubles(arena, n),
-        .F = zd_take_doubles(arena, n),
-        .change = zd_take_doubles(arena, n),
-        .scale = zd_take_doubles(arena, n),
-        .matrix = zd_take_doubles(arena, n * n),
-        .inverse = zd_take_doubles(arena, n * n),
+    return (zd_reactions){
+        .reading = system->reading,
+        .r = zd_take_doubles(arena, n), .r0 = zd_take_doubles(arena, n), .r1 = zd_take_doubles(arena, n),
+        .u = zd_take_doubles(arena, k), .u0 = zd_take_doubles(arena, k), .u1 = zd_take_doubles(arena, k),
+        .u_r = zd_take_doubles(arena, (size_t)system->reading->reads),
+        .G = zd_take_doubles(arena, k * n),
+        .R = zd_take_doubles(arena, n), .change = zd_take_doubles(arena, n), .scale = zd_take_doubles(arena, n),
+        .matrix = zd_take_doubles(arena, n * n), .inverse = zd_take_doubles(arena, n * n),
         .order = zd_take(arena, n * sizeof(int)),
         .measured = zd_take_doubles(arena, (size_t)largest),
         .scratch = zd_take_doubles(arena, (size_t)measures->scratch),
     };
+}
+
+void zd_reactions_take(zd_motion *motion, zd_arena *arena)
+{
+    if (!motion->system.reading) return;
+    motion->reactions = take(arena, &motion->system);
     motion->equations = &equations;
+}
+
+/* ---- at given vdot and lambda ---- */
+
+int zd_reactions_given(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
+                       double *u)
+{
+    zd_arena counting = {0};
+    take(&counting, system);
+    zd_memory *memory = zd_memory_create(counting.used);
+    if (!memory) return ZD_NO_MEMORY;
+    zd_arena arena = zd_arena_in(memory);
+    zd_reactions self = take(&arena, system);
+    const zd_state_read at = {system, NULL, t, p, v, vdot, lambda};
+    const int status = solve(&self, &at);
+    memcpy(u, self.u, (size_t)system->reading->functions * sizeof *u);
+    zd_memory_free(memory);
+    return status;
 }

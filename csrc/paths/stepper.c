@@ -142,7 +142,7 @@ void zd_stepper_keep_rates(const zd_stepper *self, zd_cached_accelerations *rate
     const zd_motion *motion = self->motion;
     const zd_point *point = motion->point;
     const int has_more = motion->balance.input || motion->corrections_size || motion->formulation->settle || point->terms.A
-        || motion->reactions.count;
+        || motion->reactions.reading;
     rates->are_known = (point->known & ZD_ACCELERATED) && !has_more;
     if (!rates->are_known) return;
     zd_rank_find_multipliers(point);

@@ -51,6 +51,11 @@ double **zd_term_in(zd_terms *terms, int row) { return (double **)(void *)((char
 
 double *zd_take_inputs(zd_arena *arena, const zd_system *system)
 {
+    if (system->reading) {      /* not a number until they are solved for */
+        double *u = zd_take_doubles(arena, (size_t)system->reading->functions);
+        for (int i = 0; u && i < system->reading->functions; i++) u[i] = NAN;
+        return u;
+    }
     if (!system->inputs) return NULL;
     double *inputs = zd_take_doubles(arena, 2 * (size_t)system->inputs + 1);
     for (int i = 0; inputs && i < system->inputs; i++) inputs[i] = system->input[i].initial;

@@ -15,7 +15,8 @@ static inline int zd_needs_no_C(const zd_system *system) { return system->operat
 
 double **zd_term_in(zd_terms *terms, int row);      /* address of the member for an entry of the list of terms */
 const char *zd_term_name(int term);                 /* name of the term with this bit */
-double *zd_take_inputs(zd_arena *arena, const zd_system *system);   /* (2 inputs + 1,): initial values; NULL without inputs */
+double *zd_take_inputs(zd_arena *arena, const zd_system *system);   /* (2 inputs + 1,): initial values, or those of zd_reading;
+                                                                         * NULL without inputs */
 
 /* ---- a point ---- */
 

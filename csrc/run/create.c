@@ -28,8 +28,7 @@ static const void *complete(zd_given *given, const zd_card *card)
 int zd_takes_direct(const zd_settings *settings)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
-    const int reads = settings->inputs && settings->inputs->measures;
-    return settings->direct && !reads && !integrator->step_of_motion && integrator->card.stability > 0;
+    return settings->direct && !integrator->step_of_motion && integrator->card.stability > 0;
 }
 
 int zd_takes_embeddings(const zd_settings *settings)
@@ -70,7 +69,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
     run->settings = *settings;
     zd_motion_take(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card));
-    zd_reactions_take(motion, arena, settings->inputs);
+    zd_reactions_take(motion, arena);
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
     if (integrator->takes_jacobian) zd_motion_take_jacobian(motion, arena);

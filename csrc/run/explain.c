@@ -167,6 +167,13 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
     return 1;
 }
 
+static void describe_reading(const zd_reactions *reactions, char *to, size_t size)
+{
+    snprintf(to, size, "friction has no unique solution: %s must depend less on the reactions that it reads; det(I - G du/dr) must be "
+             "positive, and is %.3g (condition %.3g)", reactions->reading->name[reactions->strongest], reactions->determinant,
+             reactions->condition);
+}
+
 static void describe_correction(const zd_run *run, const char *rows, char *to, size_t size)
 {
     const zd_constraint_target *target = &run->motion.target;
@@ -223,6 +230,7 @@ static void describe(const zd_run *run, int status, char *to, size_t size)
         if (run->watch.failed) describe_event(&run->watch, to, size);
         else snprintf(to, size, "%s", failure ? failure : zd_sentence(status));
         break;
+    case ZD_SEVERAL_MOTIONS: describe_reading(&run->motion.reactions, to, size); break;
     case ZD_EVENT: zd_say_event(to, size, run->watch.ended - 1); break;
     case ZD_BAD_TERM: snprintf(to, size, "the system's %s must be finite", zd_term_name(point->failed_index)); break;
     default: snprintf(to, size, "%s", zd_sentence(status)); break;

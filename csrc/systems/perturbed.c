@@ -50,9 +50,33 @@ static int magnitudes(const void *data, double t, const double *p, const double 
     return inner->magnitudes(inner->data, t, p, v, magnitude, scratch);
 }
 
-zd_system zd_perturbed(const zd_perturbation *perturbation)
+static int measure(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
+                   const double *lambda, const zd_measured *out, double *scratch)
+{
+    const zd_system *inner = ((const zd_perturbation *)data)->system;
+    return inner->measures->evaluate(inner->data, inputs, measure, t, p, v, vdot, lambda, out, scratch);
+}
+
+static int read(const void *data, int function, double t, const double *p, const double *v, const double *r, int is_same_state, double *u,
+                double *scratch)
+{
+    const zd_system *inner = ((const zd_perturbation *)data)->system;
+    return inner->reading->evaluate(inner->data, function, t, p, v, r, is_same_state, u, scratch);
+}
+
+/* Measures, and user functions that read them, with the perturbation as data. */
+static void pass_measures(zd_perturbation *to, zd_system *system)
+{
+    if (!system->reading) return;
+    to->measures = *system->measures, to->reading = *system->reading;
+    to->measures.evaluate = measure, to->reading.evaluate = read;
+    system->measures = &to->measures, system->reading = &to->reading;
+}
+
+zd_system zd_perturbed(zd_perturbation *perturbation)
 {
     zd_system system = *perturbation->system;
+    pass_measures(perturbation, &system);
     system.scratch += system.nq + system.nv;
     system.evaluate = evaluate;
     static const zd_operations rates = {.times_A = times_A};

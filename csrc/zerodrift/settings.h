@@ -56,11 +56,6 @@ typedef struct zd_input_place {
     double *place;              /* in the data of the system, which belongs to this run */
 } zd_input_place;
 
-typedef struct zd_input_measure {
-    int measure;                /* index of a measure, and of its component */
-    int component;
-} zd_input_measure;
-
 typedef struct zd_inputs {
     int count;
     const double *value;        /* (count,): read at the start of each advance; the places hold the initial ones already */
@@ -73,11 +68,6 @@ typedef struct zd_inputs {
     int derivations;            /* functions that recompute what the system derives from its data */
     void (*const *derive)(double *data);    /* (derivations,) */
     double *const *data;        /* (derivations,) */
-    int measures;               /* reactions and accelerations that user functions of forces read, solved with the accelerations */
-    const zd_input_measure *measure;    /* (measures,) */
-    int measure_places;
-    const zd_input_place *measure_place;    /* (measure_places,): `input` is the index of the measure */
-    const struct zd_system *of; /* system whose measures these are, with the same inputs */
 } zd_inputs;
 
 /* ---- settings of a run ---- */

@@ -14,9 +14,11 @@ typedef struct zd_perturbation {
     double t;
     const double *p, *v;    /* (nq,), (nv,) */
     zd_terms terms;         /* factors of each term; NULL: unperturbed */
+    zd_measures measures;   /* these two are written by zd_perturbed(): unperturbed, with the perturbation as data */
+    zd_reading reading;
 } zd_perturbation;
 
-zd_system zd_perturbed(const zd_perturbation *perturbation);      /* refers to the perturbation and its system, which must outlive it */
+zd_system zd_perturbed(zd_perturbation *perturbation);      /* refers to the perturbation and its system, which must outlive it */
 
 /* ---- operations of a run for single states; on failure each writes one sentence into `message` ---- */
 
@@ -25,8 +27,15 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
 /* The same at many states: t (rows,), p (rows, nq), v (rows, nv) give vdot (rows, nv) and multipliers (rows, m). */
 int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
                      const double *p, const double *v, double *vdot, double *multipliers, char *message, int message_size);
+/* Values u (rows, functions) of the user functions of a system that read reactions, see zd_reading, as they are solved for with the
+ * accelerations, and where these and the multipliers are given. */
+int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const double *t, const double *p, const double *v, double *u,
+                   char *message, int message_size);
+int zd_read_given(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
+                  const double *multipliers, double *u);
 /* A measure at many states: values (rows, size); scratch of the size that the measures declare. vdot and multipliers may be NULL if the
- * measure does not depend on them. */
+ * measure does not depend on them. `inputs` are those of the system, in all states the same, or (rows, functions) of zd_reading; so in the
+ * two functions that follow. */
 int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
                       const double *v, const double *vdot, const double *multipliers, double *values, double *scratch);
 
@@ -43,12 +52,13 @@ enum zd_residual_part {
     ZD_RESIDUAL_POWER = 16  /* the power in (28), lambda^T Phi_t included */
 };
 
-/* Derivatives of residuals, with vdot and lambda held: those of the parts one behind the other, (directions, their entries), along directions
- * dt (directions,), dp (directions, nq), dv (directions, nv) of these sizes (directions,) in characteristic scales, zero where nothing
- * changes along one: the system's own, or by differences to 1e-12, is_rough: to 1e-8. */
-int zd_residuals_along(const zd_system *system, int parts, double t, const double *p, const double *v, const double *vdot,
-                       const double *lambda, int is_rough, int64_t directions, const double *dt, const double *dp, const double *dv,
-                       const double *sizes, double *derivatives);
+/* Derivatives of residuals, with vdot, lambda and inputs (of systems with zd_reading alone) frozen: those of the parts one behind the
+ * other, (directions, their entries), along directions dt (directions,), dp (directions, nq), dv (directions, nv) of these sizes
+ * (directions,) in characteristic scales, zero where nothing changes along one: the system's own, or by differences to 1e-12, is_rough:
+ * to 1e-8. */
+int zd_residuals_along(const zd_system *system, const double *inputs, int parts, double t, const double *p, const double *v,
+                       const double *vdot, const double *lambda, int is_rough, int64_t directions, const double *dt, const double *dp,
+                       const double *dv, const double *sizes, double *derivatives);
 
 /* Values, rates, Jacobians and biases, all requested, of several measures of positions or velocities at many states; their components follow
  * one another, (states, size of all) of each, of Jacobians (states, size of all, nv). */

@@ -11,8 +11,7 @@ X, SPEED = sp.Symbol("pin.force.x"), sp.Symbol("pin.speed")
 LAW = -0.1 * X - 0.02 * SPEED * abs(X)
 FORMS = {"expression": {"torque": LAW},
          "callable": {"torque": lambda N, w: -0.1 * N - 0.02 * w * abs(N), "of": {"N": "pin.force.x", "w": "pin.speed"}}}
-EXTRA = [("joint", False, "expression"), ("absolute", True, "expression"), ("joint", True, "expression"),
-         ("joint", False, "callable"), ("absolute", False, "callable")]
+BOTH = [(layout, form) for layout in ("joint", "absolute") for form in FORMS]
 
 
 def arm(**drive):
@@ -24,11 +23,11 @@ def arm(**drive):
     return m
 
 
-@pytest.mark.parametrize(("layout", "compiled", "form"), EXTRA)
+@pytest.mark.parametrize(("layout", "form"), BOTH)
 @pytest.mark.parametrize("steps", [{"rtol": 1e-10, "atol": 1e-12}, {"rtol": 1e-10, "atol": 1e-12, "integrator": "dop853"},
                                    {"integrator": "radau", "rtol": 1e-9, "atol": 1e-11}, {"step": 0.001, "integrator": "rk4"}])
-def test_the_motion_is_that_of_the_law_itself(layout, compiled, form, steps):
-    run = zd.Run(arm(**FORMS[form]).system(layout, compiled=compiled), **steps)
+def test_the_motion_is_that_of_the_law_itself(layout, form, steps):
+    run = zd.Run(arm(**FORMS[form]).system(layout), **steps)
     run.advance_to(0.5)
     assert run["pin.angle"] == pytest.approx(pendulum(), abs=3e-9)
 
@@ -85,24 +84,24 @@ def test_methods_that_do_not_evaluate_accelerations_refuse_by_name(method):
         zd.Run(arm(torque=LAW), integrator=method, step=0.01)
 
 
+def acceleration(a, w):
+    """The pin's force along x is -m (c v^2 cos a + c vdot sin a), linear in vdot, and solved for it."""
+    def residual(vdot):
+        N = -0.5 * (w * w * np.cos(a) + vdot * np.sin(a))
+        return vdot / 3 - (-0.5 * 9.81 * np.cos(a) - 0.1 * N - 0.02 * w * abs(N))
+
+    low, high = -200.0, 200.0
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if residual(middle) < 0 else (low, middle)
+    return low
+
+
 def pendulum():
-    """Angle at 0.5 s: the pin's force along x is -m (c v^2 cos a + c vdot sin a), linear in vdot, and solved for it."""
+    """Angle at 0.5 s."""
     from scipy.integrate import solve_ivp
 
-    def rate(t, y):
-        a, w = y
-
-        def residual(vdot):
-            N = -0.5 * (w * w * np.cos(a) + vdot * np.sin(a))
-            return vdot / 3 - (-0.5 * 9.81 * np.cos(a) - 0.1 * N - 0.02 * w * abs(N))
-
-        low, high = -200.0, 200.0
-        for _ in range(80):
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if residual(middle) < 0 else (low, middle)
-        return w, low
-
-    return solve_ivp(rate, (0, 0.5), (0.0, 0.0), rtol=1e-10, atol=1e-12).y[0, -1]
+    return solve_ivp(lambda t, y: (y[1], acceleration(*y)), (0, 0.5), (0.0, 0.0), rtol=1e-10, atol=1e-12).y[0, -1]
 
 
 @pytest.mark.parametrize("form", sorted(FORMS))
@@ -157,19 +156,46 @@ def test_a_typing_error_and_a_vector_are_refused_when_a_run_begins():
         arm(speed=X)
 
 
-@pytest.mark.parametrize("compiled", [False, True])
-@pytest.mark.parametrize("study", [zd.linearize, zd.equilibrium, lambda s: zd.ensemble(s, 1.0, p0=[[0.0], [0.1]], step=0.1),
-                                   zd.check, zd.block])
-def test_studies_refuse_them(study, compiled):
-    with pytest.raises(ValueError, match=r"read pin.force.x, which a run solves for"):
-        study(arm(torque=LAW).system(compiled=compiled))
+def test_compiled_mechanisms_and_blocks_refuse_by_name():
+    with pytest.raises(ValueError, match=r"compiled=True must have .* and those of arm read pin.force.x"):
+        arm(torque=LAW).system(compiled=True)
+    with pytest.raises(ValueError, match=r"must depend on t, positions and velocities in a block, and some of arm read"):
+        zd.block(arm(torque=LAW), step=0.01)
 
 
-def test_measures_that_samples_do_not_determine_must_be_recorded():
-    sol = zd.simulate(arm(torque=LAW), 0.1, step=0.01, outputs=["pin.force.x"])
-    assert sol["pin.angle"].shape == sol["pin.force.x"].shape
-    with pytest.raises(ValueError, match=r"'drive.power' must be recorded by the run, by outputs"):
-        sol["drive.power"]
+def test_measures_of_samples_have_the_forces_of_their_instant():
+    sol = zd.simulate(arm(torque=LAW), 0.1, step=0.01)
+    force, speed = sol["pin.force.x"], sol["pin.speed"]
+    assert np.allclose(sol["drive.power"], speed * (-0.1 * force - 0.02 * speed * abs(force)), rtol=0, atol=1e-12)
+    assert np.allclose(sol["pin.acceleration"], [acceleration(*each) for each in zip(sol["pin.angle"], speed, strict=True)],
+                       rtol=0, atol=1e-11)
+
+
+def test_each_function_is_called_a_few_times_for_an_evaluation():
+    calls = {"friction": 0, "other": 0}
+
+    def friction(N, M, w):
+        calls["friction"] += 1
+        return -0.01 * np.hypot(N, M) * np.tanh(w)
+
+    def other(w):
+        calls["other"] += 1
+        return -0.1 * w
+
+    m = arm(torque=friction, of={"N": "pin.force.x", "M": "pin.force.y", "w": "pin.speed"})
+    m.motor("damper", m["pin"], torque=other, of={"w": "pin.speed"})
+    run = zd.Run(m, step=0.01, integrator="rk4")
+    run.step(2)
+    calls.update(friction=0, other=0)
+    run.step(10)
+    assert calls["other"] <= 10 * 5
+    assert calls["friction"] <= 10 * 5 * 5
+
+
+def test_friction_without_bound_ends():
+    m = arm(torque=lambda N, w: -1e5 * abs(N) * np.tanh(w / 0.1), of={"N": "pin.force.y", "w": "pin.speed"})
+    with pytest.raises(zd.NoUniqueMotion, match=r"torque of motor 'drive' must depend less .* is -\d.* \(condition \d"):
+        zd.Run(m, rtol=1e-6).advance_to(1.0)
 
 
 @pytest.mark.parametrize("steps", [{"step": 0.01}, {"rtol": 1e-9, "atol": 1e-11}])
@@ -182,7 +208,7 @@ def test_states_between_samples_are_those_that_the_run_requests(form, steps):
 
 
 def test_many_runs_read_their_own_reactions():
-    system = arm(torque=LAW).system(compiled=True)
+    system = arm(torque=LAW).system()
     starts = np.array([[0.1 * i] for i in range(20)])
     runs, speeds = zd.Run(system, runs=20, p0=starts, v0=0 * starts, step=0.01), []
     runs.step(30)

@@ -17,11 +17,10 @@ static int lanes_serve_inputs(const zd_inputs *inputs)
 {
     for (int k = 0; inputs && k < inputs->places; k++)
         if (inputs->place[k].is_speed) return 0;
-    return !inputs || !inputs->measures;
+    return 1;
 }
 
-/* True if lanes can make the steps of a run like this one. A speed is followed within a step, and user functions
- * may read reactions of the last one, which lanes do not do. */
+/* True if lanes can make the steps of a run like this one. A speed is followed within a step, which lanes do not do. */
 static int are_served(const zd_open_runs *runs, const zd_run *run, const zd_closed_form **direct)
 {
     const zd_settings *settings = &run->settings;

@@ -81,6 +81,28 @@ typedef struct zd_input {
     double initial;
 } zd_input;
 
+/* Generalized forces by user functions u (functions,), some of which read reactions and accelerations r (count,): components of measures.
+ * A system that has them gets u as `inputs`, in place of the array above. At a state f, power and measures are affine in u, and no other
+ * term depends on it; the core solves r = R(u(r)) with the accelerations. */
+typedef struct zd_read_reaction {
+    int measure, component;
+} zd_read_reaction;
+
+typedef struct zd_read {
+    int function, reaction; /* indices of a user function, and of a reaction that it reads */
+} zd_read;
+
+typedef struct zd_reading {
+    int functions, count, reads;
+    const zd_read_reaction *reaction;   /* (count,) */
+    const zd_read *read;    /* (reads,) in the order of the user functions */
+    const char *const *name;    /* (functions,) for messages: "torque of motor 'drive'" */
+    /* u <- user function at a state, with r (count,); 0 if it is that of a constraint. `scratch` is that of the measures; is_same_state:
+     * as in zd_measured. Returns as evaluate() does. */
+    int (*evaluate)(const void *data, int function, double t, const double *p, const double *v, const double *r, int is_same_state,
+                    double *u, double *scratch);
+} zd_reading;
+
 /* Constraints that are switched on and off together, such as those of a latch, a stop or a contact. Rows outside all groups are always
  * active. Only groups that are active and ZD_TWO_SIDED are simulated as yet. */
 enum zd_group_kind {
@@ -143,7 +165,9 @@ typedef struct zd_system {
     int magnitudes_scratch;
     /* magnitude (nv,) <- for each entry of f, the sum of the magnitudes of its terms before they cancel: those of all forces and moments on
      * bodies that it moves. `scratch` has as many doubles as for evaluate(). Returns as evaluate() does. NULL: not known. */
-    int (*force_magnitudes)(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
+    int (*force_magnitudes)(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
+                            double *scratch);
+    const zd_reading *reading;      /* user functions that read reactions; NULL: there are none */
 } zd_system;
 
 /* ---- a kind of system: with parameters, names, a start and a drawing ---- */

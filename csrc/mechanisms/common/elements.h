@@ -9,6 +9,8 @@
 #ifndef ZD_COMMON_ELEMENTS_H
 #define ZD_COMMON_ELEMENTS_H
 
+#include "../../include/zerodrift/system.h"
+
 /* Input of a relation or a generalized force: a marker quantity times a coefficient. */
 typedef struct zd_quantity_term {
     int quantity;
@@ -73,9 +75,10 @@ typedef struct zd_output_spec {
     int term;                   /* term of the relation, for drive values; otherwise 0 */
 } zd_output_spec;
 
-/* User function, computed outside the core; k is the number of its terms. For a generalized force it writes out[0] alone. For a holonomic
- * relation: g, dg/dx_i (k), dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one: 0, a_i (k), a_0, and da_i/dt xdot_i +
- * da_0/dt. Returns ZD_DONE; ZD_NOT_FINITE if a number is not finite at this state, or ZD_CALLBACK if it failed. */
+/* User function, computed outside the core; k is the number of its terms. Reactions that it reads follow its terms in x. For a generalized
+ * force it writes out[0] alone. For a holonomic relation: g, dg/dx_i (k), dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic
+ * one: 0, a_i (k), a_0, and da_i/dt xdot_i + da_0/dt. Returns ZD_DONE; ZD_NOT_FINITE if a number is not finite at this state, or ZD_CALLBACK
+ * if it failed. */
 typedef int zd_law(void *owner, int law, double t, const double *x, const double *xdot, double *out);
 
 /* Compiled user function, with its own parameters `numbers`. */
@@ -99,6 +102,7 @@ typedef struct zd_elements {
     zd_law *law;                /* NULL: there is none */
     void *owner;                /* first argument of `law` */
     int laws_know_time;         /* 1 if a user function depends on t explicitly, not only through positions and velocities */
+    const zd_reading *reading;  /* without evaluate(); NULL: no user function reads reactions */
 } zd_elements;
 
 /* Origin of a row of C: a joint, or a relation (drive, coupling, user constraint). */

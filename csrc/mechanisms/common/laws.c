@@ -57,12 +57,29 @@ int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at
     int status = ZD_DONE;
     if (rate) *rate = speed;
     *value = force->value;
-    if (force->kind == ZD_FORCE_LAW) {
+    if (force->kind == ZD_FORCE_LAW && elements->reading.functions) {
+        *value = at->inputs ? at->inputs[force->law] : NAN;
+    } else if (force->kind == ZD_FORCE_LAW) {
         status = ask(elements, at, force->law, force->first, force->terms, t, 1);
         *value = at->out[0];
     } else if (force->kind == ZD_FORCE_SPRING) {
         *value = -force->stiffness * zd_value_of(at, force->quantity) - force->damping * speed;
     }
+    return status;
+}
+
+int zd_force_read(const zd_planned_elements *elements, const zd_readings *at, int law, double t, const double *r, double *u)
+{
+    const zd_reading *reading = &elements->reading;
+    const zd_generalized_force *force = elements->force, *end = force + elements->forces;
+    *u = 0;
+    while (force < end && (force->kind != ZD_FORCE_LAW || force->law != law)) force++;
+    if (force == end) return ZD_DONE;
+    double *x = at->x + force->terms;
+    for (const zd_read *read = reading->read; read < reading->read + reading->reads; read++)
+        if (read->function == law) *x++ = r[read->reaction];
+    const int status = ask(elements, at, law, force->first, force->terms, t, 1);
+    *u = at->out[0];
     return status;
 }
 

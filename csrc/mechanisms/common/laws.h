@@ -18,6 +18,8 @@ int zd_combine(const zd_planned_elements *elements, const zd_readings *at, const
 /* value <- the generalized force; rate <- the rate of its marker quantity, NULL: not wanted. */
 int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at, const zd_generalized_force *force, double t,
                       double *value, double *rate);
+/* u <- the same with the reactions r that its user function reads; 0 if none has this user function. */
+int zd_force_read(const zd_planned_elements *elements, const zd_readings *at, int law, double t, const double *r, double *u);
 int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power);     /* sum over all, for (28) */
 /* Potential energy: V of gravity plus the energy stored in springs. */
 double zd_springs_potential(const zd_planned_elements *elements, const zd_readings *at, double V);

@@ -5,14 +5,14 @@
 
 #include "../../linalg/small.h"
 
-/* Places the frame at the state, and moves it if the measure needs twists, unless the previous call has done so. */
-static void place_and_move(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, const zd_measured *out)
+/* Places the frame at the state, and moves it if twists are needed, unless the previous call has done so. */
+static void place_and_move(const zd_measuring *self, int is_same_state, int needs_twists, const zd_measured_state *at)
 {
     const zd_readings *of = &self->readings;
-    if (!out->is_same_state) *self->is_placed = *self->is_moving = 0;
+    if (!is_same_state) *self->is_placed = *self->is_moving = 0;
     if (*self->is_placed == 0) self->numerics->place(of->mechanism, of->frame, at->p);
     *self->is_placed = 1;
-    if (*self->is_moving != 0 || (measure->kind == ZD_VALUES && !out->rate && !out->bias)) return;
+    if (*self->is_moving != 0 || !needs_twists) return;
     self->numerics->move(of->mechanism, of->frame, at->v);
     *self->is_moving = 1;
 }
@@ -100,7 +100,7 @@ int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measure
 {
     const zd_output_spec *output = self->elements->output + measure;
     if (!zd_output_is_available(self->elements, output, at->vdot, at->lambda)) return ZD_BAD_ARGUMENT;
-    place_and_move(self, output, at, out);
+    place_and_move(self, out->is_same_state, output->kind != ZD_VALUES || out->rate || out->bias, at);
     if (output->kind <= ZD_ACCELERATIONS) {
         for (int i = 0; i < output->size; i++) measure_quantity(self, output, i, at, out);
         return ZD_DONE;
@@ -110,4 +110,10 @@ int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measure
     const int size = zd_output_size(output, self->numerics->forces, self->numerics->torques);
     for (int i = 0; i < size; i++) out->value[i] *= output->scale;
     return status;
+}
+
+int zd_measures_read(const zd_measuring *self, int law, const zd_measured_state *at, const double *r, int is_same_state, double *u)
+{
+    place_and_move(self, is_same_state, 1, at);
+    return zd_force_read(self->elements, &self->readings, law, at->t, r, u);
 }

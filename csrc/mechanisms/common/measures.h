@@ -35,5 +35,7 @@ typedef struct zd_measuring {
 
 /* As zd_measures.evaluate(). Returns ZD_DONE, ZD_BAD_ARGUMENT or ZD_CALLBACK. */
 int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measured_state *at, const zd_measured *out);
+/* As zd_reading.evaluate(). */
+int zd_measures_read(const zd_measuring *self, int law, const zd_measured_state *at, const double *r, int is_same_state, double *u);
 
 #endif

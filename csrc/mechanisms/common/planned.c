@@ -60,7 +60,7 @@ static int longest_of(const zd_elements *elements)
         if (elements->relation[i].terms > longest) longest = elements->relation[i].terms;
     for (int i = 0; i < elements->forces; i++)
         if (elements->force[i].terms > longest) longest = elements->force[i].terms;
-    return longest;
+    return longest + (elements->reading ? elements->reading->count : 0);
 }
 
 static int forces_know_velocity(const zd_elements *elements)
@@ -98,6 +98,7 @@ static int knows_time(const zd_elements *elements)
 zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_element_parts *from, int mh)
 {
     return (zd_planned_elements){
+        .reading = elements->reading ? *elements->reading : (zd_reading){0},
         .relations = elements->relations, .forces = elements->forces, .mh = mh, .m = from->rows, .longest = longest_of(elements),
         .term = from->term, .coefficient = from->coefficient, .row = from->row, .owner_of_row = from->owner_of_row,
         .row_of_relation = from->row_of_relation, .force = from->force, .output = from->output,

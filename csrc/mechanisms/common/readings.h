@@ -6,6 +6,7 @@ typedef struct zd_readings {
     double (*value)(const void *mechanism, const void *frame, int quantity);
     double (*rate)(const void *mechanism, const void *frame, int quantity);
     const void *mechanism, *frame;
+    const double *inputs;       /* values of the user functions of forces, if some of these read reactions */
     double *x, *xdot, *out;     /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */
 } zd_readings;
 

@@ -76,5 +76,5 @@ static double rate_of(const void *mechanism, const void *frame, int quantity)
 
 zd_readings zd_plane_frame_readings(const zd_plane *mechanism, const zd_plane_frame *frame)
 {
-    return (zd_readings){value_of, rate_of, mechanism, frame, frame->x, frame->xdot, frame->out};
+    return (zd_readings){value_of, rate_of, mechanism, frame, frame->inputs, frame->x, frame->xdot, frame->out};
 }

@@ -84,10 +84,12 @@ static void pass_inward(const zd_plane *self, const zd_plane_frame *frame)
     }
 }
 
-int zd_plane_force_magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch)
+int zd_plane_force_magnitudes(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
+                              double *scratch)
 {
     const zd_plane *self = data;
-    const zd_plane_frame frame = placed(self, p, v, scratch);
+    zd_plane_frame frame = placed(self, p, v, scratch);
+    frame.inputs = inputs;
     const zd_readings readings = zd_plane_frame_readings(self, &frame);
     const zd_actions actions = {&self->elements, &readings, add_force, NULL};
     memset(frame.wrench, 0, (size_t)(self->tree.bodies + 1) * sizeof *frame.wrench);

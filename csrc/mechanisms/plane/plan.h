@@ -64,6 +64,7 @@ typedef struct zd_plane_frame {
     double *is_placed;              /* 1 if the poses belong to the current (t, p), otherwise 0 */
     double *is_moving;              /* used by measures only: 1 if the twists belong to the current v, otherwise 0 */
     double *row;                    /* (nv,) of measures alone */
+    const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
     double *x, *xdot, *out;         /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */
 } zd_plane_frame;
 

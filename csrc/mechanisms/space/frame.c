@@ -75,5 +75,5 @@ static double rate_of(const void *mechanism, const void *frame, int quantity)
 
 zd_readings zd_space_frame_readings(const zd_space *space, const zd_space_frame *frame)
 {
-    return (zd_readings){value_of, rate_of, space, frame, frame->x, frame->xdot, frame->out};
+    return (zd_readings){value_of, rate_of, space, frame, frame->inputs, frame->x, frame->xdot, frame->out};
 }

@@ -71,6 +71,7 @@ typedef struct zd_space_frame {
     double *turns;                  /* angular entries of the point joints' rows, see point_joints.h */
     double *is_placed, *is_moving;  /* used by measures only: 1 if poses and twists belong to the current state */
     double *row;                    /* (nv,) of measures alone */
+    const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
     double *x, *xdot, *out;         /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */
     zd_space_twist *bias;                /* accelerations of bodies of a tree at vdot = 0; NULL: all bodies are free, and have none */
     double *carried;                /* (carrying.scratch,) */

@@ -36,11 +36,13 @@ int zd_space_tree_magnitudes(const void *data, double t, const double *p, const 
     return zd_rows_magnitudes(&actions, t, magnitude);
 }
 
-int zd_space_tree_force_magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch)
+int zd_space_tree_force_magnitudes(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
+                                   double *scratch)
 {
     const zd_space *self = data;
     const zd_space_tree *tree = zd_space_tree_of(self);
-    const zd_space_frame frame = zd_space_frame_of(self, scratch);
+    zd_space_frame frame = zd_space_frame_of(self, scratch);
+    frame.inputs = inputs;
     zd_space_frame_place(self, &frame, p);
     zd_space_frame_move(self, &frame, v);
     const int status = zd_space_force_sizes(self, &frame, t);

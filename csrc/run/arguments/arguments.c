@@ -190,10 +190,10 @@ static int check_series(const zd_system *system, const zd_settings *settings, ch
 }
 
 /* User functions that read reactions are solved with the accelerations, which these methods do not evaluate. */
-static int check_reactions(const zd_settings *settings, char *message, int size)
+static int check_reactions(const zd_system *system, const zd_settings *settings, char *message, int size)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
-    if (!settings->inputs || !settings->inputs->measures || !(integrator->takes_series || integrator->step_of_motion)) return ZD_DONE;
+    if (!system->reading || !(integrator->takes_series || integrator->step_of_motion)) return ZD_DONE;
     snprintf(message, (size_t)size, "'%s' must have forces of t, positions and velocities alone, and a user function reads a reaction or an "
              "acceleration; explicit methods, 'trapezoidal' and 'radau' solve for it", integrator->card.name);
     return ZD_UNSUITED_INTEGRATOR;
@@ -204,7 +204,7 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     int status = zd_check_system(system, message, size);
     if (!status) status = refuse(wrong_rows(settings), message, size);
     if (!status) status = check_given(system, settings, message, size);
-    if (!status) status = check_reactions(settings, message, size);
+    if (!status) status = check_reactions(system, settings, message, size);
     if (!status) status = check_series(system, settings, message, size);
     const zd_formulation *formulation = status ? NULL : zd_formulation_of(settings->formulation);
     if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_takes_many_rows(formulation, system)) {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -38,10 +38,6 @@ class Following(NamedTuple):
     ramp: float = 0.0
 
 
-def _rows(places: Sequence[Place], names: Sequence[str]) -> Any:
-    return ffi.new("zd_input_place[]", [(names.index(each.name), each.is_speed, each.address) for each in places])
-
-
 class Inputs:
     """Inputs of one run.
 
@@ -53,9 +49,6 @@ class Inputs:
         Systems with places of these inputs.
     values : ndarray (k,), optional
         Memory for the values, which holds the initial ones.
-    reactions : dict of str to (int, int), optional
-        Measures of the last system in `bound`, and their components, that the core solves for with the accelerations and
-        writes to the places of their names.
     follows : Following
         Way in which speeds reach their inputs.
 
@@ -66,31 +59,24 @@ class Inputs:
     """
 
     def __init__(self, names: Sequence[str], initial: np.ndarray, lower: np.ndarray, upper: np.ndarray,
-                 bound: Iterable[Bound], values: np.ndarray | None = None,
-                 reactions: Mapping[str, tuple[int, int]] | None = None, follows: Following | None = None) -> None:
+                 bound: Iterable[Bound], values: np.ndarray | None = None, follows: Following | None = None) -> None:
         self.names, self.lower, self.upper = tuple(names), lower, upper
         self.values = initial.copy() if values is None else values
         self._bound = tuple(bound)
         places = [place for each in self._bound for place in each.places]
         derivations = [each for bound in self._bound for each in bound.derivations]
-        read = reactions or {}
-        of_reactions = [place for place in places if place.name in read and place.name not in self.names]
-        places = [place for place in places if place not in of_reactions]
-        rows, of_measures = _rows(places, self.names), _rows(of_reactions, tuple(read))
-        measures = ffi.new("zd_input_measure[]", list(read.values()))
+        rows = ffi.new("zd_input_place[]", [(self.names.index(each.name), each.is_speed, each.address) for each in places])
         functions = ffi.new("void (*[])(double *)", [ffi.cast("void (*)(double *)", address) for address, _ in derivations])
         data = ffi.new("double *[]", [each for _, each in derivations])
         k = len(names)
         follows = follows or Following()
         texts = [ffi.new("char[]", name.encode()) for name in names]
         listed = ffi.new("const char *[]", texts)
-        self._memory = rows, functions, data, measures, of_measures, texts, listed, places
+        self._memory = rows, functions, data, texts, listed, places
         self.c = ffi.new("zd_inputs *", {
             "count": k, "value": doubles(self.values, k), "lower": doubles(lower, k), "upper": doubles(upper, k),
             "places": len(places), "place": rows, "derivations": len(derivations), "derive": functions, "data": data,
-            "name": listed, "jumps": follows.jumps, "ramp": follows.ramp, "measures": len(read), "measure": measures,
-            "measure_places": len(of_reactions), "measure_place": of_measures,
-            "of": self._bound[-1].core.c if read else ffi.NULL})
+            "name": listed, "jumps": follows.jumps, "ramp": follows.ramp})
 
     @property
     def at_places(self) -> np.ndarray:

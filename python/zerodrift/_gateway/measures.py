@@ -30,6 +30,7 @@ class Measuring:
     nq: int
     nv: int
     m: int
+    functions: int
     error: BaseException | None
 
     @functools.cached_property
@@ -41,6 +42,10 @@ class Measuring:
 
     def for_run(self) -> Any:
         """The system for one run."""
+        raise NotImplementedError
+
+    def read_given(self, *state: np.ndarray, is_own: bool) -> np.ndarray:
+        """Values of user functions that read reactions."""
         raise NotImplementedError
 
     def initial_inputs(self) -> Any:
@@ -64,7 +69,11 @@ class Measuring:
         """
         core, k = self if is_own else self.for_run(), len(t)
         values, scratch = np.zeros((k, self.measure_size(index))), np.zeros(max(1, self.c.measures.scratch))
-        status = lib.zd_measure_states(core.c, core.initial_inputs(), index, k, doubles(t, k),
+        inputs = core.initial_inputs()
+        if self.functions and vdot is not None:
+            u = core.read_given(t, p, v, vdot, np.zeros((k, 0)) if multipliers is None else multipliers, is_own=True)
+            inputs = doubles(u, u.size)
+        status = lib.zd_measure_states(core.c, inputs, index, k, doubles(t, k),
                                        doubles(p, k * self.nq), doubles(v, k * self.nv),
                                        given(vdot, k * self.nv), given(multipliers, k * self.m),
                                        doubles(values, values.size, writable=True),

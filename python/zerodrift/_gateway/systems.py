@@ -11,7 +11,7 @@ import numpy as np
 
 from .._core import ffi, lib
 from ..errors import WrongValue
-from .base import TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, text
+from .base import MESSAGE_SIZE, TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, row_named, text
 from .compiled.precise import Precise
 from .constraint_names import ConstraintNames
 from .measures import Measuring
@@ -148,6 +148,41 @@ class CoreSystem(Measuring):
         """The system for one run; one written in Python needs memory of its own for each."""
         return self
 
+    @property
+    def functions(self) -> int:
+        """Number of user functions of which some read reactions; their values u are the inputs of the system."""
+        return self.c.reading.functions if self.c.reading else 0
+
+    def read_solved(self, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Values u (k, functions) at states t (k,), p (k, nq), v (k, nv), solved for with the accelerations."""
+        core, u, message = self.for_run(), np.zeros((len(t), self.functions)), ffi.new("char[]", MESSAGE_SIZE)
+        if u.size:
+            status = lib.zd_read_solved(core.c, row_named("formulations", "augmented"), len(t), doubles(t, len(t)),
+                                        doubles(p, p.size), doubles(v, v.size), doubles(u, u.size, writable=True), message,
+                                        MESSAGE_SIZE)
+            if status:
+                raise core.error or error_of(status, text(message))
+        return u
+
+    def forces_of_functions(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+        """Generalized forces (nv, functions) of unit values of the user functions."""
+        k, shape = self.functions, (self.functions + 1, -1)
+        u = np.vstack([np.eye(k), np.zeros((1, k))])
+        t, p, v = (np.ascontiguousarray(np.broadcast_to(each, (k + 1, np.size(each)))) for each in (t, p, v))
+        f = self._evaluated(("f",), t.ravel(), p, v, u)["f"].reshape(shape)
+        return (f[:-1] - f[-1]).T
+
+    def read_given(self, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray, lam: np.ndarray, *,
+                   is_own: bool = False) -> np.ndarray:
+        """Values u (k, functions) where vdot (k, nv) and the multipliers (k, m) are given, too; is_own: as of `measure`."""
+        core, u = self if is_own else self.for_run(), np.zeros((len(t), self.functions))
+        if u.size:
+            status = lib.zd_read_given(core.c, len(t), *(doubles(each, each.size) for each in (t, p, v, vdot, lam)),
+                                       doubles(u, u.size, writable=True))
+            if status:
+                raise core.error or error_of(status, "user functions must have one value at given reactions")
+        return u
+
     def initial_inputs(self) -> Any:
         """Array of inputs (2 inputs + 1,) with their initial values; NULL without inputs."""
         n = self.c.inputs
@@ -222,8 +257,10 @@ class CoreSystem(Measuring):
         if not self.c.force_magnitudes:
             return None
         magnitude, scratch, core = np.zeros(self.nv), np.zeros(max(1, self.c.scratch)), self.for_run()
+        u = self.read_solved(np.array([float(t)]), p, v)
+        inputs = doubles(u, u.size) if u.size else self.initial_inputs()
         to = doubles(magnitude, self.nv, writable=True), doubles(scratch, scratch.size, writable=True)
-        status = core.c.force_magnitudes(core.c.data, t, doubles(p, self.nq), doubles(v, self.nv), *to)
+        status = core.c.force_magnitudes(core.c.data, inputs, t, doubles(p, self.nq), doubles(v, self.nv), *to)
         if status:
             raise core.error or error_of(status, "the system's evaluation failed")
         return magnitude
@@ -271,7 +308,7 @@ class CoreSystem(Measuring):
 
     def residuals_along(self, parts: str, at: tuple[float, np.ndarray, np.ndarray], vdot: np.ndarray, lam: np.ndarray,
                         directions: tuple[np.ndarray, ...], *, is_rough: bool = False) -> np.ndarray:
-        """Derivatives (k, entries of the parts) of residuals at (t, p, v) along k directions, with vdot and lambda held.
+        """Derivatives (k, entries of the parts) of residuals at (t, p, v) along k directions, with vdot, lambda and u frozen.
 
         Parts are "r" of (2) (nv,), "s" of (6) (m,), or both, or "Psi" of (5) (m,). Directions are dt (k,), dp (k, nq),
         dv (k, nv), and their sizes (k,) in characteristic scales, zero where nothing changes.
@@ -281,16 +318,18 @@ class CoreSystem(Measuring):
         bits, width = {"r": r, "s": s, "rs": (r[0] | s[0], self.nv + self.m), "Psi": Psi}[parts]
         k = len(dt)
         found = np.zeros((k, width))
+        u = self.read_solved(np.array([float(t)]), p, v)
         status = lib.zd_residuals_along(
-            core.c, bits, t, doubles(p, self.nq), doubles(v, self.nv), doubles(vdot, self.nv), doubles(lam, self.m), is_rough,
-            k, doubles(dt, k), doubles(dp, k * self.nq), doubles(dv, k * self.nv), doubles(sizes, k),
-            doubles(found, found.size, writable=True))
+            core.c, doubles(u, u.size), bits, t, doubles(p, self.nq), doubles(v, self.nv), doubles(vdot, self.nv),
+            doubles(lam, self.m), is_rough, k, doubles(dt, k), doubles(dp, k * self.nq), doubles(dv, k * self.nv),
+            doubles(sizes, k), doubles(found, found.size, writable=True))
         if status:
             raise core.error or error_of(status, "the system's evaluation failed")
         return found
 
-    def _evaluated(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-        """Stored entries of these terms at all states, concatenated."""
+    def _evaluated(self, names: tuple[str, ...], t: np.ndarray, p: np.ndarray, v: np.ndarray,
+                   u: np.ndarray | None = None) -> dict[str, np.ndarray]:
+        """Stored entries of these terms at all states, concatenated; u (k, functions) is left out where it is solved for."""
         core, terms, k = self.for_run(), ffi.new("zd_terms *"), len(t)
         sizes = [k * math.prod(self.layout[name]) for name in names]
         memory = np.zeros(sum(sizes))
@@ -300,6 +339,9 @@ class CoreSystem(Measuring):
             arrays[name], want, first = memory[first:first + size], want | TERMS[name].bit, first + size
         scratch, inputs = ffi.new("double[]", max(1, self.c.scratch)), self.initial_inputs()
         terms.scratch, terms.inputs = scratch, inputs
+        if self.functions and {"f", "power"} & set(names):
+            u = self.read_solved(t, p, v) if u is None else u
+            terms.inputs = inputs = doubles(u, u.size)
         status = lib.zd_evaluate_states(core.c, want, k, doubles(t, k), doubles(p, k * self.nq), doubles(v, k * self.nv), terms)
         if status:
             raise core.error or error_of(status, "the system's evaluation failed")

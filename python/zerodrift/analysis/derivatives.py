@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..systems.base import BaseSystem, core_of
-from . import differences
+from . import differences, read_forces
 from .quantities import rates_of
 from .state import Scales, State, scales, state
 from .tangent import Tangent, multipliers
@@ -71,8 +71,12 @@ def of_residuals_along(at: State, vdot: np.ndarray, lam: np.ndarray, dp: np.ndar
     """Derivatives (nv + m, k) of r and s, or of other parts, along k directions dp (k, nq), dv (k, nv), all with dt."""
     directions = (np.full(len(dp), float(dt)), dp, dv, sizes_of(at, dp, dv, dt))
     p, v, vdot, lam = (np.ascontiguousarray(each, dtype=float) for each in (at.p, at.v, vdot, lam))
-    return core_of(at.system).residuals_along(parts, (float(at.t), p, v), vdot, lam, tuple(map(np.ascontiguousarray, directions)),
-                                              is_rough=is_rough).T
+    core = core_of(at.system)
+    found = core.residuals_along(parts, (float(at.t), p, v), vdot, lam, tuple(map(np.ascontiguousarray, directions)),
+                                 is_rough=is_rough).T
+    if core.functions and "r" in parts:
+        found[:at.system.nv] -= read_forces.rows(at) @ read_forces.along(at, dp, dv, dt, is_rough=is_rough)
+    return found
 
 
 def sizes_of(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 from .. import _check
 from ..errors import EquilibriumFailed, WrongValue
 from ..runs.instant import KnownInstant
-from ..systems.base import BaseSystem, core_of, stateless_system_of
+from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium import equilibrium
 from .path import FIRST_STEP, LARGEST_STEP, Curve, Knot
 
@@ -100,7 +100,7 @@ def equilibria(system: Any, parameter: str, values: Any, *, near: Any = None, t:
     >>> path.values
     array([1. , 1.5, 2. ])
     """
-    system = stateless_system_of(system)
+    system = system_of(system)
     core_of(system)
     _check.choice("parameter", parameter, system.parameters)
     values = _values(values)

@@ -19,7 +19,7 @@ from .._rotations import rotation_of, turn
 from ..runs import settings
 from ..runs.instant import KnownInstant
 from ..systems.base import core_of
-from . import differences
+from . import differences, read_forces
 from .derivatives import Derivatives, sizes_of
 from .frames import STEADY, frame_of
 from .orbit import Orbit, changed
@@ -221,12 +221,19 @@ class Flow:
     def response(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Changes of z' (k, j), vdot (nv, j) and of lambda (m, j), by generalized forces (nv, j)."""
         V = self.tangent.velocities
-        vdot = V @ (V.T @ force)
-        lam = self.derivatives.solve(-force, np.zeros((self.at.system.m, force.shape[1])))[1]
+        if core_of(self.at.system).functions:
+            force = force + read_forces.added(self.at, self.vdot, self.lam, force, self._at_forces)
+        vdot, lam = self._at_forces(force)
         n = V.shape[1]
         z = np.zeros((self.tangent.quasi.shape[1], force.shape[1]))
         z[-n:] = V.T @ force if n else z[-n:]
         return z, vdot, lam
+
+    def _at_forces(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Changes of vdot (nv, j) and of lambda (m, j) by generalized forces (nv, j), all of them included."""
+        V = self.tangent.velocities
+        lam = self.derivatives.solve(-force, np.zeros((self.at.system.m, force.shape[1])))[1]
+        return V @ (V.T @ force), lam
 
 
 def flow_at(system: Any, t: float, p: np.ndarray, v: np.ndarray) -> Flow:

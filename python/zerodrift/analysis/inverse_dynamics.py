@@ -10,7 +10,8 @@ import numpy as np
 
 from .. import _check
 from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
-from ..systems.base import BaseSystem, Makes, core_of, stateless_system_of
+from ..systems.base import BaseSystem, Makes, core_of, system_of
+from . import read_forces
 from .effort_result import Efforts
 from .kinematic_result import Kinematics
 from .names import dominant
@@ -73,7 +74,7 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
     >>> inv["pin.angle"].round(9)       # 3 * 2**2 / 3 * 1.5 + 3 * 9.81
     array([35.43])
     """
-    given, system = system, stateless_system_of(system)
+    given, system = system, system_of(system)
     core_of(system)
     names = None if efforts is None else names_of(efforts, "efforts")
     if isinstance(motion, Kinematics):
@@ -141,8 +142,10 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
             continue
         at = state(system, float(t[i]), p[i], v[i])
         _check_motion(at, vdot[i])
-        rows = [effort(at, name, "efforts") for name in names]
-        u, lam[i], left, rank[i] = _at(at, vdot[i], rows, [weights.get(name, 1.0) for name in names])
+        rows, weighted = [effort(at, name, "efforts") for name in names], [weights.get(name, 1.0) for name in names]
+        if core_of(system).functions:
+            at = _with_reactions(at, vdot[i], rows, weighted)
+        u, lam[i], left, rank[i] = _at(at, vdot[i], rows, weighted)
         residual[i], power[i] = np.linalg.norm(left), float(u @ (np.vstack(rows) @ v[i])) if rows else 0.0
         if residual[i] > UNDRIVEN * _size(at, vdot[i]):
             undriven[dominant(at, at.A @ (Tangent(at).velocities @ left))] = residual[i]
@@ -173,6 +176,11 @@ def _at(at: State, vdot: np.ndarray, rows: list[np.ndarray],
     left = V.T @ (wanted - G.T @ u)
     rank = int((values > dependent).sum())
     return u, multipliers(at, G.T @ u - wanted), left, rank
+
+
+def _with_reactions(at: State, vdot: np.ndarray, rows: list[np.ndarray], weights: list[float]) -> State:
+    """The state with the forces of user functions that read the reactions of this motion."""
+    return at._replace(force=read_forces.at_motion(at, vdot, lambda force: _at(at._replace(force=force), vdot, rows, weights)[1]))
 
 
 def _sizes(at: State, V: np.ndarray, G: np.ndarray) -> np.ndarray:

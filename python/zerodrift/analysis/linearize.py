@@ -10,7 +10,7 @@ import numpy as np
 from .. import _check
 from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
 from ..runs.instant import names_of_quantities
-from ..systems.base import BaseSystem, core_of, stateless_system_of
+from ..systems.base import BaseSystem, core_of, system_of
 from . import differences
 from .derivatives import Direction
 from .equilibrium import equilibrium
@@ -73,7 +73,7 @@ def linearize(system: Any, at: Any = None, *, v: Any = None, inputs: Any = (), o
     >>> round(float(abs(lin.eigenvalues[0])) ** 2, 9)
     14.715
     """
-    system = stateless_system_of(system)
+    system = system_of(system)
     core_of(system)
     if at is None and v is not None:
         at, v = equilibrium(system, v=v), None

@@ -10,7 +10,7 @@ import numpy as np
 from .. import _check
 from .._gateway import is_length
 from ..errors import ZerodriftError
-from ..systems.base import BaseSystem, core_of, stateless_system_of
+from ..systems.base import BaseSystem, core_of, system_of
 
 LARGEST = 1000      # of dense matrices
 
@@ -89,7 +89,7 @@ def scales(system: BaseSystem, p: np.ndarray) -> Scales:
 
 def arguments(given: Any, p: Any, v: Any, t: Any) -> tuple[BaseSystem, float, np.ndarray, np.ndarray]:
     """The system of an argument and a checked state of it; what is left out is its start."""
-    system, t = stateless_system_of(given), _check.number("t", t)
+    system, t = system_of(given), _check.number("t", t)
     core_of(system)
     if p is None and v is None:
         p, v = system._state_or_start(None, None, "p", "v", t)

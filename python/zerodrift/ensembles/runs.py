@@ -14,7 +14,7 @@ from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
 from ..runs.operations import assemble
-from ..systems.base import BaseSystem, core_of, stateless_system_of
+from ..systems.base import BaseSystem, core_of, system_of
 from ..systems.parameter_tables import NumberTables
 
 
@@ -109,7 +109,7 @@ class Runs:
 
     def __init__(self, made: Any, parameters: Any, p0: Any, v0: Any, start: Any, hold: Any, *, assembles: bool) -> None:
         self.hold, self.may_assemble, self.shape = hold, assembles, getattr(parameters, "shape", None)
-        self.made = made if callable(made) and not isinstance(made, BaseSystem) else stateless_system_of(made)
+        self.made = made if callable(made) and not isinstance(made, BaseSystem) else system_of(made)
         self.parameters, counts = _columns("parameters", parameters)
         start, more = _columns("start", None if start is None else {name_of(each, "a key of start"): value
                                                                     for each, value in _dict("start", start).items()})
@@ -152,7 +152,7 @@ class Runs:
         """The system of one run."""
         parameters = self.parameters_of(run)
         if not isinstance(self.made, BaseSystem):
-            system = stateless_system_of(self.made(**parameters))
+            system = system_of(self.made(**parameters))
             if not isinstance(system, BaseSystem):
                 raise NoSystem(f"{named(self.made)} must return a system or a Mechanism, not {_check.shown(system)}")
             return system

@@ -18,7 +18,7 @@ from ..mechanisms.system import MechanismSystem
 from ..runs import outputs as _outputs
 from ..runs import settings
 from ..runs.start import start_of
-from ..systems.base import stateless_system_of
+from ..systems.base import core_of, system_of
 from . import parameters as _parameters
 from .grip import Grip
 from .law_programs import Programs
@@ -97,7 +97,9 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
     """Check the arguments of `block`."""
     t0 = _check.number("t0", t0)
     system, p0, v0 = start_of(system, p0, v0, t0)
-    _check.instance("system", stateless_system_of(system), MechanismSystem, "a mechanism or its system")
+    if core_of(_check.instance("system", system_of(system), MechanismSystem, "a mechanism or its system")).functions:
+        raise WrongValue(f"user functions must depend on t, positions and velocities in a block, and some of {system.name} read "
+                         "reactions", "not-portable")
     p, v = system._state_or_start(p0, v0, t=t0)
     given = {name: chosen.get(name) for name in ("rtol", "atol", "first_step", "max_step", "max_move", "integrator", "energy",
                                                  "correction")}

@@ -18,7 +18,6 @@ from .._gateway.mechanisms.plane import MechanismCore
 from ..errors import WrongValue, ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import DIRECT, NO_COMPILER, ClosedFormFunctions
 from ..systems.base import BaseSystem, WithInputs
-from ..systems.measure_values import Place
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
 from .assembly import space_advice
@@ -31,7 +30,6 @@ from .elements.forces import Actuator, Motor, driven, inputs_of
 from .elements.numbers import Numbers
 from .elements.space_bodies import SpaceInertias
 from .equations.generated_code import Written, measure_program
-from .equations.measure_names import reading
 from .equations.measure_tables import measuring, orientation
 from .equations.space_tables import SpaceTables, tables_of
 from .equations.tables import Tables, constraint_names
@@ -76,9 +74,10 @@ class MechanismSystem(BaseSystem):
         if self.layout == "absolute":
             self._tables = self._tables.absolute()
         self._start = Starting(drawing, self._numbers, self._tables)
-        self._first_core = self._tables.core()
+        self._first_core = self._plain_core(self._tables)
         self._is_written_out, self._given_direct = compiled, direct
         if compiled:
+            self._check_no_reactions()
             self._tables.laws.check_written()
             self._written       # noqa: B018 - generates the code now
 
@@ -108,6 +107,16 @@ class MechanismSystem(BaseSystem):
     def measures(self) -> tuple[str, ...]:
         return tuple(self._watching.number)
 
+    def _plain_core(self, tables: Tables) -> MechanismCore:
+        """Core system without measures, unless user functions read them."""
+        return measuring(tables) if self._drawing.reactions() else tables.core()
+
+    def _check_no_reactions(self) -> None:
+        """Check that code can be generated: it does not solve for what user functions read."""
+        if names := self._drawing.reactions():
+            raise WrongValue(f"compiled=True must have user functions of t, positions and velocities, and those of {self.name} "
+                             f"read {', '.join(names)}: take compiled=False", "not-portable")
+
     @functools.cached_property
     def _measuring(self) -> MechanismCore:
         return measuring(self._started_tables)
@@ -121,7 +130,7 @@ class MechanismSystem(BaseSystem):
 
     @functools.cached_property
     def _interpreted(self) -> MechanismCore:
-        return self._started_tables.core() if self._start.has_speeds else self._first_core
+        return self._plain_core(self._started_tables) if self._start.has_speeds else self._first_core
 
     @functools.cached_property
     def _core(self) -> MechanismCore:
@@ -277,17 +286,7 @@ class MechanismSystem(BaseSystem):
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         found = driven(self._drawing, names, self._changed)
         system = MechanismSystem(found.drawing, self.layout, self._changed, self._is_written_out)
-        return WithInputs(system, found.initial, found.units, law_inputs.bound, system._held_reactions())
-
-    def _held_reactions(self) -> dict[str, Place]:
-        """Reactions and accelerations that user functions read, by name, among the measures."""
-        names = self._drawing.reactions()
-        places = {name: self._watching.find(name) for name in names}
-        for name, place in places.items():
-            if place is None or (place.component is None and self._measuring.measure_size(place.number) > 1):
-                raise WrongValue(f"user functions must depend on scalar measures, and {name!r} is none; "
-                                 f"{_check.closest(name, self.measures)}")
-        return places
+        return WithInputs(system, found.initial, found.units, law_inputs.bound)
 
     def _names_of_inputs(self) -> list[str]:
         return list(inputs_of(self._drawing))
@@ -347,19 +346,8 @@ class MechanismSystem(BaseSystem):
 
     def _measured(self, name: Any, solution: Any) -> np.ndarray | None:
         """As of any system; also orientations of bodies in space, as matrices, quaternions and angles."""
-        self._check_recorded(getattr(name, "name", name))
         found = orientation(self._watching, getattr(name, "name", name), solution) if self._drawing.dimension == 3 else None
         return super()._measured(name, solution) if found is None else found
-
-    def _unique(self, name: Any, solution: Any) -> Any:
-        self._check_recorded(getattr(name, "name", name))
-        return super()._unique(name, solution)
-
-    def _check_recorded(self, name: str) -> None:
-        """Check that samples alone give the measure: reactions that user functions read are not among them."""
-        if self._drawing.reactions() and self._watching.find(name) and not reading(name, self._drawing.elements):
-            raise WrongValue(f"{name!r} must be recorded by the run, by outputs=[{name!r}], as user functions of {self.name} "
-                             "read reactions")
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
         elements, drawing, numbers = chosen(self._drawing, names), self._drawing, self._numbers

@@ -19,7 +19,7 @@ def states_between(solution: Any, rows: np.ndarray, times: np.ndarray) -> tuple[
     settings = core_settings(solution.t_span, solution.settings)
     samples = (solution.t, solution.p, solution.v, solution.energy_input, solution.status == _gateway.EVENT)
     p, v = np.empty((len(times), solution.p.shape[1])), np.empty((len(times), solution.v.shape[1]))
-    is_own = "inputs" in solution.settings or bool(solution.system._held_reactions())
+    is_own = "inputs" in solution.settings
     for core, part in _cores(solution, settings, rows):
         p[part], v[part] = _gateway.states_between(core, settings, *samples, times[part], is_own=is_own)
     return p, v
@@ -29,16 +29,15 @@ def _cores(solution: Any, settings: Any, rows: np.ndarray) -> Iterator[tuple[Any
     """The core's system with the inputs of these steps, and which of them have these."""
     system, vector = solution.system, solution.settings.get("vector") or "baseline"
     names = solution.settings.get("inputs", ())
-    if not names and not system._held_reactions():
+    if not names:
         yield direct_core_of(system, vector, settings), np.ones(len(rows), dtype=bool)
         return
     of = system._with_inputs(names)
-    given = np.column_stack([solution[name] for name in names]) if names else np.empty((len(solution.t), 0))
+    given = np.column_stack([solution[name] for name in names])
     declared = Declared(tuple(names), given[0], given[0], of, _gateway.Following())
     inputs, (core, _) = declared.bound(direct_core_of(of.system, vector, settings), of.system._watching.core)
     if any(inputs.c.place[i].is_speed for i in range(inputs.c.places)):
         raise _wrong("a speed is an input")
-    settings.inputs = inputs.c if of.reactions else settings.inputs
     each, which = np.unique(given[rows + 1], axis=0, return_inverse=True)
     for i, values in enumerate(each):
         inputs.set_constant(values)

@@ -31,13 +31,11 @@ class Declared(NamedTuple):
 
     def bound(self, *cores: Any, values: np.ndarray | None = None) -> tuple[_gateway.Inputs, list[Any]]:
         """Inputs of one run, in given memory, and its own systems in the place of these; None stays."""
-        held = self.of.reactions
-        found = [None if core is None else self.of.bound(core, (*self.names, *held)) for core in cores]
+        found = [None if core is None else self.of.bound(core, self.names) for core in cores]
         if values is not None:
             values[:] = self.of.initial
         inputs = _gateway.Inputs(self.names, np.array(self.of.initial), self.lower, self.upper, [each for each in found if each],
-                                 values, {name: (place.number, place.component or 0) for name, place in held.items()},
-                                 self.follows)
+                                 values, self.follows)
         return inputs, [each and each.core for each in found]
 
 
@@ -74,18 +72,15 @@ def following(speeds: Speeds, names: Sequence[str], step: float | None) -> _gate
 
 
 def declared(given: Any, system: BaseSystem, speeds: Speeds, step: float | None) -> Declared | None:
-    """Check the argument `inputs`: None, names, or a dict of names to limits (lower, upper), None for no limits.
-
-    A system whose user functions read reactions has inputs, perhaps none by name: the core writes the reactions.
-    """
-    if given is None and not system._held_reactions():
+    """Check the argument `inputs`: None, names, or a dict of names to limits (lower, upper), None for no limits."""
+    if given is None:
         following(speeds, (), step)
         return None
-    limits = {} if given is None else given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
+    limits = given if isinstance(given, Mapping) else dict.fromkeys(_names(given))
     names, limits = _entries(limits, system)
-    if not names and given is not None:
+    if not names:
         raise WrongValue("inputs must name at least one input", "missing-argument")
-    bounds = np.array([_limits(name, each) for name, each in zip(names, limits, strict=True)]).reshape(-1, 2)
+    bounds = np.array([_limits(name, each) for name, each in zip(names, limits, strict=True)])
     lower, upper = (np.ascontiguousarray(column) for column in bounds.T)
     return Declared(names, lower, upper, system._with_inputs(names), following(speeds, names, step))
 

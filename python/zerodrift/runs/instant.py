@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import WrongName, WrongValue
-from ..systems.base import BaseSystem, core_of, stateless_system_of
+from ..systems.base import BaseSystem, core_of, system_of
 from .operations import acceleration
 
 
@@ -96,7 +96,7 @@ class Instant(Reading):
     """
 
     def __init__(self, system: Any, t: float = 0.0, p: Any = None, v: Any = None) -> None:
-        self.system, self.t = stateless_system_of(system), _check.number("t", t)
+        self.system, self.t = system_of(system), _check.number("t", t)
         core_of(self.system)
         p, v = self.system._state_or_start(p, v, "p", "v", self.t)
         self.p, self.v = np.array(p), np.array(v)

@@ -13,7 +13,7 @@ from ..analysis.comparison import Compared, derivatives_by_parameters, derivativ
 from ..errors import ZerodriftError
 from ..runs.operations import acceleration, project
 from ..runs.settings import Projection
-from ..systems.base import BaseSystem, Terms, core_of, stateless_system_of
+from ..systems.base import BaseSystem, Terms, core_of, system_of
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity
 AGREE = 1e-5                            # relative: far above the error 1e-10 of a difference, far below any mistake
@@ -79,7 +79,7 @@ def check(system: BaseSystem, p: Any = None, v: Any = None, t: float = 0.0, *, s
     >>> bool(zd.check(zd.systems.four_bar()))
     True
     """
-    system = stateless_system_of(system, p, v)
+    system = system_of(system, p, v)
     p, v = system._state_or_start(p, v, "p", "v", t)
     t, problems, names, states = _check.number("t", t), {}, {}, 0
     samples = _check.count("samples", samples, least=0)

@@ -10,7 +10,7 @@ from .. import _check
 from .._gateway.compiled.precise import Precise
 from ..errors import UnreachableTolerance, WrongValue, ZerodriftError
 from ..runs import settings
-from ..systems.base import BaseSystem, stateless_system_of
+from ..systems.base import BaseSystem, system_of
 from .certificate import Reference
 from .reference_precise import PRECISIONS, PreciseSearch, functions_of
 from .reference_runs import Difference, Motion
@@ -120,7 +120,7 @@ def reference(
     True
     """
     wanted = None if error is None else _check.number("error", error, above=0)
-    system = stateless_system_of(system, p0, v0)
+    system = system_of(system, p0, v0)
     pairs = _pairs(system, formulations)
     bounds = {"first_step": first_step, "max_step": max_step, "max_move": max_move}
     motion = Motion(system, _check.span(t_span), p0, v0, t_eval, stabilization, pairs[0][0], bounds)

@@ -13,7 +13,7 @@ from ..errors import Interrupted, WrongValue
 from ..runs import settings
 from ..runs.progress import progress_of
 from ..runs.threads import side_by_side
-from ..systems.base import BaseSystem, stateless_system_of
+from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
 from .work_precision import default_steps, not_excluded
@@ -168,10 +168,10 @@ def _benches(system, span, p0, v0, values, reference) -> list[Bench]:
         reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
         return Bench(system, span, p0, v0, reference)
 
-    system = stateless_system_of(system, p0, v0)
+    system = system_of(system, p0, v0)
     if isinstance(system, BaseSystem) or not callable(system):
         return [bench(system, reference)] * len(values)
-    return [bench(stateless_system_of(system(value), p0, v0), None) for value in values]
+    return [bench(system_of(system(value), p0, v0), None) for value in values]
 
 
 def _settings(name: str, options: Mapping[str, Any], steps: np.ndarray) -> tuple[Setting, ...]:

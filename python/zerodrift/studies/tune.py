@@ -11,7 +11,7 @@ from typing import Any
 from .. import _check
 from ..errors import Interrupted, UnreachableTolerance, WrongValue
 from ..runs.settings import FINEST_RTOL
-from ..systems.base import BaseSystem, stateless_system_of
+from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
 from .work_precision import WorkPrecision, found, measured, not_excluded, work_precision
@@ -106,7 +106,7 @@ def tune(
     True
     >>> sol = zd.simulate(bar, 1.0, **tuning.settings)
     """
-    system = stateless_system_of(system, p0, v0)
+    system = system_of(system, p0, v0)
     span, rounds = _check.span(t_span), _check.count("rounds", rounds)
     goal = _goal(error, budget)
     reference = certified.reference(system, span, p0, v0, error=None)

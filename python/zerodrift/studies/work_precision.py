@@ -21,7 +21,7 @@ from ..runs.operations import acceleration
 from ..runs.progress import progress_of
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem, stateless_system_of
+from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
 
@@ -200,7 +200,7 @@ def work_precision(
     >>> bool(wp.pareto()[-1].error < 1e-9)
     True
     """
-    system, span = stateless_system_of(system, p0, v0), _check.span(t_span)
+    system, span = system_of(system, p0, v0), _check.span(t_span)
     taken, able = settings.integrators(system), _able(system, span, p0, v0) if formulations is None else formulations
     formulations = _names("formulations", settings.formulations(), able)
     integrators = _names("integrators", settings.integrators(), taken if integrators is None else integrators)

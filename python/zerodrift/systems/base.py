@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable, Mapping, Sequence
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +13,7 @@ from .._gateway import Variable, known_events
 from .._gateway.compiled.precise import Precise
 from .._gateway.known_events import Reading
 from ..errors import WrongName, WrongType, WrongValue
-from .measure_values import Place, Watching
+from .measure_values import Watching
 from .parameter_tables import NumberTables
 from .shapes import Shape
 from .structure import Structure, of_core
@@ -30,7 +29,6 @@ class WithInputs(NamedTuple):
     initial: list[float]
     units: list[str]
     bound: Any      # function of a core of this system and of the names: the core of one run, with the places of its inputs
-    reactions: Mapping[str, Place] = MappingProxyType({})   # reactions and accelerations that its user functions read
 
 
 class BaseSystem:
@@ -332,10 +330,6 @@ class BaseSystem:
         raise WrongValue("inputs must be forces and speeds of a mechanism, symbols declared by zd.symbolic(inputs=), or "
                          f"parameters of a zd.System or zd.native system, and {self.name} has none", "not-available")
 
-    def _held_reactions(self) -> Mapping[str, Place]:
-        """Reactions and accelerations that its user functions read, by name."""
-        return {}
-
     def _names_of_inputs(self) -> list[str]:
         """Names of numbers that may be inputs."""
         return []
@@ -444,15 +438,6 @@ def system_of(given: Any, *state: Any) -> Any:
         raise WrongType(f"p0 and v0 are for a system, whose coordinates are known, and {given.name!r} is a mechanism: say where "
                         'it starts by its start(), or take its system("joint")', "conflicting-arguments")
     return given.system()
-
-
-def stateless_system_of(given: Any, *state: Any) -> Any:
-    """System of an argument of a study, in which user functions must not read reactions."""
-    system = system_of(given, *state)
-    if isinstance(system, BaseSystem) and (names := system._held_reactions()):
-        raise WrongValue(f"user functions must depend on t, positions and velocities in a study, and those of {system.name} read "
-                         f"{', '.join(names)}, which a run solves for: simulate or Run")
-    return system
 
 
 def _listed(variables: Sequence[Variable]) -> str:

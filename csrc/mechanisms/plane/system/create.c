@@ -261,6 +261,8 @@ static void make_system(const zd_plane_tables *tables, const parts *from, int co
         .force_magnitudes = zd_plane_force_magnitudes,
     };
     self->measures = zd_plane_measures(self, from->elements.measure);
+    self->elements.reading.evaluate = zd_plane_read;
+    if (self->elements.reading.count) self->system.reading = &self->elements.reading;
 }
 
 static void plan(const zd_plane_tables *tables, parts *all, zd_plane *self)

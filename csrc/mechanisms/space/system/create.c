@@ -154,6 +154,8 @@ static void make_system(const zd_space_tables *tables, const parts *from)
     };
     self->measures.count = tables->elements.measures;
     self->measures = zd_space_measures(self, from->elements.measure);
+    self->elements.reading.evaluate = zd_space_read;
+    if (self->elements.reading.count) self->system.reading = &self->elements.reading;
 }
 
 static void write_bodies_of(const void *quantities, int quantity, int body[2])

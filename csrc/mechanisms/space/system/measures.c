@@ -68,16 +68,29 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
 
 static const zd_measure_numerics NUMERICS = {3, 3, place, move, zd_space_bias, write_row, unit_wrench, reaction_of, apart_of};
 
+static zd_measuring measuring_of(const zd_space *self, const zd_space_frame *frame)
+{
+    return (zd_measuring){
+        &NUMERICS, &self->elements, zd_space_frame_readings(self, frame), self->system.nv, frame->is_placed, frame->is_moving, frame->row};
+}
+
 static int evaluate(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
                     const double *lambda, const zd_measured *out, double *scratch)
 {
-    (void)inputs;
+    const zd_space *self = data;
+    zd_space_frame frame = zd_space_frame_of(self, scratch);
+    frame.inputs = inputs;
+    const zd_measuring measuring = measuring_of(self, &frame);
+    return zd_measures_evaluate(&measuring, measure, &(zd_measured_state){t, p, v, vdot, lambda}, out);
+}
+
+int zd_space_read(const void *data, int law, double t, const double *p, const double *v, const double *r, int is_same_state, double *u,
+                  double *scratch)
+{
     const zd_space *self = data;
     const zd_space_frame frame = zd_space_frame_of(self, scratch);
-    const zd_measured_state at = {t, p, v, vdot, lambda};
-    const zd_measuring measuring = {
-        &NUMERICS, &self->elements, zd_space_frame_readings(self, &frame), self->system.nv, frame.is_placed, frame.is_moving, frame.row};
-    return zd_measures_evaluate(&measuring, measure, &at, out);
+    const zd_measuring measuring = measuring_of(self, &frame);
+    return zd_measures_read(&measuring, law, &(zd_measured_state){t, p, v, NULL, NULL}, r, is_same_state, u);
 }
 
 static int act_on_body(const zd_space *self, const zd_space_frame *frame, int body, double scale, zd_space_wrench what, double *own)

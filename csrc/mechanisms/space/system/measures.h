@@ -6,5 +6,8 @@
 
 /* Evaluator of the outputs in self->elements.output; their self->measures.count descriptions are written to `measure`. */
 zd_measures zd_space_measures(const zd_space *self, zd_measure *measure);
+/* zd_reading.evaluate() */
+int zd_space_read(const void *data, int law, double t, const double *p, const double *v, const double *r, int is_same_state, double *u,
+                  double *scratch);
 
 #endif

@@ -61,6 +61,8 @@ class GeneralizedForce(NamedTuple):
     law: int = -1
     inputs: Sequence[int] = ()  # marker quantities that the law depends on
     joint: int = -1             # to whose force and torque it contributes
+    reads: Sequence[str] = ()   # reactions that the law takes after these
+    what: str = ""              # whose law it is, for messages
 
 
 class OutputSpec(NamedTuple):
@@ -73,6 +75,14 @@ class OutputSpec(NamedTuple):
     size: int = 1               # number of marker quantities, or of generalized forces in a sum
     scale: float = 1.0
     term: int = 0               # of drives: along which of the relation's marker quantities
+
+    def components(self, dimension: int) -> int:
+        """Number of components in the plane or in space."""
+        if self.kind in ("values", "rates", "accelerations"):
+            return self.size
+        if self.kind in ("joint force", "force sum"):
+            return dimension
+        return 2 * dimension - 3 if self.kind in ("joint torque", "torque sum") else 1
 
 
 class Row(NamedTuple):
@@ -91,8 +101,24 @@ def rows_of(rows: Any, m: int) -> tuple[Row, ...]:
 
 def law_sizes(tables: Any) -> dict[int, tuple[int, int]]:
     """Number of marker quantities that each user function takes, and number of values that it returns, by its index."""
-    sizes = {force.law: (len(force.inputs), 1) for force in tables.forces if force.law >= 0}
+    sizes = {force.law: (len(force.inputs) + len(force.reads), 1) for force in tables.forces if force.law >= 0}
     return sizes | {row.law: (len(row.quantities), len(row.quantities) + 3) for row in tables.relations if row.law >= 0}
+
+
+def _reading(tables: Any) -> tuple[Any, Any]:
+    """A `zd_reading`, NULL where no user function reads reactions, and what must live as long as it."""
+    forces = sorted((force for force in tables.forces if force.law >= 0), key=lambda force: force.law)
+    if not any(force.reads for force in forces):
+        return ffi.NULL, ()
+    known = list(tables.reactions)
+    pairs = [(force.law, known.index(name)) for force in forces for name in force.reads if name in known]
+    texts = {force.law: ffi.new("char[]", force.what.encode()) for force in forces}
+    functions = 1 + max(law_sizes(tables))
+    names = ffi.new("const char *[]", [texts.get(i, ffi.NULL) for i in range(functions)])
+    reactions, reads = ffi.new("zd_read_reaction[]", list(tables.reactions.values())), ffi.new("zd_read[]", pairs)
+    reading = ffi.new("zd_reading *", {"functions": functions, "count": len(known), "reads": len(pairs), "reaction": reactions,
+                                       "read": reads, "name": names})
+    return reading, (reading, reactions, reads, names, texts)
 
 
 def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
@@ -110,12 +136,13 @@ def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple
     names = [ffi.new("char[]", row.name.encode()) for row in tables.measures]
     measures = [(name, units[row.unit], OUTPUT_KINDS[row.kind], *row[3:])
                 for name, row in zip(names, tables.measures, strict=True)]
+    reading, kept = _reading(tables)
     elements = {
-        "terms": len(terms), "relations": len(relations), "forces": len(forces), "measures": len(measures),
+        "reading": reading, "terms": len(terms), "relations": len(relations), "forces": len(forces), "measures": len(measures),
         "term": ffi.new("zd_quantity_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
         "force": ffi.new("zd_generalized_force[]", forces), "measure": ffi.new("zd_output_spec[]", measures),
         "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time}
-    return elements, (names, units)
+    return elements, (names, units, kept)
 
 
 def element_kinds(count: int, kind_of: Any, quantities: Any) -> dict[str, ElementKind]:

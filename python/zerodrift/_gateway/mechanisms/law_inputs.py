@@ -24,9 +24,8 @@ class WrittenInputs(NamedTuple):
 
 def bound(core: Any, names: Sequence[str]) -> Bound:
     """The core's system of a mechanism for one run, with the places of its inputs."""
-    laws, held = core._law.held()
-    written = core.written_inputs
-    owner, sizes = LawOwner(laws, law_sizes(core.tables)), law_sizes(core.tables)
+    written, laws, sizes = core.written_inputs, core._law, law_sizes(core.tables)
+    owner = LawOwner(laws, sizes)
     found = (ffi.NULL, None) if core._has_written_terms else compiled_table(laws, sizes)
     numbers, pointer = None, core._numbers
     if written is not None:
@@ -34,18 +33,15 @@ def bound(core: Any, names: Sequence[str]) -> Bound:
         pointer = doubles(numbers, numbers.size)
     mine = core._with_data(ffi.new_handle(owner), pointer, found)
     mine._owner = owner
-    in_python = [Place(name, False, doubles(number, 1, writable=True)) for name, number in held.items()]
-    places = [*in_python, *(_of_laws(laws, found[1][0], names) if found[1] else ()),
-              *(_of_code(written, pointer, names) if written else ())]
+    places = [*(_of_laws(laws, found[1][0], names) if found[1] else ()), *(_of_code(written, pointer, names) if written else ())]
     derivations = [(address, pointer) for address in written.derivations] if written else []
-    return Bound(mine, places, derivations, (owner, numbers, found, held))
+    return Bound(mine, places, derivations, (owner, numbers, found))
 
 
 def _of_laws(laws: Any, numbers: Sequence[Any], names: Sequence[str]) -> list[Place]:
     rows = [(row, memory) for row, memory in zip(laws.rows, numbers, strict=True) if memory is not None]
-    wanted = {row.law.input: Place(row.law.input, row.law.is_speed, memory) for row, memory in rows if row.law.input in names}
-    reactions = [Place(name, False, memory + index) for row, memory in rows for name, index in row.reactions.items()]
-    return [*wanted.values(), *reactions]
+    return list({row.law.input: Place(row.law.input, row.law.is_speed, memory) for row, memory in rows
+                 if row.law.input in names}.values())
 
 
 def _of_code(written: WrittenInputs, pointer: Any, names: Sequence[str]) -> list[Place]:

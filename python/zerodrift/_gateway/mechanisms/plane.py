@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -100,6 +101,7 @@ class Tables(NamedTuple):
     forces: Sequence[GeneralizedForce] = ()
     measures: Sequence[OutputSpec] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
+    reactions: Mapping[str, tuple[int, int]] = MappingProxyType({})     # measure and component of those that laws read
 
 
 class Coordinate(NamedTuple):

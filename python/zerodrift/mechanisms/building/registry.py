@@ -169,13 +169,13 @@ class Elements:
 
     def _law(self, what: str, given: Any, of: Mapping[str, Any] | None = None, *, positions: bool = False,
              reactions: bool = False) -> Law:
-        """User function whose measures exist; with `reactions`, of reactions and accelerations of the last state, too."""
-        law, held = Law(what, given, of=of, parameters=self.parameters), []
+        """User function whose measures exist; with `reactions`, of reactions and accelerations, too."""
+        law, dynamic = Law(what, given, of=of, parameters=self.parameters), []
         for measure in law.measures:
             self._check_measured(what, measure)
             read = reading(measure, self._elements)
             if reactions and read is None and is_dynamic(measure, self._elements[measure.partition(".")[0]]):
-                held.append(measure)
+                dynamic.append(measure)
                 continue
             if read is None or len(read.quantities) != 1:
                 known = "" if read else f"; {_check.closest(measure, readable(self._elements[measure.partition('.')[0]]))}"
@@ -184,8 +184,8 @@ class Elements:
             if read.is_rate and positions:
                 raise WrongValue(f"{what} must depend on measures of positions alone, and {measure!r} is a velocity",
                                  "wrong-measure")
-        if held:
-            law.hold(held)
+        if dynamic:
+            law.read(dynamic)
         return law
 
     def _check_measured(self, what: str, measure: str) -> None:

@@ -208,7 +208,6 @@ def driven(drawing: Any, names: Sequence[str], changed: Mapping[str, float]) -> 
         parameters |= law.numbers
         initial.append(law.initial)
         units.append(UNITS.get(quantity) or ("rad/s" if element.coordinate == "angle" else "m/s"))
-    parameters |= dict.fromkeys(drawing._replace(elements=elements).reactions(), 0.0)
     return Driven(drawing._replace(elements=elements, parameters=parameters), initial, units)
 
 

@@ -30,7 +30,7 @@ class Law:
     measures : tuple of str
         The measures of positions and velocities it depends on, in the order in which `value` takes them.
     reactions : dict of str to str
-        Reactions and accelerations by its own names; a run solves for them with its accelerations.
+        Reactions and accelerations by its own names; `value` takes them after the measures.
     constant : float or None
         Its value where it is a plain number.
     """
@@ -71,10 +71,10 @@ class Law:
                                 "user-function")
             self._names.append(name)
 
-    def hold(self, reactions: Iterable[str]) -> None:
+    def read(self, reactions: Iterable[str]) -> None:
         """Take these of its measures as reactions."""
-        held = frozenset(reactions)
-        self.reactions = {name: measure for name, measure in self._bound.items() if measure in held}
+        among = frozenset(reactions)
+        self.reactions = {name: measure for name, measure in self._bound.items() if measure in among}
         self.measures = tuple(self._bound[name] for name in self._picked)
 
     @property
@@ -82,10 +82,9 @@ class Law:
         """Own names of its measures without reactions."""
         return [name for name in self._bound if name not in self.reactions]
 
-    def _known(self, parameters: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Parameters with the reactions by own names."""
-        held = {name: parameters[measure] for name, measure in self.reactions.items()}
-        return {**parameters, **held} if held else parameters
+    def _known(self, t: Any, x: Iterable[Any], parameters: Mapping[str, Any]) -> dict[str, Any]:
+        """All its arguments by their own names."""
+        return {**parameters, "t": t, **dict(zip((*self._picked, *self.reactions), x, strict=True))}
 
     @functools.cached_property
     def _call(self) -> Callable[..., Any]:
@@ -99,7 +98,7 @@ class Law:
         """Value at a time and values of its measures; with derivatives (`autodiff.Jet`) if these have them."""
         if self.constant is not None:
             return self.constant
-        known = {**self._known(parameters), "t": t, **dict(zip(self._picked, x, strict=True))}
+        known = self._known(t, x, parameters)
         try:
             return self._call(*(known[name] for name in self._names))
         except BaseException as error:
@@ -107,9 +106,7 @@ class Law:
             raise
 
     def number(self, t: float, x: Iterable[float], parameters: Mapping[str, Any]) -> float:
-        """Value, checked to be a finite number; NaN without the reactions that a run provides."""
-        if self.reactions and any(math.isnan(parameters[measure]) for measure in self.reactions.values()):
-            return math.nan
+        """Value, checked to be a finite number."""
         value = self.value(t, x, parameters)
         if type(value) is float and -np.inf < value < np.inf:
             return value
@@ -151,13 +148,13 @@ class Law:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of its arguments: t, parameters, its own names of measures, and reactions."""
-        return (*self._names, *(measure for measure in self.reactions.values() if measure not in self._names))
+        """Names of its arguments: t, parameters, and its own names of measures and reactions."""
+        return tuple(self._names)
 
     @property
     def kind(self) -> tuple[Any, ...]:
         """Everything that its node depends on except that expression and its measures."""
-        return type(self._function), self.names, tuple(self._bound)
+        return type(self._function), self.names, tuple(self._bound), tuple(self.reactions)
 
     @property
     def has_expression(self) -> bool:
@@ -172,7 +169,7 @@ class Law:
 
     def written(self, equations: Any, x: Iterable[Any]) -> Any:
         """Node of its value, from the nodes x of its measures."""
-        known = {**self._known(equations.parameters), "t": equations.t, **dict(zip(self._picked, x, strict=True))}
+        known = self._known(equations.t, x, equations.parameters)
         if self.constant is not None:
             return equations.graph.number(self.constant)
         if self.expression is not None:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import copy
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,39 +13,14 @@ from ..elements.user_functions import Law
 from . import function_code
 
 
-class Held(Mapping[str, float]):
-    """Parameters with reactions, whose present numbers are read at each access."""
-
-    def __init__(self, parameters: Mapping[str, float], numbers: Mapping[str, np.ndarray]) -> None:
-        self._parameters, self._numbers = parameters, numbers
-
-    def __getitem__(self, name: str) -> float:
-        return float(self._numbers[name][0]) if name in self._numbers else self._parameters[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._parameters)
-
-    def __len__(self) -> int:
-        return len(self._parameters)
-
-
 class Call:
-    """User function with its arguments: `picks` has, for each measure, its marker quantity and whether the rate is meant."""
+    """User function with its arguments: `picks` has, for each measure, its marker quantity and whether the rate is meant.
+
+    Reactions that it reads follow the marker quantities.
+    """
 
     def __init__(self, law: Law, picks: Sequence[tuple[int, bool]], parameters: Mapping[str, float]) -> None:
         self.law, self.picks, self.parameters = law, tuple(picks), parameters
-
-    def held(self, numbers: Mapping[str, np.ndarray]) -> Call:
-        """Call with reactions read from `numbers`, arrays (1,) by name, which the core writes."""
-        other = copy.copy(self)
-        other.parameters = Held(self.parameters, {name: numbers[name] for name in self.law.reactions.values()})
-        return other
-
-    @property
-    def reactions(self) -> dict[str, int]:
-        """Index of each reaction among the numbers of the compiled function."""
-        names = function_code.names_of(self)
-        return {name: names.index(name) for name in self.law.reactions.values()}
 
     def _numbers(self, t: float, x: np.ndarray, xdot: np.ndarray) -> float:
         values = [float((xdot if is_rate else x)[place]) for place, is_rate in self.picks]
@@ -146,18 +120,9 @@ class Laws:
         self.rows.append(row)
         return len(self.rows) - 1
 
-    def held(self) -> tuple[Laws, dict[str, np.ndarray]]:
-        """User functions of one run, and the arrays (1,), by name, of the reactions that those in Python read."""
-        numbers = {name: np.zeros(1) for row in self.rows for name in row.law.reactions.values()}
-        if not numbers:
-            return self, numbers
-        mine = Laws()
-        mine.rows = [row.held(numbers) if row.law.reactions else row for row in self.rows]
-        return mine, numbers
-
     def __call__(self, number: int, t: float, x: np.ndarray, xdot: np.ndarray) -> Any:
         values, law = self.rows[number](t, x, xdot), self.rows[number].law
-        if len(values) > 1 and not law.reactions and not np.isfinite(values).all():
+        if len(values) > 1 and not np.isfinite(values).all():
             raise WrongValue(f"{law.what} must be finite, with its derivatives, at t = {t:g}", "not-finite")
         return values
 

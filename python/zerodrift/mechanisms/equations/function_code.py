@@ -5,7 +5,6 @@ Parameters and the decimal numbers of an expression are arguments: functions tha
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
@@ -26,7 +25,7 @@ def compiled(row: Any, k: int) -> Compiled | None:
     if row.law.input is not None:
         return row.law.compiled
     expression = row.law.inner_expression
-    if expression is None or any(math.isnan(row.parameters[name]) for name in row.law.reactions.values()):
+    if expression is None:
         return None
     template, numbers = _without_numbers(expression)
     names = names_of(row)

@@ -11,9 +11,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ... import _check
 from ..._gateway.mechanisms.element_tables import OutputSpec
 from ..._gateway.mechanisms.plane import MechanismCore, Quantity
 from ..._rotations import angles_of, quaternions_of
+from ...errors import WrongValue
 from ...systems.measure_values import Watching
 from ..elements.bodies import Body, Link, Point
 from ..elements.forces import Actuator
@@ -38,7 +40,12 @@ class Position(NamedTuple):
 
 def measuring(tables: Tables, only: Collection[str] | None = None) -> MechanismCore:
     """Core system with all measures, or with those of positions and velocities in `only` and their components."""
-    return tables.core(*read(tables, only))
+    core = tables.core(*read(tables, only))
+    for name in tables.drawing.reactions() if only is None else ():
+        if name not in core.tables.reactions:
+            raise WrongValue(f"user functions must depend on scalar measures, and {name!r} is none; "
+                             f"{_check.closest(name, [each.name for each in core.measures])}", "wrong-measure")
+    return core
 
 
 def read(tables: Tables, only: Collection[str] | None = None) -> tuple[list[Quantity], list[OutputSpec]]:

@@ -52,7 +52,8 @@ class SpaceTables(Tables):
         bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, inboard)
                   for body, inboard in zip(self.parts, self.inboard, strict=True) for mass in [self.inertias.of[body.name]]]
         quantities = self.quantities if quantities is None else quantities
-        return space.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity())
+        return space.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
+                            self.reactions(observed))
 
     def joint_coordinates(self) -> int:
         """Number of velocities of the bodies along the tree."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -46,8 +45,6 @@ class Tables:
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> None:
         self.drawing, self.numbers, self.starts = drawing, numbers, starts or {}
         self.parameters = {name: numbers.changed.get(name, value) for name, value in drawing.parameters.items()}
-        for name in drawing.reactions():
-            self.parameters.setdefault(name, math.nan)      # a run has them
         self.parts, self.joints, self.inertias = drawing.parts(), drawing.of(Joint), self._masses()
         self.number = {"ground": 0, **{body.name: i for i, body in enumerate(self.parts, 1)}}
         self.joint_number = {joint.name: i for i, joint in enumerate(self.joints)}
@@ -81,7 +78,18 @@ class Tables:
         bodies = [entries.Body(*self.inertias.of[body.name][:2], not body.turns, inboard)
                   for body, inboard in zip(self.parts, self.inboard, strict=True)]
         quantities = self.quantities if quantities is None else quantities
-        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity())
+        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
+                              self.reactions(observed))
+
+    def reactions(self, observed: Sequence[OutputSpec]) -> dict[str, tuple[int, int]]:
+        """Index and component of the measures, if they are there, of reactions and accelerations that user functions read."""
+        dimension, found = self.drawing.dimension, {}
+        names = self.drawing.reactions()
+        for i, each in enumerate(observed if names else ()):
+            size = each.components(dimension)
+            parts = [each.name] if size == 1 else [f"{each.name}.{axis}" for axis in "xyz"[:size]]
+            found |= {name: (i, component) for component, name in enumerate(parts) if name in names}
+        return {name: found[name] for name in names if name in found}
 
     def drawn(self) -> np.ndarray:
         """Poses (bodies, 3) of the mass centres as drawn."""
@@ -280,8 +288,11 @@ class Tables:
             self.forces.append(entries.GeneralizedForce("constant", quantity, value=value, joint=joint))
             return
         quantities, picks = self._inputs(element.law.measures)
+        reads = tuple(dict.fromkeys(element.law.reactions.values()))
+        picks += [(len(quantities) + reads.index(name), False) for name in element.law.reactions.values()]
         row = self.laws.add(function_calls.ForceLaw(element.law, picks, self.parameters))
-        self.forces.append(entries.GeneralizedForce("law", quantity, law=row, inputs=quantities, joint=joint))
+        self.forces.append(entries.GeneralizedForce("law", quantity, law=row, inputs=quantities, joint=joint, reads=reads,
+                                                    what=element.law.what))
 
     def _table_force(self, element: TableForce) -> None:
         """Add the generalized force along each marker quantity of an element, and its measures."""
