@@ -1,9 +1,9 @@
-"""Random chains of joints whose friction reads the joint's force, against Newton and Euler's equations.
+"""Random mechanisms with friction that reads joint forces, against dense equations that share nothing with the program.
 
     python tests/stress/friction_by_reactions.py [FIRST] [LAST]
 
-For each number, a chain in the plane and one in space, in joint and absolute coordinates: the largest error
-of an angle must be below 1e-8. With so much friction that it has no unique solution at the start,
+For each number a chain and a closed loop, in the plane and in space, with friction up to half of that with which it has no unique
+solution at the start: the error of an angle must be below 1e-8, in joint and absolute coordinates by turns. With more friction
 `NoUniqueMotion` must be raised. The exit code is 1 otherwise.
 """
 
@@ -14,42 +14,65 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
+import friction_chains as chains
+import friction_loops as loops
+
 import zerodrift as zd
-from friction_chains import beyond, mechanism, random_chain, reference
 
-END = 0.15          # s
+END = 0.02          # s
 LARGEST = 1e-8      # rad
+BEYOND = 5          # numbers of which more friction is tried, too
 
 
-def error(chain, layout, expected):
-    run = zd.Run(mechanism(chain).system(layout), integrator="dop853", rtol=1e-11, atol=1e-12)
+def scenes(seed, dimension):
+    """Name, module, scene with its friction, and one with too much or None"""
+    share = np.random.default_rng(1000 + seed).uniform(0.05, 0.5)
+    chain = chains.random_chain(seed, dimension)
+    more = chains.beyond(chain)
+    yield "chain", chains, chain if more is None else chain._replace(c=share * more.c), more
+    loop = loops.random_loop(seed, dimension)
+    more = loops.critical(loop, 1.05)
+    yield "loop", loops, loop if more is None else loop._replace(c=share / 1.05 * more.c), more
+
+
+def last_angle(module, scene, layout):
+    run = zd.Run(module.mechanism(scene).system(layout), integrator="dop853", rtol=1e-11, atol=1e-12)
     run.advance_to(END)
-    return np.abs([run[f"pin{i}.angle"] for i in range(len(chain.masses))] - expected).max()
+    return run["pin0.angle" if module is chains else "A.angle"]
 
 
-def is_refused(chain):
+def is_refused(module, scene):
     try:
-        zd.Run(mechanism(chain)).step(1)
+        zd.Run(module.mechanism(scene)).step(1)
     except zd.NoUniqueMotion:
         return True
     return False
 
 
+def compared(seed, dimension):
+    """Kind of mechanism, error in rad, least determinant, and whether more friction is refused; None: not tried"""
+    for name, module, scene, more in scenes(seed, dimension):
+        angle, least = module.reference(scene, END)
+        error = abs(last_angle(module, scene, ("joint", "absolute")[seed % 2]) - np.ravel(angle)[0])
+        yield f"{name}, {dimension}D", error, least, is_refused(module, more) if more and seed < BEYOND else None
+
+
 def main(first=0, last=125):
-    wrong = beyonds = 0
-    largest = 0.0
+    rows = {}
     for seed in range(first, last):
         for dimension in (2, 3):
-            chain = random_chain(seed, dimension)
-            expected, determinant = reference(chain, END)
-            errors = [error(chain, layout, expected) for layout in ("joint", "absolute")]
-            largest, more = max(largest, *errors), beyond(chain)
-            beyonds += more is not None
-            is_wrong = max(errors) > LARGEST or (more is not None and not is_refused(more))
-            wrong += is_wrong
-            if is_wrong:
-                print(f"wrong: number {seed}, dimension {dimension}, errors {errors}, least determinant {determinant:.3f}")
-    print(f"{4 * (last - first)} runs, largest error {largest:.1e} rad; {beyonds} chains with more friction; {wrong} wrong")
+            for kind, *found in compared(seed, dimension):
+                rows.setdefault(kind, []).append(found)
+                if found[0] > LARGEST or found[2] is False:
+                    print(f"wrong: number {seed}, {kind}, error {found[0]:.1e} rad, refused {found[2]}", flush=True)
+    wrong = 0
+    print("mechanism    scenes  largest error  least determinant  beyond  refused")
+    for kind, found in rows.items():
+        beyond = [each[2] for each in found if each[2] is not None]
+        bad = sum(each[0] > LARGEST for each in found) + beyond.count(False)
+        wrong += bad
+        print(f"{kind:12} {len(found):6}  {max(each[0] for each in found):9.1e} rad  {min(each[1] for each in found):17.3f}"
+              f"  {len(beyond):6}  {sum(beyond):7}")
     return wrong > 0
 
 
