@@ -16,7 +16,6 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import friction_chains as chains
 import friction_loops as loops
-
 import zerodrift as zd
 
 END = 0.02          # s
