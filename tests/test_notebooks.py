@@ -6,15 +6,11 @@ import tolerances as tol
 from covering import WHOLE
 from support import ROOT
 
-nbformat = pytest.importorskip("nbformat")
-nbclient = pytest.importorskip("nbclient")
-run_sync = pytest.importorskip("jupyter_core.utils").run_sync
-
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 
 
 def read(path):
-    return nbformat.read(path, as_version=4)
+    return pytest.importorskip("nbformat").read(path, as_version=4)
 
 
 # Parts of the longest notebooks, of which the last cells assert the same; all of them with ZERODRIFT_PRODUCTS=1.
@@ -59,13 +55,14 @@ def test_there_is_a_notebook_for_each_figure():
 @pytest.fixture(scope="module")
 def client():
     """One kernel for all notebooks that a process runs, as its start and its imports take longer than most of them."""
+    nbformat, nbclient, utils = map(pytest.importorskip, ("nbformat", "nbclient", "jupyter_core.utils"))
     manager = nbclient.NotebookClient(nbformat.v4.new_notebook()).create_kernel_manager()
     made = nbclient.NotebookClient(nbformat.v4.new_notebook(), km=manager, timeout=tol.HUNG)
     yield made
     if made.kc:
         made.kc.stop_channels()
     if manager.has_kernel:
-        run_sync(manager.shutdown_kernel)(now=True)
+        utils.run_sync(manager.shutdown_kernel)(now=True)
 
 
 @pytest.mark.filterwarnings("default")      # what Jupyter warns of is not ours
