@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,17 +17,15 @@ from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.plane import MechanismCore
 from ..errors import WrongValue, ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import DIRECT, NO_COMPILER, ClosedFormFunctions
-from ..systems.base import BaseSystem, WithInputs
+from ..systems.base import WithInputs
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
-from .assembly import space_advice
-from .assembly.free_coordinates import is_driven
-from .assembly.start import Starting, size_of
+from .assembly.start import Starting
 from .assembly.variants import are_plain, varied
 from .building.start_verbs import targets
 from .elements.drawing import Drawing
-from .elements.forces import Actuator, Motor, driven, inputs_of
-from .elements.numbers import Numbers
+from .elements.forces import driven, inputs_of
+from .elements.numbers import Numbers, checked, is_right
 from .elements.space_bodies import SpaceInertias
 from .equations.generated_code import Written, measure_program
 from .equations.measure_tables import measuring, orientation
@@ -41,13 +39,13 @@ from .pictures.plane_shapes import sketches
 from .pictures.space_outline import space_outline
 from .pictures.space_pose import SpacePosed
 from .pictures.space_shapes import space_sketches
-from .reports import advice, cost
+from .reports import cost
+from .reports.in_words import Reported
 
 LAYOUTS = ("joint", "absolute")
-MANY = 32       # joint coordinates: their cost is reported only from this number on
 
 
-class MechanismSystem(BaseSystem):
+class MechanismSystem(Reported):
     """Equations of a mechanism at the time of its creation; `Mechanism.system` makes it.
 
     It does not change any more, can be pickled unless a callable cannot, and knows all names of the mechanism.
@@ -274,7 +272,7 @@ class MechanismSystem(BaseSystem):
         for name, each in parameters.items():
             if each.ndim != 1 or name not in own:
                 return None
-            wrong |= [not _is_right(name, value) for value in each.tolist()]
+            wrong |= [not is_right(name, value) for value in each.tolist()]
         right = {name: np.where(wrong, own[name], each) for name, each in parameters.items()}       # invalid ones are not built
         family = varied(self._drawing, self._changed, right, self.layout, self._measuring, self._start, wrong=wrong,
                         starts_are_known=starts_are_known)
@@ -292,7 +290,7 @@ class MechanismSystem(BaseSystem):
         return list(inputs_of(self._drawing))
 
     def _with(self, changed: dict[str, Any]) -> MechanismSystem:
-        numbers = {name: _checked(name, value) for name, value in changed.items()}
+        numbers = {name: checked(name, value) for name, value in changed.items()}
         direct = self._direct if self._is_written_out else None
         return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._is_written_out, direct)
 
@@ -324,14 +322,6 @@ class MechanismSystem(BaseSystem):
         return (f"<system of {self.name}{how}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} "
                 f"nonholonomic constraints{f'; {dear}' if dear else ''}>")
 
-    @functools.cached_property
-    def _cost(self) -> cost.Cost | None:
-        """Computing cost, for many joint coordinates, as absolute ones may be cheaper; None for few or for generated code."""
-        return cost.cost(self._tables) if self.layout == "joint" and self.nq >= MANY and not self._is_written_out else None
-
-    def _what_it_costs(self, steps: int | None) -> str | None:
-        return cost.of_a_run(self._cost, steps) if self._cost else None
-
     def points(self, p: Any) -> np.ndarray | None:
         """Outline at p: points (n, dimension) in m, joined by lines where not NaN."""
         poses, _ = self._core.poses(_check.vector("p", p, self.nq))
@@ -360,60 +350,6 @@ class MechanismSystem(BaseSystem):
         return [(element.name, *acting(element, moments, np.asarray(solution[f"{element.name}.force"])[rows]))
                 for element in elements]
 
-    def _advice(self, error: Exception) -> str | None:
-        """Advice for a singular start, or None."""
-        if isinstance(self._tables, SpaceTables) and "follow" in sentence(error):
-            tables, assembly, p = self._start.closed(0.0)
-            reason = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
-            if reason:
-                return reason
-        return advice.at_start(sentence(error), self._start, self.constraints)
-
-    def _drawn_open(self, also_held: Iterable[str] = ()) -> str | None:
-        """As of any system; None, too, if it cannot be assembled."""
-        try:
-            self.start_at(0.0)
-        except ZerodriftError:
-            return None
-        drawn_open = self._start.changes and self._start.changes.warning(also_held)
-        return drawn_open or (None if also_held else self._start.moved_drives(0.0))
-
-    def _why_locked(self) -> str | None:
-        """Sentence on skew axes; None if drives move what joints alone would lock."""
-        if not isinstance(self._tables, SpaceTables) or is_driven(self._drawing):
-            return None
-        return space_advice.locked(self._tables, self.name)
-
-    def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
-        """Known cause of a failure at p in space: a disc lying flat, or shafts at a right angle."""
-        if not isinstance(self._tables, SpaceTables):
-            return None
-        return space_advice.on_failure(self._started_tables, self._interpreted, t, p)
-
-    def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str | None:
-        """Sentence on the drive, and the dead point to which it moves the mechanism within a time ahead."""
-        from ..analysis.quantities import find  # slow to import and rarely needed
-        from ..analysis.reach_of_drives import dead_point
-
-        length = size_of(self._drawing, self._numbers)
-        drives = {row: each for row, constraint in enumerate(self.constraints[:self.mh])
-                  for each in [self._drawing.elements.get(constraint.name)] if isinstance(each, Motor | Actuator)}
-        sizes = {row: 1.0 if each.coordinate == "angle" else length for row, each in drives.items()}
-        found = dead_point(self, sizes, t, p, ahead)
-        if found is None:
-            return None
-        names = [drives[row] for row in found.rows]
-        limits = [f"{each.joint.name if isinstance(each, Motor) else each.name}.{each.coordinate}" for each in names]
-        reached = ", ".join(f"{name} = {float(find(found.at, name, 'drives').value[0]):.9g}" for name in limits)
-        return (f"{' and '.join(repr(each.name) for each in names)} must not drive {self.name!r} beyond its reach: at t = "
-                f"{found.at.t:.9g} it comes to a dead point, {reached}, where the joints let no motion go on; end before it, or "
-                "drive another joint")
-
-    def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
-        """Also the forces and torques that jump there."""
-        found = advice.jumping(self._drawing, self._watching, t, p, v, velocity)
-        return super()._advice_on_collapse(t, p, v, velocity) + (f"; {found} jumps there" if found else "")
-
 
 def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Variable]]:
     """Names and units of coordinates and velocities."""
@@ -429,26 +365,3 @@ def _variables(tables: Tables, core: MechanismCore) -> list[tuple[Variable, Vari
             place = f"{body.name}.{coordinate.kind}"
             found.append((Variable(place, "m"), Variable(f"{place}_dot", "m/s")))
     return found
-
-
-def _is_right(path: str, value: float) -> bool:
-    try:
-        _checked(path, value)
-    except ValueError:
-        return False
-    return True
-
-
-NOT_NEGATIVE = {"mass", "inertia", "stiffness", "damping", "torsion", "torsion_damping"}
-PRODUCTS = (".xy", ".xz", ".yz")        # of inertia: of either sign
-
-
-def _checked(path: str, value: Any) -> float:
-    """New value of a parameter, with the checks of the method that adds its element."""
-    name = f"parameter {path!r}"
-    quantity = path.split(".")[1] if "." in path else ""
-    if quantity in NOT_NEGATIVE and not path.endswith(PRODUCTS):
-        return _check.number(name, value, least=0)
-    if quantity in ("length", "radius"):
-        return _check.number(name, value, above=0)
-    return _check.number(name, value)

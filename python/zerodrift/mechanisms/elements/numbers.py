@@ -7,6 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from ... import _check
+
+NOT_NEGATIVE = {"mass", "inertia", "stiffness", "damping", "torsion", "torsion_damping"}
+PRODUCTS = (".xy", ".xz", ".yz")        # of inertia: of either sign
+
 
 class Numbers:
     """Values of parameters: the changed one at a path, otherwise the given one."""
@@ -25,3 +30,23 @@ class Numbers:
 
 
 AS_GIVEN = Numbers()
+
+
+def checked(path: str, value: Any) -> float:
+    """New value of a parameter, with the checks of the method that adds its element."""
+    name = f"parameter {path!r}"
+    quantity = path.split(".")[1] if "." in path else ""
+    if quantity in NOT_NEGATIVE and not path.endswith(PRODUCTS):
+        return _check.number(name, value, least=0)
+    if quantity in ("length", "radius"):
+        return _check.number(name, value, above=0)
+    return _check.number(name, value)
+
+
+def is_right(path: str, value: float) -> bool:
+    """True if a parameter can have this value."""
+    try:
+        checked(path, value)
+    except ValueError:
+        return False
+    return True

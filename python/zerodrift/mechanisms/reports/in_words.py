@@ -1,0 +1,98 @@
+"""Sentences on a mechanism's system: its cost, its start, and causes of failures."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable
+
+import numpy as np
+
+from ..._gateway.mechanisms.plane import MechanismCore
+from ...errors import ZerodriftError, sentence
+from ...systems.base import BaseSystem
+from ..assembly import space_advice
+from ..assembly.free_coordinates import is_driven
+from ..assembly.start import Starting, size_of
+from ..elements.drawing import Drawing
+from ..elements.forces import Actuator, Motor
+from ..elements.numbers import Numbers
+from ..equations.space_tables import SpaceTables
+from ..equations.tables import Tables
+from . import advice, cost
+
+MANY = 32       # joint coordinates: their cost is reported only from this number on
+
+
+class Reported(BaseSystem):
+    """System of a mechanism, which names bodies, joints and drives in its sentences."""
+
+    layout: str
+    _drawing: Drawing
+    _numbers: Numbers
+    _tables: Tables
+    _started_tables: Tables             # with the initial positions of drives of constant speed
+    _interpreted: MechanismCore         # of these
+    _start: Starting
+    _is_written_out: bool
+
+    @functools.cached_property
+    def _cost(self) -> cost.Cost | None:
+        """Computing cost, for many joint coordinates, as absolute ones may be cheaper; None for few or for generated code."""
+        return cost.cost(self._tables) if self.layout == "joint" and self.nq >= MANY and not self._is_written_out else None
+
+    def _what_it_costs(self, steps: int | None) -> str | None:
+        return cost.of_a_run(self._cost, steps) if self._cost else None
+
+    def _advice(self, error: Exception) -> str | None:
+        """Advice for a singular start, or None."""
+        if isinstance(self._tables, SpaceTables) and "follow" in sentence(error):
+            tables, assembly, p = self._start.closed(0.0)
+            reason = space_advice.at_start(tables, assembly.core, assembly.t, p, self.name)
+            if reason:
+                return reason
+        return advice.at_start(sentence(error), self._start, self.constraints)
+
+    def _drawn_open(self, also_held: Iterable[str] = ()) -> str | None:
+        """As of any system; None, too, if it cannot be assembled."""
+        try:
+            self.start_at(0.0)
+        except ZerodriftError:
+            return None
+        drawn_open = self._start.changes and self._start.changes.warning(also_held)
+        return drawn_open or (None if also_held else self._start.moved_drives(0.0))
+
+    def _why_locked(self) -> str | None:
+        """Sentence on skew axes; None if drives move what joints alone would lock."""
+        if not isinstance(self._tables, SpaceTables) or is_driven(self._drawing):
+            return None
+        return space_advice.locked(self._tables, self.name)
+
+    def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
+        """Known cause of a failure at p in space: a disc lying flat, or shafts at a right angle."""
+        if not isinstance(self._tables, SpaceTables):
+            return None
+        return space_advice.on_failure(self._started_tables, self._interpreted, t, p)
+
+    def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str | None:
+        """Sentence on the drive, and the dead point to which it moves the mechanism within a time ahead."""
+        from ...analysis.quantities import find  # slow to import and rarely needed
+        from ...analysis.reach_of_drives import dead_point
+
+        length = size_of(self._drawing, self._numbers)
+        drives = {row: each for row, constraint in enumerate(self.constraints[:self.mh])
+                  for each in [self._drawing.elements.get(constraint.name)] if isinstance(each, Motor | Actuator)}
+        sizes = {row: 1.0 if each.coordinate == "angle" else length for row, each in drives.items()}
+        found = dead_point(self, sizes, t, p, ahead)
+        if found is None:
+            return None
+        names = [drives[row] for row in found.rows]
+        limits = [f"{each.joint.name if isinstance(each, Motor) else each.name}.{each.coordinate}" for each in names]
+        reached = ", ".join(f"{name} = {float(find(found.at, name, 'drives').value[0]):.9g}" for name in limits)
+        return (f"{' and '.join(repr(each.name) for each in names)} must not drive {self.name!r} beyond its reach: at t = "
+                f"{found.at.t:.9g} it comes to a dead point, {reached}, where the joints let no motion go on; end before it, or "
+                "drive another joint")
+
+    def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
+        """Also the forces and torques that jump there."""
+        found = advice.jumping(self._drawing, self._watching, t, p, v, velocity)
+        return super()._advice_on_collapse(t, p, v, velocity) + (f"; {found} jumps there" if found else "")
