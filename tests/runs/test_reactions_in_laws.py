@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import friction_loops as loops
 import zerodrift as zd
 from friction_chains import accelerations, beyond, mechanism, random_chain, reference
 
@@ -76,6 +77,29 @@ def test_friction_beyond_painleve_is_refused(seed, dimension, layout):
     chain = beyond(random_chain(seed, dimension))
     with pytest.raises(zd.NoUniqueMotion, match="friction has no unique solution"):
         zd.Run(mechanism(chain).system(layout)).step(1)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("seed", range(3))
+def test_accelerations_of_loops_are_those_of_dense_equations(seed, dimension, layout):
+    strong = loops.critical(loops.random_loop(seed, dimension))
+    loop, equations = strong._replace(c=0.4 * strong.c), loops.Equations(strong)
+    twists = equations.start().reshape(3, 6)
+    expected = equations.solve([np.eye(3)] * 3, twists[:, 3:], loop.c)[0].reshape(3, 6)[0, 3:] @ loop.axes[0]
+    run = zd.Run(loops.mechanism(loop).system(layout), step=1e-3)
+    assert run["A.acceleration"] == pytest.approx(expected, rel=1e-9, abs=1e-9)
+    with pytest.raises(zd.NoUniqueMotion, match="must depend less on the reactions that it reads"):
+        zd.Run(loops.mechanism(strong._replace(c=1.1 * strong.c)).system(layout)).step(1)
+
+
+@pytest.mark.parametrize(("seed", "dimension", "layout"), [(0, 2, "absolute"), (3, 3, "joint")])
+def test_the_motion_of_loops_is_that_of_dense_equations(seed, dimension, layout):
+    strong = loops.critical(loops.random_loop(seed, dimension))
+    loop = strong._replace(c=0.3 * strong.c)
+    run = zd.Run(loops.mechanism(loop).system(layout), integrator="dop853", rtol=1e-10, atol=1e-12)
+    run.advance_to(0.01)
+    assert run["A.angle"] == pytest.approx(loops.reference(loop, 0.01)[0], rel=0, abs=1e-9)
 
 
 @pytest.mark.parametrize("method", ["taylor", "rattle"])
