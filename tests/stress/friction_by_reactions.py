@@ -21,17 +21,18 @@ import zerodrift as zd
 END = 0.02          # s
 LARGEST = 1e-8      # rad
 BEYOND = 5          # numbers of which more friction is tried, too
+LARGEST_ARM = 1.0   # m: of friction that is integrated, which otherwise stops within an explicit step
 
 
 def scenes(seed, dimension):
     """Name, module, scene with its friction, and one with too much or None"""
     share = np.random.default_rng(1000 + seed).uniform(0.05, 0.5)
-    chain = chains.random_chain(seed, dimension)
-    more = chains.beyond(chain)
-    yield "chain", chains, chain if more is None else chain._replace(c=share * more.c), more
-    loop = loops.random_loop(seed, dimension)
-    more = loops.critical(loop, 1.05)
-    yield "loop", loops, loop if more is None else loop._replace(c=share / 1.05 * more.c), more
+    chain, loop = chains.random_chain(seed, dimension), loops.random_loop(seed, dimension)
+    for name, module, scene, beyond in (("chain", chains, chain, chains.beyond), ("loop", loops, loop, loops.critical)):
+        more = beyond(scene)
+        c = scene.c if more is None else share * more.c
+        stronger = more and more._replace(c=1.1 * more.c)
+        yield name, module, scene._replace(c=c * min(1, LARGEST_ARM / c.max())), stronger
 
 
 def last_angle(module, scene, layout):
