@@ -129,7 +129,7 @@ def pulled(browser, part, x, y, seconds=0.8):
         canvas.setPointerCapture = () => {{}};
         event("pointerdown", a, b); event("pointermove", a + {x}, b + {y});
         const end = {TIME} + {seconds}, look = () => {{
-            if ({TIME} < end) return requestAnimationFrame(look);
+            if (zerodrift.live.playing && {TIME} < end) return requestAnimationFrame(look);
             const [c, d] = zerodrift.spot(point); event("pointerup", a, b);
             done([c - a, d - b, document.getElementById("told").textContent]); }};
         look(); }})""")
