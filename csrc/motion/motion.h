@@ -152,7 +152,7 @@ typedef struct zd_reactions {
     double *matrix, *inverse;   /* (n, n): factors of I - G du/dr, in the scales of r; its inverse */
     int *order;             /* (n,): of the factors */
     double force;           /* N, N m: largest force there */
-    double determinant, condition;      /* of the last matrix, for messages */
+    double determinant, condition;      /* numbers of the last matrix, for messages */
     int strongest;          /* user function with the largest entry in it */
     double *measured, *scratch; /* a measure; scratch memory of the measures */
 } zd_reactions;
