@@ -53,7 +53,10 @@ def compared(seed, dimension):
     """Kind of mechanism, error in rad, least determinant, and whether more friction is refused; None: not tried"""
     for name, module, scene, more in scenes(seed, dimension):
         angle, least = module.reference(scene, END)
-        error = abs(last_angle(module, scene, ("joint", "absolute")[seed % 2]) - np.ravel(angle)[0])
+        try:
+            error = abs(last_angle(module, scene, ("joint", "absolute")[seed % 2]) - np.ravel(angle)[0])
+        except zd.NoUniqueMotion:       # wrong, unless the determinant is negative on the way
+            error = 0.0 if least <= 0 else np.inf
         yield f"{name}, {dimension}D", error, least, is_refused(module, more) if more and seed < BEYOND else None
 
 
