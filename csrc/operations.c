@@ -42,7 +42,7 @@ static zd_run *accelerated(const zd_system *system, int formulation, enum zd_on_
 }
 
 int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
-                    double *vdot, double *multipliers, char *message, int message_size)
+                    double *vdot, double *multipliers, int *is_deficient, char *message, int message_size)
 {
     int status;
     zd_run *run = accelerated(system, formulation, on_singular, t, p, v, &status, message, message_size);
@@ -50,17 +50,19 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
     memcpy(vdot, run->motion.point->vdot, (size_t)system->nv * sizeof *vdot);
     zd_rank_find_multipliers(run->motion.point);
     if (zd_constraints(system)) memcpy(multipliers, run->motion.point->lambda, (size_t)zd_constraints(system) * sizeof *multipliers);
+    if (is_deficient) *is_deficient = zd_rank_is_deficient(run->motion.point);
     return finish(run, status, message, message_size);
 }
 
 int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
-                     const double *p, const double *v, double *vdot, double *multipliers, char *message, int message_size)
+                     const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, char *message,
+                     int message_size)
 {
     int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system);
     int status = ZD_DONE;
     for (int64_t i = 0; i < rows && !status; i++)
-        status = zd_acceleration(system, formulation, on_singular, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m, message,
-                                 message_size);
+        status = zd_acceleration(system, formulation, on_singular, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m,
+                                 is_deficient + i, message, message_size);
     return status;
 }
 
@@ -89,16 +91,20 @@ int zd_read_given(const zd_system *system, int64_t rows, const double *t, const 
 }
 
 int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
-                      const double *v, const double *vdot, const double *multipliers, double *values, double *scratch)
+                      const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch)
 {
     const zd_measures *all = system->measures;
-    int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = zd_constraints(system);
-    int64_t k = system->reading ? system->reading->functions : 0;
+    const int64_t size = all->measure[measure].size, nq = system->nq, nv = system->nv, m = zd_constraints(system);
+    const int64_t k = system->reading ? system->reading->functions : 0;
+    zd_measured at = *first;
     int status = ZD_DONE;
-    for (int64_t i = 0; i < rows && !status; i++)
+    for (int64_t i = 0; i < rows && !status; i++) {
         status = all->evaluate(system->data, inputs ? inputs + i * k : NULL, measure, t[i], p + i * nq, v + i * nv,
-                               vdot ? vdot + i * nv : NULL, multipliers ? multipliers + i * m : NULL,
-                               &(zd_measured){.value = values + i * size}, scratch);
+                               vdot ? vdot + i * nv : NULL, multipliers ? multipliers + i * m : NULL, &at, scratch);
+        if (at.value) at.value += size;
+        if (at.least) at.least += m;
+        if (at.redundant) at.redundant += size * m;
+    }
     return status;
 }
 

@@ -11,7 +11,7 @@
  *
  * and the sections follow each other in the same order, without gaps. An entry of a section has these words:
  *
- *     gravity         one component each: 2 or 3 entries
+ *     gravity         one component each: 2 or 3 entries; and the length that moments are divided by in the least reactions
  *     bodies ...      the members of zd_plane_body, zd_plane_joint, zd_plane_quantity of mechanisms/plane/tables.h, or of zd_space_body,
  *                     zd_space_joint, zd_space_quantity of mechanisms/space/tables.h, in their order, arrays entry after entry
  *     terms ...       those of zd_quantity_term, zd_relation, zd_generalized_force and zd_output_spec of mechanisms/common/elements.h
@@ -45,7 +45,7 @@
 
 #include "../zerodrift.h"
 
-enum { ZD_BLOCK_VERSION = 1 };
+enum { ZD_BLOCK_VERSION = 2 };
 
 enum zd_block_section {
     ZD_BLOCK_GRAVITY, ZD_BLOCK_BODIES, ZD_BLOCK_JOINTS, ZD_BLOCK_QUANTITIES,

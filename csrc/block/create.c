@@ -79,7 +79,8 @@ static zd_elements elements_of(zd_block *self, const arrays *from)
         .forces = count_of(layout, ZD_BLOCK_FORCES), .measures = count_of(layout, ZD_BLOCK_MEASURES),
         .term = from->section[ZD_BLOCK_TERMS], .relation = from->section[ZD_BLOCK_RELATIONS],
         .force = from->section[ZD_BLOCK_FORCES], .measure = from->section[ZD_BLOCK_MEASURES],
-        .law = laws ? zd_block_law : NULL, .owner = &self->laws, .laws_know_time = laws_know_time(layout)};
+        .law = laws ? zd_block_law : NULL, .owner = &self->laws, .laws_know_time = laws_know_time(layout),
+        .length = layout->part[ZD_BLOCK_GRAVITY].word[layout->of->dimension]};
 }
 
 static int make(zd_block *self, const arrays *from, zd_complaint to)

@@ -181,7 +181,7 @@ int zd_opened_advance(zd_opened *self, double t)
 static int evaluate(zd_opened *self, int measure, const double *vdot, const double *lambda, double *value)
 {
     const zd_system *system = zd_block_system(self->block);
-    const zd_measured out = {.value = value};
+    const zd_measured out = {.value = value, .is_least = lambda && !zd_run_is_deficient(self->run)};
     return system->measures->evaluate(system->data, NULL, measure, zd_run_time(self->run), zd_run_p(self->run), zd_run_v(self->run), vdot,
                                       lambda, &out, self->scratch);
 }

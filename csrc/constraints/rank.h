@@ -103,6 +103,11 @@ static inline int zd_rank_is_full(const zd_point *point)
 {
     return point->C == point->terms.C;
 }
+/* True if some constraints depend on others at the point, so that its multipliers are a choice. */
+static inline int zd_rank_is_deficient(const zd_point *point)
+{
+    return point->rank && (point->rank->lost || point->rows < point->rank->m);
+}
 /* Index of the constraint in row k of point->C. */
 static inline int zd_rank_row(const zd_point *point, int k)
 {

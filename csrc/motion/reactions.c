@@ -58,7 +58,7 @@ static int measure(zd_reactions *self, const zd_state_read *at)
     if (at->motion) zd_rank_find_multipliers(at->motion->point);
     for (int i = 0; i < self->reading->count; i++) {
         const zd_read_reaction *of = self->reading->reaction + i;
-        const zd_measured out = {.value = self->measured};
+        const zd_measured out = {.value = self->measured, .is_least = 1};
         const int failed = measures->evaluate(at->system->data, self->u, of->measure, at->t, at->p, at->v, at->vdot, at->lambda, &out,
                                               self->scratch);
         if (failed) return ZD_CALLBACK;

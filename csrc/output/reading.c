@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "../constraints/rank.h"
+
 int zd_largest_measure(const zd_measures *measures)
 {
     int largest = 0;
@@ -69,7 +71,9 @@ const char *zd_wrong_readings(const zd_events *events, const zd_system *run)
     return NULL;
 }
 
-static int read(const zd_reader *self, const void *data, const zd_argument *reading, double t, const double *p, const double *v, double *x)
+/* x <- argument of an event; `out` is that of the earlier arguments, at the same state */
+static int read(const zd_reader *self, const void *data, const zd_argument *reading, double t, const double *p, const double *v,
+                zd_measured *out, double *x)
 {
     switch (reading->what) {
     case ZD_READS_TIME: *x = t; break;
@@ -77,9 +81,9 @@ static int read(const zd_reader *self, const void *data, const zd_argument *read
     case ZD_READS_V: *x = v[reading->index]; break;
     case ZD_READS_NUMBER: *x = reading->number; break;
     case ZD_READS_MEASURE: {
-        const zd_measured out = {.value = self->measured};
         const double *vdot = self->point ? self->point->vdot : NULL, *lambda = self->point ? self->point->lambda : NULL;
-        if (self->of->measures->evaluate(data, self->inputs, reading->index, t, p, v, vdot, lambda, &out, self->scratch)) return ZD_CALLBACK;
+        if (self->of->measures->evaluate(data, self->inputs, reading->index, t, p, v, vdot, lambda, out, self->scratch)) return ZD_CALLBACK;
+        out->is_same_state = 1;
         *x = self->measured[reading->component];
     }
     }
@@ -89,8 +93,10 @@ static int read(const zd_reader *self, const void *data, const zd_argument *read
 int zd_read_event(const zd_reader *self, const void *data, int event, double t, const double *p, const double *v, double *value)
 {
     const zd_event *known = self->events->known + event;
+    const void *of = self->events->of ? self->of->data : data;
+    zd_measured out = {.value = self->measured, .is_least = self->point && !zd_rank_is_deficient(self->point)};
     for (int k = 0; k < known->readings; k++)
-        if (read(self, self->events->of ? self->of->data : data, known->reading + k, t, p, v, self->x + k)) return ZD_CALLBACK;
+        if (read(self, of, known->reading + k, t, p, v, &out, self->x + k)) return ZD_CALLBACK;
     if (known->is_called) return self->events->evaluate(self->events->data, event, t, p, v, self->x, value);
     *value = (known->function ? known->function(self->x) : self->x[0]) - known->value;
     return isfinite(*value) ? ZD_DONE : ZD_CALLBACK;

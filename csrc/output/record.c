@@ -69,14 +69,15 @@ static int record_outputs(const zd_recorder *self, zd_record *record, int64_t ro
 {
     const zd_measures *measures = self->measured->measures;
     const zd_point *point = self->motion->point;
-    double *value = record->outputs + row * self->width;
     zd_rank_find_multipliers(point);
+    zd_measured out = {.value = record->outputs + row * self->width, .is_least = !zd_rank_is_deficient(point)};
     int status = ZD_DONE;
     for (int i = 0; i < self->outputs->count && !status; i++) {
         const int measure = self->outputs->measure[i];
         status = measures->evaluate(self->measured->data, point->terms.inputs, measure, point->t, point->p, point->v, point->vdot,
-                                    point->lambda, &(zd_measured){.value = value, .is_same_state = i > 0}, self->scratch);
-        value += measures->measure[measure].size;
+                                    point->lambda, &out, self->scratch);
+        out.value += measures->measure[measure].size;
+        out.is_same_state = 1;
     }
     return status;
 }

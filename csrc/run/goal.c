@@ -100,6 +100,8 @@ int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers)
     return ZD_DONE;
 }
 
+int zd_run_is_deficient(const zd_run *run) { return zd_rank_is_deficient(run->motion.point); }
+
 int zd_run_energy_violation(zd_run *run, double *violation)
 {
     zd_motion *motion = &run->motion;

@@ -22,22 +22,24 @@ zd_system zd_perturbed(zd_perturbation *perturbation);      /* refers to the per
 
 /* ---- operations of a run for single states; on failure each writes one sentence into `message` ---- */
 
+/* *is_deficient, unless NULL, <- 1 if some constraints depend on others, so that the multipliers are a choice. */
 int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
-                    double *vdot, double *multipliers, char *message, int message_size);
-/* The same at many states: t (rows,), p (rows, nq), v (rows, nv) give vdot (rows, nv) and multipliers (rows, m). */
+                    double *vdot, double *multipliers, int *is_deficient, char *message, int message_size);
+/* The same at many states: t (rows,), p (rows, nq), v (rows, nv) give vdot (rows, nv), multipliers (rows, m), is_deficient (rows,). */
 int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
-                     const double *p, const double *v, double *vdot, double *multipliers, char *message, int message_size);
+                     const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, char *message,
+                     int message_size);
 /* Values u (rows, functions) of the user functions of a system that read reactions, see zd_reading, as they are solved for with the
  * accelerations, and where these and the multipliers are given. */
 int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const double *t, const double *p, const double *v, double *u,
                    char *message, int message_size);
 int zd_read_given(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
                   const double *multipliers, double *u);
-/* A measure at many states: values (rows, size); scratch of the size that the measures declare. vdot and multipliers may be NULL if the
- * measure does not depend on them. `inputs` are those of the system, in all states the same, or (rows, functions) of zd_reading; so in the
+/* A measure at many states: `first` has the memory of the first, that of the others follows it; scratch of the size that the measures
+ * declare. vdot and multipliers may be NULL if the measure does not depend on them. `inputs` are those of the system, in all states the same, or (rows, functions) of zd_reading; so in the
  * two functions that follow. */
 int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
-                      const double *v, const double *vdot, const double *multipliers, double *values, double *scratch);
+                      const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch);
 
 /* The terms in `want` at many states t (states,), p (states, nq), v (states, nv): `first` has the memory of the first, the others follow
  * it, (states, size) of each term, with a single scratch. */

@@ -104,6 +104,12 @@ export function drawnStart(model) {
   return {p, v: p.map(() => 0)};
 }
 
+// Largest distance between ends of joints as drawn; 1 if there is none.
+function sizeOf({model, joints}) {
+  const points = joints.flatMap(({first, second}) => [first, second]).map((side) => drawnPlace(model, side));
+  return Math.max(0, ...points.flatMap(([x, y]) => points.map((other) => Math.hypot(other[0] - x, other[1] - y)))) || 1;
+}
+
 // The block, a Uint8Array, in absolute coordinates with steps of a fixed size; its measures are reactions, motors and springs.
 export function blockOf(model, step = 1e-3, {p, v} = drawnStart(model)) {
   const tables = filledTables(model), texts = textTable(), {offset} = texts;
@@ -112,7 +118,7 @@ export function blockOf(model, step = 1e-3, {p, v} = drawnStart(model)) {
   const names = [...tables.links, ...tables.joints].map(({name}) => name).concat(tables.relationNames).map(offset);
   const joints = tables.joints.map((joint) => Object.values(jointEntry(tables, joint)).flat());
   const bodies = tables.links.map((link) => { const length = lengthOf(link); return [link.mass, link.mass * length ** 2 / 12, 0, -1]; });
-  const entries = {gravity: model.gravity, bodies, joints, quantities: tables.quantities, terms: tables.terms, relations: tables.relations,
+  const entries = {gravity: [...model.gravity, sizeOf(tables)], bodies, joints, quantities: tables.quantities, terms: tables.terms, relations: tables.relations,
                    forces: tables.forces, measures, start: [...p, ...v], outputs: measures.map((_, i) => i), settings: [[0, step, 0, 0, 0, 0, 0, 0, 0]],
                    methods, names};
   return packed(SECTIONS.map((section) => entries[section] ?? []), texts.bytes);
@@ -124,7 +130,7 @@ function packed(sections, bytes) {
   const head = 4 + SECTIONS.length, words = head + numbers.length + padded.length / 8;
   const block = new Uint8Array(8 * words), view = new DataView(block.buffer);
   block.set(new TextEncoder().encode("zdblock"));
-  [1, words, 2, ...counts, ...numbers].forEach((number, i) => view.setFloat64(8 * (i + 1), number, true));
+  [2, words, 2, ...counts, ...numbers].forEach((number, i) => view.setFloat64(8 * (i + 1), number, true));
   block.set(padded, 8 * (head + numbers.length));
   return block;
 }

@@ -90,6 +90,7 @@ OF_ARGUMENTS = {
     "inertia": "No body has this tensor of inertia.",
     "prescribed-twice": "One motion is prescribed twice, by two motors or by a motor and the start.",
     "wrong-measure": "A measure is of another kind than required: of velocities, with components, or of a dependent coordinate.",
+    "not-unique": "A force reads a reaction that is not unique, as constraints are redundant.",
     "wrong-element": "An element is of another kind than required, or of another mechanism.",
     "user-function": "A function does not take the arguments, or is not as smooth or linear, as required.",
     "expression": "An expression or equation of SymPy is not of the form that is required.",

@@ -152,11 +152,11 @@ def test_recorded_outputs_are_those_of_simulate():
 def pendulum_by_hand(mass, length, inertia, start):
     """Block of a physical pendulum, as the description in block.h has it: one body that turns about the origin."""
     body, joint = [mass, inertia, 0, 0], [0, 0, 1, 0, 0, -length, 0, 1, 0, 0, 0, 0, 0]
-    sections = {"gravity": [0, -9.81], "bodies": body, "joints": joint, "start": [start - math.pi / 2, 0], "names": [0, 0]}
-    counts = {"gravity": 2, "bodies": 1, "joints": 1, "start": 2, "names": 2, "texts": 1}
+    sections = {"gravity": [0, -9.81, 1], "bodies": body, "joints": joint, "start": [start - math.pi / 2, 0], "names": [0, 0]}
+    counts = {"gravity": 3, "bodies": 1, "joints": 1, "start": 2, "names": 2, "texts": 1}
     numbers = [number for name in SECTIONS for number in sections.get(name, ())]
     words = 4 + len(SECTIONS) + len(numbers) + 1
-    return (b"zdblock\0" + struct.pack(f"<{3 + len(SECTIONS)}d", 1, words, 2, *(counts.get(name, 0) for name in SECTIONS))
+    return (b"zdblock\0" + struct.pack(f"<{3 + len(SECTIONS)}d", 2, words, 2, *(counts.get(name, 0) for name in SECTIONS))
             + struct.pack(f"<{len(numbers)}d", *numbers) + b"bob" + bytes(5))
 
 

@@ -59,6 +59,20 @@ def test_a_disc_in_space_has_the_bits_of_simulate(tmp_path, built):
     np.testing.assert_array_equal(rows, np.column_stack([sol.t, sol["disc.position"]]))
 
 
+@needs_compiler
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_least_reactions_of_redundant_constraints_have_the_bits_of_simulate(layout, tmp_path, built):
+    m, names = zd.Mechanism("door", dimension=3, gravity=(1, 2, -9.81)), ["upper.force", "lower.torque"]
+    leaf = m.body("leaf", 2.0, (0.1, 0.1, 0.1), at=(0.5, 0, 0))
+    for name, z in (("upper", 1.0), ("lower", -1.0)):
+        m.revolute(name, m.ground, leaf, at=(0, 0, z), axis=(0, 0, 1))
+    folder = zd.c_source(m.system(layout), tmp_path / "door", step=1e-3, outputs=names)
+    sol = zd.simulate(m.system(layout), 0.01, step=1e-3, outputs=names, vector="baseline")
+    rows, _ = printed(built(folder), 0.01)
+    np.testing.assert_array_equal(rows, np.column_stack([sol.t, *(sol[name] for name in names)]))
+    np.testing.assert_allclose(sol["upper.force"][:, 2], 9.81, rtol=0, atol=1e-9)
+
+
 def test_clang_compiles_it_without_warnings(tmp_path):
     """The first of the compilers `clang` and `zig cc` that is there."""
     clang = shutil.which("clang")

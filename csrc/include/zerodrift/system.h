@@ -49,7 +49,10 @@ typedef struct zd_measured {    /* memory for the results; NULL: not requested *
     double *rate;           /* (size,) time derivative of a measure of positions: jacobian v + explicit time derivative */
     double *jacobian;       /* (size, nv) for a measure of positions: d rate / d v; of velocities: d value / d v */
     double *bias;           /* (size,) second (positions) or first (velocities) time derivative minus jacobian vdot */
-    int is_same_state;      /* 1: inputs, t, p, v and scratch are those of the previous call, so that values in scratch may be reused */
+    double *least;          /* (m,) multipliers of the least reactions, alone: for a measure of accelerations */
+    double *redundant;      /* (size, m) changes by redundant multipliers, a column each, relative to the norm of those of all wrenches */
+    int is_least;           /* 1: the multipliers given are taken for those of the least reactions */
+    int is_same_state;      /* 1: all but measure and results as in the previous call, so that values in scratch may be reused */
 } zd_measured;
 
 typedef struct zd_measures {

@@ -29,11 +29,11 @@ void zd_joint_rows_act(const zd_actions *self, int count, const int *rows, const
     }
 }
 
-int zd_drives_act(const zd_actions *self, int joint, double t, const double *lambda)
+int zd_drives_act(const zd_actions *self, int joint, double t, const double *lambda, int all)
 {
     const zd_planned_elements *elements = self->elements;
     double value;
-    for (int i = 0; i < elements->forces; i++) {
+    for (int i = 0; all && i < elements->forces; i++) {
         if (elements->force[i].joint != joint) continue;
         const int status = zd_force_evaluate(elements, self->readings, elements->force + i, t, &value, NULL);
         if (status) return status;

@@ -93,6 +93,8 @@ typedef struct zd_compiled_law {
     const double *numbers;
 } zd_compiled_law;
 
+enum { ZD_MOST_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */
+
 typedef struct zd_elements {
     int terms, relations, forces, measures;
     const zd_quantity_term *term;
@@ -101,6 +103,7 @@ typedef struct zd_elements {
     const zd_output_spec *measure;
     zd_law *law;                /* NULL: there is none */
     void *owner;                /* first argument of `law` */
+    double length;              /* m: that moments are divided by in the sum that the least reactions minimize; 0: 1 m */
     int laws_know_time;         /* 1 if a user function depends on t explicitly, not only through positions and velocities */
     const zd_reading *reading;  /* without evaluate(); NULL: no user function reads reactions */
 } zd_elements;

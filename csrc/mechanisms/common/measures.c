@@ -4,12 +4,14 @@
 #include <math.h>
 
 #include "../../linalg/small.h"
+#include "../../workspace.h"
+#include "least_reactions.h"
 
 /* Places the frame at the state, and moves it if twists are needed, unless the previous call has done so. */
 static void place_and_move(const zd_measuring *self, int is_same_state, int needs_twists, const zd_measured_state *at)
 {
     const zd_readings *of = &self->readings;
-    if (!is_same_state) *self->is_placed = *self->is_moving = 0;
+    if (!is_same_state) *self->is_placed = *self->is_moving = *self->is_least = 0;
     if (*self->is_placed == 0) self->numerics->place(of->mechanism, of->frame, at->p);
     *self->is_placed = 1;
     if (*self->is_moving != 0 || !needs_twists) return;
@@ -96,20 +98,73 @@ static int measure_force(const zd_measuring *self, const zd_output_spec *measure
     }
 }
 
+static int depends_on_multipliers(const zd_measuring *self, int kind)
+{
+    return self->elements->m && (kind < ZD_FORCE_VALUE || kind == ZD_DRIVE_VALUE || kind == ZD_DRIVE_POWER);
+}
+
+/* self->least <- multipliers of the least reactions, unless the previous call has done so; with many constraints, those given */
+static int find_least(const zd_measuring *self, const zd_measured_state *at)
+{
+    const int m = self->elements->m;
+    if (*self->is_least != 0) return ZD_DONE;
+    int status = ZD_DONE;
+    if (m <= ZD_MOST_LEAST) status = zd_least_reactions(self, at, self->least);
+    else memcpy(self->least, at->lambda, (size_t)m * sizeof *self->least);
+    *self->is_least = !status;
+    return status;
+}
+
+/* redundant (size, m) <- changes of a measure by redundant multipliers, relative to the norm of those of all wrenches */
+static int find_changes(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, int size, double *redundant)
+{
+    const int m = self->elements->m;
+    const double unit = strcmp(measure->unit, "N m") ? 1 : self->elements->length;
+    double change[ZD_WRENCH_SIZE], total, *N = zd_allocate(sizeof(double) * (size_t)m * (size_t)m);
+    int count;
+    if (!N) return ZD_NO_MEMORY;
+    memset(redundant, 0, (size_t)size * (size_t)m * sizeof *redundant);
+    int status = zd_redundant_multipliers(self, at, N, &count, &total);
+    for (int j = 0; j < count && total > 0 && !status; j++) {
+        status = measure_force(self, measure, &(zd_measured_state){at->t, at->p, at->v, NULL, N + j * m, 1}, change);
+        for (int k = 0; k < size; k++) redundant[k * m + j] = change[k] / (unit * total);
+    }
+    zd_release(N);
+    return status;
+}
+
+/* Results of a measure of forces */
+static int measure_with_least(const zd_measuring *self, const zd_output_spec *measure, const zd_measured_state *at, const zd_measured *out)
+{
+    const int size = zd_output_size(measure, self->numerics->forces, self->numerics->torques);
+    zd_measured_state of = *at;
+    int status = ZD_DONE;
+    if (!out->is_least && depends_on_multipliers(self, measure->kind)) {
+        status = find_least(self, at);
+        of.lambda = self->least;
+    }
+    if (!status && out->redundant && depends_on_multipliers(self, measure->kind)) status = find_changes(self, measure, at, size, out->redundant);
+    if (status || !out->value) return status;
+    status = measure_force(self, measure, &of, out->value);
+    for (int i = 0; i < size; i++) out->value[i] *= measure->scale;
+    return status;
+}
+
 int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measured_state *at, const zd_measured *out)
 {
     const zd_output_spec *output = self->elements->output + measure;
     if (!zd_output_is_available(self->elements, output, at->vdot, at->lambda)) return ZD_BAD_ARGUMENT;
     place_and_move(self, out->is_same_state, output->kind != ZD_VALUES || out->rate || out->bias, at);
+    if (out->least) {
+        const int status = at->lambda ? find_least(self, at) : ZD_BAD_ARGUMENT;
+        if (!status) memcpy(out->least, self->least, (size_t)self->elements->m * sizeof *out->least);
+        return status;
+    }
     if (output->kind <= ZD_ACCELERATIONS) {
         for (int i = 0; i < output->size; i++) measure_quantity(self, output, i, at, out);
         return ZD_DONE;
     }
-    if (!out->value) return ZD_DONE;
-    const int status = measure_force(self, output, at, out->value);
-    const int size = zd_output_size(output, self->numerics->forces, self->numerics->torques);
-    for (int i = 0; i < size; i++) out->value[i] *= output->scale;
-    return status;
+    return measure_with_least(self, output, at, out);
 }
 
 int zd_measures_read(const zd_measuring *self, int law, const zd_measured_state *at, const double *r, int is_same_state, double *u)

@@ -8,6 +8,7 @@
 
 typedef struct zd_planned_elements {
     int relations, forces, mh, m, longest;     /* `longest`: maximum number of terms of a row or generalized force */
+    double length;                  /* m: see zd_elements */
     const zd_quantity_term *term;
     const double *coefficient;      /* coefficients of the terms, contiguous */
     const zd_relation *row;         /* (m,) rows of joints and relations, holonomic ones first */

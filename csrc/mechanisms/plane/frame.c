@@ -27,6 +27,8 @@ int zd_plane_frame_divide(const zd_plane *self, zd_plane_frame_at *to)
     to->sines = next(&used, 3 * bodies, sizeof(double));
     to->is_placed = next(&used, 1, sizeof(double));
     to->is_moving = next(&used, 1, sizeof(double));
+    to->is_least = next(&used, 1, sizeof(double));
+    to->least = next(&used, self->elements.m, sizeof(double));
     to->row = next(&used, self->tree.nv, sizeof(double));
     to->x = next(&used, longest, sizeof(double));
     to->xdot = next(&used, longest, sizeof(double));
@@ -52,6 +54,8 @@ zd_plane_frame zd_plane_frame_of(const zd_plane *mechanism, double *scratch)
         .sines = (void *)(begin + at->sines),
         .is_placed = (void *)(begin + at->is_placed),
         .is_moving = (void *)(begin + at->is_moving),
+        .is_least = (void *)(begin + at->is_least),
+        .least = (void *)(begin + at->least),
         .row = (void *)(begin + at->row),
         .x = (void *)(begin + at->x),
         .xdot = (void *)(begin + at->xdot),

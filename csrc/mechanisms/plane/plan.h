@@ -19,6 +19,7 @@ typedef struct zd_plane_planned_joint {
 /* Offsets of the parts of a frame in the scratch, in bytes */
 typedef struct zd_plane_frame_at {
     size_t pose, twist, wrench, composite, spin, axis, arm, spread, pull, place, sines, is_placed, is_moving, row, x, xdot, out;
+    size_t is_least, least;
 } zd_plane_frame_at;
 
 struct zd_packing;
@@ -63,6 +64,7 @@ typedef struct zd_plane_frame {
     double *sines;                  /* 3 for each body, see zd_plane_tree_turn() */
     double *is_placed;              /* 1 if the poses belong to the current (t, p), otherwise 0 */
     double *is_moving;              /* used by measures only: 1 if the twists belong to the current v, otherwise 0 */
+    double *is_least, *least;       /* used by measures only: 1 if (m,) multipliers of the least reactions belong to the current state */
     double *row;                    /* (nv,) of measures alone */
     const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
     double *x, *xdot, *out;         /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */

@@ -30,6 +30,9 @@ zd_space_frame zd_space_frame_of(const zd_space *space, double *scratch)
     scratch += all * ZD_BODY_VELOCITIES;
     frame.is_placed = scratch++;
     frame.is_moving = scratch++;
+    frame.is_least = scratch++;
+    frame.least = scratch;
+    scratch += space->elements.m;
     frame.x = scratch;
     frame.xdot = frame.x + space->elements.longest;
     frame.out = frame.xdot + space->elements.longest;
@@ -42,7 +45,7 @@ zd_space_frame zd_space_frame_of(const zd_space *space, double *scratch)
 int zd_space_frame_size(const zd_space *space)
 {
     return (space->bodies + 1) * (POSE + TWIST + WRENCH + QUATERNION + ZD_BODY_VELOCITIES) + space->point_joints.count * (ARMS + DIRECTIONS)
-         + space->unwrapped.count + space->point_joints.turns + 2 + 3 * space->elements.longest + 3
+         + space->unwrapped.count + space->point_joints.turns + 3 + space->elements.m + 3 * space->elements.longest + 3
              + (space->carrying.place ? (space->bodies + 1) * TWIST + space->carrying.scratch : 0);
 }
 

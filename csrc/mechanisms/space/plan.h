@@ -2,6 +2,7 @@
 #ifndef ZD_SPACE_PLAN_H
 #define ZD_SPACE_PLAN_H
 
+#include "../common/measures.h"
 #include "../common/packed.h"
 #include "../common/readings.h"
 #include "marker_quantity.h"
@@ -27,8 +28,8 @@ typedef struct zd_carrying {
                 const zd_space_reading *reading,
                 double *row);
     /* reaction += wrench of an inboard joint on its second body, about a point. Returns ZD_DONE or ZD_CALLBACK. */
-    int (*transmit)(const zd_space *self, const struct zd_space_frame *frame, int joint, zd_vector3 point, double t, const double *vdot,
-                    const double *lambda, zd_space_wrench *reaction);
+    int (*transmit)(const zd_space *self, const struct zd_space_frame *frame, int joint, zd_vector3 point,
+                    const zd_measured_state *at, zd_space_wrench *reaction);
     int scratch;                    /* number of doubles of the tree at the end of the frame */
     void *tree;                     /* the tree's own data; released with the mechanism */
 } zd_carrying;
@@ -70,6 +71,7 @@ typedef struct zd_space_frame {
     zd_directions *directions;
     double *turns;                  /* angular entries of the point joints' rows, see point_joints.h */
     double *is_placed, *is_moving;  /* used by measures only: 1 if poses and twists belong to the current state */
+    double *is_least, *least;       /* used by measures only: 1 if (m,) multipliers of the least reactions belong to the current state */
     double *row;                    /* (nv,) of measures alone */
     const double *inputs;           /* values of user functions of forces, if some of these read reactions; else NULL */
     double *x, *xdot, *out;         /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */

@@ -7,15 +7,18 @@
 #include "motion.h"
 
 /* frame->wrench <- inertia force of each body minus the applied and constraint forces on it, without joints of the tree. */
-static int write_needs(const zd_space *space, const zd_space_frame *frame, double t, const double *vdot, const double *lambda)
+static int write_needs(const zd_space *space, const zd_space_frame *frame, const zd_measured_state *at)
 {
     const zd_readings readings = zd_space_frame_readings(space, frame);
     const zd_actions actions = {&space->elements, &readings, zd_space_add_force, NULL};
-    if (zd_space_forces_apply(space, frame, t) || zd_rows_act(&actions, t, lambda)) return ZD_CALLBACK;
-    zd_space_tree_accelerate(space, frame, vdot);
+    if (!at->vdot) memset(frame->wrench, 0, (size_t)(space->bodies + 1) * sizeof *frame->wrench);
+    else if (zd_space_forces_apply(space, frame, at->t)) return ZD_CALLBACK;
+    if (zd_rows_act(&actions, at->t, at->lambda)) return ZD_CALLBACK;
+    if (at->vdot) zd_space_tree_accelerate(space, frame, at->vdot);
     const zd_space_twist *change = zd_space_tree_frame_of(zd_space_tree_of(space), frame).change;
     for (int body = 1; body <= space->bodies; body++) {
-        zd_space_wrench need = zd_space_tree_need(space->body + body, frame->pose + body, frame->twist + body, change + body);
+        zd_space_wrench need = {{0, 0, 0}, {0, 0, 0}};
+        if (at->vdot) need = zd_space_tree_need(space->body + body, frame->pose + body, frame->twist + body, change + body);
         zd_space_add_wrench(&need, -1, frame->wrench[body]);
         frame->wrench[body] = need;
     }
@@ -37,12 +40,12 @@ static zd_space_wrench without_freedoms(const zd_space_link *link, const zd_spac
     return through;
 }
 
-int zd_space_tree_reaction(const zd_space *space, const zd_space_frame *frame, int joint, zd_vector3 point, double t, const double *vdot,
-                      const double *lambda, zd_space_wrench *reaction)
+int zd_space_tree_reaction(const zd_space *space, const zd_space_frame *frame, int joint, zd_vector3 point, const zd_measured_state *at,
+                           zd_space_wrench *reaction)
 {
     const zd_space_tree *tree = zd_space_tree_of(space);
     const int carried = space->planned[joint].carried;
-    if (write_needs(space, frame, t, vdot, lambda)) return ZD_CALLBACK;
+    if (write_needs(space, frame, at)) return ZD_CALLBACK;
     zd_space_tree_transmit(space, frame);
     zd_space_wrench through = frame->wrench[carried];
     through.torque = zd_plus3(through.torque, zd_cross3(zd_minus3(frame->pose[carried].at, point), through.force));

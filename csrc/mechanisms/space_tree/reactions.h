@@ -5,7 +5,7 @@
 #include "links.h"
 
 /* See zd_carrying. */
-int zd_space_tree_reaction(const zd_space *space, const zd_space_frame *frame, int joint, zd_vector3 point, double t, const double *vdot,
-                      const double *lambda, zd_space_wrench *reaction);
+int zd_space_tree_reaction(const zd_space *space, const zd_space_frame *frame, int joint, zd_vector3 point,
+                           const zd_measured_state *at, zd_space_wrench *reaction);
 
 #endif

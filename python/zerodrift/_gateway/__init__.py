@@ -39,7 +39,7 @@ from .base import (
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .inputs import Following, Inputs
 from .known_events import KnownEvent
-from .measures import Outputs
+from .measures import MOST_LEAST, Outputs
 from .packed_layout import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbation import PerturbedCore, perturbed
 from .runs import (
@@ -84,6 +84,7 @@ __all__ = [
     "FIXED_STEPS",
     "FULL",
     "INTERRUPTED",
+    "MOST_LEAST",
     "MOST_STEPS",
     "NO_RECORD",
     "PACKED",

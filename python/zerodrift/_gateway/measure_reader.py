@@ -33,7 +33,7 @@ class MeasureReader:
 
         def read() -> Any:
             vdot, multipliers = self._accelerations() if needs else (ffi.NULL, ffi.NULL)
-            out.value = memory
+            out.value, out.is_least = memory, needs and not lib.zd_run_is_deficient(run.c)
             at = run.t, run.c_p, run.c_v, vdot, multipliers
             status = self._evaluate(core.c.data, ffi.NULL, number, *at, out, self._scratch)
             if status:

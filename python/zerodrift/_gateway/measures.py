@@ -12,6 +12,7 @@ from .._core import ffi, lib
 from ..errors import WrongValue
 from .base import doubles, text
 
+MOST_LEAST = lib.ZD_MOST_LEAST     # constraints: with more of them, reactions are not the least ones
 DEPENDS = {lib.ZD_OF_POSITIONS: "positions", lib.ZD_OF_VELOCITIES: "velocities", lib.ZD_OF_ACCELERATIONS: "accelerations"}
 
 
@@ -61,22 +62,28 @@ class Measuring:
         return DEPENDS[self.c.measures.measure[index].depends]
 
     def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
-                multipliers: np.ndarray | None = None, *, is_own: bool = False) -> np.ndarray:
+                multipliers: np.ndarray | None = None, *, is_own: bool = False, wanted: str = "value",
+                is_least: bool = False) -> np.ndarray:
         """A measure at many states: t (k,), p (k, nq), v (k, nv), vdot (k, nv), multipliers (k, m) give values (k, size).
 
         vdot and multipliers may be None where the measure depends on positions or velocities alone (`measure_depends`).
-        is_own: the system's data belong to the caller.
+        is_own: the system's data belong to the caller. wanted: "value"; "least", multipliers (k, m) of the least reactions; or
+        "redundant", changes (k, size, m) by redundant multipliers, relative to the norm of those of all wrenches. is_least:
+        the multipliers given are those of the least reactions.
         """
-        core, k = self if is_own else self.for_run(), len(t)
-        values, scratch = np.zeros((k, self.measure_size(index))), np.zeros(max(1, self.c.measures.scratch))
+        core, k, size = self if is_own else self.for_run(), len(t), self.measure_size(index)
+        values = np.zeros((k, size, self.m) if wanted == "redundant" else (k, size))
+        if wanted == "least":
+            values = np.array(multipliers)
+        scratch = np.zeros(max(1, self.c.measures.scratch))
+        out = ffi.new("zd_measured *", {wanted: doubles(values, values.size, writable=True), "is_least": is_least})
         inputs = core.initial_inputs()
-        if self.functions and vdot is not None:
+        if self.functions and vdot is not None and wanted != "redundant":
             u = core.read_given(t, p, v, vdot, np.zeros((k, 0)) if multipliers is None else multipliers, is_own=True)
             inputs = doubles(u, u.size)
         status = lib.zd_measure_states(core.c, inputs, index, k, doubles(t, k),
                                        doubles(p, k * self.nq), doubles(v, k * self.nv),
-                                       given(vdot, k * self.nv), given(multipliers, k * self.m),
-                                       doubles(values, values.size, writable=True),
+                                       given(vdot, k * self.nv), given(multipliers, k * self.m), out,
                                        doubles(scratch, scratch.size, writable=True))
         if status:
             raise core.error or self._lacks(index)

@@ -401,20 +401,24 @@ def acceleration(core: CoreSystem, formulation: int, on_singular: int, t: float,
     vdot, multipliers, message = np.empty(core.nv), np.empty(core.m), ffi.new("char[]", MESSAGE_SIZE)
     status = lib.zd_acceleration(core.c, formulation, on_singular, t, doubles(p, core.nq), doubles(v, core.nv),
                                  doubles(vdot, core.nv, writable=True), doubles(multipliers, core.m, writable=True),
-                                 message, MESSAGE_SIZE)
+                                 ffi.NULL, message, MESSAGE_SIZE)
     if status:
         raise core.error or error_of(status, text(message))
     return vdot, multipliers
 
 
 def accelerations(core: CoreSystem, formulation: int, on_singular: int, t: np.ndarray, p: np.ndarray,
-                  v: np.ndarray, *, is_own: bool = False) -> np.ndarray:
-    """`zd_accelerations`: vdot (k, nv) at t (k,), p (k, nq), v (k, nv). is_own: the system's data belong to the caller."""
+                  v: np.ndarray, *, is_own: bool = False, are_deficient: np.ndarray | None = None) -> np.ndarray:
+    """`zd_accelerations`: vdot (k, nv) at t (k,), p (k, nq), v (k, nv).
+
+    is_own: the system's data belong to the caller. are_deficient (k,) of intc <- 1 where some constraints depend on others.
+    """
     core, k = core if is_own else core.for_run(), len(t)
     vdot, multipliers, message = np.empty((k, core.nv)), np.empty((k, core.m)), ffi.new("char[]", MESSAGE_SIZE)
+    flags = np.zeros(k, dtype=np.intc) if are_deficient is None else are_deficient
     status = lib.zd_accelerations(core.c, formulation, on_singular, k, doubles(t, k), doubles(p, p.size), doubles(v, v.size),
                                   doubles(vdot, vdot.size, writable=True), doubles(multipliers, multipliers.size, writable=True),
-                                  message, MESSAGE_SIZE)
+                                  ffi.from_buffer("int[]", flags, require_writable=True), message, MESSAGE_SIZE)
     if status:
         raise core.error or error_of(status, text(message))
     return vdot

@@ -22,9 +22,9 @@ def c_source(system: Any, folder: str | Path, *, step: float, outputs: Sequence[
 
     The folder has the files of the core that this mechanism and its methods need, the mechanism as one block (see `block`)
     in ``data.h``, and a short ``main.c`` with the memory of a sample in ``sample.h``. They need a C compiler and its standard
-    library, and nothing else; all memory is allocated before the first step. ``main T`` simulates T seconds and prints t and the
-    outputs with 17 digits, one line for each step. Compiled with ``-ffp-contract=off``, its numbers have the bits of `simulate`
-    with ``vector="baseline"``.
+    library, and nothing else; all memory is allocated before the first step, except for reactions of redundant constraints.
+    ``main T`` simulates T seconds and prints t and the outputs with 17 digits, one line for each step. Compiled with
+    ``-ffp-contract=off``, its numbers have the bits of `simulate` with ``vector="baseline"``.
 
     Parameters
     ----------

@@ -259,9 +259,20 @@ class MechanismSystem(Reported):
         if not self.nv:     # coordinates of joints between welded bodies have no velocities
             raise ZerodriftError(f"mechanism {self.name!r} has no joint coordinates to move in, as all its bodies are welded to "
                                  "the ground; system('absolute') has coordinates, and gives its reactions")
-        if p is None and v is None:
-            return self.start_at(t)
-        return super()._state_or_start(p, v, p_name, v_name)
+        state = self.start_at(t) if p is None and v is None else super()._state_or_start(p, v, p_name, v_name)
+        self._check_unique(t, *state)
+        return state
+
+    def _check_unique(self, t: float, p: np.ndarray, v: np.ndarray) -> None:
+        """Check that redundant constraints leave the reactions unique that user functions read."""
+        laws = [law for element in self._drawing.elements.values() for law in [getattr(element, "law", None)] if law is not None]
+        read = [(law, name) for law in laws for name in law.reactions.values()] if 0 < self.m <= _gateway.MOST_LEAST else []
+        for law, name in read:
+            place = self._watching.find(name)
+            if place is not None and not self._watching.is_unique_at(place, t, p, v):
+                raise WrongValue(f"{law.what} must read reactions that are unique, and {name!r} is not, as constraints are "
+                                 "redundant: free a joint of the loop, such as by spherical() in the place of revolute()",
+                                 "not-unique")
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, direct: tuple[str, bool] | None = None, *,
                        starts_are_known: bool = True) -> NumberTables | None:

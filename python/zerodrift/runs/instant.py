@@ -20,6 +20,10 @@ def names_of_quantities(system: BaseSystem) -> list[str]:
     return [*system._names_of_measures(), *variables]
 
 
+def _sample(values: Any) -> np.ndarray:
+    return np.ascontiguousarray(values)[None]
+
+
 class Reading:
     """Any quantity by its name at a state whose accelerations vdot (nv,) and multipliers (m,) are known."""
 
@@ -29,12 +33,13 @@ class Reading:
     v: np.ndarray
     vdot: Any
     multipliers: Any
+    _least: np.ndarray | None = None        # (1, m) multipliers of the least reactions
 
     def __getitem__(self, given: Any) -> Any:
         name, of = getattr(given, "name", given), self.system
         if (place := of._watching.find(name)) is not None:
-            states = [np.ascontiguousarray(each)[None] for each in self._state_for(place.number)]
-            value = place.pick(of._watching.core.measure(place.number, np.array([float(self.t)]), *states))[0]
+            states = self._state_for(place.number)
+            value = place.pick(of._watching.core.measure(place.number, *states, is_least=True))[0]
             return float(value) if np.ndim(value) == 0 else value
         for variables, values in ((of.coordinates, "p"), (of.velocities, "v"), (of.constraints, "multipliers")):
             for i, variable in enumerate(variables):
@@ -42,11 +47,16 @@ class Reading:
                     return float(getattr(self, values)[i])
         raise WrongName(f"nothing in {of.name} is called {name!r}; {_check.closest(name, names_of_quantities(of))}", "wrong-name")
 
-    def _state_for(self, number: int) -> tuple[np.ndarray, ...]:
-        """The arguments of a measure: accelerations and multipliers for one that depends on them."""
-        if self.system._watching.core.measure_depends(number) != "accelerations":
-            return self.p, self.v
-        return self.p, self.v, self.vdot, self.multipliers
+    def _state_for(self, number: int) -> list[np.ndarray]:
+        """Arguments of a measure, (1, ...) each: accelerations and least multipliers for one that depends on them."""
+        core, states = self.system._watching.core, [np.array([float(self.t)]), *map(_sample, (self.p, self.v))]
+        if core.measure_depends(number) != "accelerations":
+            return states
+        states.append(_sample(self.vdot))
+        if self._least is None:
+            given = _sample(self.multipliers)
+            self._least = core.measure(number, *states, given, wanted="least") if self.system.m else given
+        return [*states, self._least]
 
 
 class KnownInstant(Reading):

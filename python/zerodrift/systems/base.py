@@ -341,11 +341,11 @@ class BaseSystem:
     def _is_scalar_measure(self, name: str) -> bool:
         return name in self._watching.number and self._measuring.measure_size(self._watching.number[name]) == 1
 
-    def _unique(self, name: Any, solution: Any) -> Any:
+    def _unique(self, name: Any, solution: Any, body: Any = None) -> Any:
         """Flags of the components of a measure that are equal for all admissible multipliers of redundant constraints."""
         if not self._watching.number:
             raise WrongName(f"measures need a mechanism, and {self.name} is not one", "not-available")
-        return self._watching.unique(getattr(name, "name", name), solution)
+        return self._watching.unique(getattr(name, "name", name), solution, getattr(body, "name", body))
 
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
         """The core's system with its closed-form functions, for SIMD lanes, too, where it has them."""

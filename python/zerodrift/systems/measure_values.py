@@ -13,9 +13,8 @@ from .._gateway import CoreSystem
 from ..errors import WrongName, WrongValue
 
 AXES = {"x": 0, "y": 1, "z": 2}     # names of components
-SAME = 1e-8             # of the largest: reactions that differ by less do not depend on which multipliers are taken
+SAME = 1e-9             # of all changes by redundant multipliers: a reaction that changes by less is unique
 PART = 2**28            # bytes of positions that a measure is evaluated at together
-DEPENDENT = 1e-9        # relative to the largest singular value: bound for redundant constraints
 
 
 class Place(NamedTuple):
@@ -37,7 +36,7 @@ class Watching:
     def __init__(self, core: CoreSystem | None) -> None:
         self.core, self._measures = core, core.measures if core else ()
         self.number = {measure.name: i for i, measure in enumerate(self._measures)}
-        self._accelerations: weakref.WeakKeyDictionary[Any, np.ndarray] = weakref.WeakKeyDictionary()
+        self._accelerations: weakref.WeakKeyDictionary[Any, tuple[np.ndarray, np.ndarray]] = weakref.WeakKeyDictionary()
 
     def find(self, name: Any) -> Place | None:
         """Index of a measure or of a component by its name, or None."""
@@ -64,23 +63,29 @@ class Watching:
         found = self.find(name)
         if found is None:
             return None
-        return found.pick(self._evaluate(found.number, solution, solution.multipliers))
+        return found.pick(self._evaluate(found.number, solution))
 
-    def _evaluate(self, number: int, solution: Any, multipliers: np.ndarray) -> np.ndarray:
+    def _evaluate(self, number: int, solution: Any, wanted: str = "value") -> np.ndarray:
         values, is_dynamic = [], self.core.measure_depends(number) == "accelerations"
         for core, part in self._cores(solution, self._measures[number].name if is_dynamic else None):
-            states = _states(solution, part)
+            states, is_own = _states(solution, part), core is not self.core
             if is_dynamic:
-                states += self._accelerate(core, solution, part), np.ascontiguousarray(multipliers[part])
-            values.append(core.measure(number, *states, is_own=core is not self.core))
+                states += self._accelerate(number, core, solution, part)
+            values.append(core.measure(number, *states, is_own=is_own, wanted=wanted, is_least=True))
         return values[0] if len(values) == 1 else np.concatenate(values)
 
-    def _accelerate(self, core: CoreSystem, solution: Any, part: slice) -> np.ndarray:
-        """Accelerations (k, nv) at a range of samples; cached if it has all samples."""
+    def _accelerate(self, number: int, core: CoreSystem, solution: Any, part: slice) -> tuple[np.ndarray, np.ndarray]:
+        """Accelerations (k, nv), least multipliers (k, m) at a range of samples; cached if it has all samples."""
         known = self._accelerations.get(solution)
         if known is None:
-            formulation = _formulation(solution.settings["formulation"])
-            known = _gateway.accelerations(core, formulation, 1, *_states(solution, part), is_own=core is not self.core)
+            formulation, states = _formulation(solution.settings["formulation"]), _states(solution, part)
+            is_own = core is not self.core
+            flags = np.zeros(len(states[0]), dtype=np.intc)
+            vdot = _gateway.accelerations(core, formulation, 1, *states, is_own=is_own, are_deficient=flags)
+            known, chosen = (vdot, np.array(solution.multipliers[part])), flags != 0
+            if chosen.any():
+                of_chosen = [each[chosen] for each in (*states, *known)]
+                known[1][chosen] = core.measure(number, *of_chosen, is_own=is_own, wanted="least")
             if part.start == 0 and part.stop >= len(solution.t):
                 self._accelerations[solution] = known
         return known
@@ -109,20 +114,34 @@ class Watching:
             inputs.set_constant(given[first])
             yield bound.core, slice(first, end)
 
-    def unique(self, name: str, solution: Any) -> Any:
-        """Which components of a measure are the same for all admissible multipliers at every row; a bool of a scalar."""
+    def is_unique_at(self, place: Place, t: float, p: np.ndarray, v: np.ndarray) -> bool:
+        """True if a scalar measure or component is the same for all admissible multipliers at a state."""
+        state = [np.ascontiguousarray(each)[None] for each in (p, v, np.zeros(self.core.nv), np.zeros(self.core.m))]
+        changes = self.core.measure(place.number, np.array([float(t)]), *state, wanted="redundant", is_least=True)
+        return bool(_are_unique(changes)[0, place.component or 0])
+
+    def unique(self, name: str, solution: Any, body: str | None = None) -> Any:
+        """Components of a measure that are the same for all admissible multipliers at every sample; a bool of a scalar.
+
+        Components are along the axes of a body at each sample; None: along those of the drawing.
+        """
         found = self.find(name)
         if found is None:
             raise WrongName(f"nothing measured is called {name!r}; {_check.closest(name, self.number)}", "wrong-name")
         number, component = found
-        values = self._evaluate(number, solution, solution.multipliers)
-        same = np.ones(values.shape[1], dtype=bool)
-        if self.core.measure_depends(number) == "accelerations":
-            for shift in _shifts(self.core, solution):
-                moved = self._evaluate(number, solution, solution.multipliers + shift)
-                same &= np.abs(moved - values).max(axis=0, initial=0.0) < SAME
+        same = np.ones(self._measures[number].size, dtype=bool)
+        if self.core.measure_depends(number) == "accelerations" and self.core.m:
+            changes = self._evaluate(number, solution, "redundant")
+            if same.size > 1 and body not in (None, "ground"):
+                changes = solution._axes_of(body, same.size) @ changes
+            same = _are_unique(changes).all(axis=0)
         same = same if component is None else same[component : component + 1]
         return bool(same[0]) if same.size == 1 else same
+
+
+def _are_unique(changes: np.ndarray) -> np.ndarray:
+    """Flags (k, size) of components whose changes (k, size, m) by redundant multipliers are rounding."""
+    return np.linalg.norm(changes, axis=2) <= SAME
 
 
 def _formulation(given: Any) -> int:
@@ -140,17 +159,3 @@ def _parts(solution: Any) -> list[slice]:
 def _states(solution: Any, part: slice) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Arrays t (k,), p (k, nq), v (k, nv) of a range of samples for the core."""
     return tuple(np.ascontiguousarray(array[part]) for array in (solution.t, solution.p, solution.v))
-
-
-def _shifts(core: CoreSystem, solution: Any) -> list[np.ndarray]:
-    """Basis of multipliers (k, m) without effect on the motion at each sample, padded with zeros."""
-    bases = []
-    for t, p, v in zip(solution.t, solution.p, solution.v, strict=True):
-        C = core.evaluate(float(t), np.ascontiguousarray(p), np.ascontiguousarray(v)).get("C")
-        if C is None:
-            return []
-        u, s, _ = np.linalg.svd(C)
-        bases.append(u[:, int((s > DEPENDENT * s.max(initial=0.0)).sum()):].T)
-    most = max((len(basis) for basis in bases), default=0)
-    filled = [np.vstack([basis, np.zeros((most - len(basis), core.m))]) for basis in bases]
-    return [np.array([basis[i] for basis in filled]) for i in range(most)]

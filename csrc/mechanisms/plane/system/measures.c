@@ -44,10 +44,20 @@ static void unit_wrench(const void *mechanism, const void *frame, int quantity, 
     write_wrench(zd_plane_quantity_read(self->quantity + quantity, at->pose).second, wrench);
 }
 
+static void unit_wrenches(const void *mechanism, const void *frame, int index, int *body, double *wrench)
+{
+    const zd_plane_quantity *quantity = ((const zd_plane *)mechanism)->quantity + index;
+    const zd_plane_reading reading = zd_plane_quantity_read(quantity, ((const zd_plane_frame *)frame)->pose);
+    body[0] = quantity->first, body[1] = quantity->second;
+    memset(wrench, 0, 2 * ZD_WRENCH_SIZE * sizeof *wrench);
+    write_wrench(reading.first, wrench);
+    write_wrench(reading.second, wrench + ZD_WRENCH_SIZE);
+}
+
 static int reaction_of(const void *mechanism, const void *frame, int joint, const zd_measured_state *at, double *wrench)
 {
     zd_plane_wrench reaction;
-    const int status = zd_plane_joint_reaction(mechanism, frame, joint, at->t, at->vdot, at->lambda, &reaction);
+    const int status = zd_plane_joint_reaction(mechanism, frame, joint, at, &reaction);
     write_wrench(reaction, wrench);
     return status;
 }
@@ -60,12 +70,14 @@ static void apart_of(const void *mechanism, const void *frame, int joint, double
     vector[0] = apart.x, vector[1] = apart.y;
 }
 
-static const zd_measure_numerics NUMERICS = {2, 1, place, move, zd_plane_bias, write_row, unit_wrench, reaction_of, apart_of};
+static const zd_measure_numerics NUMERICS = {2, 1, place, move, zd_plane_bias, write_row, unit_wrench, unit_wrenches, reaction_of, apart_of};
 
 static zd_measuring measuring_of(const zd_plane *self, const zd_plane_frame *frame)
 {
     return (zd_measuring){
-        &NUMERICS, &self->elements, zd_plane_frame_readings(self, frame), self->tree.nv, frame->is_placed, frame->is_moving, frame->row};
+        .numerics = &NUMERICS, .elements = &self->elements, .readings = zd_plane_frame_readings(self, frame), .nv = self->tree.nv,
+        .joints = self->joints, .is_placed = frame->is_placed, .is_moving = frame->is_moving, .is_least = frame->is_least,
+        .least = frame->least, .row = frame->row};
 }
 
 static int evaluate(const void *data, const double *inputs, int measure, double t, const double *p, const double *v, const double *vdot,
@@ -75,7 +87,7 @@ static int evaluate(const void *data, const double *inputs, int measure, double 
     zd_plane_frame frame = zd_plane_frame_of(self, scratch);
     frame.inputs = inputs;
     const zd_measuring measuring = measuring_of(self, &frame);
-    return zd_measures_evaluate(&measuring, measure, &(zd_measured_state){t, p, v, vdot, lambda}, out);
+    return zd_measures_evaluate(&measuring, measure, &(zd_measured_state){t, p, v, vdot, lambda, 0}, out);
 }
 
 int zd_plane_read(const void *data, int law, double t, const double *p, const double *v, const double *r, int is_same_state, double *u,
@@ -84,7 +96,7 @@ int zd_plane_read(const void *data, int law, double t, const double *p, const do
     const zd_plane *self = data;
     const zd_plane_frame frame = zd_plane_frame_of(self, scratch);
     const zd_measuring measuring = measuring_of(self, &frame);
-    return zd_measures_read(&measuring, law, &(zd_measured_state){t, p, v, NULL, NULL}, r, is_same_state, u);
+    return zd_measures_read(&measuring, law, &(zd_measured_state){t, p, v, NULL, NULL, 0}, r, is_same_state, u);
 }
 
 static int act_on_body(const zd_plane *self, int body, double scale, zd_plane_wrench what, double *own)

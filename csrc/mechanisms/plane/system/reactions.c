@@ -24,15 +24,18 @@ static zd_plane_wrench about(zd_plane_wrench what, const zd_plane_pose *body, zd
 }
 
 /* frame->wrench <- inertia force of each body minus the applied and constraint forces on it, without joints of the tree. */
-static int write_needs(const zd_plane *self, const zd_plane_frame *frame, double t, const double *vdot, const double *lambda)
+static int write_needs(const zd_plane *self, const zd_plane_frame *frame, const zd_measured_state *at)
 {
     const zd_readings readings = zd_plane_frame_readings(self, frame);
     const zd_actions actions = {&self->elements, &readings, zd_plane_add_force, NULL};
-    if (zd_plane_forces_apply(self, frame, t) || zd_rows_act(&actions, t, lambda)) return ZD_CALLBACK;
-    zd_plane_tree_accelerate(&self->tree, frame->pose, frame->twist, vdot, frame->spin);
+    if (!at->vdot) memset(frame->wrench, 0, (size_t)(self->tree.bodies + 1) * sizeof *frame->wrench);
+    else if (zd_plane_forces_apply(self, frame, at->t)) return ZD_CALLBACK;
+    if (zd_rows_act(&actions, at->t, at->lambda)) return ZD_CALLBACK;
+    if (at->vdot) zd_plane_tree_accelerate(&self->tree, frame->pose, frame->twist, at->vdot, frame->spin);
     for (int i = 1; i <= self->tree.bodies; i++) {
         const zd_plane_link *link = self->tree.link + i;
-        zd_plane_wrench inertia = {zd_times(link->mass, frame->spin[i].speed), link->inertia * frame->spin[i].turn};
+        zd_plane_wrench inertia = {{0, 0}, 0};
+        if (at->vdot) inertia = (zd_plane_wrench){zd_times(link->mass, frame->spin[i].speed), link->inertia * frame->spin[i].turn};
         zd_plane_add_wrench(&inertia, -1, frame->wrench[i]);
         frame->wrench[i] = inertia;
     }
@@ -40,10 +43,10 @@ static int write_needs(const zd_plane *self, const zd_plane_frame *frame, double
 }
 
 /* Wrench of an inboard joint on its outer body; its component along the joint's coordinate is set to zero exactly. */
-static int of_tree(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, double t, const double *vdot,
-                   const double *lambda, zd_plane_wrench *to)
+static int of_tree(const zd_plane *self, const zd_plane_frame *frame, int joint, zd_vector point, const zd_measured_state *at,
+                   zd_plane_wrench *to)
 {
-    int status = write_needs(self, frame, t, vdot, lambda), carried = self->planned[joint].carried;
+    int status = write_needs(self, frame, at), carried = self->planned[joint].carried;
     if (status) return status;
     const zd_plane_pose *pose = frame->pose + carried;
     zd_plane_tree_transmit(&self->tree, frame->pose, frame->wrench);
@@ -70,8 +73,8 @@ static void add_quantity(const zd_readings *at, void *to, int index, double forc
     zd_plane_add_wrench(of->reaction, force, about(zd_plane_quantity_read(quantity, pose).second, pose + quantity->second, of->point));
 }
 
-int zd_plane_joint_reaction(const zd_plane *self, const zd_plane_frame *frame, int joint, double t, const double *vdot, const double *lambda,
-                      zd_plane_wrench *reaction)
+int zd_plane_joint_reaction(const zd_plane *self, const zd_plane_frame *frame, int joint, const zd_measured_state *at,
+                            zd_plane_wrench *reaction)
 {
     const zd_plane_planned_joint *planned = self->planned + joint;
     reaction_at to = {point_of(frame, self->joint + joint), reaction};
@@ -79,7 +82,7 @@ int zd_plane_joint_reaction(const zd_plane *self, const zd_plane_frame *frame, i
     const zd_actions actions = {&self->elements, &readings, add_quantity, &to};
     *reaction = (zd_plane_wrench){.torque = 0};
     int status = ZD_DONE;
-    if (planned->carried) status = of_tree(self, frame, joint, to.point, t, vdot, lambda, reaction);
-    else zd_joint_rows_act(&actions, planned->row_count, planned->rows, lambda);
-    return status ? status : zd_drives_act(&actions, joint, t, lambda);
+    if (planned->carried) status = of_tree(self, frame, joint, to.point, at, reaction);
+    else zd_joint_rows_act(&actions, planned->row_count, planned->rows, at->lambda);
+    return status ? status : zd_drives_act(&actions, joint, at->t, at->lambda, !at->is_of_constraints);
 }

@@ -35,7 +35,7 @@ static void add_quantity(const zd_readings *at, void *to, int index, double forc
     zd_space_add_wrench(of->reaction, force, what);
 }
 
-int zd_space_joint_reaction(const zd_space *self, const zd_space_frame *frame, int joint, double t, const double *vdot, const double *lambda,
+int zd_space_joint_reaction(const zd_space *self, const zd_space_frame *frame, int joint, const zd_measured_state *at,
                             zd_space_wrench *reaction)
 {
     const zd_space_planned_joint *planned = self->planned + joint;
@@ -44,7 +44,7 @@ int zd_space_joint_reaction(const zd_space *self, const zd_space_frame *frame, i
     const zd_actions actions = {&self->elements, &readings, add_quantity, &to};
     int status = ZD_DONE;
     *reaction = (zd_space_wrench){{0, 0, 0}, {0, 0, 0}};
-    if (planned->carried) status = self->carrying.transmit(self, frame, joint, to.point, t, vdot, lambda, reaction);
-    else zd_joint_rows_act(&actions, planned->row_count, planned->rows, lambda);
-    return status ? status : zd_drives_act(&actions, joint, t, lambda);
+    if (planned->carried) status = self->carrying.transmit(self, frame, joint, to.point, at, reaction);
+    else zd_joint_rows_act(&actions, planned->row_count, planned->rows, at->lambda);
+    return status ? status : zd_drives_act(&actions, joint, at->t, at->lambda, !at->is_of_constraints);
 }

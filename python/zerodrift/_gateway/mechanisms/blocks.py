@@ -60,7 +60,7 @@ def tables(written: plane.Tables | space.Tables, texts: Texts) -> dict[str, list
     arrays = {"bodies": packed["body"], "joints": packed["joint"], "quantities": packed["quantity"], "terms": elements["term"],
               "relations": elements["relation"], "forces": elements["force"], "measures": elements["measure"]}
     found = {name: [number for entry in array for number in _numbers(entry, texts)] for name, array in arrays.items()}
-    return {"gravity": [float(each) for each in packed["gravity"]], **found}
+    return {"gravity": [*(float(each) for each in packed["gravity"]), elements["length"]], **found}
 
 
 def _numbers(value: Any, texts: Texts) -> list[float]:

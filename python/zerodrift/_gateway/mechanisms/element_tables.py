@@ -141,7 +141,8 @@ def written_elements(tables: Any, has_laws: bool, laws_know_time: bool) -> tuple
         "reading": reading, "terms": len(terms), "relations": len(relations), "forces": len(forces), "measures": len(measures),
         "term": ffi.new("zd_quantity_term[]", terms), "relation": ffi.new("zd_relation[]", relations),
         "force": ffi.new("zd_generalized_force[]", forces), "measure": ffi.new("zd_output_spec[]", measures),
-        "law": lib.zd_law_in_python if has_laws else ffi.NULL, "laws_know_time": has_laws and laws_know_time}
+        "law": lib.zd_law_in_python if has_laws else ffi.NULL, "length": tables.length,
+        "laws_know_time": has_laws and laws_know_time}
     return elements, (names, units, kept)
 
 

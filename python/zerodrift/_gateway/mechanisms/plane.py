@@ -102,6 +102,7 @@ class Tables(NamedTuple):
     measures: Sequence[OutputSpec] = ()
     gravity: tuple[float, float] = (0.0, 0.0)
     reactions: Mapping[str, tuple[int, int]] = MappingProxyType({})     # measure and component of those that laws read
+    length: float = 1.0         # m: that moments are divided by in the least reactions
 
 
 class Coordinate(NamedTuple):

@@ -113,6 +113,7 @@ class Tables(NamedTuple):
     measures: Sequence[OutputSpec] = ()
     gravity: Vector = NONE
     reactions: Mapping[str, tuple[int, int]] = MappingProxyType({})     # measure and component of those that laws read
+    length: float = 1.0         # m: that moments are divided by in the least reactions
 
 
 def _joint_kind(number: int) -> JointKind:

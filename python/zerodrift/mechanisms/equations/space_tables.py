@@ -53,7 +53,7 @@ class SpaceTables(Tables):
                   for body, inboard in zip(self.parts, self.inboard, strict=True) for mass in [self.inertias.of[body.name]]]
         quantities = self.quantities if quantities is None else quantities
         return space.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
-                            self.reactions(observed))
+                            self.reactions(observed), self._length())
 
     def joint_coordinates(self) -> int:
         """Number of velocities of the bodies along the tree."""

@@ -19,7 +19,7 @@ from ..elements.drawing import Drawing, Inertias
 from ..elements.forces import Actuator, Motor
 from ..elements.frames import turned
 from ..elements.joints import Coupling, Joint
-from ..elements.numbers import Numbers
+from ..elements.numbers import AS_GIVEN, Numbers
 from ..elements.space_joints import SpaceJoint
 from ..elements.table_forces import UNITS, TableForce, lengths, paths
 from . import function_calls, transmission
@@ -79,7 +79,7 @@ class Tables:
                   for body, inboard in zip(self.parts, self.inboard, strict=True)]
         quantities = self.quantities if quantities is None else quantities
         return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
-                              self.reactions(observed))
+                              self.reactions(observed), self._length())
 
     def reactions(self, observed: Sequence[OutputSpec]) -> dict[str, tuple[int, int]]:
         """Index and component of the measures, if they are there, of reactions and accelerations that user functions read."""
@@ -108,6 +108,18 @@ class Tables:
         hung = [(body, self.joints[inboard]) for body, inboard in zip(self.parts, self.inboard, strict=True) if inboard >= 0]
         free = sum(3 if body.turns else 2 for body, inboard in zip(self.parts, self.inboard, strict=True) if inboard < 0)
         return free + sum(_freedoms(joint)[joint.bodies[1] is body] for body, joint in hung)
+
+    def _length(self) -> float:
+        """Largest distance between ends of joints in the drawing without changed parameters, in m; 1 if there is none."""
+        points = np.array([side.drawn_with(AS_GIVEN) for joint in self.joints for side in (joint.first, joint.second)])
+        if not len(points):
+            return 1.0
+        radii, largest = np.linalg.norm(points - points.mean(axis=0), axis=1), 0.0
+        for i in np.argsort(-radii):
+            if 2 * radii[i] <= largest:     # as no point left is further from the centre
+                break
+            largest = max(largest, float(np.linalg.norm(points - points[i], axis=1).max()))
+        return largest or 1.0
 
     def _gravity(self) -> Any:
         return tuple(columns.plain(self.numbers.changed.get(f"gravity.{axis}", value))
