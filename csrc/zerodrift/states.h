@@ -36,8 +36,8 @@ int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const
 int zd_read_given(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
                   const double *multipliers, double *u);
 /* A measure at many states: `first` has the memory of the first, that of the others follows it; scratch of the size that the measures
- * declare. vdot and multipliers may be NULL if the measure does not depend on them. `inputs` are those of the system, in all states the same, or (rows, functions) of zd_reading; so in the
- * two functions that follow. */
+ * declare. vdot and multipliers may be NULL if the measure does not depend on them. `inputs` are those of the system, in all states the
+ * same, or (rows, functions) of zd_reading; so in the two functions that follow. */
 int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
                       const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch);
 

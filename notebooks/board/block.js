@@ -107,7 +107,7 @@ export function drawnStart(model) {
 // Largest distance between ends of joints as drawn; 1 if there is none.
 function sizeOf({model, joints}) {
   const points = joints.flatMap(({first, second}) => [first, second]).map((side) => drawnPlace(model, side));
-  return Math.max(0, ...points.flatMap(([x, y]) => points.map((other) => Math.hypot(other[0] - x, other[1] - y)))) || 1;
+  return Math.max(0, ...points.flatMap(([x, y]) => points.map((other) => Math.sqrt((other[0] - x) ** 2 + (other[1] - y) ** 2)))) || 1;
 }
 
 // The block, a Uint8Array, in absolute coordinates with steps of a fixed size; its measures are reactions, motors and springs.

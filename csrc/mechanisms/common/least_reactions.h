@@ -2,7 +2,7 @@
 #ifndef ZD_COMMON_LEAST_REACTIONS_H
 #define ZD_COMMON_LEAST_REACTIONS_H
 
-#include "measures.h"
+#include "output_spec.h"
 
 /* to (m,) <- multipliers with the same generalized force C^T lambda, for which the sum over all joints and relations of force^2 +
  * (moment / length)^2 is least. The frame is placed and moving. Returns ZD_DONE, ZD_NO_MEMORY or ZD_CALLBACK. */

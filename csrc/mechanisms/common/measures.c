@@ -138,12 +138,13 @@ static int measure_with_least(const zd_measuring *self, const zd_output_spec *me
 {
     const int size = zd_output_size(measure, self->numerics->forces, self->numerics->torques);
     zd_measured_state of = *at;
+    const int is_of_multipliers = depends_on_multipliers(self, measure->kind);
     int status = ZD_DONE;
-    if (!out->is_least && depends_on_multipliers(self, measure->kind)) {
+    if (!out->is_least && is_of_multipliers) {
         status = find_least(self, at);
         of.lambda = self->least;
     }
-    if (!status && out->redundant && depends_on_multipliers(self, measure->kind)) status = find_changes(self, measure, at, size, out->redundant);
+    if (!status && out->redundant && is_of_multipliers) status = find_changes(self, measure, at, size, out->redundant);
     if (status || !out->value) return status;
     status = measure_force(self, measure, &of, out->value);
     for (int i = 0; i < size; i++) out->value[i] *= measure->scale;

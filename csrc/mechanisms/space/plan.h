@@ -2,7 +2,7 @@
 #ifndef ZD_SPACE_PLAN_H
 #define ZD_SPACE_PLAN_H
 
-#include "../common/measures.h"
+#include "../common/output_spec.h"
 #include "../common/packed.h"
 #include "../common/readings.h"
 #include "marker_quantity.h"

@@ -2,7 +2,7 @@
 #ifndef ZD_PLANE_REACTIONS_H
 #define ZD_PLANE_REACTIONS_H
 
-#include "../../common/measures.h"
+#include "../../common/output_spec.h"
 #include "../plan.h"
 
 /* Reaction of a joint: force of the first body on the second at the joint's point of the second body, and torque about that point, from a
