@@ -133,12 +133,28 @@ static int prepare_prediction(zd_watch *self, int moves, int *is_known)
     return status;
 }
 
+/* Largest change of each event function by the corrections, at two samples. */
+static int compare_with_corrected(zd_watch *self)
+{
+    static const int at[] = {6, ZD_SAMPLES + 1 - 6};
+    int status = ZD_DONE;
+    for (int j = 0; !status && j < 2; j++) {
+        status = zd_watch_move(self, self->zeros->t[at[j]]);
+        for (int i = 0; !status && i < self->events->count; i++) {
+            double g;
+            status = zd_watch_evaluate(self, i, &g);
+            if (!status) zd_zeros_doubt(&self->zeros[i], at[j], g);
+        }
+    }
+    return status;
+}
+
 static int predict_all(zd_watch *self, int *is_known)
 {
     const int moves = is_fixed(self) && reads_any_accelerations(self);
     int status = prepare_prediction(self, moves, is_known);
     for (int k = 1; !status && *is_known && k <= ZD_SAMPLES; k++) status = predict_values(self, k, moves);
-    return status;
+    return status || !*is_known || is_fixed(self) ? status : compare_with_corrected(self);
 }
 
 /* Events that pass zero at most once by the prediction keep the ends of the step alone, as those of fixed steps without it. */
@@ -155,6 +171,7 @@ void zd_watch_span(zd_watch *self)
     for (int i = 0; i < self->events->count; i++) {
         zd_zeros *zeros = &self->zeros[i];
         zeros->count = last + 1;
+        zeros->doubt = 0;
         zeros->t[0] = self->output->before.t, zeros->g[0] = self->before[i];
         zeros->t[last] = self->end.t, zeros->g[last] = self->now[i];
     }

@@ -5,6 +5,7 @@
 enum { MOST_TRIES = 40 };
 static const double DEPTH = 0.25;       /* least relative decrease from the smallest value for which an extremum is followed */
 static const double LEAST_ROUNDING = 0x1p-40;   /* least rounding of a function, relative to its range in the step */
+static const double CERTAIN = 8;        /* least value of a certain sign, in units of the largest known error */
 static const double SHIFT = 0.05;       /* least distance of a new point from m, relative to b - a */
 
 /* sin^2((2 k - 1) pi / 64) */
@@ -60,12 +61,19 @@ static double range_of(const zd_zeros *self)
     return range;
 }
 
+void zd_zeros_doubt(zd_zeros *self, int k, double g)
+{
+    self->doubt = fmax(self->doubt, fabs(g - self->g[k]));
+}
+
 int zd_zeros_are_paired(const zd_zeros *self)
 {
     const double range = range_of(self);
     if (has_superfluous_changes(self)) return 1;
-    for (int k = 1; k + 1 < self->count; k++)
-        if (is_dip(self, k) && 2 * fabs(self->g[k]) < range) return 1;
+    for (int k = 1; k + 1 < self->count; k++) {
+        const double f = fabs(self->g[k]);
+        if (f < CERTAIN * self->doubt || (is_dip(self, k) && 2 * f < range)) return 1;
+    }
     return 0;
 }
 

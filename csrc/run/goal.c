@@ -102,6 +102,11 @@ int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers)
 
 int zd_run_is_deficient(const zd_run *run) { return zd_rank_is_deficient(run->motion.point); }
 
+const double *zd_run_functions(const zd_run *run)
+{
+    return run->motion.system.reading ? run->motion.point->inputs : NULL;
+}
+
 int zd_run_energy_violation(zd_run *run, double *violation)
 {
     zd_motion *motion = &run->motion;

@@ -112,6 +112,8 @@ int zd_run_ended_by(const zd_run *run);                     /* index of the term
 int zd_run_accelerations(zd_run *run, double *vdot, double *multipliers);
 /* 1 if some constraints depend on others at the present state, whose accelerations are known. */
 int zd_run_is_deficient(const zd_run *run);
+/* Values of the user functions of forces that read reactions, which those accelerations have; NULL: there are none. */
+const double *zd_run_functions(const zd_run *run);
 /* Jumps of speeds so far. Of the last one: its time, s; its impulses (m,), of the constraints, with the sign of (7); and their works (m,), J,
  * whose sum enters the energy balance. Velocities are projected as in (25b): M (v+ - v-) = -C^T impulses. */
 typedef struct zd_jump {

@@ -99,3 +99,36 @@ def test_ensembles_have_the_bits_of_single_runs():
     found = zd.ensemble(system, 0.2, p0=starts, v0=[[0.0]] * 3, step=0.01)
     for i, start in enumerate(starts):
         assert np.array_equal(found[i].p, zd.simulate(system, 0.2, p0=start, v0=[0.0], step=0.01).p)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_linearization_in_space(layout):
+    """Orientations of absolute coordinates are quaternions; the plane has none."""
+    def hanging(dimension):
+        m = zd.Mechanism("arm", dimension=dimension, gravity=(0, -G, 0)[:dimension])
+        link = m.link("link", (0, 0, 0)[:dimension], (0, -1, 0)[:dimension], mass=MASS)
+        pin = m.revolute("pin", m.ground, link.start, **({"axis": (0, 0, 1)} if dimension == 3 else {}))
+        m.motor("drive", pin, torque=lambda y, w: -0.05 * w * y, of={"y": "pin.force.y", "w": "pin.speed"})
+        return m
+
+    plane, space = (zd.linearize(m).eigenvalues for m in (hanging(2), hanging(3).system(layout)))
+    assert np.allclose(np.sort_complex(space), np.sort_complex(plane), rtol=1e-3)      # a link in space has a thickness
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_run_reads_reactions_that_no_law_reads(layout):
+    """The reaction on a shaft contains the torque of its motor, whose law reads another reaction."""
+    m = zd.Mechanism("two arms", gravity=(0, -G))
+    first, second = m.link("first", (0, 0), (1, 0), mass=2.0), m.link("second", (1, 0), (1.5, 0), mass=1.0)
+    root = m.revolute("root", m.ground, first.start)
+    m.revolute("elbow", first.end, second.start)
+    m.motor("drive", root, torque=lambda f: -0.1 * f, of={"f": "elbow.force.y"})
+    system = m.system(layout)
+    names = ["root.force.x", "root.force.y", "elbow.force.y", "drive.torque"]
+    run, runs = zd.Run(system, step=1e-3), zd.Run(system, runs=3, step=1e-3)
+    run.step(3)
+    runs.step(3)
+    sol = zd.simulate(system, 3e-3, step=1e-3, outputs=names)
+    assert np.allclose([run[name] for name in names], [sol[name][-1] for name in names], rtol=1e-12)
+    assert np.allclose(runs["root.force.y"], run["root.force.y"], rtol=1e-12)
+    assert np.allclose(sol["drive.torque"], -0.1 * sol["elbow.force.y"], rtol=1e-12)

@@ -108,3 +108,17 @@ def test_an_open_run_goes_on_between_both():
             run.advance_to(1.0)
             times.append(run.t)
     assert np.abs(np.array(times) - [0.32, 0.34, 1.0]).max() < 1e-12
+
+
+@pytest.mark.parametrize("height", [0.54776, 0.54779])
+def test_corrections_larger_than_what_is_sought(height):
+    """Along the nearly straight line of Hoecken's linkage, which coarse steps leave by more than its waves before corrections."""
+    m = zd.models.hoecken()
+    fine = zd.simulate(m, 2.0, step=1e-3, outputs=["P.position.y"])
+    g = fine["P.position.y"] - height
+    times = fine.t[:-1][g[:-1] * g[1:] < 0]
+    coarse = {"integrator": "dormand_prince", "rtol": 1e-2, "atol": 1e-2}
+    sol = zd.simulate(m.system("absolute"), 2.0, events=zd.Event("P.position.y", value=height), **coarse)
+    assert sol.stats["steps"] < 20
+    assert len(sol.t_events[0]) == len(times)
+    assert np.abs(sol.t_events[0] - times).max() < 2e-3     # the grid's step, and the slope of a line that is nearly straight

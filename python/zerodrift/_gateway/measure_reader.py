@@ -35,7 +35,7 @@ class MeasureReader:
             vdot, multipliers = self._accelerations() if needs else (ffi.NULL, ffi.NULL)
             out.value, out.is_least = memory, needs and not lib.zd_run_is_deficient(run.c)
             at = run.t, run.c_p, run.c_v, vdot, multipliers
-            status = self._evaluate(core.c.data, ffi.NULL, number, *at, out, self._scratch)
+            status = self._evaluate(core.c.data, lib.zd_run_functions(run.c), number, *at, out, self._scratch)
             if status:
                 raise core.error or error_of(status, "a measure could not be evaluated")
             return value.copy() if place is None else float(value[place])

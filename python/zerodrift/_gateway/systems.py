@@ -154,9 +154,15 @@ class CoreSystem(Measuring):
         return self.c.reading.functions if self.c.reading else 0
 
     def read_solved(self, t: np.ndarray, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """Values u (k, functions) at states t (k,), p (k, nq), v (k, nv), solved for with the accelerations."""
+        """Values u (k, functions) at states t (k,), p (k, nq), v (k, nv), solved for with the accelerations.
+
+        Quaternions may differ from length 1, as where derivatives are differences of p.
+        """
         core, u, message = self.for_run(), np.zeros((len(t), self.functions)), ffi.new("char[]", MESSAGE_SIZE)
         if u.size:
+            p = np.array(p).reshape(len(t), -1)
+            for first in self.quaternions:
+                p[:, first:first + 4] /= np.linalg.norm(p[:, first:first + 4], axis=1, keepdims=True)
             status = lib.zd_read_solved(core.c, row_named("formulations", "augmented"), len(t), doubles(t, len(t)),
                                         doubles(p, p.size), doubles(v, v.size), doubles(u, u.size, writable=True), message,
                                         MESSAGE_SIZE)
