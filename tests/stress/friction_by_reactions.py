@@ -76,7 +76,7 @@ def main(first=0, last=125):
         wrong += bad
         print(f"{kind:12} {len(found):6}  {max(each[0] for each in found):9.1e} rad  {min(each[1] for each in found):17.3f}"
               f"  {len(beyond):6}  {sum(beyond):7}")
-    return wrong > 0
+    return int(wrong > 0)
 
 
 if __name__ == "__main__":
