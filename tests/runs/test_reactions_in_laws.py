@@ -241,3 +241,9 @@ def test_many_runs_read_their_own_reactions():
         one.step(30)
         speeds.append(one.v)
     assert np.array_equal(runs.v, speeds)
+
+
+def test_studies_leave_out_methods_that_do_not_suit():
+    wp = zd.work_precision(arm(torque=LAW), 0.05, steps=[0.01], tolerances=[1e-4], formulations=["schur"], rounds=1)
+    assert all(row.success for row in wp.rows)
+    assert {"rk4", "radau"} <= {row.setting.integrator for row in wp.rows}

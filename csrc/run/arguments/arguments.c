@@ -189,7 +189,6 @@ static int check_series(const zd_system *system, const zd_settings *settings, ch
     return ZD_UNSUITED_INTEGRATOR;
 }
 
-/* User functions that read reactions are solved with the accelerations, which these methods do not evaluate. */
 static int check_reactions(const zd_system *system, const zd_settings *settings, char *message, int size)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
