@@ -38,9 +38,7 @@ int zd_correction_requires(int correction)
 int zd_suits(const zd_system *system, int integrator)
 {
     const zd_integrator *row = zd_integrator_of(integrator);
-    /* User functions that read reactions are solved with the accelerations, which the latter methods do not evaluate. */
-    if (!row || (system->reading && (row->takes_series || row->step_of_motion))) return 0;
-    return !row->suits || row->suits(system);
+    return row && (!system->reading || zd_evaluates_accelerations(row)) && (!row->suits || row->suits(system));
 }
 
 int zd_formulation_suits(const zd_system *system, int formulation)

@@ -306,10 +306,6 @@ static const zd_equations equations = {
 static zd_reactions take(zd_arena *arena, const zd_system *system)
 {
     const size_t n = (size_t)system->reading->count, k = (size_t)system->reading->functions;
-    const zd_measures *measures = system->measures;
-    int largest = 0;
-    for (int i = 0; i < measures->count; i++)
-        if (measures->measure[i].size > largest) largest = measures->measure[i].size;
     return (zd_reactions){
         .reading = system->reading,
         .r = zd_take_doubles(arena, n), .r0 = zd_take_doubles(arena, n), .r1 = zd_take_doubles(arena, n),
@@ -319,8 +315,8 @@ static zd_reactions take(zd_arena *arena, const zd_system *system)
         .R = zd_take_doubles(arena, n), .change = zd_take_doubles(arena, n), .scale = zd_take_doubles(arena, n),
         .matrix = zd_take_doubles(arena, n * n), .inverse = zd_take_doubles(arena, n * n),
         .order = zd_take(arena, n * sizeof(int)),
-        .measured = zd_take_doubles(arena, (size_t)largest),
-        .scratch = zd_take_doubles(arena, (size_t)measures->scratch),
+        .measured = zd_take_doubles(arena, (size_t)zd_largest_measure(system->measures)),
+        .scratch = zd_take_doubles(arena, (size_t)system->measures->scratch),
     };
 }
 

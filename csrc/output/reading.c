@@ -4,14 +4,6 @@
 
 #include "../constraints/rank.h"
 
-int zd_largest_measure(const zd_measures *measures)
-{
-    int largest = 0;
-    for (int i = 0; measures && i < measures->count; i++)
-        if (measures->measure[i].size > largest) largest = measures->measure[i].size;
-    return largest;
-}
-
 zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point)
 {
     if (!events || !events->known) return (zd_reader){.events = events};

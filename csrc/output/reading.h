@@ -16,8 +16,6 @@ typedef struct zd_reader {
     double *scratch;        /* scratch memory of the measures */
 } zd_reader;
 
-/* Number of components of the largest measure; 0 without measures. */
-int zd_largest_measure(const zd_measures *measures);
 zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point);
 /* The reason, in one sentence, for which the events cannot be evaluated; NULL: they can. */
 const char *zd_wrong_readings(const zd_events *events, const zd_system *run);

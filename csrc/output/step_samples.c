@@ -1,7 +1,7 @@
 /* Samples of event functions within a step, between which they pass zero at most once. Values of a polynomial without corrections, which
  * costs little, show the steps in which a function may pass zero and return: dense output with adaptive steps, a cubic Hermite polynomial
- * with fixed steps. There, they are replaced by corrected ones: of dense output or shorter steps. These are taken at once if there is no
- * such polynomial: for series, states in independent velocities, and accelerations within adaptive steps.
+ * with fixed steps. In such a step, corrected values replace them: of dense output or shorter steps. All steps have corrected values where
+ * there is no such polynomial: for series, states in independent velocities, and accelerations within adaptive steps.
  */
 #include "step_samples.h"
 
@@ -143,7 +143,7 @@ static int compare_with_corrected(zd_watch *self)
         for (int i = 0; !status && i < self->events->count; i++) {
             double g;
             status = zd_watch_evaluate(self, i, &g);
-            if (!status) zd_zeros_doubt(&self->zeros[i], at[j], g);
+            if (!status) zd_zeros_compare(&self->zeros[i], at[j], g);
         }
     }
     return status;
@@ -171,7 +171,7 @@ void zd_watch_span(zd_watch *self)
     for (int i = 0; i < self->events->count; i++) {
         zd_zeros *zeros = &self->zeros[i];
         zeros->count = last + 1;
-        zeros->doubt = 0;
+        zeros->error = 0;
         zeros->t[0] = self->output->before.t, zeros->g[0] = self->before[i];
         zeros->t[last] = self->end.t, zeros->g[last] = self->now[i];
     }

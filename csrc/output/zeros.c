@@ -61,9 +61,9 @@ static double range_of(const zd_zeros *self)
     return range;
 }
 
-void zd_zeros_doubt(zd_zeros *self, int k, double g)
+void zd_zeros_compare(zd_zeros *self, int k, double g)
 {
-    self->doubt = fmax(self->doubt, fabs(g - self->g[k]));
+    self->error = fmax(self->error, fabs(g - self->g[k]));
 }
 
 int zd_zeros_are_paired(const zd_zeros *self)
@@ -72,7 +72,7 @@ int zd_zeros_are_paired(const zd_zeros *self)
     if (has_superfluous_changes(self)) return 1;
     for (int k = 1; k + 1 < self->count; k++) {
         const double f = fabs(self->g[k]);
-        if (f < CERTAIN * self->doubt || (is_dip(self, k) && 2 * f < range)) return 1;
+        if (f < CERTAIN * self->error || (is_dip(self, k) && 2 * f < range)) return 1;
     }
     return 0;
 }

@@ -10,7 +10,7 @@ typedef struct zd_zeros {
     int count;              /* number of points */
     double t[ZD_MOST_POINTS];   /* s: times, increasing */
     double g[ZD_MOST_POINTS];   /* function values there */
-    double doubt;           /* largest known error of predicted values */
+    double error;           /* largest known error of predicted values */
     int at;                 /* index of the point that is verified, or from which the function is minimized */
     int verifies;           /* true while superfluous signs are compared with the rounding of the function */
     int tries;              /* number of values requested in the minimization; 0: it has not begun */
@@ -32,8 +32,8 @@ static inline int zd_passes_zero(double before, double now, int direction)
 double zd_sample_share(int k);
 /* Adds a point after all others. */
 void zd_zeros_add(zd_zeros *self, double t, double g);
-/* Compares the predicted value at point k with the corrected one. */
-void zd_zeros_doubt(zd_zeros *self, int k, double g);
+/* Error of the predicted value at point k, by the corrected value. */
+void zd_zeros_compare(zd_zeros *self, int k, double g);
 /* True if the points show more sign changes than both ends, an extremum that may reach zero, or a value that may have the other sign. */
 int zd_zeros_are_paired(const zd_zeros *self);
 /* Removes the points between both ends. */

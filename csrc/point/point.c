@@ -62,6 +62,14 @@ double *zd_take_inputs(zd_arena *arena, const zd_system *system)
     return inputs;
 }
 
+int zd_largest_measure(const zd_measures *measures)
+{
+    int largest = 0;
+    for (int i = 0; measures && i < measures->count; i++)
+        if (measures->measure[i].size > largest) largest = measures->measure[i].size;
+    return largest;
+}
+
 const char *zd_term_name(int term)
 {
     for (int i = 0; i < ROWS; i++)

@@ -17,6 +17,7 @@ double **zd_term_in(zd_terms *terms, int row);      /* address of the member for
 const char *zd_term_name(int term);                 /* name of the term with this bit */
 double *zd_take_inputs(zd_arena *arena, const zd_system *system);   /* (2 inputs + 1,): initial values, or those of zd_reading;
                                                                          * NULL without inputs */
+int zd_largest_measure(const zd_measures *measures);    /* number of components of the largest measure; 0 without measures */
 
 /* ---- a point ---- */
 

@@ -32,7 +32,7 @@
 #include "terms.h"
 
 /* Changes with any declaration here and in these headers that compiled code depends on. */
-enum { ZD_INTERFACE_VERSION = 4 };
+enum { ZD_INTERFACE_VERSION = 5 };
 
 /* ---- measures, inputs, groups ---- */
 

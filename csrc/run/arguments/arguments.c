@@ -192,7 +192,7 @@ static int check_series(const zd_system *system, const zd_settings *settings, ch
 static int check_reactions(const zd_system *system, const zd_settings *settings, char *message, int size)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
-    if (!system->reading || !(integrator->takes_series || integrator->step_of_motion)) return ZD_DONE;
+    if (!system->reading || zd_evaluates_accelerations(integrator)) return ZD_DONE;
     snprintf(message, (size_t)size, "'%s' must have forces of t, positions and velocities alone, and a user function reads a reaction or an "
              "acceleration; explicit methods, 'trapezoidal' and 'radau' solve for it", integrator->card.name);
     return ZD_UNSUITED_INTEGRATOR;

@@ -62,7 +62,7 @@ class GeneralizedForce(NamedTuple):
     inputs: Sequence[int] = ()  # marker quantities that the law depends on
     joint: int = -1             # to whose force and torque it contributes
     reads: Sequence[str] = ()   # reactions that the law takes after these
-    what: str = ""              # whose law it is, for messages
+    what: str = ""              # name of the law in messages, such as "torque of motor 'drive'"
 
 
 class OutputSpec(NamedTuple):
