@@ -206,7 +206,7 @@ def _arrows(sol: Solution, times: np.ndarray, forces: Any, scale: float) -> tupl
         ways = [np.stack([np.interp(times, sol.t[rows], column) for column in each.T], axis=1) for each in (places, vectors)]
         described.append({"name": name, "most": float(np.linalg.norm(vectors, axis=1).max(initial=0.0))})
         found.append(np.stack(ways, axis=1))
-    most = max((each["most"] for each in described), default=0.0) or 1.0
+    most = max((each["most"] for each in described), default=0.0)
     if most <= NOTHING * scale:
         return [], []
     scaled = [each[:, :1] for each in found] + [each[:, 1:] / most for each in found]
