@@ -116,3 +116,14 @@ def test_an_interruption_of_the_search_keeps_all_that_was_measured(monkeypatch):
     partial = caught.value.solution
     assert not partial.complete
     assert {row.setting for row in partial.rows} == set(measured)
+
+
+def test_an_interrupted_verification_keeps_all_entries(monkeypatch):
+    """The interrupted run raises an error with a solution, which has no entries."""
+    def interrupted(bench, row):
+        raise zd.Interrupted("interrupted from the keyboard", zd.simulate(BAR, 0.01, step=1e-3))
+
+    monkeypatch.setattr(Bench, "verified", interrupted)
+    with pytest.raises(zd.Interrupted, match="interrupted from the keyboard after [1-9]") as caught:
+        zd.tune(BAR, 0.1, error=1e-4, **FEW)
+    assert len(caught.value.solution.rows) > 1

@@ -223,9 +223,9 @@ class _Search:
         return found(self.bench, rows, rounds)
 
     def interrupted(self, interruption: KeyboardInterrupt, rounds: int) -> Interrupted:
-        """Interrupted result with all entries, not only those being measured."""
+        """Interrupted result with all entries, those being measured included; a run that verifies an entry adds none."""
         latest = getattr(interruption, "solution", None)
-        self.rows |= {row.setting: row for row in latest.rows} if latest else {}
+        self.rows |= {row.setting: row for row in latest.rows} if isinstance(latest, WorkPrecision) else {}
         evidence = dataclasses.replace(self.evidence(rounds), complete=False)
         return Interrupted(f"interrupted from the keyboard after {len(self.rows)} rows", evidence)
 
