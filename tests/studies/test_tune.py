@@ -124,6 +124,6 @@ def test_an_interrupted_verification_keeps_all_entries(monkeypatch):
         raise zd.Interrupted("interrupted from the keyboard", zd.simulate(BAR, 0.01, step=1e-3))
 
     monkeypatch.setattr(Bench, "verified", interrupted)
-    with pytest.raises(zd.Interrupted, match="interrupted from the keyboard after [1-9]") as caught:
+    with pytest.raises(zd.Interrupted, match=r"interrupted from the keyboard after [1-9]") as caught:
         zd.tune(BAR, 0.1, error=1e-4, **FEW)
     assert len(caught.value.solution.rows) > 1
