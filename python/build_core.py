@@ -42,7 +42,7 @@ def declarations() -> str:
     of_systems = ("terms.h", "structure.h", "closed_form.h", "derivatives.h", "system.h")
     of_core = ("tables.h", "settings.h", "run.h", "many_runs.h", "states.h")
     names = (*(f"include/zerodrift/{name}" for name in of_systems), *(f"mechanisms/{name}" for name in of_mechanisms),
-             *(f"zerodrift/{name}" for name in of_core), "block/block.h", "python/interface.h")
+             *(f"zerodrift/{name}" for name in of_core), "block/block.h", "block/gaps.h", "python/interface.h")
     headers = "".join((ROOT / "csrc" / name).read_text(encoding="utf-8") for name in names)
     return preprocessed(re.sub(r"^#(include|define ZD_WRITTEN).*$", "", headers, flags=re.MULTILINE)).replace(
         "ZD_WRITTEN_IN_PYTHON", 'extern "Python"')

@@ -18,6 +18,8 @@ import tolerances as tol
 import zerodrift as zd
 from browser import Browser, needs_chromium
 from support import ROOT
+from zerodrift import errors
+from zerodrift.export import wasm
 from zerodrift.mechanisms.files.to_json import described
 
 BOARD = ROOT / "notebooks" / "board"
@@ -128,6 +130,35 @@ def test_its_python_text_makes_its_file_and_runs(name, tmp_path):
             near = pytest.approx(value, abs=1e-15) if key == "axis" else value     # turned there and back
             assert theirs[key] == near, key
     assert made == {key: value for key, value in again.items() if key != "elements"}
+
+
+def unclosed():
+    """Beside parts that close, links of 1, 0.5 and 0.25 m between pins that are 2 m apart."""
+    m = portal()
+    m.link("one", (5, 0), (5, 1), mass=1.0, length=1.0)
+    m.link("two", (5, 1), (7, 1), mass=1.0, length=0.5)
+    m.link("three", (7, 1), (7, 0), mass=1.0, length=0.25)
+    m.revolute("P", m.ground.point((5, 0)), "one.start")
+    m.revolute("Q", "one.end", "two.start")
+    m.revolute("R", "two.end", "three.start")
+    m.revolute("S", "three.end", m.ground.point((7, 0)))
+    m.link("alone", (8, 0), (9, 1), mass=1.0)
+    return m
+
+
+@needs_node
+def test_what_cannot_close_is_told_in_the_words_of_python(tmp_path):
+    pytest.importorskip("ziglang")
+    m = unclosed()
+    (tmp_path / "m.json").write_text(saved(m))
+    (tmp_path / "core.wasm").write_bytes(wasm.core())
+    (tmp_path / "core.js").write_text(wasm.text("core.js"))
+    told, = in_node("""const core = await import("./core.js");
+        const compiled = await core.load(readFileSync("core.wasm")), m = model.parsedModel(readFileSync("m.json", "utf8"));
+        try { core.create(compiled, block.blockOf(m), 0, true); tell(""); } catch (error) { tell(error.message); }""", tmp_path)
+    with pytest.raises(zd.CorrectionFailed, match=r"the loop of ground, one, two, three, .* by 0\.25 m") as refusal:
+        m.system().p0.any()
+    assert told == errors.sentence(refusal.value)
 
 
 HOSTILE = {

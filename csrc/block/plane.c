@@ -50,14 +50,43 @@ static void poses(const void *mechanism, const double *p, double *poses, double 
     zd_plane_poses(mechanism, p, NULL, poses, NULL, scratch);
 }
 
+static const zd_plane_joint_kind *kind_of(const zd_block_layout *layout, int joint)
+{
+    return zd_plane_joint_kind_of((int)*zd_block_entry(layout, ZD_BLOCK_JOINTS, joint));
+}
+
 static void name_row(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
 {
     static const char *const word[] = {"x", "y", "angle", "along", "across", "distance", "glide", "skid"};
-    const zd_plane_joint_kind *kind = zd_plane_joint_kind_of((int)*zd_block_entry(layout, ZD_BLOCK_JOINTS, joint));
+    const zd_plane_joint_kind *kind = kind_of(layout, joint);
     if (kind->rows == 1) snprintf(to, size, "%s", name);
     else snprintf(to, size, "%s.%s", name, word[kind->row[component].quantity]);
 }
 
+static void state(const zd_block *block, const double *poses, double *p) { zd_plane_state(block->mechanism, poses, NULL, p, NULL); }
+
+static void angles(const zd_block *block, int *is_angle)
+{
+    const zd_plane_coordinate_owner *coordinate = zd_plane_coordinates(block->mechanism);
+    for (int i = 0; i < block->system.nv; i++) is_angle[i] = coordinate[i].kind == ZD_COORDINATE_ANGLE;
+}
+
+static int freedoms(const zd_block_layout *layout, int joint, int is_particle)
+{
+    switch (kind_of(layout, joint)->inboard) {
+    case ZD_TURNS: return !is_particle;
+    case ZD_SLIDES: return 1;
+    case ZD_FIXED: return 0;
+    default: return -1;
+    }
+}
+
+static int is_angle_row(const zd_block_layout *layout, int joint, int component)
+{
+    return kind_of(layout, joint)->row[component].quantity == ZD_PLANE_ANGLE;
+}
+
 const zd_block_dimension zd_block_plane = {
     .dimension = 2, .structure = structure, .make = make, .release = release, .pose = 3, .poses = poses, .name_row = name_row,
+    .state = state, .angles = angles, .freedoms = freedoms, .is_angle_row = is_angle_row,
 };

@@ -15,6 +15,7 @@ import tolerances as tol
 import zerodrift as zd
 from browser import Browser, needs_chromium
 from zerodrift._rotations import rotation_of
+from zerodrift.errors import sentence
 from zerodrift.export import wasm
 from zerodrift.export.block import choose, written
 
@@ -193,6 +194,41 @@ def test_a_redundant_constraint_is_named(web):
     assert told["rank"] == 3
     assert len(told["redundant"]) == 1
     assert told["redundant"][0].partition(".")[0] in ("left", "right")
+
+
+# Models, coordinates, and a length with the part of it with which a loop cannot close.
+OPEN = {"watt": (zd.models.watt, "joint", "right.length", 0.5), "no tree": (zd.models.watt, "absolute", "left.length", 5.0),
+        "press": (zd.models.toggle_press, "joint", "rod.length", 0.2),
+        "six links": (zd.models.stephenson, "joint", "link.length", 5.0),
+        "bennett": (zd.models.bennett, "absolute", "input.length", 0.5),
+        "delta": (zd.models.delta_robot, "joint", "left 0.length", 2.0),
+        "rssp": (zd.models.spatial_slider_crank, "joint", "rod.length", 0.2)}
+
+
+def test_a_length_that_cannot_close_is_refused_in_the_words_of_python(web):
+    """At the start and in motion, after which the mechanism goes on with its own length."""
+    blocks, values, systems = {}, {}, []
+    for name, (model, coordinates, length, part) in OPEN.items():
+        system = model().system(coordinates)
+        systems.append(system)
+        drawn = system.parameters[length]
+        values[name] = [length, part * drawn, drawn]
+        blocks[name] = zd.block(system, step=1e-3, outputs=[], parameters={length: tuple(sorted((drawn, part * drawn)))})
+    told = web(f"""
+        for (const [name, [length, value]] of Object.entries({json.dumps(values)})) {{
+          const m = zd.create(core, block(name)), found = [];
+          for (const steps of [0, 20]) {{
+            zd.step(m, steps);
+            try {{ zd.setParameter(m, length, value); }} catch (error) {{ found.push(error.message); }}
+          }}
+          zd.step(m, 5);
+          tell([name, ...found, zd.parameter(m, length), zd.time(m)]);
+        }}""", **blocks)
+    for (name, *found, value, t), system in zip(told, systems, strict=True):
+        with pytest.raises(zd.CorrectionFailed) as refusal:
+            system._with(dict([values[name][:2]])).start_at(0.0)
+        assert found == [sentence(refusal.value)] * 2, name
+        assert [value, t] == [values[name][2], pytest.approx(0.025)], name
 
 
 GRIP = """

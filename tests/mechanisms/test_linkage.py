@@ -191,6 +191,21 @@ def test_of_several_loops_the_one_that_stays_open_is_told(change, sentence):
         zd.linkage(SKETCH, LINKS, lengths={**LENGTHS, **change}, scale=0.01)
 
 
+@pytest.mark.parametrize("angle", [0.3, 1.2, 2.9])
+def test_the_gap_is_the_missing_length_wherever_links_are_drawn(angle):
+    turned = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    places = {name: tuple(np.add(place, (0.3, -0.2) if name == "C" else 0) @ turned) for name, place in FOUR.items()}
+    with pytest.raises(zd.CorrectionFailed, match=r"it stays open by 0\.25 m at 'C'"):
+        zd.linkage(places, BARS, lengths={"AB": 1.0, "BC": 0.5, "CD": 0.25})
+
+
+def test_the_loop_that_is_told_cannot_close_alone():
+    """Crank, coupler and two more links, 6 m in line, from A to a pin that is 10 m away; the four-bar can close."""
+    places, links = FOUR | {"E": (6, 0), "F": (10, 0)}, BARS | {"ground": "ADF", "near": "CE", "far": "EF"}
+    with pytest.raises(zd.CorrectionFailed, match=r"the loop of ground, .*, cannot close: it stays open by 4 m at "):
+        zd.linkage(places, links, lengths={"AB": 1.0, "BC": 2.0, "CD": 1.0, "CE": 1.5, "EF": 1.5, "DF": 8.0})
+
+
 def test_what_is_massless_may_be_drawn_and_driven():
     m = zd.linkage(FOUR, BARS, mass=0.0)
     assert "can move without moving any mass" in str(m)

@@ -118,14 +118,23 @@ static void read_freedom(const zd_space_link *link, int i, const side *outer, si
     }
 }
 
-static void read_free(const zd_space_link *link, zd_space_pose pose, zd_space_twist twist, double *p, double *v)
+static void write_turned(zd_space_axes own, double *q)
 {
     static const zd_space_axes drawn = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    const zd_space_axes own = {{pose.turned.x, pose.turned.y, pose.turned.z}};
+    write_quaternion(&drawn, &own, q);
+}
+
+void zd_space_tree_quaternion(const double *axes, double *q)
+{
+    write_turned((zd_space_axes){{zd_vector3_of(axes), zd_vector3_of(axes + 3), zd_vector3_of(axes + 6)}}, q);
+}
+
+static void read_free(const zd_space_link *link, zd_space_pose pose, zd_space_twist twist, double *p, double *v)
+{
     write_vector(pose.at, p + link->p);
     write_vector(twist.speed, v + link->v);
     if (!link->turns) return;
-    write_quaternion(&drawn, &own, p + link->p + ZD_POINT_COORDINATES);
+    write_turned((zd_space_axes){{pose.turned.x, pose.turned.y, pose.turned.z}}, p + link->p + ZD_POINT_COORDINATES);
     write_vector(zd_rotated_back3(&pose.turned, twist.spin), v + link->v + ZD_POINT_COORDINATES);
 }
 

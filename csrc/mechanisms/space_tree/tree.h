@@ -20,5 +20,7 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
  * without a tree. */
 void zd_space_tree_poses(const zd_space *space, const double *p, const double *v, double *poses, double *twists, double *scratch);
 void zd_space_tree_state(const zd_space *space, const double *poses, const double *twists, double *p, double *v);
+/* Quaternion (4,) of a body whose axes these are, (3, 3). */
+void zd_space_tree_quaternion(const double *axes, double *q);
 
 #endif

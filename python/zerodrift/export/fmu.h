@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "block/opened.h"
+#include "block/open_run/opened.h"
 #include "data.h"
 
 #ifdef _WIN32

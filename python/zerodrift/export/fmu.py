@@ -22,7 +22,7 @@ from .fmu_events import Level, chosen_events, table
 from .fmu_libraries import chosen_platforms, libraries
 
 VERSIONS = ("3.0", "2.0")
-OPENED = ("block/opened.c", "block/opened_states.c")
+OPENED = ("block/open_run/opened.c", "block/open_run/opened_states.c")
 UNITS = {"m": 'm="1"', "rad": 'rad="1"', "s": 's="1"', "m/s": 'm="1" s="-1"', "rad/s": 'rad="1" s="-1"', "m/s^2": 'm="1" s="-2"',
          "rad/s^2": 'rad="1" s="-2"', "N": 'kg="1" m="1" s="-2"', "N m": 'kg="1" m="2" s="-2"', "W": 'kg="1" m="2" s="-3"',
          "J": 'kg="1" m="2" s="-2"'}

@@ -2,10 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "block/opened.h"
+#include "block/open_run/opened.h"
 
 #define PAGE(type, name) __attribute__((export_name(#name))) type name
-enum { MESSAGE = 500 };
+enum { MESSAGE = 2000 };
 
 static char message[MESSAGE];       /* of page_open(), and names of constraints */
 

@@ -34,5 +34,5 @@ def core() -> bytes:
         raise CompilationFailed("the core for browsers must be compiled once, by ziglang: pip install zerodrift[web]")
     command = [program, "cc", *TARGET]
     return core_build.compiled(
-        CoreFiles(LISTS, [*ENTRIES, "block/opened.c"]), command, FLAGS, more={"page.c": text("page.c")},
+        CoreFiles(LISTS, [*ENTRIES, "block/open_run/opened.c"]), command, FLAGS, more={"page.c": text("page.c")},
         join=[*command, "-mexec-model=reactor", "-Wl,--strip-all", "-o"], product="core.wasm")

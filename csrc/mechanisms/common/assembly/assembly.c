@@ -121,6 +121,8 @@ int zd_assembly_minimize(const zd_assembly_given *given, double *p)
     zd_assembly self;
     const int outcome = zd_assembly_open(&self, given, p);
     if (outcome) return outcome;
+    for (int k = 0; k < self.most; k++) self.size[all.roles][k] = given->length;
+    self.is_known[all.roles] = 1;
     zd_assembly_least_squares(&self, &all, p);
     return zd_assembly_close(&self, outcome);
 }

@@ -18,7 +18,7 @@ int zd_assemble_positions(const zd_assembly_given *given, double *p);
 int zd_assembly_lead(const zd_assembly_given *given, double *p);
 /* Nearest positions that satisfy all constraints, by Newton's method; p is unchanged without these. */
 int zd_assembly_project(const zd_assembly_given *given, double *p);
-/* Positions in which the squares of the residuals of all constraints are least */
+/* Positions in which the sum of squares of the residuals of all constraints, in m and rad, is least */
 int zd_assembly_minimize(const zd_assembly_given *given, double *p);
 /* ZD_ASSEMBLED if p satisfies all constraints and held targets */
 int zd_assembly_check(const zd_assembly_given *given, const double *p);

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..._core import ffi, lib
 from ...errors import WrongValue
-from ..base import MESSAGE_SIZE, cards, error_of, text
+from ..base import MESSAGE_SIZE, cards, doubles, error_of, text
 from ..systems import CoreSystem
 from . import plane, space
 
@@ -118,6 +118,15 @@ def assembled(dimension: int, sections: Mapping[str, Sequence[float]], counts: M
     return header + b"".join(part.tobytes() for part in parts)
 
 
+def of_joints(written: plane.Tables | space.Tables, names: Sequence[str]) -> bytes:
+    """Block of bodies and joints alone; `names` are theirs, in this order."""
+    texts = Texts()
+    sections = tables(written._replace(quantities=[], relations=[], forces=[], measures=[]), texts)
+    counts = {"bodies": len(written.bodies), "joints": len(written.joints)}
+    dimension = 3 if isinstance(written, space.Tables) else 2
+    return assembled(dimension, sections | {"names": [texts.offset(name) for name in names]}, counts, texts)
+
+
 class BlockCore(CoreSystem):
     """The core's system of a block.
 
@@ -183,11 +192,19 @@ class BlockCore(CoreSystem):
         """Changes the words that depend on a parameter; False: the value is outside its range."""
         return not lib.zd_block_set_parameter(self._block, index, value)
 
+    def gaps_in_words(self, p: np.ndarray, *, are_smallest: bool) -> str:
+        """Sentence on the gaps of joints at p (nq,), or on the smallest ones from there on, as pages show it."""
+        size = 200 + 2 * len(self.words)        # of all names and the sentence around them
+        message = ffi.new("char[]", size)
+        at = doubles(np.ascontiguousarray(p), len(p))
+        status = lib.zd_block_explain_gaps(self._block, at, are_smallest, message, size)
+        if status:
+            raise error_of(status, text(message))
+        return text(message)
+
     @property
     def words(self) -> bytes:
         """The block with its parameters as set."""
         size = ffi.new("size_t *")
         words = lib.zd_block_words(self._block, size)
         return bytes(ffi.buffer(words, size[0]))
-
-

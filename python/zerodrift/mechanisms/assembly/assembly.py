@@ -94,7 +94,8 @@ class Assembly:
 
     def least_open(self, p: np.ndarray) -> np.ndarray:
         """Positions with the smallest gaps in the joints."""
-        return self._core.run("assembly_minimize", p).found
+        others = [row for row, each in enumerate(self.core.rows[:self.core.mh]) if each.owner != "joint"]
+        return self._core.run("assembly_minimize", p, left_out=others).found
 
     def _found(self, operation: str, p: np.ndarray, held: Sequence[Target], wished: Sequence[Target],
                staying: Sequence[Target], drawn: Sequence[Target] = ()) -> np.ndarray:

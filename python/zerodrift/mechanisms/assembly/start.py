@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..._gateway.mechanisms.blocks import BlockCore, of_joints
 from ..._gateway.mechanisms.plane import MechanismCore
 from ..._rotations import quaternion_of
 from ...errors import CorrectionFailed, InconsistentStart, SingularSystem, sentence
@@ -238,37 +239,17 @@ class Starting:
     # ---- diagnosis ----
 
     def _not_closed(self, assembly: Assembly, p: np.ndarray) -> str:
-        """Names of the loops that do not close, and their gaps: in joint coordinates only joints that close loops are open."""
-        if self.drawing.dimension == 3 or is_of_many(assembly.core):
-            return self._left_open(assembly, p)
-        tables = Tables(self.drawing, self.numbers, in_tree=True)
-        core = tables.core()
-        names = [tables.joints[row.index].name if row.owner == "joint" else "" for row in core.rows]
-        in_tree = Assembly(core, names, [i for i, name in enumerate(names) if not name], assembly.length, assembly.t)
-        p = in_tree.least_open(core.state(assembly.core.poses(p)[0])[0])
-        Phi = core.evaluate(assembly.t, p, np.zeros(core.nv))["Phi"]
-        open_by: dict[int, float] = {}
-        for row, value in zip(core.rows, Phi, strict=False):
-            if row.owner == "joint" and tables.joints[row.index].row.rows[row.component].quantity != "angle":
-                open_by[row.index] = float(np.hypot(open_by.get(row.index, 0.0), value))
-        ends = [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints]
-        joint = max(open_by, key=lambda each: open_by[each])
-        description, _ = _around(tables, *loop(tables.inboard, ends, joint))
-        return (f"{description}, cannot close: it stays open by "
-                f"{open_by[joint]:.3g} m at {tables.joints[joint].name!r}; look at the lengths, or draw it nearer")
-
-    def _left_open(self, assembly: Assembly, p: np.ndarray) -> str:
-        """Names of the joints that stay open with all gaps as small as possible."""
-        p = assembly.least_open(p)
-        Phi = assembly.core.evaluate_stored(assembly.t, p, np.zeros(assembly.core.nv))["Phi"]
-        open_by: dict[str, float] = {}
-        for row, name, value in zip(assembly.core.rows, assembly.rows, Phi, strict=False):
-            if row.owner == "joint":
-                open_by[name] = max(open_by.get(name, 0.0), abs(float(value)))
-        worst = sorted(open_by, key=lambda name: -open_by[name])[:3]
-        description = ", ".join(f"{name!r} by {open_by[name]:.3g}" for name in worst)
-        return (f"the joints cannot all close: nearest to it there stay open {description} (m, or rad); look at the lengths, "
-                "or draw it nearer")
+        """Loop that does not close, and its gap: in joint coordinates only joints that close loops are open. In space, and with
+        many bodies, the joints that stay open in absolute coordinates.
+        """
+        tables, many = self._tables({}), is_of_many(assembly.core)
+        if many:
+            p = assembly.least_open(p)
+        elif self.drawing.dimension == 2:
+            tables = Tables(self.drawing, self.numbers, in_tree=True)
+            p = tables.core().state(assembly.core.poses(p)[0])[0]
+        block = of_joints(tables.written(), [each.name for each in (*tables.parts, *tables.joints)])
+        return BlockCore(block).gaps_in_words(p, are_smallest=many)
 
     def _loop_in_words(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> str:
         """Loop of something held or driven; in space, shafts that keep the angles of a universal joint."""

@@ -2,7 +2,7 @@
 #ifndef ZD_BLOCK_OPENED_H
 #define ZD_BLOCK_OPENED_H
 
-#include "block.h"
+#include "../block.h"
 
 typedef struct zd_opened zd_opened;
 

@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../workspace.h"
+#include "../../workspace.h"
+#include "../gaps.h"
 #include "opened_memory.h"
 
 enum { MESSAGE = ZD_OPENED_MESSAGE };
@@ -52,6 +53,7 @@ static zd_opened *open_run(zd_block *block, double t, zd_opened_first *begin, ch
     self->settings.is_open = 1;
     if (!status) status = begin(self, t, start, start + zd_block_system(block)->nq);
     if (!status) return self;
+    zd_block_explain_start(block, self->message, MESSAGE);
     snprintf(message, (size_t)size, "%s", self->message);
     zd_release(self);
     return NULL;
@@ -130,6 +132,7 @@ static int replace(zd_opened *self, zd_block *block)
     self->settings.is_open = 1;
     if (!status) status = zd_opened_assemble(self, t, zd_run_p(before.run), zd_run_v(before.run));
     if (status) {
+        zd_block_explain_start(block, self->message, MESSAGE);
         self->block = before.block;
         self->run = before.run;
         self->settings = before.settings;

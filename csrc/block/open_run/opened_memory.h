@@ -2,10 +2,10 @@
 #ifndef ZD_BLOCK_OPENED_MEMORY_H
 #define ZD_BLOCK_OPENED_MEMORY_H
 
-#include "block.h"
+#include "../block.h"
 
 enum {
-    ZD_OPENED_MESSAGE = 500,
+    ZD_OPENED_MESSAGE = 2000,   /* names of the bodies and joints of a loop included */
     ZD_OPENED_PLACE = 3         /* numbers at most at the place of an input */
 };
 
