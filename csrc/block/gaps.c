@@ -21,9 +21,9 @@ static double length_of(const zd_block *block) { return block->layout.part[ZD_BL
 
 typedef struct gaps {
     const zd_block *block;
-    int has_tree;
+    int names_loops;                        /* 1 in the plane, unless p is of absolute coordinates of many bodies */
     double *Phi, *v, *scratch;              /* (mh,); (nv,) zeros; of the system */
-    double *open;                           /* (joints,): m; largest residual without a tree, m or rad */
+    double *open;                           /* (joints,): m; largest residual where loops are not named, m or rad */
     double *p;                              /* (nq,) with the smallest gaps */
     int *is_angle, *row, *of_loop;          /* (nv,) and (mh,) of zd_assembly_given; (bodies + 1 + joints,) */
 } gaps;
@@ -33,14 +33,14 @@ static gaps take(zd_arena *arena, const zd_block *block)
     const zd_system *system = zd_block_system(block);
     const size_t joints = (size_t)count_of(block, ZD_BLOCK_JOINTS), bodies = (size_t)count_of(block, ZD_BLOCK_BODIES);
     const size_t mh = (size_t)system->mh, nv = (size_t)system->nv;
-    return (gaps){.block = block, .has_tree = zd_block_has_tree(&block->layout), .Phi = zd_take_doubles(arena, mh),
+    return (gaps){.block = block, .Phi = zd_take_doubles(arena, mh),
                   .v = zd_take_doubles(arena, nv), .scratch = zd_take_doubles(arena, (size_t)system->scratch),
                   .open = zd_take_doubles(arena, joints), .p = zd_take_doubles(arena, (size_t)system->nq),
                   .is_angle = zd_take(arena, nv * sizeof(int)), .row = zd_take(arena, mh * sizeof(int)),
                   .of_loop = zd_take(arena, (joints + bodies + 1) * sizeof(int))};
 }
 
-/* open <- gaps of all joints: lengths with a tree, the largest residual of each joint without. Returns a status of the core. */
+/* open <- gaps of all joints at p; returns a status of the core. */
 static int read_gaps(const gaps *self, const double *p)
 {
     const zd_block *block = self->block;
@@ -52,7 +52,7 @@ static int read_gaps(const gaps *self, const double *p)
         const zd_row_owner *owner = block->names.owner + row;
         if (owner->owner != ZD_OF_JOINT) continue;
         double *open = self->open + owner->index;
-        if (!self->has_tree) *open = fmax(*open, fabs(self->Phi[row]));
+        if (!self->names_loops) *open = fmax(*open, fabs(self->Phi[row]));
         else if (!block->layout.of->is_angle_row(&block->layout, owner->index, owner->component)) *open = hypot(*open, self->Phi[row]);
     }
     return status;
@@ -122,12 +122,12 @@ static int find_open_loop(const gaps *self, const double *p)
 static int explain(const gaps *self, const double *p, int is_smallest, double least, zd_complaint to)
 {
     self->block->layout.of->angles(self->block, self->is_angle);
-    const int alone = self->has_tree && !is_smallest ? find_open_loop(self, p) : -1;
+    const int alone = self->names_loops ? find_open_loop(self, p) : -1;
     const int status = is_smallest ? read_gaps(self, p) : close_joint(self, p, alone);
     if (status) return status;
     const int joint = alone < 0 ? most_open(self) : alone;
     if (self->open[joint] <= least) return ZD_DONE;
-    if (self->has_tree) name_loop(self, joint, to);
+    if (alone >= 0) name_loop(self, joint, to);
     else name_joints(self, to);
     return ZD_DONE;
 }
@@ -139,7 +139,8 @@ static int find(const zd_block *block, const double *p, int is_smallest, double 
     take(&arena, block);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return ZD_NO_MEMORY;
-    const gaps self = take(&arena, block);
+    gaps self = take(&arena, block);
+    self.names_loops = block->layout.of->freedoms && !is_smallest;
     const int status = explain(&self, p, is_smallest, least, to);
     zd_release(arena.base);
     return status;

@@ -4,9 +4,9 @@
 
 #include "block.h"
 
-/* Sentence on the gaps of the joints at p (nq,), or if not `is_smallest` on the smallest ones found from there on. In joint coordinates, in
- * the plane, it names the loop that taken alone stays open most, or the one with the largest gap if each can close alone; in absolute
- * coordinates the three joints with the largest gaps. Returns ZD_DONE, a status of the core, or ZD_BAD_ARGUMENT for a block without names. */
+/* Sentence on the smallest gaps of the joints that are found from p (nq,) on, or if `is_smallest` on those at p. In the plane the former
+ * names the loop that taken alone stays open most; if each can close alone, and otherwise, the three joints with the largest gaps are named.
+ * Returns ZD_DONE, a status of the core, or ZD_BAD_ARGUMENT for a block without names. */
 int zd_block_explain_gaps(const zd_block *block, const double *p, int is_smallest, char *message, int message_size);
 /* The same from the block's start on, for any coordinates. `message` stays as it is if all joints can close. */
 void zd_block_explain_start(const zd_block *block, char *message, int message_size);

@@ -85,6 +85,17 @@ def test_the_loop_that_is_named_is_the_one_that_is_open():
         _ = m.system().p0
 
 
+def test_where_each_loop_could_close_alone_the_joints_are_named():
+    """Rods of 1, 0.5 and 0.25 m between pins that are 2 m apart: a twelfth of a metre is left to each at the least squares."""
+    m = zd.Mechanism("rods")
+    a, b = m.particle("a", 1.0, (0, 1)), m.particle("b", 1.0, (2, 1))
+    m.rod("P", m.ground.point((0, 0)), a, length=1.0)
+    m.rod("Q", a, b, length=0.5)
+    m.rod("R", b, m.ground.point((2, 0)), length=0.25)
+    with pytest.raises(zd.CorrectionFailed, match=r"cannot all close: .* open 'P' by 0\.0833, 'Q' by 0\.0833, 'R' by 0\.0833"):
+        _ = m.system().p0
+
+
 # ---- what is held and wished ----
 
 

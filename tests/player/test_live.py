@@ -6,6 +6,7 @@ import pytest
 import zerodrift as zd
 from browser import Browser, needs_chromium
 from support import refused
+from zerodrift.errors import sentence
 
 pytest.importorskip("ziglang")
 pytestmark = needs_chromium
@@ -112,8 +113,10 @@ def test_a_length_is_changed_and_one_that_cannot_close_is_refused(browser, tmp_p
     assert slide(browser, 0, 1.1 * value)[1] == ""
     changed = browser.evaluate(distance(link))
     assert changed == pytest.approx(1.1 * value, abs=0.03 * value)       # steps of the slider
-    place, told = slide(browser, 0, 4.9 * value)
-    assert told.startswith(f"{link}.length cannot be ")
+    place, told = slide(browser, 0, 5 * value)
+    with pytest.raises(zd.CorrectionFailed) as refusal:
+        model.system()._with({f"{link}.length": 5 * value}).start_at(0.0)
+    assert told == f"{link}.length cannot be {5 * value:#.4g}: {sentence(refusal.value)}"
     assert float(place) == pytest.approx(changed, abs=0.03 * value)
     assert browser.evaluate(distance(link)) == pytest.approx(changed, abs=1e-9)
     assert browser.errors == []
