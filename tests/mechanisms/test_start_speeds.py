@@ -218,8 +218,53 @@ def test_nothing_is_listed_that_drives_determine_or_that_rests():
     for m in (zd.models.four_bar(), zd.models.delta_robot()):
         assert "starts moving" not in str(m)
     m = zd.Mechanism("shaken")
-    hang_link(m, moved_body(m))
+    hang_link(m, m.body("pivot", 1.0, 1.0, at=(0, 0)))
     assert "starts moving" not in str(m)
+
+
+def robot(dimension):
+    """Three driven joints, a link that hangs on the last arm, and a particle that hangs by a rod on the link."""
+    m = zd.Mechanism("robot", dimension=dimension, gravity=(0, -9.81, 0)[:dimension])
+    places = [placed(m, *each) for each in ((0, 0), (0, 1), (0.8, 1.4), (1.5, 1.1), (1.6, 0.6))]
+    before = m.ground
+    for i, ends in enumerate(itertools.pairwise(places)):
+        arm = m.link(f"arm{i}", *ends, mass=1.0 + i)
+        pin = m.revolute(f"pin{i}", before, arm.start, **about_z(m))
+        if i < 3:
+            m.motor(f"drive{i}", pin, speed=(1.0, -3.0, 2.5)[i])
+        before = arm.end
+    m.rod("rod", before, m.particle("bob", 0.5, at=placed(m, 1.3, 0.4)))
+    return m
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_what_hangs_on_a_robot_moves_with_its_last_arm_and_is_listed(dimension, layout):
+    m = robot(dimension)
+    velocity, spin = rates(m, layout)
+    turns = np.cumsum([1.0, -3.0, 2.5, 0.0])
+    joints, bob = np.array([(0, 0), (0, 1), (0.8, 1.4)]), np.array([1.3, 0.4])
+    expected = sum(rate * np.array([-each[1], each[0]]) for rate, each in zip((1.0, -3.0, 2.5), bob - joints, strict=True))
+    assert_close(spin.reshape(4, -1)[:, -1], turns, 1e-11)
+    assert_close(velocity[-1, :2], expected, 1e-11)
+    assert "starts moving, at rest relative to what it hangs on: arm3" in str(m)
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_constraints_that_agree_by_accident_carry_nothing(layout):
+    """A crank whose tip moves along the slot of the last link's end: all could translate with the tip, at this instant only."""
+    found = []
+    for x in (0.0, 1e-6):
+        m = zd.Mechanism("crank")
+        links = [m.link(name, *ends, mass=1.0) for name, ends in
+                 zip("abc", itertools.pairwise([(0, 0), (x, 1), (1, 2), (2, 1)]), strict=True)]
+        for name, one, link in zip("ABC", [m.ground, *(link.end for link in links[:-1])], links, strict=True):
+            m.revolute(name, one, link.start)
+        m.slot("slot", m.ground, links[-1].end, axis=(1, 0))
+        m.motor("drive", "A", speed=1.0)
+        found.append(rates(m, layout)[1])
+    assert_close(found[0], found[1], 1e-5)
+    assert np.abs(found[0][1:]).min() > 0.1
 
 
 def test_many_runs_start_as_single_ones():

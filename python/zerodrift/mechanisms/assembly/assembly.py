@@ -17,6 +17,7 @@ from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction, unit_of
 
 NUDGE = 1e-3            # step from a singular pose to nearby ones, in rad or parts of the mechanism's length
+LEAST_RATE = 1e-9       # of the largest: velocity below which others are left as they are
 LEAST_MASS = 1e-6       # of the largest, in the metric of velocities: mass of massless directions
 RANK = 1e-9             # of the largest singular value: bound below which rows are redundant
 MOST_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
@@ -29,6 +30,13 @@ class Target(NamedTuple):
     measure: int
     component: int
     value: float
+
+
+class Rates(NamedTuple):
+    """Velocities (nv,), and True if they may depend on the motion of what drives carry."""
+
+    v: np.ndarray
+    is_relative: bool = False
 
 
 def is_of_many(core: MechanismCore) -> bool:
@@ -148,24 +156,41 @@ class Assembly:
             raise contradiction(outcome.residual[:count], outcome.size[:count], self._asked(held), self.rows)
         return outcome.found
 
-    def rows_by_owner(self, p: np.ndarray) -> dict[str, np.ndarray]:
-        """Rows of C (k, nv) of each joint, drive and coupling, by its name."""
-        C = self._evaluate(p)["C"] if self.core.m else np.zeros((0, self.core.nv))
-        return {name: C[[i for i, each in enumerate(self.rows) if each == name]] for name in dict.fromkeys(self.rows)}
-
-    def undetermined(self, p: np.ndarray, v: np.ndarray, given: Sequence[Target], staying: Sequence[Target]) -> np.ndarray:
+    def undetermined(self, p: np.ndarray, v: np.ndarray, given: Sequence[Target],
+                     staying: Sequence[Target] = ()) -> np.ndarray:
         """Basis (nv, k) of velocities that constraints and given targets leave undetermined, and staying ones if v meets them."""
-        rest = np.zeros(self.core.nv)
-        measured, stay = (np.array([self.core.measure_at(each.measure, self.t, p, rest)["jacobian"][each.component] * self.scale
-                                    for each in targets]).reshape(-1, self.core.nv) for targets in (given, staying))
-        rows, scaled = self._evaluate(p)["C"] * self.scale if self.core.m else measured[:0], v / self.scale
-        is_met = np.abs(stay @ scaled).max(initial=0.0) <= RANK * np.abs(scaled).max(initial=0.0)
-        return nullspace(np.vstack([rows, measured, *([stay] if is_met else [])])) * self.scale[:, None]
+        rows = [self._evaluate(p)["C"] * self.scale] if self.core.m else []
+        rows += [self._rows_of(p, each) for each in (given, staying if self.meets(p, v, staying) else ())]
+        return nullspace(np.vstack(rows)) * self.scale[:, None]
 
-    def roots_of_masses(self, p: np.ndarray) -> np.ndarray:
-        """Square roots (nv,) of masses and moments of inertia, with a small one for massless directions."""
+    def with_rates_of(self, p: np.ndarray, v: np.ndarray, targets: Sequence[Target]) -> list[Target]:
+        """Targets with the values that they have at velocities v (nv,); those of rounding are zero."""
+        least = RANK * np.abs(v / self.scale).max(initial=0.0)
+        values = (float(self.core.measure_at(each.measure, self.t, p, v)["value"][each.component]) for each in targets)
+        return [each._replace(value=value if abs(value) > least else 0.0) for each, value in zip(targets, values, strict=True)]
+
+    def meets(self, p: np.ndarray, v: np.ndarray, targets: Sequence[Target]) -> bool:
+        """True if velocities v (nv,) have the values of the targets."""
+        least = RANK * np.abs(v / self.scale).max(initial=0.0)
+        pairs = zip(self.with_rates_of(p, v, targets), targets, strict=True)
+        return all(abs(one.value - other.value) <= least for one, other in pairs)
+
+    def changed(self, v: np.ndarray, change: np.ndarray) -> np.ndarray:
+        """Velocities (nv,) and their change, or v itself where that is of rounding."""
+        largest, moved = (np.abs(each / self.scale).max() for each in (v, change))
+        return v + change if moved > LEAST_RATE * largest else v
+
+    def nearest(self, p: np.ndarray, v: np.ndarray, free: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Velocities (nv,) of least kinetic energy relative to others, by changes of v in the basis `free` (nv, k)."""
         masses = np.diag(self._evaluate(p)["M"]) * self.scale**2
-        return np.sqrt(np.maximum(masses, LEAST_MASS * (masses.max() or 1.0))) / self.scale
+        roots = np.sqrt(np.maximum(masses, LEAST_MASS * (masses.max() or 1.0))) / self.scale
+        return self.changed(v, free @ np.linalg.lstsq(roots[:, None] * free, roots * (other - v), rcond=None)[0])
+
+    def _rows_of(self, p: np.ndarray, targets: Sequence[Target]) -> np.ndarray:
+        """Rows (k, nv) of targets, by scaled coordinates."""
+        rest = np.zeros(self.core.nv)
+        rows = [self.core.measure_at(each.measure, self.t, p, rest)["jacobian"][each.component] for each in targets]
+        return np.array(rows).reshape(-1, self.core.nv) * self.scale
 
     def _asked(self, held: Sequence[Target]) -> list[str]:
         """Names of the drives, couplings and targets that prescribe velocities, one per constraint; "" for those of joints."""

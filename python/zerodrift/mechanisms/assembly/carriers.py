@@ -1,148 +1,127 @@
-"""Carriers of bodies that drives move: the body through which all joints and drives of a body lead to the ground.
+"""Motion of what drives carry: velocities with which start velocities are compared.
 
-A body that hangs on one other, by whatever elements, is carried by it; one with several ways to the ground is carried by the last
-body that all of them contain, at least by the ground. Where drives move a single point of a body, and all else that leads it to
-the ground lets it translate with that point, it hangs on the point, as on a particle of its own.
+A drive that moves while all others stand still determines the velocities of some bodies. Connected bodies that it leaves
+undetermined, a group, move rigidly with one of these if no constraint hinders them: it carries them. If the drive moves none that
+the group is connected with, the group translates with the point that it moves. Motions of several drives add up.
+
+Elements between two bodies never hinder a rigid motion of both, nor do guides in the plane of a motion. Constraints that do not
+hinder one by accident do so in a pose nearby, where the same is required.
 """
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
-from ..elements.bodies import Body, Point
-from ..elements.drawing import Drawing
-from ..elements.forces import Actuator, Motor
-from ..elements.joints import Coupling, Joint
-from ..equations.tables import Tables
-from .free_coordinates import bodies_of
+from ..._rotations import AXES, rotation_of
+from .assembly import RANK, Assembly, nullspace
+from .nudge import nudged
 
-SAME = 1e-9         # m: distance of points that are one
+COMPATIBLE = 1e-7       # of the largest velocity: rate at which a constraint is not violated
 
 
-class Carrier(NamedTuple):
-    """Number of the carrying body, 0 for the ground, and the driven point on which a body hangs.
+class Pose(NamedTuple):
+    """Constraints (m, nv), rigid motions (nv, 6) of all bodies by their twist, and velocities (nv,) that a drive prescribes.
 
-    The point is given from the mass centre of the body that hangs on it, in the axes of this body.
+    Velocities are in parts of the length and in rad. Twists (6,) are the velocity of the origin and the angular velocity.
     """
 
-    body: int
-    point: np.ndarray | None = None
+    rows: np.ndarray
+    rigid: np.ndarray
+    x: np.ndarray
+
+    def rigid_with(self, body: np.ndarray) -> np.ndarray:
+        """Motion (nv,) of all bodies with the one of these coordinates; with a particle they translate."""
+        turns = not self.rigid[body, :3].any(axis=1).all()
+        return self._rigid(self.rigid[body], self.x[body], turns=turns)
+
+    def translation(self, group: np.ndarray) -> np.ndarray:
+        """Least translation (nv,) of all bodies that the constraints of a group ask for."""
+        rows = self.rows[:, group]
+        return self._rigid(rows @ self.rigid[group], rows @ self.x[group], turns=False)
+
+    def allows(self, group: np.ndarray, motion: np.ndarray) -> bool:
+        """True if a group can move like this while the other bodies move as the drive prescribes."""
+        left = self.rows[:, group] @ (motion - self.x)[group]
+        return bool(np.abs(left).max(initial=0.0) <= COMPATIBLE * np.abs(self.x).max())
+
+    def _rigid(self, rows: np.ndarray, right: np.ndarray, *, turns: bool) -> np.ndarray:
+        count = 6 if turns else 3
+        return self.rigid[:, :count] @ np.linalg.lstsq(rows[:, :count], right, rcond=RANK)[0]
 
 
-class Side(NamedTuple):
-    """Number of a body that an element connects, and its point there; None: the element acts on the body as a whole."""
-
-    body: int
-    point: np.ndarray | None
-
-
-class Connection(NamedTuple):
-    """Bodies that a joint, a drive, a coupling or a held value of this name connects."""
-
-    name: str
-    sides: tuple[Side, ...]
-    is_driven: bool
-    is_held: bool = False       # a value of the start: it connects what elements connect with the ground already
-
-    @property
-    def bodies(self) -> set[int]:
-        """Numbers of the bodies."""
-        return {side.body for side in self.sides}
+def motion_of_drives(assembly: Assembly, p: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Velocities (nv,) of all bodies that drives move or carry; v (nv,) satisfies all constraints."""
+    rows = assembly.scaled_rows(p)
+    drives = list(_drives(assembly, rows, v / assembly.scale))
+    near = nudged(assembly, p, {int(i) for each in drives for i in np.flatnonzero(each)})
+    places = [(rows, rigid_motions(assembly, p)), (assembly.scaled_rows(near), rigid_motions(assembly, near))]
+    bodies = np.array([body for body, _ in assembly.core.motions])
+    is_free = np.abs(nullspace(rows)).max(axis=1, initial=0.0) > RANK
+    led, free = set(bodies) - set(bodies[is_free]), np.isin(bodies, bodies[is_free])
+    groups, found = list(_groups(rows, bodies, free)), np.zeros(len(v))
+    for rates in drives:
+        poses = [Pose(*each, np.linalg.lstsq(each[0], rates, rcond=RANK)[0]) for each in places]
+        found[~free] += poses[0].x[~free]
+        for group in groups:
+            touched = set(bodies[rows[rows[:, group].any(axis=1)].any(axis=0)])
+            found[group] += _carried(poses, group, [bodies == body for body in sorted(led & touched)])[group]
+    return found * assembly.scale
 
 
-def carriers(drawing: Drawing, tables: Tables, held: Iterable[str],
-             translates: Callable[[str, int, Carrier], bool]) -> dict[int, Carrier]:
-    """Carriers by the number of the body; bodies are left out that the ground carries, or that no drive moves.
-
-    `held` are names of velocities that the start holds or wishes. `translates` is true if an element, by name, lets a body
-    translate with a driven point.
-    """
-    connections = list(_connections(drawing, tables, held))
-    fixed = _reached([each for each in connections if not each.is_held])
-    behind = {body: fixed - _reached(connections, body) - {body} for body in fixed - {0}}
-    found = {}
-    for body in sorted(behind.keys() & _with_drives(connections)):
-        carrying = min((each for each in behind if body in behind[each]), key=lambda each: len(behind[each]), default=0)
-        inward = [each for each in connections if body in each.bodies and each.bodies - behind[body] - {body}]
-        found[body] = Carrier(carrying, _driven_point(inward, body, carrying, translates))
-    return {body: each for body, each in found.items() if each.body or each.point is not None}
+def _carried(poses: list[Pose], group: np.ndarray, beside: list[np.ndarray]) -> np.ndarray:
+    """Motion (nv,) of all bodies in which a group follows one of the bodies beside it, or translates; else zeros."""
+    here, still = poses[0], COMPATIBLE * np.abs(poses[0].x).max()
+    moving = [body for body in beside if np.abs(here.x[body]).max() > still]
+    ways = [[pose.rigid_with(body) for pose in poses] for body in moving] or [[pose.translation(group) for pose in poses]]
+    able = [way[0] for way in ways if all(pose.allows(group, each) for pose, each in zip(poses, way, strict=True))]
+    is_one = able and all(np.abs((each - able[0])[group]).max() <= still for each in able)
+    return able[0] if is_one else np.zeros(len(here.x))
 
 
-def _reached(connections: Sequence[Connection], without: int = -1, start: Collection[int] = (0,)) -> set[int]:
-    """Bodies that are connected with those of the start, such as the ground, by bodies other than `without`."""
-    of_body: dict[int, list[int]] = defaultdict(list)
-    for i, each in enumerate(connections):
-        for body in each.bodies:
-            of_body[body].append(i)
-    found, left, used = {*start}, [*start], set()
-    while left:
-        for i in of_body[left.pop()]:
-            if i in used:
-                continue
-            used.add(i)
-            new = connections[i].bodies - found - {without}
-            found |= new
-            left += new
-    return found
+def _drives(assembly: Assembly, rows: np.ndarray, x: np.ndarray) -> list[np.ndarray]:
+    """Rates (m,) of the constraints that each drive prescribes; of all at once where one cannot move alone."""
+    rates = rows @ x
+    names = np.array(assembly.rows)
+    moving = dict.fromkeys(names[np.abs(rates) > COMPATIBLE * np.abs(x).max()])
+    alone = [np.where(names == name, rates, 0.0) for name in moving]
+    is_able = all(np.abs(rows @ np.linalg.lstsq(rows, each, rcond=RANK)[0] - each).max() <= COMPATIBLE * np.abs(each).max()
+                  for each in alone)
+    return alone if is_able else [rates]
 
 
-def _with_drives(connections: Sequence[Connection]) -> set[int]:
-    """Bodies that a drive moves, or that other bodies connect with such ones."""
-    found: set[int] = set()
-    for each in connections:
-        if each.is_driven:
-            found |= _reached(connections, 0, each.bodies - {0})
-    return found
+def _groups(rows: np.ndarray, bodies: np.ndarray, free: np.ndarray) -> Iterator[np.ndarray]:
+    """Coordinates of undetermined bodies that constraints connect with each other."""
+    left = free
+    while left.any():
+        group, grown = np.zeros_like(left), bodies == bodies[left][0]
+        while (grown != group).any():
+            group = grown
+            touched = rows[rows[:, group].any(axis=1)].any(axis=0)
+            grown = group | free & np.isin(bodies, bodies[touched])
+        yield group
+        left = left & ~group
 
 
-def _driven_point(inward: Sequence[Connection], body: int, carrying: int,
-                  translates: Callable[[str, int, Carrier], bool]) -> np.ndarray | None:
-    """Single point of a body that drives move, if all `inward` elements, which lead to the ground, let it translate with it."""
-    driven = [side.point for each in inward if each.is_driven for side in each.sides if side.body == body]
-    if not driven or any(point is None for point in driven) or np.ptp(driven, axis=0).max() > SAME:
-        return None
-    for each in inward:
-        is_there = all(side.point is not None and np.abs(side.point - driven[0]).max() <= SAME for side in each.sides
-                       if side.body == body)
-        if not is_there and (each.is_held or not translates(each.name, body, Carrier(carrying, driven[0]))):
-            return None
-    return driven[0]
+def rigid_motions(assembly: Assembly, p: np.ndarray) -> np.ndarray:
+    """Velocities (nv, 6) of all bodies, in parts of the length and in rad, by the twist of which they all are part."""
+    place, axes, about = _poses(*assembly.core.poses(p))
+    place = (place - place.mean(axis=0)) / assembly.length
+    rows = np.zeros((assembly.core.nv, 6))
+    for row, (body, kind) in zip(rows, assembly.core.motions, strict=True):
+        if kind == "angle":
+            row[3:] = axes[body - 1][:, about[body - 1].pop(0)]
+        else:
+            row[AXES.index(kind)] = 1.0
+            row[3:] = np.cross(place[body - 1], row[:3])
+    return rows
 
 
-def _connections(drawing: Drawing, tables: Tables, held: Iterable[str]) -> Iterator[Connection]:
-    driven = {motor.joint.name for motor in drawing.of(Motor) if motor.prescribes}
-    for joint in drawing.of(Joint):
-        yield Connection(joint.name, tuple(_sides(tables, joint)), joint.name in driven)
-    for actuator in drawing.of(Actuator):
-        if actuator.prescribes:
-            yield Connection(actuator.name, tuple(_sides(tables, actuator)), is_driven=True)
-    for coupling in drawing.of(Coupling):
-        sides = [side for name in coupling.of for side in _sides_of(drawing, tables, name)]
-        yield Connection(coupling.name, tuple(sides), coupling.law is not None)
-    for name in held:
-        yield Connection(name, tuple(_sides_of(drawing, tables, name)), is_driven=False, is_held=True)
-
-
-def _sides_of(drawing: Drawing, tables: Tables, name: str) -> Iterator[Side]:
-    """Sides of the element that a measure belongs to; those of bodies and points are measured from the ground."""
-    owner, *rest = name.split(".")
-    element = drawing.elements[owner]
-    if not isinstance(element, Body):
-        yield from _sides(tables, element)
-        return
-    point = getattr(element, rest[0], None)
-    if not isinstance(point, Point):
-        point = getattr(element, "carrier", None) or Point(element, np.zeros(drawing.dimension))
-    number, is_at_point = tables.number[bodies_of(element)[0].name], bool({"position", "velocity"} & {*rest})
-    yield Side(0, None)
-    yield Side(number, np.array(tables.place(point)[1]) if is_at_point else None)
-
-
-def _sides(tables: Tables, element: Any) -> Iterator[Side]:
-    for point in (element.first, element.second):
-        number, place = tables.place(point)
-        yield Side(number, np.array(place, dtype=float))
+def _poses(poses: np.ndarray, _: np.ndarray) -> tuple[np.ndarray, np.ndarray, list[list[int]]]:
+    """Places (bodies, 3) of mass centres, axes (bodies, 3, 3), and numbers of those about which coordinates turn each body."""
+    if poses.shape[1] == 7:
+        return poses[:, :3], rotation_of(poses[:, 3:]), [[0, 1, 2] for _ in poses]
+    place = np.pad(poses[:, :2], [(0, 0), (0, 1)])
+    return place, np.tile(np.eye(3), (len(poses), 1, 1)), [[2] for _ in poses]

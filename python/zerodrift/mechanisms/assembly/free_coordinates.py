@@ -7,7 +7,7 @@ coordinate forces the others in it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -45,6 +45,14 @@ class Forced(NamedTuple):
     elements: Sequence[Any]
 
 
+class Unforced(NamedTuple):
+    """Coordinates whose positions, whose rates, and whose rates without values of the start nothing determines."""
+
+    positions: Sequence[Coordinate] = ()
+    rates: Sequence[Coordinate] = ()
+    rates_of_drives: Sequence[Coordinate] = ()
+
+
 def is_driven(drawing: Drawing) -> bool:
     """True if a motor, an actuator or a user's constraint prescribes a motion."""
     drives = any(each.prescribes for each in drawing.of((Motor, Actuator)))
@@ -56,19 +64,22 @@ def is_forced(drawing: Drawing) -> bool:
     return bool(drawing.held or drawing.wished or is_driven(drawing) or drawing.of(Coupling))
 
 
-def unforced(drawing: Drawing, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
-    """Coordinates whose positions, and whose rates, held and wished values, drives and constraints do not determine."""
+def unforced(drawing: Drawing, tables: Tables) -> Unforced:
+    """Coordinates whose positions and rates held and wished values, drives and constraints do not determine."""
     if not is_forced(drawing):
-        return [], []
+        return Unforced()
     coordinates = _Coordinates(drawing, tables)
-    return coordinates.unforced(_forced(drawing, rates=False)), coordinates.unforced(_forced(drawing, rates=True))
+    given = [name for values in (drawing.held, drawing.wished) for name in values]
+    rates = [name for name in given if _is_rate(name, drawing)]
+    positions = [name for name in given if name not in rates]
+    of = (positions, rates, ()) if is_driven(drawing) else (positions, rates)
+    return Unforced(*(coordinates.unforced(_forced(drawing, each)) for each in of))
 
 
-def rates_of_tree(drawing: Drawing, tables: Tables) -> list[str]:
-    """Names of the measures of the rates of all joint coordinates; of spherical joints the angular velocity of the body."""
-    coordinates = _Coordinates(drawing, tables).coordinates
-    return list(dict.fromkeys(f"{tables.parts[each.body - 1].name}.angular_velocity" if each.joint else each.rate
-                              for each in coordinates))
+def rates_of_tree(drawing: Drawing, tables: Tables) -> dict[str, int]:
+    """Measures of the rates of all joint coordinates, of spherical joints the angular velocity of the body; numbers of bodies."""
+    return {f"{tables.parts[each.body - 1].name}.angular_velocity" if each.joint else each.rate: each.body
+            for each in _Coordinates(drawing, tables).coordinates}
 
 
 def names_of(coordinates: Iterable[Coordinate]) -> list[str]:
@@ -76,10 +87,8 @@ def names_of(coordinates: Iterable[Coordinate]) -> list[str]:
     return [name for each in coordinates for name in (each.position, each.rate)]
 
 
-def _forced(drawing: Drawing, *, rates: bool) -> Forced:
-    held = [name for given in (drawing.held, drawing.wished) for name in given if _is_rate(name, drawing) == rates]
-    drives = [motor for motor in drawing.of(Motor) if motor.prescribes]
-    held += [f"{motor.joint.name}.{motor.coordinate}" for motor in drives]
+def _forced(drawing: Drawing, given: Sequence[str]) -> Forced:
+    held = [*given, *(f"{motor.joint.name}.{motor.coordinate}" for motor in drawing.of(Motor) if motor.prescribes)]
     moved = [each for each in drawing.of(Actuator) if each.prescribes]
     moved += [each for each in drawing.of(Coupling) if each.kind in ("constraint", "nonholonomic", "cam")]
     return Forced(held, moved)
@@ -90,7 +99,7 @@ class _Coordinates:
 
     def __init__(self, drawing: Drawing, tables: Tables) -> None:
         self.drawing, self.tables, self.inboard = drawing, tables, tables.tree(with_cut=True)
-        self.reach = Reach(self.inboard, [tuple(tables.number[body.name] for body in joint.bodies) for joint in tables.joints])
+        self.reach = Reach(*self._edges())
         self.coordinates = list(self._all())
 
     def unforced(self, forced: Forced) -> list[Coordinate]:
@@ -103,8 +112,15 @@ class _Coordinates:
             ways |= set() if own else self._way_of(name)
         for element in forced.elements:
             ways |= self._way_of_element(element)
-        moving = self.reach.moving_with(ways, {self.coordinates[i].body for i in alone}, self._couplings())
+        moving = self.reach.moving_with(ways, {self.coordinates[i].body for i in alone}, self._couplings(numbers))
         return [each for i, each in enumerate(self.coordinates) if i not in alone and each.body not in moving]
+
+    def _edges(self) -> tuple[list[int], list[tuple[int, ...]]]:
+        """Inboard joints and ends of joints, in which bodies are free that the ground guides in a plane."""
+        ends = [tuple(self.tables.number[body.name] for body in joint.bodies) for joint in self.tables.joints]
+        guides = {i for i, joint in enumerate(self.tables.joints) if joint.kind == "planar" and 0 in ends[i]}
+        return ([-1 if joint in guides else joint for joint in self.inboard],
+                [(max(each),) * 2 if i in guides else each for i, each in enumerate(ends)])
 
     def _numbers(self) -> dict[str, list[int]]:
         """Numbers of the coordinates by the measures that are theirs or their rates."""
@@ -115,9 +131,11 @@ class _Coordinates:
                     numbers.setdefault(measure, []).append(i)
         return numbers
 
-    def _couplings(self) -> Iterator[set[int]]:
+    def _couplings(self, numbers: Collection[str]) -> Iterator[set[int]]:
+        """Edges of couplings, of which one that fixes a coordinate alone has none, and of driven actuators."""
         for each in (*self.drawing.of(Coupling), *(each for each in self.drawing.of(Actuator) if each.prescribes)):
-            yield self._way_of_element(each)
+            is_alone = isinstance(each, Coupling) and len(each.of) == 1 and {*each.of} <= {*numbers}
+            yield set() if is_alone else self._way_of_element(each)
 
     def _way_of_element(self, element: Any) -> set[int]:
         if isinstance(element, Coupling):
@@ -134,13 +152,19 @@ class _Coordinates:
                 yield from _of_free(number, body, self.drawing.dimension)
             else:
                 yield from _of_joint(number, body, self.tables.joints[inboard])
+                if number in self.reach.free:
+                    yield from _translations(number, body, self.drawing.dimension)
 
 
 def _of_free(number: int, body: Body, dimension: int) -> Iterator[Coordinate]:
-    for axis in "xyz"[:dimension]:
-        yield Coordinate(number, f"{body.name}.position", f"{body.name}.velocity", axis)
+    yield from _translations(number, body, dimension)
     if body.turns:
         yield Coordinate(number, f"{body.name}.{'angle' if dimension == 2 else 'rotation'}", f"{body.name}.angular_velocity")
+
+
+def _translations(number: int, body: Body, dimension: int) -> Iterator[Coordinate]:
+    for axis in "xyz"[:dimension]:
+        yield Coordinate(number, f"{body.name}.position", f"{body.name}.velocity", axis)
 
 
 def _of_joint(number: int, body: Body, joint: Joint) -> Iterator[Coordinate]:

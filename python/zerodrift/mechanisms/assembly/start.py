@@ -22,13 +22,12 @@ from ..equations.measure_tables import read
 from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import Tables
 from ..equations.tree import loop
-from .assembly import Assembly, Target, is_of_many
-from .carriers import carriers
+from .assembly import Assembly, Rates, Target, is_of_many
+from .carriers import motion_of_drives
 from .drawing_changes import DrawingChanges
 from .drive_starts import Conditions, DriveStarts, drawn_targets, drive_starts, driven_coordinate, speed_drives
-from .free_coordinates import Coordinate, bodies_of, names_of, swings, unforced
+from .free_coordinates import Unforced, bodies_of, names_of, swings, unforced
 from .nudge import aside, way_out
-from .relative_rates import Rates, least_relative, motions, translates
 from .space_advice import of_angles
 from .start_checks import check_directions
 
@@ -42,7 +41,7 @@ class Starting:
         self.drawing, self.numbers, self._known = drawing, numbers, tables
         self.has_speeds = bool(drives_of(drawing))
         self.changes: DrawingChanges | None = None      # of the last assembly, if a joint was open
-        self._stays: tuple[list[Coordinate], list[Coordinate]] | None = None
+        self._stays: Unforced | None = None
         self._drive_starts: dict[float, DriveStarts] = {}       # by time
         self._check_held()
 
@@ -54,7 +53,7 @@ class Starting:
     @functools.cached_property
     def is_relative(self) -> bool:
         """True if start velocities at t = 0 depend on the motions of carriers."""
-        return self.velocities(*self.closed(0.0)).is_relative
+        return self.velocities(*self.closed(0.0)[1:]).is_relative
 
     @property
     def drives_by_name(self) -> list[str]:
@@ -117,7 +116,7 @@ class Starting:
         assembly, drawn = self._assembly(tables, t), self.drive_starts(t).drawn
         if t and self.has_speeds:
             by_functions = drawn_targets([name for name in drawn if name not in self.drives], assembly.core)
-            staying = self._staying(assembly.core, rates=False)
+            staying = self._staying(assembly.core, "positions")
             return tables, assembly, assembly.led_to(self.closed(0.0)[2], by_functions, staying)
         return tables, assembly, self._positions(tables, assembly, drawn)
 
@@ -130,24 +129,45 @@ class Starting:
         self._check_mass(tables, assembly, p)
         if nudge:
             p = aside(assembly, p, nudge, self.targets(self.drawing.held, assembly.core, rates=True))
-        poses = assembly.core.poses(p, self.velocities(tables, assembly, p).v)
+        poses = assembly.core.poses(p, self.velocities(assembly, p).v)
         check_directions(tables, poses[0], assembly.length)
         return poses if self.drawing.dimension == 2 else (*poses, assembly.core.angles(p))
 
-    def velocities(self, tables: Tables, assembly: Assembly, p: np.ndarray) -> Rates:
-        """Velocities at p, of least kinetic energy relative to carriers where they are undetermined."""
-        drawing, core = self.drawing, assembly.core
-        held, wished = (self.targets(given, core, rates=True) for given in (drawing.held, drawing.wished))
-        staying = self._staying(core, rates=True)
-        v, none = assembly.velocities(p, held, wished, staying), np.zeros((core.nv, 0))
-        if not v.any() or is_of_many(core):
-            return Rates(v, none)
-        free = assembly.undetermined(p, v, [*held, *wished], staying)
-        if not free.shape[1]:
-            return Rates(v, free)
-        of, given = motions(core, p), {target.name for target in [*held, *wished]}
-        found = carriers(drawing, tables, given, functools.partial(translates, of, assembly.rows_by_owner(p), v))
-        return Rates(least_relative(of, v, free, assembly.roots_of_masses(p), found) if found else v, free, bool(found))
+    def velocities(self, assembly: Assembly, p: np.ndarray) -> Rates:
+        """Velocities at p: with the held and wished values, the nearest in kinetic energy to those that drives alone give.
+
+        As velocities of least energy are linear in values, these are the former ones and the difference of two of least energy.
+        """
+        alone, given = self._velocities_of_drives(assembly, p), self._rates_of_start(assembly.core)
+        if not any(given):
+            return alone
+        given = (*given, self._staying(assembly.core, "rates"))
+        if not alone.v.any():
+            return Rates(assembly.velocities(p, *given))
+        without = tuple(assembly.with_rates_of(p, alone.v, each) for each in given)
+        v = assembly.velocities(p, *given[:2], without[2])
+        staying = without[2] if assembly.meets(p, v, without[2]) else ()
+        found = assembly.changed(v, alone.v - assembly.velocities(p, *without[:2], staying))
+        return Rates(found, alone.is_relative or found is not v)
+
+    def _velocities_of_drives(self, assembly: Assembly, p: np.ndarray) -> Rates:
+        """Velocities at p without values of the start: of least kinetic energy relative to the motion of what drives carry."""
+        staying = self._staying(assembly.core, "rates_of_drives")
+        v = assembly.velocities(p, (), (), staying)
+        if is_of_many(assembly.core) or not v.any():
+            return Rates(v)
+        free = assembly.undetermined(p, v, (), staying)
+        return Rates(assembly.nearest(p, v, free, motion_of_drives(assembly, p, v)), True) if free.shape[1] else Rates(v)
+
+    def undetermined(self, assembly: Assembly, p: np.ndarray) -> np.ndarray:
+        """Basis (nv, k) of velocities that neither constraints nor values of the start determine."""
+        held, wished = self._rates_of_start(assembly.core)
+        return assembly.undetermined(p, np.zeros(assembly.core.nv), [*held, *wished])
+
+    def _rates_of_start(self, core: MechanismCore) -> tuple[list[Target], list[Target]]:
+        """Held and wished rates."""
+        held, wished = (self.targets(given, core, rates=True) for given in (self.drawing.held, self.drawing.wished))
+        return held, wished
 
     def way_out(self) -> str:
         """Advice for a singular start: a nudge, if that leads to a regular pose that the drives allow."""
@@ -162,7 +182,7 @@ class Starting:
 
     def _assembly(self, tables: Tables, t: float, *, without_speeds: bool = False) -> Assembly:
         """Assembly at a time, optionally without drives of constant speed; it measures what drives of speeds move."""
-        staying = [each for rates in (False, True) for each in self._unforced(tables)[rates]]
+        staying = [each for coordinates in self._unforced(tables) for each in coordinates]
         speeds = map(driven_coordinate, speed_drives(self.drawing))
         measured = [*self.drawing.held, *self.drawing.wished, *speeds, *names_of(staying)]
         quantities, observed = read(tables, measured)
@@ -178,7 +198,7 @@ class Starting:
     def _conditions(self, tables: Tables, assembly: Assembly) -> Conditions:
         p, _ = assembly.core.state(self._drawn(tables))
         held, wished = (self.targets(given, assembly.core, rates=False) for given in (self.drawing.held, self.drawing.wished))
-        return Conditions(p, held, wished, self._staying(assembly.core, rates=False))
+        return Conditions(p, held, wished, self._staying(assembly.core, "positions"))
 
     def _positions(self, tables: Tables, assembly: Assembly, drawn: Sequence[str]) -> np.ndarray:
         """Positions from the drawing, in which the driven coordinates `drawn` keep their values."""
@@ -193,18 +213,17 @@ class Starting:
         except InconsistentStart as error:
             raise InconsistentStart(f"{sentence(error)}{self._loop_in_words(tables, assembly, conditions.p)}") from None
 
-    def _unforced(self, tables: Tables) -> tuple[list[Coordinate], list[Coordinate]]:
-        """Coordinates whose positions, and whose rates, neither held values nor drives determine."""
+    def _unforced(self, tables: Tables) -> Unforced:
         if self._stays is None:
             self._stays = unforced(self.drawing, tables)
         return self._stays
 
-    def _staying(self, core: MechanismCore, *, rates: bool) -> list[Target]:
-        """Targets that keep free coordinates as drawn and their rates at zero; positions get their values later."""
+    def _staying(self, core: MechanismCore, of: str) -> list[Target]:
+        """Targets that keep free coordinates as drawn, or their rates at zero; positions get their values later."""
         index = {row.name: i for i, row in enumerate(core.measures)}
         targets = []
-        for each in (self._stays or ((), ()))[rates]:
-            measure = index[each.rate if rates else each.position]
+        for each in getattr(self._stays, of, ()):
+            measure = index[each.position if of == "positions" else each.rate]
             components = range(core.measures[measure].size) if each.axis is None else ["xyz".index(each.axis)]
             targets += [Target(each.position, measure, i, 0.0) for i in components]
         return targets

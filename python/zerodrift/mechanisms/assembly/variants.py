@@ -44,7 +44,7 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
         drives = drives_of(drawing)
         if (drives if starts_are_known else start.is_relative):
             return None
-        places, rates = unforced(drawing, tables)
+        places, rates, _ = unforced(drawing, tables)
         drawn_names = start.drive_starts(0.0).drawn
         quantities, observed = read(absolute, [*drawing.held, *drawn_names, *names_of([*places, *rates])])
         index = {row.name: i for i, row in enumerate(observed)}

@@ -38,10 +38,11 @@ class StartVerbs(Elements):
         printed mechanism names joints that are drawn open and bodies that start elsewhere than drawn; a run warns of a large
         gap, and of a drive that cannot start as drawn, see `DrawingWarning`.
 
-        Velocities that this leaves undetermined are those of least kinetic energy. That of bodies which drives move is relative
-        to what carries them: to the rigid motion of the body through which all their connections lead to the ground, or to the
-        point at which a drive moves them; only in mechanisms of more than 1,000 constraints or velocities in absolute coordinates
-        it is relative to the ground. The printed mechanism lists such velocities.
+        Velocities that this leaves undetermined are those of least kinetic energy relative to the motion of what drives carry:
+        connected bodies that a drive leaves undetermined move rigidly with one that it moves if no constraint hinders them, or
+        translate with a driven point; only in mechanisms of more than 1,000 constraints or velocities in absolute coordinates the
+        energy is relative to the ground. Rates given here change what drives alone give as little as possible in kinetic energy.
+        The printed mechanism lists velocities that start undetermined.
 
         Parameters
         ----------

@@ -98,12 +98,11 @@ def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, sing
 
 
 def _unsaid(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray) -> list[str]:
-    """Sentence on coordinates that start moving unsaid; none where start velocities contradict each other."""
+    """Sentences on what starts moving unsaid; none where start velocities contradict each other."""
     try:
-        said = moving_unsaid(start.drawing, tables, assembly, p, start.velocities(tables, assembly, p))
+        return moving_unsaid(start, tables, assembly, p)
     except InconsistentStart:
         return []
-    return [said] if said else []
 
 
 def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:

@@ -6,8 +6,7 @@ import numpy as np
 
 from ..assembly.assembly import Assembly
 from ..assembly.free_coordinates import rates_of_tree
-from ..assembly.relative_rates import Rates
-from ..elements.drawing import Drawing
+from ..assembly.start import Starting
 from ..equations.measure_tables import read
 from ..equations.tables import Tables
 
@@ -15,22 +14,33 @@ MOST_NAMED = 8
 LEAST_RATE = 1e-9       # of the largest velocity: rate of a coordinate that rests
 
 
-def moving_unsaid(drawing: Drawing, tables: Tables, assembly: Assembly, p: np.ndarray, rates: Rates) -> str | None:
-    """Sentence on joint coordinates that start moving unsaid; None without such."""
-    if not (rates.v.any() and rates.free.shape[1]):
-        return None
-    names = rates_of_tree(drawing, tables)
-    core, said = tables.core(*read(tables, names)), []
-    size = np.abs(rates.v / assembly.scale).max()
+def moving_unsaid(start: Starting, tables: Tables, assembly: Assembly, p: np.ndarray) -> list[str]:
+    """Sentences on joint coordinates that start moving unsaid, and on bodies that start moving at rest in such coordinates."""
+    v = start.velocities(assembly, p).v
+    if not v.any() or not (free := start.undetermined(assembly, p)).shape[1]:
+        return []
+    size = np.abs(v / assembly.scale).max()
+    bodies = rates_of_tree(start.drawing, tables)
+    core = tables.core(*read(tables, list(bodies)))
+    moving = {each.body for each, rate in zip(core.motions, v / assembly.scale, strict=True) if abs(rate) > LEAST_RATE * size}
+    said, riding = {}, []
     for i, measure in enumerate(core.measures):
-        found = core.measure_at(i, assembly.t, p, rates.v)
-        unit = assembly.length if measure.unit == "m/s" else 1.0
-        most = LEAST_RATE * unit * np.abs(rates.free / assembly.scale[:, None]).max()
-        is_open = np.abs(found["jacobian"] @ rates.free).max() > most
-        if measure.name in names and is_open and np.abs(found["value"]).max() > LEAST_RATE * unit * size:
-            said.append(f"{measure.name} = {_numbers(found['value'])} {measure.unit}")
-    others = [f"{len(said) - MOST_NAMED} others"] if len(said) > MOST_NAMED else []
-    return f"starts moving, with the least energy: {', '.join([*said[:MOST_NAMED], *others])}" if said else None
+        body, unit = bodies.get(measure.name), assembly.length if measure.unit == "m/s" else 1.0
+        found = core.measure_at(i, assembly.t, p, v)
+        if body not in moving or np.abs(found["jacobian"] @ free).max() <= LEAST_RATE * unit:
+            continue
+        if np.abs(found["value"]).max() > LEAST_RATE * unit * size:
+            said[f"{measure.name} = {_numbers(found['value'])} {measure.unit}"] = body
+        else:
+            riding.append(body)
+    names = dict.fromkeys(tables.parts[body - 1].name for body in riding if body not in said.values())
+    return [f"starts moving, {how}: {_listed(each)}" for how, each in
+            (("with the least energy", list(said)), ("at rest relative to what it hangs on", list(names))) if each]
+
+
+def _listed(words: list[str]) -> str:
+    others = [f"{len(words) - MOST_NAMED} others"] if len(words) > MOST_NAMED else []
+    return ", ".join([*words[:MOST_NAMED], *others])
 
 
 def _numbers(values: np.ndarray) -> str:
