@@ -49,7 +49,7 @@ class BuildPy(build_py):
         if not self.editable_mode:      # there zerodrift.get_include() finds it where it is
             self.copy_tree("csrc/include", f"{self.build_lib}/zerodrift/include")
             for path in sorted(Path("csrc").rglob("*.[ch]")):      # of which zerodrift.c_source() takes files
-                if not {"batch", "direct", "python"} & set(path.parts):
+                if not {"batch", "closed_form", "python"} & set(path.parts):
                     self.mkpath(str(Path(self.build_lib, "zerodrift", path).parent))
                     self.copy_file(str(path), str(Path(self.build_lib, "zerodrift", path)))
 

@@ -4,7 +4,7 @@
 #ifndef ZD_STEP_LIMITS_H
 #define ZD_STEP_LIMITS_H
 
-/* ---- closed-form path: pivots relative to their scales, zd_direct_measure() ---- */
+/* ---- closed-form path: pivots relative to their scales, zd_closed_form_find_scales() ---- */
 
 #define ZD_LARGE_PIVOT 0x1p-3       /* the first elimination order with none below is preferred */
 #define ZD_SUFFICIENT_PIVOT 0x1p-5  /* at the start of a step, otherwise the first with none below: 5 bits of D and 10 of M are then lost */

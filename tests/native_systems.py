@@ -38,8 +38,8 @@ def compile_text(text, library, *options):
 def compile_four_bar(library):
     """The built-in one as the library of a user."""
     folder = ROOT / "csrc" / "systems"
-    source, direct = folder / "four_bar.c", folder / "direct" / "four_bar.c"
-    text = f'#define zd_four_bar zd_kind_four_bar\n#include "{source}"\n#include "{direct}"\n'
+    source, closed_form = folder / "four_bar.c", folder / "closed_form" / "four_bar.c"
+    text = f'#define zd_four_bar zd_kind_four_bar\n#include "{source}"\n#include "{closed_form}"\n'
     text += "const int zd_interface_version = ZD_INTERFACE_VERSION;\n"
     others = (str(folder / name / "four_bar.c") for name in ("series", "precise"))
     return compile_text(text, library, "-O3", "-Wno-pedantic", *others)
@@ -55,7 +55,7 @@ def built_in():
 
 def motion(system, **options):
     """Solution of a pendulum from one start, on the matrix path."""
-    return zd.simulate(system, 2.0, [1.0, 0.0], [0.0, 0.0], step=0.01, direct=False, **options)
+    return zd.simulate(system, 2.0, [1.0, 0.0], [0.0, 0.0], step=0.01, closed_form=False, **options)
 
 
 def run_elsewhere(system):

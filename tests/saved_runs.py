@@ -19,7 +19,7 @@ from every_model import IN_SPACE, MECHANISMS, MODELS
 from random_symbolic import random_system
 from zerodrift import _gateway
 from zerodrift.runs import settings
-from zerodrift.systems.base import direct_core_of
+from zerodrift.systems.base import closed_form_core_of
 
 OPTIONS = {name: parameter.default for name, parameter in inspect.signature(zd.simulate).parameters.items()
            if name in inspect.signature(settings.plan).parameters and name != "system"}
@@ -44,7 +44,7 @@ def random_options(rng, system):
     """Methods that may suit it."""
     integrator = str(rng.choice(list(zd.integrators(system))))
     chosen = {"formulation": str(rng.choice(list(zd.formulations()))), "integrator": integrator,
-              "on_singular": str(rng.choice(["stop", "continue"])), "direct": None if rng.integers(3) else False,
+              "on_singular": str(rng.choice(["stop", "continue"])), "closed_form": None if rng.integers(3) else False,
               "stabilization": [None, "projection", "projection", "baumgarte"][rng.integers(4)]}
     chosen["energy"] = True if chosen["stabilization"] == "projection" and rng.integers(3) == 0 else None
     adaptive = rng.integers(2) and zd.integrators()[integrator].error_order
@@ -61,7 +61,7 @@ class Case:
         self.system = system
         self.start = zd.assemble(system, system.p0, system.v0)
         self.plan = settings.plan(system, (0.0, duration), **(OPTIONS | options))
-        self.core = direct_core_of(system, self.plan.settings["vector"], self.plan.core_settings)
+        self.core = closed_form_core_of(system, self.plan.settings["vector"], self.plan.core_settings)
 
     def run(self, saved=None):
         """A run from the start, or from a saved state."""

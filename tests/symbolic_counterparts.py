@@ -70,7 +70,7 @@ def rolling_disc():
                        parameters={m: 1.0, R: 0.5, g: 9.81}, p0=core.p0, v0=core.v0)
 
 
-# ---- with the parameters that the built-in systems hand to their direct functions, in that order ----
+# ---- with the parameters that the built-in systems hand to their closed-form functions, in that order ----
 
 
 def of_parameters(*names):

@@ -23,18 +23,18 @@ def available(of):
 
 
 class DirectSet:
-    """Direct functions of one set, called for as many trajectories as it takes; `data` (lanes, doubles).
+    """Closed-form functions of one set, called for as many trajectories as it takes; `data` (lanes, doubles).
 
     `of_mechanism`: those for one trajectory are handed where the doubles are, and not these.
     """
 
-    def __init__(self, direct, sizes, data, of_mechanism=False):
-        self.direct, self.lanes, (self.nq, self.nv, self.mh, self.m) = direct, direct.lanes, sizes
+    def __init__(self, closed_form, sizes, data, of_mechanism=False):
+        self.closed_form, self.lanes, (self.nq, self.nv, self.mh, self.m) = closed_form, closed_form.lanes, sizes
         assert data.shape[0] == self.lanes
         self._data = np.ascontiguousarray(data.T)
         doubles = ffi.from_buffer("double[]", self._data)
         self.data = ffi.new("double *[1]", [doubles]) if of_mechanism and self.lanes == 1 else doubles
-        self.orders = range(direct.orders)
+        self.orders = range(closed_form.orders)
 
     def _into(self, **sizes):
         arrays = {name: np.full((size, self.lanes), np.nan) for name, size in sizes.items()}
@@ -48,13 +48,13 @@ class DirectSet:
 
     def accelerate(self, i, t, p, v, added=None):
         """By name (lanes, size), of t (lanes,), p (lanes, nq), v (lanes, nv)."""
-        order = self.direct.order[i]
+        order = self.closed_form.order[i]
         pivots = order.solves + self.nv - self.m
         return self._called(order.accelerate, (t, p, v, added if self.m else None), {
             "pdot": self.nq, "vdot": self.nv, "lambda": self.m, "power": 1, "pivots": pivots})
 
     def correct(self, i, t, p, v):
-        return self._called(self.direct.order[i].correct, (t, p, v), {"Phi": self.mh, "dp": self.nq, "dv": self.nv})
+        return self._called(self.closed_form.order[i].correct, (t, p, v), {"Phi": self.mh, "dp": self.nq, "dv": self.nv})
 
     def all(self, i, t, p, v, added):
         found = self.accelerate(i, t, p, v, added)
@@ -62,16 +62,16 @@ class DirectSet:
         return found | (self.correct(i, t, p, v) if self.m else {})
 
 
-def direct_sets(system):
+def closed_form_sets(system):
     """Closed-form functions of any system by unit and lanes, (nq, nv, mh, m), its data and its start."""
-    if hasattr(system, "_direct"):
+    if hasattr(system, "_closed_form"):
         known = [f"ZD_SET_{name}" for of, name in SETS.items() if of[0] <= UNIT]
-        direct = system._direct[1] if hasattr(system, "_written") else system._direct
-        library = direct.library_of("|".join(known), QUICKLY)
-        table = ffi.cast("const zd_closed_form *", _gateway.address_of(library, "zd_symbolic_direct"))
+        closed_form = system._closed_form[1] if hasattr(system, "_written") else system._closed_form
+        library = closed_form.library_of("|".join(known), QUICKLY)
+        table = ffi.cast("const zd_closed_form *", _gateway.address_of(library, "zd_symbolic_closed_form"))
         rows = [table[i] for i in range(len(known))]
-        data = (doubles_of(system._written, direct, library) if hasattr(system, "_written") else
-                system._with_direct_data(library, direct))
+        data = (doubles_of(system._written, closed_form, library) if hasattr(system, "_written") else
+                system._with_closed_form_data(library, closed_form))
     else:
         c, kind = system._core.c, _gateway.kinds()[system.name].c
         rows = [c.closed_form[i] for i in range(c.closed_forms)]
@@ -80,9 +80,9 @@ def direct_sets(system):
     return {(row.unit, row.lanes): row for row in rows}, sizes, data, system.p0
 
 
-def doubles_of(written, direct, library):
+def doubles_of(written, closed_form, library):
     """Data of the compiled functions of a mechanism: its numbers, and constants derived from these."""
-    doubles = np.concatenate([written._values, np.zeros(written._code.constants + direct.constants + 1)])
-    for fill in (written._library.zd_symbolic_constants, library.zd_symbolic_direct_constants):
+    doubles = np.concatenate([written._values, np.zeros(written._code.constants + closed_form.constants + 1)])
+    for fill in (written._library.zd_symbolic_constants, library.zd_symbolic_closed_form_constants):
         fill(ctypes.c_void_p(doubles.ctypes.data))
     return doubles

@@ -66,11 +66,11 @@ typedef struct zd_lane_group {
 
 /* lanes.c: allocates the lanes of a run with closed-form functions or revolute joints, the other being NULL. It is called twice: first
  * with an empty arena, to count the memory. */
-void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_closed_form *direct,
-                   const zd_pins_plan *pins, int64_t doubles);
+void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions,
+                     const zd_closed_form *closed_form, const zd_pins_plan *pins, int64_t doubles);
 const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit);
 /* Functions of the unit, and the system's closed-form functions for it; NULL: there are none. */
-const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_closed_form **direct);
+const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_closed_form **closed_form);
 /* Copies all numbers of a lane from another one; or sets them from the run, which is at its start. */
 void zd_lanes_copy(zd_lanes *self, int from, int to);
 void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, int64_t doubles);

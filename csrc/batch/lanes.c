@@ -43,12 +43,12 @@ const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit)
     return all[unit];
 }
 
-const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_closed_form **direct)
+const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_closed_form **closed_form)
 {
     const zd_lane_functions *functions = all[unit];
     for (int i = 0; i < system->closed_forms && functions->lanes; i++) {
-        *direct = system->closed_form + i;
-        if ((*direct)->unit == unit && (*direct)->lanes == functions->lanes) return functions;
+        *closed_form = system->closed_form + i;
+        if ((*closed_form)->unit == unit && (*closed_form)->lanes == functions->lanes) return functions;
     }
     return NULL;
 }
@@ -94,7 +94,7 @@ static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles, int in
     self->inverse_unit = take(self, arena, nv);
     self->allowed = take(self, arena, self->mh);
     self->inverse_size = take(self, arena, self->mh);
-    self->scale = take(self, arena, self->direct ? (int64_t)self->direct->orders * nv : 0);
+    self->scale = take(self, arena, self->closed_form ? (int64_t)self->closed_form->orders * nv : 0);
 }
 
 static void take_workspace(zd_lanes *self, zd_arena *arena)
@@ -140,15 +140,15 @@ static void take_events(zd_lanes *self, zd_arena *arena, const zd_events *events
     }
 }
 
-void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions, const zd_closed_form *direct,
-                   const zd_pins_plan *pins, int64_t doubles)
+void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions,
+                     const zd_closed_form *closed_form, const zd_pins_plan *pins, int64_t doubles)
 {
     const zd_settings *settings = &run->settings;
     const zd_system *system = &run->motion.system;
     const zd_guard *guard = &run->safeguards.guard;
     const size_t before = arena->used;
     *self = (zd_lanes){
-        .direct = direct, .method = method_of(run->stepper.integrator), .lanes = functions->lanes,
+        .closed_form = closed_form, .method = method_of(run->stepper.integrator), .lanes = functions->lanes,
         .nq = system->nq, .nv = system->nv, .m = zd_constraints(system), .mh = system->mh, .size = run->motion.rate.size,
         .has_A = (system->provides & ZD_A) != 0, .has_input = run->motion.balance.input != NULL,
         .max_iterations = run->motion.target.max_iterations, .corrects = run->motion.corrections > 0,
@@ -195,10 +195,10 @@ static void load_state(zd_lanes *self, int lane, const zd_run *run)
 }
 
 /* Order of elimination and rates are found later, for all lanes at once. */
-static void load_direct(zd_lanes *self, int lane, zd_run *run)
+static void load_closed_form(zd_lanes *self, int lane, zd_run *run)
 {
-    zd_direct_measure(&run->motion);
-    load(self, lane, (int64_t)self->direct->orders * self->nv, run->motion.path.scale, self->scale);
+    zd_closed_form_find_scales(&run->motion);
+    load(self, lane, (int64_t)self->closed_form->orders * self->nv, run->motion.path.scale, self->scale);
     self->order[lane] = NAN;
 }
 
@@ -246,7 +246,7 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
     if (self->inputs) load(self, lane, 2 * run->motion.system.inputs + 1, run->motion.point->inputs, self->inputs);
     load_state(self, lane, run);
     load_units(self, lane, run);
-    if (self->direct) load_direct(self, lane, run);
+    if (self->closed_form) load_closed_form(self, lane, run);
     else load_pins(self, lane, run, data);
     self->is_active[lane] = 1;
     self->t[lane] = self->t_before[lane] = self->t_sample[lane] = self->next_t[lane] = self->t0;

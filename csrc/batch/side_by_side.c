@@ -27,7 +27,7 @@ static int are_known(const zd_events *events, const zd_system *system)
 int zd_lanes_serve_settings(const zd_system *system, const zd_settings *settings)
 {
     return !system->quaternions && !settings->outputs && !settings->given_jacobian && !(settings->max_move > 0)
-        && system->mh + system->mn <= system->nv && zd_takes_direct(settings) && !zd_takes_embeddings(settings)
+        && system->mh + system->mn <= system->nv && zd_takes_closed_form(settings) && !zd_takes_embeddings(settings)
         && zd_integrator_of(settings->integrator)->take == zd_runge_kutta_take;
 }
 
@@ -35,12 +35,12 @@ int zd_lanes_serve(const zd_batch *batch)
 {
     const zd_system *system = batch->system;
     const zd_settings *settings = batch->settings;
-    const zd_closed_form *direct;
+    const zd_closed_form *closed_form;
     if (!batch->lanes || batch->settings_differ || batch->family || !are_known(settings->events, system)
         || !zd_lanes_serve_settings(system, settings))
         return 0;
     if (are_of_pins(batch)) return zd_lanes_of_unit(settings->vector) > 0;
-    return batch->doubles && !system->structure && zd_lane_functions_of(system, settings->vector, &direct) != NULL;
+    return batch->doubles && !system->structure && zd_lane_functions_of(system, settings->vector, &closed_form) != NULL;
 }
 
 /* True if the corrections after the projection can be made lane by lane. Events require them in each step. */
@@ -70,17 +70,18 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
 {
     const zd_system *system = batch->system;
     const size_t rows = pins ? 0 : (size_t)(zd_constraints(system) * system->nv);      /* pins do not use C */
-    const zd_closed_form *direct = NULL;
+    const zd_closed_form *closed_form = NULL;
     zd_lane_group group = {
         .batch = batch, .own = own, .run = run,
-        .functions = pins ? zd_lane_functions_for(batch->settings->vector) : zd_lane_functions_of(system, batch->settings->vector, &direct),
+        .functions = pins ? zd_lane_functions_for(batch->settings->vector)
+                          : zd_lane_functions_of(system, batch->settings->vector, &closed_form),
         .start = zd_take(arena, zd_run_start_memory(run)),
         .p = zd_take_doubles(arena, (size_t)system->nq),
         .v = zd_take_doubles(arena, (size_t)system->nv),
         .C = zd_take_doubles(arena, rows),
         .terms = {.scratch = zd_take_doubles(arena, (size_t)system->scratch), .inputs = run->motion.point->inputs},
     };
-    zd_lanes_take(&group.lanes, arena, run, group.functions, direct, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
+    zd_lanes_take(&group.lanes, arena, run, group.functions, closed_form, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
     group.reader = zd_reader_take(arena, batch->settings->events, system, run->motion.point->inputs, NULL);
     for (int lane = 0; lane < ZD_MOST_LANES; lane++)
         group.run_of[lane] = (zd_lane_run){
@@ -173,7 +174,7 @@ static void end(zd_lane_group *self, int lane)
     self->batch->rows[number] = self->run_of[lane].rows;
     self->batch->status[number] = self->run_of[lane].search.ended ? say_event(self, lane) : ZD_DONE;
     self->batch->statistics[number] = (zd_statistics){
-        .steps = steps, .direct_steps = lanes->direct ? steps : 0, .rejected = (int64_t)lanes->rejected[lane],
+        .steps = steps, .closed_form_steps = lanes->closed_form ? steps : 0, .rejected = (int64_t)lanes->rejected[lane],
         .position_iterations = (int64_t)lanes->iterations[lane], .velocity_corrections = lanes->corrects ? count_corrected(lanes, lane) : 0,
         .stiff = (int64_t)lanes->stiff[lane],
         .energy_corrections = run->of_energy.corrections, .energy_skipped = run->of_energy.skipped,
@@ -205,7 +206,7 @@ static int is_over(zd_lane_group *self, int lane)
 /* Evaluates the accelerations of runs that have just begun, in all lanes at once. A run without a suitable order of elimination leaves. */
 static void evaluate_rates(zd_lane_group *self)
 {
-    if (self->lanes.direct) self->functions->choose(&self->lanes);
+    if (self->lanes.closed_form) self->functions->choose(&self->lanes);
 }
 
 /* Replaces runs that have ended; returns 1 if a run has begun, whose first sample may be due. */

@@ -167,7 +167,8 @@ static int agree(search *self, zd_point *point, const double *v, int *they_do)
     *they_do = 1;
     for (int k = 0; k < zd_constraints(point->system) && *they_do; k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        *they_do = !self->aside[k] || is_satisfied(&row, self->x, point->terms.xi[k], SATISFIED_BY_ACCELERATION, largest * point->size[k]);
+        *they_do = !self->aside[k] || is_satisfied(&row, self->x, point->terms.xi[k], SATISFIED_BY_ACCELERATION,
+                                                            largest * point->size[k]);
         if (!*they_do) point->failed_index = k;
     }
     return ZD_DONE;

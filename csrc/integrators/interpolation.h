@@ -42,9 +42,9 @@ ZD_INLINE void zd_add_stages(const int begin, const int n, const int size, const
 }
 
 /* The stages that the polynomial has besides, behind the rate at the end: of n coordinates whose rates are the n velocities, and of these by
- * a direct function alone; and of any state. */
-ZD_INLINE int zd_spread_directly(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
-                                 const double *y0)
+ * a closed-form function alone; and of any state. */
+ZD_INLINE int zd_prepare_dense_in_closed_form(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t,
+                                              double h, const double *y0)
 {
     const int first = T->stages + 1, all = first + T->more, size = 2 * n;
     double *stage = self->stage;
@@ -56,8 +56,8 @@ ZD_INLINE int zd_spread_directly(const int n, const zd_tableau *T, const zd_rung
         if (status) return ZD_CALLBACK;
         zd_add_stages(0, n, size, first + i, weight, h, self->k, y0, stage, NULL);
         zd_add_stages(n, n, size, first + i, weight, h, self->k, y0, stage, rates);
-        status = rate->direct->accelerate(rate->system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL, NULL,
-                                          NULL);
+        status = rate->closed_form->accelerate(rate->system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL,
+                                               NULL, NULL);
     }
     return status ? ZD_CALLBACK : ZD_DONE;
 }
@@ -80,13 +80,13 @@ ZD_INLINE int zd_spread_any(const int size, const zd_tableau *T, const zd_runge_
 ZD_INLINE int zd_runge_kutta_spread(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, const double *y0,
                                     const double *y1)
 {
-    const int size = self->size, is_plain = rate->direct && !(rate->system->provides & ZD_A);
+    const int size = self->size, is_plain = rate->closed_form && !(rate->system->provides & ZD_A);
     self->h = h;
     for (int i = 0; i < size; i++) self->change[i] = y1[i] - y0[i];
     int status = zd_rate_of_beginning(rate, t + h, y1, self->k + T->stages * size);
     return status || !T->more    ? status
-         : is_plain && size == 6 ? zd_spread_directly(3, T, self, rate, t, h, y0)
-         : is_plain && size == 8 ? zd_spread_directly(4, T, self, rate, t, h, y0)
+         : is_plain && size == 6 ? zd_prepare_dense_in_closed_form(3, T, self, rate, t, h, y0)
+         : is_plain && size == 8 ? zd_prepare_dense_in_closed_form(4, T, self, rate, t, h, y0)
          : size == 6             ? zd_spread_any(6, T, self, rate, t, h, y0)
                                  : zd_spread_any(size, T, self, rate, t, h, y0);
 }

@@ -87,7 +87,7 @@ ZD_INLINE void zd_combine_pairs(const int begin, const int n, const int size, co
 }
 
 /* Step of a state (p, v) with n coordinates, pdot = v, and accelerations by a closed-form function alone. */
-ZD_INLINE int zd_runge_kutta_direct_step(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t,
+ZD_INLINE int zd_runge_kutta_closed_form_step(const int n, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t,
                                          double h, double *y)
 {
     const zd_system *system = rate->system;
@@ -100,7 +100,8 @@ ZD_INLINE int zd_runge_kutta_direct_step(const int n, const zd_tableau *T, const
         if (status) return status;
         zd_combine_pairs(0, n, 2 * n, i, T->a + i * T->stages, h, k, y, stage, NULL);
         zd_combine_pairs(n, n, 2 * n, i, T->a + i * T->stages, h, k, y, stage, rates);
-        status = rate->direct->accelerate(system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL, NULL, NULL);
+        status = rate->closed_form->accelerate(system->data, rate->inputs, &of_stage, stage, stage + n, NULL, NULL, rates + n, NULL,
+                                               NULL, NULL);
     }
     if (status) return ZD_CALLBACK;
     zd_combine_pairs(0, n, 2 * n, T->stages, T->b, h, k, y, y, NULL);
@@ -110,7 +111,7 @@ ZD_INLINE int zd_runge_kutta_direct_step(const int n, const zd_tableau *T, const
 
 ZD_INLINE int zd_runge_kutta_any_step(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, double *y)
 {
-    const int size = rate->size, positions = rate->direct ? rate->system->nq : 0;
+    const int size = rate->size, positions = rate->closed_form ? rate->system->nq : 0;
     double *k = self->k, *stage = self->stage;
     int status = zd_rate_of_beginning(rate, t, y, k);
     ZD_UNROLL
@@ -129,8 +130,8 @@ ZD_INLINE int zd_runge_kutta_any_step(const zd_tableau *T, zd_runge_kutta *self,
 ZD_INLINE int zd_runge_kutta_step(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, double *y)
 {
     self->size = rate->size;        /* it may have changed */
-    const int is_plain = rate->direct && !(rate->system->provides & ZD_A);
-    return is_plain ? ZD_SIZED(zd_runge_kutta_direct_step, rate->system->nv, T, self, rate, t, h, y)
+    const int is_plain = rate->closed_form && !(rate->system->provides & ZD_A);
+    return is_plain ? ZD_SIZED(zd_runge_kutta_closed_form_step, rate->system->nv, T, self, rate, t, h, y)
                     : zd_runge_kutta_any_step(T, self, rate, t, h, y);
 }
 
@@ -169,7 +170,7 @@ ZD_INLINE int zd_runge_kutta_error(const zd_tableau *T, zd_runge_kutta *self, co
 #define ZD_RUNGE_KUTTA_STEP                                                                                                 \
     static int step(void *self, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)              \
     {                                                                                                                       \
-        if (rate->direct) statistics->evaluations += tableau.stages - 1;                                                    \
+        if (rate->closed_form) statistics->evaluations += tableau.stages - 1;                                                    \
         return zd_runge_kutta_step(&tableau, self, rate, t, h, y);                                                          \
     }
 #define ZD_RUNGE_KUTTA_ERROR                                                                                                \

@@ -25,7 +25,7 @@ typedef struct zd_rate {
     int size;               /* entries of the state */
     int pairs;              /* n if the state begins with p (n,) and v (n,), pdot = v, and no rate depends on other entries; else 0 */
     /* The closed-form functions, if they alone give the rate of a state (p, v); otherwise NULL. */
-    const zd_elimination *direct;
+    const zd_elimination *closed_form;
     const zd_system *system;
     const double *inputs;   /* (2 inputs + 1,): of the system; NULL without inputs */
     const double *vdot;     /* (nv,): acceleration at the start of a step, if known; otherwise NULL */
@@ -49,12 +49,12 @@ static inline int zd_rate_of_beginning(const zd_rate *rate, double t, const doub
 
 static inline int zd_rate_of_stage(const zd_rate *rate, double t, const double *restrict y, double *restrict ydot)
 {
-    if (!rate->direct) return rate->evaluate(rate->context, t, y, ydot);
+    if (!rate->closed_form) return rate->evaluate(rate->context, t, y, ydot);
     const zd_system *system = rate->system;
     const int nq = system->nq;
     if (!(system->provides & ZD_A))
         for (int i = 0; i < nq; i++) ydot[i] = y[nq + i];
-    int status = rate->direct->accelerate(system->data, rate->inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, NULL, NULL);
+    int status = rate->closed_form->accelerate(system->data, rate->inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, NULL, NULL);
     return status ? ZD_CALLBACK : ZD_DONE;
 }
 
@@ -93,12 +93,12 @@ typedef struct zd_range {
 /* Evaluation path of the current step. On the closed-form path accelerations and projections come from the system's closed-form functions; on
  * the matrix path, from the formulation's leading matrix. The latter always exists and is taken in any doubt: paths/choose.c. */
 typedef struct zd_path {
-    const zd_closed_form *direct;
+    const zd_closed_form *closed_form;
     const zd_equations *equations;  /* in closed form */
     const zd_elimination *order;    /* elimination order of the current step; NULL: it takes the matrix path */
     int was_taken;          /* true if steps were made in closed form since the last checks of the matrix path */
     int continues;          /* true if the quick check has passed, so that the next step may reuse this elimination order */
-    double *scale;          /* (orders, nv): factor that makes each pivot relative, from zd_direct_measure(); 0 until then */
+    double *scale;          /* (orders, nv): factor that makes each pivot relative, from zd_closed_form_find_scales(); 0 until then */
     zd_range *range;        /* (nv,): a pivot in its range is large, of the same sign, and within a factor of four of its last value */
     int ranges;             /* number of ranges: pivots of the order, at least one */
     double smallest;        /* smallest relative pivot at the end of the last step; 0: not known */

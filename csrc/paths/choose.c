@@ -33,9 +33,9 @@ static void measure(const zd_motion *motion, const zd_elimination *order)
         scale[order->solve[k]] *= point->unit[order->column[k]] * point->inverse_size[order->row[k]];
 }
 
-void zd_direct_measure(zd_motion *motion)
+void zd_closed_form_find_scales(zd_motion *motion)
 {
-    for (int i = 0; i < motion->path.direct->orders; i++) measure(motion, motion->path.direct->order + i);
+    for (int i = 0; i < motion->path.closed_form->orders; i++) measure(motion, motion->path.closed_form->order + i);
 }
 
 /* Smallest relative pivot of the constraints at the point; 0 if D^T M D has lost too many bits, or a pivot is NaN */
@@ -111,24 +111,24 @@ static void use(zd_motion *motion, const zd_elimination *order)
     for (int k = 0; k < motion->system.mh; k++) motion->path.allowed[k] = motion->target.tolerance * motion->point->size[k];
     motion->equations = order ? motion->path.equations : &zd_equations_by_matrices;
     zd_motion_describe_rate(motion);
-    motion->rate.direct = motion->is_stabilized || motion->path.embeds || motion->rate.size > motion->formulation_size ? NULL : order;
-    motion->path.is_short = motion->path.lands && motion->target.every == 1 && motion->rate.direct && !motion->point->terms.A
+    motion->rate.closed_form = motion->is_stabilized || motion->path.embeds || motion->rate.size > motion->formulation_size ? NULL : order;
+    motion->path.is_short = motion->path.lands && motion->target.every == 1 && motion->rate.closed_form && !motion->point->terms.A
         && !motion->system.quaternions;
 }
 
-void zd_direct_leave(zd_motion *motion)
+void zd_closed_form_leave(zd_motion *motion)
 {
     use(motion, NULL);
 }
 
-void zd_direct_forget(zd_motion *motion)
+void zd_closed_form_discard(zd_motion *motion)
 {
     const zd_path *path = &motion->path;
-    zd_direct_leave(motion);
-    for (int i = 0; path->direct && i < path->direct->orders * motion->system.nv; i++) path->scale[i] = 0;
+    zd_closed_form_leave(motion);
+    for (int i = 0; path->closed_form && i < path->closed_form->orders * motion->system.nv; i++) path->scale[i] = 0;
 }
 
-void zd_direct_remember_energy(zd_motion *motion)
+void zd_closed_form_save_energy(zd_motion *motion)
 {
     motion->path.energy_skipped = motion->statistics.energy_skipped;
     motion->path.energy_corrections = motion->statistics.energy_corrections;
@@ -136,9 +136,9 @@ void zd_direct_remember_energy(zd_motion *motion)
     motion->path.skipped_since_row = motion->tally->energy_skipped;
 }
 
-void zd_direct_leave_step(zd_motion *motion)
+void zd_closed_form_leave_step(zd_motion *motion)
 {
-    zd_direct_leave(motion);
+    zd_closed_form_leave(motion);
     motion->path.was_taken = 0;
     motion->statistics.energy_skipped = motion->path.energy_skipped;
     motion->statistics.energy_corrections = motion->path.energy_corrections;
@@ -150,7 +150,7 @@ void zd_direct_leave_step(zd_motion *motion)
 static void begin(zd_motion *motion)
 {
     zd_copy_all(count_pivots(motion), motion->path.pivots, motion->path.before);
-    zd_direct_remember_energy(motion);
+    zd_closed_form_save_energy(motion);
     if (motion->path.embeds) zd_embed_begin(motion);
 }
 
@@ -180,7 +180,7 @@ static int find_embedding(zd_motion *motion)
     return order && takes(motion, order, ZD_SUFFICIENT_PIVOT);
 }
 
-int zd_direct_choose(zd_motion *motion)
+int zd_closed_form_choose(zd_motion *motion)
 {
     const zd_path *path = &motion->path;
     int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
@@ -192,7 +192,7 @@ int zd_direct_choose(zd_motion *motion)
     return path->order != NULL;
 }
 
-int zd_direct_compare(zd_safeguards *safeguards, double h, double moved)
+int zd_closed_form_compare(zd_safeguards *safeguards, double h, double moved)
 {
     (void)h;
     zd_motion *motion = safeguards->guard.motion;
@@ -213,5 +213,5 @@ int zd_direct_compare(zd_safeguards *safeguards, double h, double moved)
 
 int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
-    return zd_safeguards_judge(safeguards, zd_direct_compare, self->t - self->last.t, next_step, parts);
+    return zd_safeguards_judge(safeguards, zd_closed_form_compare, self->t - self->last.t, next_step, parts);
 }

@@ -21,7 +21,7 @@ static int evaluate(zd_motion *motion, const double *added)
                                    point->lambda, motion->balance.input ? &path->power : NULL, path->pivots);
 }
 
-int zd_direct_accelerate(zd_motion *motion, int (*evaluate_with)(zd_motion *motion, const double *added))
+int zd_closed_form_accelerate(zd_motion *motion, int (*evaluate_with)(zd_motion *motion, const double *added))
 {
     zd_point *point = motion->point;
     int status = zd_point_need(point, motion->corrections_need);
@@ -38,7 +38,7 @@ int zd_direct_accelerate(zd_motion *motion, int (*evaluate_with)(zd_motion *moti
 
 static int accelerate(zd_motion *motion)
 {
-    return zd_direct_accelerate(motion, evaluate);
+    return zd_closed_form_accelerate(motion, evaluate);
 }
 
 /* Rate of the state y after the point has been moved to it. */
@@ -137,7 +137,7 @@ static int improve(zd_motion *motion, int iteration, double *first, double *p)
     return ZD_DONE;
 }
 
-int zd_direct_land(zd_motion *motion, double t, double *p, double *v)
+int zd_closed_form_finish(zd_motion *motion, double t, double *p, double *v)
 {
     zd_point *point = motion->point;
     zd_path *path = &motion->path;
@@ -164,7 +164,7 @@ ZD_INLINE int project(const int n, zd_stepper *stepper, double t, double *y)
 {
     zd_point *point = stepper->motion->point;
     point->t = stepper->t = t;
-    int status = zd_direct_land(stepper->motion, t, y, y + n);
+    int status = zd_closed_form_finish(stepper->motion, t, y, y + n);
     zd_copy_pairs(n, y, point->p);
     zd_copy_pairs(n, y + n, point->v);
     return status;
@@ -265,7 +265,7 @@ ZD_INLINE int passes_quick_check(const int n, zd_safeguards *self, double h, int
 ZD_RARE int check_fully(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
     const int is_number = is_finite(stepper->motion->system.nv, stepper->y);
-    return is_number ? zd_safeguards_judge(safeguards, zd_direct_compare, stepper->last.h, next_step, parts) : ZD_NOT_FINITE;
+    return is_number ? zd_safeguards_judge(safeguards, zd_closed_form_compare, stepper->last.h, next_step, parts) : ZD_NOT_FINITE;
 }
 
 ZD_INLINE int check(const int n, zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)

@@ -7,10 +7,10 @@
 extern const zd_equations zd_equations_in_closed_form;      /* rates of states (p, v) */
 
 /* vdot and lambda at the point from `evaluate`, with the terms that corrections add to the right side of (6); NULL: none. */
-int zd_direct_accelerate(zd_motion *motion, int (*evaluate)(zd_motion *motion, const double *added));
+int zd_closed_form_accelerate(zd_motion *motion, int (*evaluate)(zd_motion *motion, const double *added));
 /* Projects p and v at the end t of a step, and computes the point's acceleration there, if path.lands. p and v are the point's own, or the
  * caller copies them there. */
-int zd_direct_land(zd_motion *motion, double t, double *p, double *v);
+int zd_closed_form_finish(zd_motion *motion, double t, double *p, double *v);
 /* True if the stepper's state can stay at the end of the step while the point is moved within it. */
 static inline int zd_short_may_stay(const zd_stepper *stepper)
 {

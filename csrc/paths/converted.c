@@ -51,7 +51,7 @@ static int correct_both(zd_motion *motion, int positions, int velocities)
     return ZD_DONE;
 }
 
-int zd_project_directly(zd_motion *motion, int64_t step, int forced)
+int zd_project_in_closed_form(zd_motion *motion, int64_t step, int forced)
 {
     const zd_constraint_target *target = &motion->target;
     const int positions = target->positions && (motion->drifts_from & motion->corrects & ZD_PHI);
@@ -60,7 +60,7 @@ int zd_project_directly(zd_motion *motion, int64_t step, int forced)
     if (!target->every || !(forced || zd_is_one_of(target->every, step))) return ZD_DONE;
     if (!target->in_mass_metric) return zd_motion_project(motion, step, forced);
     if (!zd_constraints(&motion->system) || !(positions || velocities)) return ZD_DONE;
-    if (motion->path.lands) return zd_direct_land(motion, point->t, point->p, point->v);
+    if (motion->path.lands) return zd_closed_form_finish(motion, point->t, point->p, point->v);
     const int status = correct_both(motion, positions, velocities);
     /* The next correction needs the dependent velocities at these positions. */
     return !status && motion->path.embeds && motion->corrections > 1 ? zd_embed_settle(motion) : status;
@@ -69,7 +69,7 @@ int zd_project_directly(zd_motion *motion, int64_t step, int forced)
 static int project(zd_stepper *self, double t1, int64_t step, int forced)
 {
     int status = zd_path_enter(self, t1);
-    return status ? status : zd_project_directly(self->motion, step, forced);
+    return status ? status : zd_project_in_closed_form(self->motion, step, forced);
 }
 
 const zd_evaluation_path zd_converted_path = {

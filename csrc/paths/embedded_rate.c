@@ -58,7 +58,7 @@ static int rate(void *context, double t, const double *y, double *ydot)
 
 static int accelerate(zd_motion *motion)
 {
-    return zd_direct_accelerate(motion, zd_embed_accelerate);
+    return zd_closed_form_accelerate(motion, zd_embed_accelerate);
 }
 
 /* Stages of a step do not move the point. */

@@ -6,7 +6,7 @@ static int project(zd_stepper *self, double t1, int64_t step, int forced)
 {
     zd_stepper_begin_end(self, t1);
     int status = zd_embed_enter(self->motion, t1, self->y);
-    return status ? status : zd_project_directly(self->motion, step, forced);
+    return status ? status : zd_project_in_closed_form(self->motion, step, forced);
 }
 
 static int finish(zd_stepper *self, int within)

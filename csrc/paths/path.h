@@ -30,14 +30,14 @@ int zd_path_enter(zd_stepper *self, double t1);
 int zd_path_correct(zd_stepper *self, int64_t step, int forced);
 int zd_path_finish(zd_stepper *self, int within);
 /* converted.c: the projection by closed-form functions, if it is due in this step or `forced`. */
-int zd_project_directly(zd_motion *motion, int64_t step, int forced);
+int zd_project_in_closed_form(zd_motion *motion, int64_t step, int forced);
 /* choose.c: zd_evaluation_path.check by full checks of the pivots, of a step from last.t to t. */
 int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts);
 
 /* True if the system has closed-form functions for the formulation; if one of them projects and computes the acceleration at the end of a
  * step. */
-static inline int zd_has_closed_form(const zd_motion *motion) { return motion->path.direct != NULL; }
-static inline int zd_lands_directly(const zd_motion *motion) { return motion->path.lands; }
+static inline int zd_has_closed_form(const zd_motion *motion) { return motion->path.closed_form != NULL; }
+static inline int zd_finishes_in_closed_form(const zd_motion *motion) { return motion->path.lands; }
 /* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path, and terms may be
  * finite at other states. */
 static inline int zd_callable_failed(const zd_motion *motion, int status)

@@ -133,7 +133,7 @@ zd_cached_accelerations zd_rates_take(zd_arena *arena, const zd_motion *motion)
     return (zd_cached_accelerations){
         .vdot = zd_take_doubles(arena, nv),
         .lambda = zd_take_doubles(arena, (size_t)zd_constraints(&motion->system)),
-        .pivots = motion->path.direct ? zd_take_doubles(arena, nv) : NULL,
+        .pivots = motion->path.closed_form ? zd_take_doubles(arena, nv) : NULL,
     };
 }
 

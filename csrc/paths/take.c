@@ -3,28 +3,28 @@
 #include "closed_form.h"
 #include "embed.h"
 
-const zd_closed_form *zd_direct_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
+const zd_closed_form *zd_closed_form_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
 {
     if (zd_constraints(system) > system->nv || (formulation->settle && !formulation->may_have_entries(system))) return NULL;
     const zd_closed_form *found = NULL;
     for (int i = 0; i < system->closed_forms; i++) {
-        const zd_closed_form *direct = &system->closed_form[i];
-        if (!(formulation->settle ? direct->embeddings : direct->orders)) continue;
-        if (direct->lanes == 1 && direct->unit <= unit && (!found || direct->unit > found->unit)) found = direct;
+        const zd_closed_form *closed_form = &system->closed_form[i];
+        if (!(formulation->settle ? closed_form->embeddings : closed_form->orders)) continue;
+        if (closed_form->lanes == 1 && closed_form->unit <= unit && (!found || closed_form->unit > found->unit)) found = closed_form;
     }
     return found;
 }
 
-void zd_direct_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
+void zd_closed_form_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
 {
     const zd_system *system = &motion->system;
-    const zd_closed_form *direct = zd_direct_of(system, motion->formulation, unit);
-    if (!direct) return;
-    const int embeds = motion->formulation->settle != NULL, orders = embeds ? direct->embeddings : direct->orders;
+    const zd_closed_form *closed_form = zd_closed_form_of(system, motion->formulation, unit);
+    if (!closed_form) return;
+    const int embeds = motion->formulation->settle != NULL, orders = embeds ? closed_form->embeddings : closed_form->orders;
     motion->path = (zd_path){
-        .direct = direct,
+        .closed_form = closed_form,
         .equations = embeds ? &zd_equations_of_independent : &zd_equations_in_closed_form,
-        .first = embeds ? direct->embedding : direct->order,
+        .first = embeds ? closed_form->embedding : closed_form->order,
         .orders = orders,
         .scale = zd_take_doubles(arena, (size_t)(orders * system->nv)),
         .pivots = zd_take_doubles(arena, (size_t)system->nv),

@@ -25,10 +25,10 @@ static const void *complete(zd_given *given, const zd_card *card)
 }
 
 /* Methods stable at any step size are implicit and reuse their matrix from step to step: it must come from one evaluation path. */
-int zd_takes_direct(const zd_settings *settings)
+int zd_takes_closed_form(const zd_settings *settings)
 {
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
-    return settings->direct && !integrator->step_of_motion && integrator->card.stability > 0;
+    return settings->closed_form && !integrator->step_of_motion && integrator->card.stability > 0;
 }
 
 int zd_takes_embeddings(const zd_settings *settings)
@@ -46,17 +46,17 @@ int zd_takes_jacobian(const zd_settings *settings)
     return zd_integrator_of(settings->integrator)->takes_jacobian;
 }
 
-int zd_may_have_direct(const zd_system *system, const zd_settings *settings)
+int zd_may_have_closed_form(const zd_system *system, const zd_settings *settings)
 {
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
     return !formulation->settle || formulation->may_have_entries(system);
 }
 
-int zd_direct_unit(const zd_system *system, const zd_settings *settings)
+int zd_closed_form_unit(const zd_system *system, const zd_settings *settings)
 {
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
-    const zd_closed_form *direct = zd_takes_direct(settings) ? zd_direct_of(system, formulation, settings->vector) : NULL;
-    return direct ? (int)direct->unit : -1;
+    const zd_closed_form *closed_form = zd_takes_closed_form(settings) ? zd_closed_form_of(system, formulation, settings->vector) : NULL;
+    return closed_form ? (int)closed_form->unit : -1;
 }
 
 /* Allocates and initializes a run; `independent` is the system with its independent constraints only. Called twice, see workspace.h: to
@@ -73,7 +73,7 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
     if (integrator->takes_jacobian) zd_motion_take_jacobian(motion, arena);
-    if (zd_takes_direct(settings)) zd_direct_take(motion, arena, settings->vector);
+    if (zd_takes_closed_form(settings)) zd_closed_form_take(motion, arena, settings->vector);
     motion->tally = &run->tally;
     zd_variables dependent = zd_variables_of(motion, integrator, independent);
     zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent,

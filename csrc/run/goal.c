@@ -70,7 +70,7 @@ int zd_run_return_to_good(zd_run *run)
 {
     zd_step_loop *loop = &run->loop;
     zd_motion *motion = &run->motion;
-    zd_direct_leave(motion);
+    zd_closed_form_leave(motion);
     loop->parts = 0;
     loop->step = run->goal.good_step;
     loop->control.h = run->goal.good_h;

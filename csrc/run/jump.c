@@ -21,7 +21,7 @@ int zd_jump_begin(zd_run *run)
 {
     const zd_point *point = run->motion.point;
     zd_jump *jump = &run->held.jump;
-    zd_direct_leave(&run->motion);
+    zd_closed_form_leave(&run->motion);
     const int status = zd_point_need(run->motion.point, ZD_PHI_T);
     for (int k = 0; !status && k < zd_constraints(point->system); k++) jump->works[k] = point->terms.Phi_t ? point->terms.Phi_t[k] / 2 : 0;
     zd_stepper_keep_place(&run->stepper, &run->held.start);

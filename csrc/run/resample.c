@@ -67,9 +67,9 @@ static int is_at(const zd_resample *self, int64_t row)
 static int begin(zd_resample *self, int64_t row, int is_general)
 {
     zd_motion *motion = &self->run->motion;
-    if (is_general) zd_direct_leave(motion);
+    if (is_general) zd_closed_form_leave(motion);
     int status = place(self, row);
-    if (!status && zd_has_closed_form(motion) && !is_general) zd_direct_choose(motion);
+    if (!status && zd_has_closed_form(motion) && !is_general) zd_closed_form_choose(motion);
     return status;
 }
 
@@ -80,11 +80,11 @@ static int begin_from_before(zd_resample *self, int64_t row)
     zd_motion *motion = &self->run->motion;
     const int is_cut = self->saved->ends_in_event && row + 2 == self->saved->rows;
     int status = begin(self, row, 0);
-    if (status || !zd_lands_directly(motion) || row == 0 || is_cut) return status;
+    if (status || !zd_finishes_in_closed_form(motion) || row == 0 || is_cut) return status;
     status = begin(self, row - 1, 0);
     if (!status) status = make_step(self, row - 1);
     if (status || !is_at(self, row)) return begin(self, row, 0);
-    zd_direct_choose(motion);
+    zd_closed_form_choose(motion);
     return ZD_DONE;
 }
 

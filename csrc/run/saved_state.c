@@ -106,7 +106,7 @@ static uint64_t hash_settings(const zd_settings *settings)
     const double numbers[] = {
         settings->formulation, settings->integrator, settings->t0, settings->t1, settings->steps, settings->step, settings->rtol,
         settings->atol, settings->first_step, settings->max_step, settings->max_move, (double)settings->max_steps,
-        (double)settings->save_every, (double)settings->t_evals, settings->on_singular, settings->direct, settings->given_jacobian,
+        (double)settings->save_every, (double)settings->t_evals, settings->on_singular, settings->closed_form, settings->given_jacobian,
         settings->is_open, settings->events ? settings->events->count : -1, settings->outputs ? settings->outputs->count : -1,
         settings->inputs ? settings->inputs->jumps : 0, settings->inputs ? settings->inputs->ramp : 0,
     };
@@ -226,7 +226,7 @@ static size_t write_state(const zd_run *run, const char *fingerprint, unsigned c
         put_block(run, block_of(run, i), &to);
     }
     if (!block) return to.count * WORD;
-    header[UNIT] = (uint64_t)(zd_direct_unit(&run->motion.system, &run->settings) + 1);
+    header[UNIT] = (uint64_t)(zd_closed_form_unit(&run->motion.system, &run->settings) + 1);
     header[SETTINGS] = hash_settings(&((const zd_run *)(const void *)run->memory->image)->settings);
     header[ALL_BYTES] = to.count * WORD;
     header[CHECKSUM] = hash(0, block + HEADER * WORD, (to.count - HEADER) * WORD);
@@ -286,7 +286,7 @@ static const char *wrong_header(const uint64_t *header, const unsigned char *blo
     if (memcmp(expected, header + FINGERPRINT, sizeof expected) || header[COORDINATES] != (uint64_t)system->nq
         || header[VELOCITIES] != (uint64_t)system->nv || header[PLACES] != words_of_places(settings->inputs))
         return "a saved state must be of the same system, with the same parameters and the same version of zerodrift";
-    if (header[UNIT] != (uint64_t)(zd_direct_unit(system, settings) + 1))
+    if (header[UNIT] != (uint64_t)(zd_closed_form_unit(system, settings) + 1))
         return "a saved state must be restored with the vector unit of the processor that it was saved with";
     return NULL;
 }

@@ -289,7 +289,7 @@ static int are_independent(const zd_motion *motion)
 static int choose_step_directly(zd_run *run, double *states, const double *p0, const double *v0)
 {
     if (!zd_is_adaptive(&run->loop)) return ZD_DONE;
-    return zd_direct_choose(&run->motion) ? choose_step(run, states, p0, v0) : ZD_SINGULAR;
+    return zd_closed_form_choose(&run->motion) ? choose_step(run, states, p0, v0) : ZD_SINGULAR;
 }
 
 /* Checks of another start; the remaining ones are implied by large pivots. */
@@ -311,7 +311,7 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
 static void forget(zd_run *run, const void *data)
 {
     zd_motion *motion = &run->motion;
-    zd_direct_forget(motion);
+    zd_closed_form_discard(motion);
     motion->system.data = data;
     motion->point->known = motion->point->measured = motion->in_run = 0;
     motion->balance.initial = motion->statistics.smallest_pivot = 0;

@@ -67,8 +67,8 @@ int zd_step_attempt(zd_step_loop *loop, const zd_attempt *a)
 static int return_for_matrices(zd_step_loop *loop, const zd_attempt *a)
 {
     const int is_substep = a->kind == ZD_SUBSTEP;
-    if (is_substep) zd_direct_leave(loop->motion);
-    else zd_direct_leave_step(loop->motion);
+    if (is_substep) zd_closed_form_leave(loop->motion);
+    else zd_closed_form_leave_step(loop->motion);
     int status = zd_stepper_return(loop->stepper);
     return status || is_substep ? status : zd_safeguards_begin(loop->safeguards, loop->step);
 }

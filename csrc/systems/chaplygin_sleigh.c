@@ -8,7 +8,7 @@
  * Control, 2015, section 1.7. No forces are applied: V = 0 is declared so that the energy error is recorded.
  */
 #include "../include/zerodrift/sines.h"
-#include "direct/chaplygin_sleigh.h"
+#include "closed_form/chaplygin_sleigh.h"
 #include "kind.h"
 #include "precise/precise.h"
 #include "skate.h"
@@ -59,7 +59,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 static const char *prepare(const double *parameters, double *to)
 {
     memcpy(to, parameters, sizeof(given));
-    zd_chaplygin_sleigh_direct_constants(to);
+    zd_chaplygin_sleigh_closed_form_constants(to);
     return NULL;
 }
 
@@ -107,9 +107,9 @@ const zd_kind zd_chaplygin_sleigh = {
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
         .series = &zd_chaplygin_sleigh_series,
-        .closed_form = zd_chaplygin_sleigh_direct, .closed_forms = ZD_COUNT_OF_SETS,
+        .closed_form = zd_chaplygin_sleigh_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_CHAPLYGIN_SLEIGH_DIRECT_ENDS),
+    ZD_PREPARED_DOUBLES(ZD_CHAPLYGIN_SLEIGH_CLOSED_FORM_ENDS),
     .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
     .points = POINTS, .dimension = 2, .draw = draw,
     .precise = &zd_chaplygin_sleigh_precise,

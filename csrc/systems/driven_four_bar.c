@@ -6,7 +6,7 @@
  * energy comes in.
  */
 #include "../include/zerodrift/sines.h"
-#include "direct/driven_four_bar.h"
+#include "closed_form/driven_four_bar.h"
 #include "four_bar.h"
 #include "kind.h"
 #include "precise/precise.h"
@@ -51,17 +51,17 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     return status;
 }
 
-_Static_assert(sizeof(constants) == ZD_DRIVEN_FOUR_BAR_DIRECT_BEGINS * sizeof(double), "where direct functions look for theirs");
+_Static_assert(sizeof(constants) == ZD_DRIVEN_FOUR_BAR_CLOSED_FORM_BEGINS * sizeof(double), "where closed-form functions look for theirs");
 
 static const char *prepare(const double *parameters, double *to)
 {
     const given *q = (const given *)parameters;
     constants *k = (constants *)to;
     k->drive = (drive){q->bar.angle, q->bar.rate, q->amplitude, q->frequency};
-    double *of_direct = to + ZD_DRIVEN_FOUR_BAR_DIRECT_BEGINS;
-    zd_four_bar_fill(&q->bar, of_direct);
-    memcpy(of_direct + ZD_FOUR_BAR_DIRECT, &k->drive, sizeof k->drive);
-    zd_driven_four_bar_direct_constants(of_direct);
+    double *of_closed_form = to + ZD_DRIVEN_FOUR_BAR_CLOSED_FORM_BEGINS;
+    zd_four_bar_fill(&q->bar, of_closed_form);
+    memcpy(of_closed_form + ZD_FOUR_BAR_CLOSED_FORM, &k->drive, sizeof k->drive);
+    zd_driven_four_bar_closed_form_constants(of_closed_form);
     return zd_four_bar_prepare(&q->bar, &k->bar);
 }
 
@@ -104,9 +104,9 @@ const zd_kind zd_driven_four_bar = {
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = evaluate,
         .series = &zd_driven_four_bar_series,
-        .closed_form = zd_driven_four_bar_direct, .closed_forms = ZD_COUNT_OF_SETS,
+        .closed_form = zd_driven_four_bar_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_DRIVEN_FOUR_BAR_DIRECT_ENDS),
+    ZD_PREPARED_DOUBLES(ZD_DRIVEN_FOUR_BAR_CLOSED_FORM_ENDS),
     .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
     .points = N + 1, .dimension = 2, .draw = draw,
     .precise = &zd_driven_four_bar_precise,

@@ -11,7 +11,7 @@
 #include "../include/zerodrift/sines.h"
 #include "../linalg/roots.h"
 #include "../linalg/small.h"
-#include "direct/four_bar.h"
+#include "closed_form/four_bar.h"
 #include "kind.h"
 #include "precise/precise.h"
 #include "series/series.h"
@@ -181,7 +181,7 @@ const char *zd_four_bar_prepare(const given *q, constants *to)
 
 void zd_four_bar_fill(const zd_four_bar_given *q, double *to)
 {
-    memcpy(to, q, ZD_FOUR_BAR_DIRECT * sizeof *to);
+    memcpy(to, q, ZD_FOUR_BAR_CLOSED_FORM * sizeof *to);
     for (int i = 0; i < N; i++) to[offsetof(given, J) / sizeof *to + (size_t)i] = inertia(q, i);
 }
 
@@ -200,13 +200,13 @@ const zd_variable zd_four_bar_velocity[] = {{"alpha1_dot", "rad/s"}, {"alpha2_do
 
 /* ---- the row of the table: the crank is free ---- */
 
-_Static_assert(sizeof(constants) == ZD_FOUR_BAR_DIRECT_BEGINS * sizeof(double), "where direct functions look for theirs");
+_Static_assert(sizeof(constants) == ZD_FOUR_BAR_CLOSED_FORM_BEGINS * sizeof(double), "where closed-form functions look for theirs");
 
 static const char *prepare(const double *parameters, double *to)
 {
-    double *of_direct = to + ZD_FOUR_BAR_DIRECT_BEGINS;
-    zd_four_bar_fill((const given *)parameters, of_direct);
-    zd_four_bar_direct_constants(of_direct);
+    double *of_closed_form = to + ZD_FOUR_BAR_CLOSED_FORM_BEGINS;
+    zd_four_bar_fill((const given *)parameters, of_closed_form);
+    zd_four_bar_closed_form_constants(of_closed_form);
     return zd_four_bar_prepare((const given *)parameters, (constants *)to);
 }
 
@@ -239,11 +239,11 @@ const zd_kind zd_four_bar = {
         .scratch = ZD_FOUR_BAR_SCRATCH,
         .evaluate = zd_four_bar_evaluate,
         .series = &zd_four_bar_series,
-        .closed_form = zd_four_bar_direct, .closed_forms = ZD_COUNT_OF_SETS,
+        .closed_form = zd_four_bar_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
         .embed = embed,
         .independent = (const int[]){ALPHA_1},
     },
-    ZD_PREPARED_DOUBLES(ZD_FOUR_BAR_DIRECT_ENDS),
+    ZD_PREPARED_DOUBLES(ZD_FOUR_BAR_CLOSED_FORM_ENDS),
     .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
     .points = N + 1, .dimension = 2, .draw = zd_four_bar_draw,
     .precise = &zd_four_bar_precise,

@@ -10,8 +10,8 @@
 
 enum { ZD_FOUR_BAR_N = 3, ZD_FOUR_BAR_SCRATCH = 2 * ZD_FOUR_BAR_N };
 
-/* parameters, in the order of the tables; the first ZD_FOUR_BAR_DIRECT are those of the closed-form functions */
-enum { ZD_FOUR_BAR_DIRECT = 11 };
+/* parameters, in the order of the tables; the first ZD_FOUR_BAR_CLOSED_FORM are those of the closed-form functions */
+enum { ZD_FOUR_BAR_CLOSED_FORM = 11 };
 
 typedef struct zd_four_bar_given {
     double l[4];        /* m: l0 ... l3 */

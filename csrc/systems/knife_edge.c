@@ -9,7 +9,7 @@
  * Control, 2nd edition 2015, section 1.6; with that row, lambda = 2 m g sin(incline) sin phi from a start at phi = 0 at rest.
  */
 #include "../include/zerodrift/sines.h"
-#include "direct/knife_edge.h"
+#include "closed_form/knife_edge.h"
 #include "kind.h"
 #include "precise/precise.h"
 #include "skate.h"
@@ -53,7 +53,7 @@ static const char *prepare(const double *parameters, double *to)
     const given *q = (const given *)parameters;
     const constants k = {q->m, q->I, q->m * q->g * zd_sin(q->incline)};
     memcpy(to, &k, sizeof k);
-    zd_knife_edge_direct_constants(to);
+    zd_knife_edge_closed_form_constants(to);
     return NULL;
 }
 
@@ -101,9 +101,9 @@ const zd_kind zd_knife_edge = {
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
         .series = &zd_knife_edge_series,
-        .closed_form = zd_knife_edge_direct, .closed_forms = ZD_COUNT_OF_SETS,
+        .closed_form = zd_knife_edge_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_KNIFE_EDGE_DIRECT_ENDS),
+    ZD_PREPARED_DOUBLES(ZD_KNIFE_EDGE_CLOSED_FORM_ENDS),
     .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
     .points = POINTS, .dimension = 2, .draw = draw,
     .precise = &zd_knife_edge_precise,

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "../include/zerodrift/system.h"
-#include "direct/oscillator.h"
+#include "closed_form/oscillator.h"
 #include "kind.h"
 #include "precise/precise.h"
 #include "series/series.h"
@@ -26,7 +26,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 static const char *prepare(const double *parameters, double *to)
 {
     memcpy(to, parameters, sizeof(given));
-    zd_oscillator_direct_constants(to);
+    zd_oscillator_closed_form_constants(to);
     return NULL;
 }
 
@@ -70,9 +70,9 @@ const zd_kind zd_oscillator = {
         .provides = ZD_M | ZD_FORCE | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
         .series = &zd_oscillator_series,
-        .closed_form = zd_oscillator_direct, .closed_forms = ZD_COUNT_OF_SETS,
+        .closed_form = zd_oscillator_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_OSCILLATOR_DIRECT_ENDS),
+    ZD_PREPARED_DOUBLES(ZD_OSCILLATOR_CLOSED_FORM_ENDS),
     .coordinate = coordinate, .velocity = velocity,
     .points = 2, .dimension = 2, .draw = draw,
     .precise = &zd_oscillator_precise,

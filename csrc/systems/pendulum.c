@@ -14,7 +14,7 @@
 
 #include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
-#include "direct/pendulum.h"
+#include "closed_form/pendulum.h"
 #include "kind.h"
 #include "precise/precise.h"
 #include "series/series.h"
@@ -50,7 +50,7 @@ static int evaluate(const void *data, int want, double t, const double *p, const
 static const char *prepare(const double *parameters, double *to)
 {
     memcpy(to, parameters, sizeof(given));
-    zd_pendulum_direct_constants(to);
+    zd_pendulum_closed_form_constants(to);
     return NULL;
 }
 
@@ -98,9 +98,9 @@ const zd_kind zd_pendulum = {
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
         .series = &zd_pendulum_series,
-        .closed_form = zd_pendulum_direct, .closed_forms = ZD_COUNT_OF_SETS,
+        .closed_form = zd_pendulum_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_PENDULUM_DIRECT_ENDS),
+    ZD_PREPARED_DOUBLES(ZD_PENDULUM_CLOSED_FORM_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = 2, .dimension = 2, .draw = draw,
     .precise = &zd_pendulum_precise,

@@ -16,7 +16,7 @@
  * Since w x e3 = w2 e1 - w1 e2, the latter is v = R (w2 e1 - w1 e2). Neimark and Fufaev, Dynamics of Nonholonomic Systems, 1972;
  * Bloch, Nonholonomic Mechanics and Control, 2015, section 1.5.
  *
- * Where the disc lies flat, yaw and spin are the same turn: there, and only there, (1) is singular. It brings no direct functions, whose
+ * Where the disc lies flat, yaw and spin are the same turn: there, and only there, (1) is singular. It brings no closed-form functions, whose
  * pivots are those of C and M, which are regular there: a disc that swings through would not be noticed.
  */
 #include <math.h>

@@ -18,7 +18,7 @@
 #include "../include/zerodrift/system.h"
 #include "../linalg/roots.h"
 #include "../linalg/small.h"
-#include "direct/slider_crank.h"
+#include "closed_form/slider_crank.h"
 #include "kind.h"
 #include "precise/precise.h"
 #include "series/series.h"
@@ -102,7 +102,7 @@ static const char *prepare(const double *parameters, double *to)
     const given *k = (const given *)parameters;
     if (!(k->b > k->a)) return "the rod must be longer than the crank: else the crank cannot turn all the way around";
     memcpy(to, parameters, sizeof *k);
-    zd_slider_crank_direct_constants(to);
+    zd_slider_crank_closed_form_constants(to);
     return NULL;
 }
 
@@ -161,9 +161,9 @@ const zd_kind zd_slider_crank = {
         .scratch = sizeof(geometry) / sizeof(double),
         .evaluate = evaluate,
         .series = &zd_slider_crank_series,
-        .closed_form = zd_slider_crank_direct, .closed_forms = ZD_COUNT_OF_SETS,
+        .closed_form = zd_slider_crank_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_SLIDER_CRANK_DIRECT_ENDS),
+    ZD_PREPARED_DOUBLES(ZD_SLIDER_CRANK_CLOSED_FORM_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = 7, .dimension = 2, .draw = draw,
     .precise = &zd_slider_crank_precise,

@@ -13,7 +13,7 @@
 
 #include "../include/zerodrift/sines.h"
 #include "../include/zerodrift/system.h"
-#include "direct/vertical_disc.h"
+#include "closed_form/vertical_disc.h"
 #include "disc.h"
 #include "kind.h"
 #include "precise/precise.h"
@@ -67,7 +67,7 @@ static const char *prepare(const double *parameters, double *to)
     if (isnan(k.Ia)) k.Ia = 2 * thin;
     if (isnan(k.It)) k.It = thin;
     memcpy(to, &k, sizeof k);
-    zd_vertical_disc_direct_constants(to);
+    zd_vertical_disc_closed_form_constants(to);
     return NULL;
 }
 
@@ -117,9 +117,9 @@ const zd_kind zd_vertical_disc = {
         .scratch = sizeof(sines) / sizeof(double),
         .evaluate = evaluate,
         .series = &zd_vertical_disc_series,
-        .closed_form = zd_vertical_disc_direct, .closed_forms = ZD_COUNT_OF_SETS,
+        .closed_form = zd_vertical_disc_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_VERTICAL_DISC_DIRECT_ENDS),
+    ZD_PREPARED_DOUBLES(ZD_VERTICAL_DISC_CLOSED_FORM_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = ZD_DISC_POINTS, .dimension = 3, .draw = draw,
     .precise = &zd_vertical_disc_precise,

@@ -10,7 +10,7 @@
 
 typedef struct zd_statistics {
     int64_t steps;                 /* accepted steps */
-    int64_t direct_steps;          /* accepted steps on the closed-form path */
+    int64_t closed_form_steps;          /* accepted steps on the closed-form path */
     int64_t rejected;              /* steps repeated with a smaller size, since their error estimate was too large or they failed */
     int64_t output_steps;          /* shorter steps to times between steps, for samples or to locate events */
     int64_t evaluations;           /* calls of the system's evaluate() */
@@ -75,11 +75,11 @@ typedef struct zd_run zd_run;
 double zd_count_steps(double t0, double t1, double step);
 
 /* True if a run with these settings can use closed-form functions; otherwise a system need not provide them. */
-int zd_takes_direct(const zd_settings *settings);
+int zd_takes_closed_form(const zd_settings *settings);
 /* True if these are the functions of a formulation in independent velocities. */
 int zd_takes_embeddings(const zd_settings *settings);
 /* True if the formulation can use closed-form functions of this system. */
-int zd_may_have_direct(const zd_system *system, const zd_settings *settings);
+int zd_may_have_closed_form(const zd_system *system, const zd_settings *settings);
 /* Checks that formulation, integrator and corrections are compatible; else the reason is in `message`. */
 int zd_check_methods_agree(const zd_settings *settings, char *message, int message_size);
 /* True if a run with these settings uses the system's Taylor series. */
@@ -87,7 +87,7 @@ int zd_takes_series(const zd_settings *settings);
 /* True if it uses the system's Jacobian, if provided. */
 int zd_takes_jacobian(const zd_settings *settings);
 /* Vector unit of the closed-form functions that a run of this system uses; -1: it uses none. */
-int zd_direct_unit(const zd_system *system, const zd_settings *settings);
+int zd_closed_form_unit(const zd_system *system, const zd_settings *settings);
 
 /* Creates a run with all its memory. On failure NULL, with the reason in `status` and `message` (at least one character). */
 zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, const double *p0, const double *v0,

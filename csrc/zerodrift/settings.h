@@ -105,7 +105,7 @@ typedef struct zd_settings {
     zd_given of_formulation, of_integrator;
     zd_given correction[ZD_CORRECTIONS_MAX];        /* parameters of each correction, in the order of their table */
     enum zd_on_singular on_singular;
-    int direct;                     /* true: the closed-form path is taken if the system provides applicable closed-form functions */
+    int closed_form;                     /* true: the closed-form path is taken if the system provides applicable closed-form functions */
     enum zd_unit vector;            /* widest vector unit that these may use */
     int given_jacobian;             /* true if C and Phi_t are hand-written: they are compared with differences of Phi at intervals */
     int is_open;                    /* true: the run has no end, and returns to the start of a step that fails; t1 only serves the

@@ -12,8 +12,8 @@ from zerodrift.ensembles.plan import checked
 from zerodrift.ensembles.run_range import never, run_range
 from zerodrift.ensembles.runs import Runs
 
-COURSES = {"fixed": {"step": 0.01, "direct": False}, "saved": {"step": 0.01, "save_every": 7, "direct": False},
-           "chosen": {"integrator": "dop853", "rtol": 1e-8, "direct": False, "t_eval": np.linspace(0.05, 0.4, 4)}}
+COURSES = {"fixed": {"step": 0.01, "closed_form": False}, "saved": {"step": 0.01, "save_every": 7, "closed_form": False},
+           "chosen": {"integrator": "dop853", "rtol": 1e-8, "closed_form": False, "t_eval": np.linspace(0.05, 0.4, 4)}}
 
 
 def made(system, span, parameters=None, p0=None, v0=None, names=None, stop=never, **options):

@@ -117,10 +117,10 @@ def test_what_takes_the_ordinary_road():
 
 
 def test_general_steps_write_their_events_down_without_python():
-    ens = ensemble(EVENTS["terminal"], step=0.01, direct=False)
+    ens = ensemble(EVENTS["terminal"], step=0.01, closed_form=False)
     assert (ens._part.paths == ALONE).all()
     for run in (0, 10):
-        sol = zd.simulate(BAR, 2.0, v0=STARTS[run], step=0.01, direct=False, events=EVENTS["terminal"])
+        sol = zd.simulate(BAR, 2.0, v0=STARTS[run], step=0.01, closed_form=False, events=EVENTS["terminal"])
         assert ens.messages[run] == sol.message
         for mine, its in zip(ens.t_events[run], sol.t_events, strict=True):
             assert np.array_equal(mine, its)

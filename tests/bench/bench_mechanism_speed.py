@@ -39,12 +39,12 @@ def chain():
 def measured():
     """Rows (what, value, unit, limit)."""
     built_in, tables, written = zd.systems.four_bar(), four_bar().system(), four_bar().system(compiled=True)
-    general = {"direct": False}
+    general = {"closed_form": False}
     times = least(ROUNDS, running(built_in, **general), running(built_in), running(tables, **general),
                   running(written, **general), running(written))
     yield "four-bar, tables interpreted, to the matrix path of the one built in", times[2] / times[0], "", 2
     yield "four-bar, compiled=True, to the closed-form functions of the one built in", times[4] / times[1], "", 1.1
-    yield "four-bar, compiled=True with direct=False, to the matrix path of that", times[3] / times[0], "", None
+    yield "four-bar, compiled=True with closed_form=False, to the matrix path of that", times[3] / times[0], "", None
     m = chain()
     links, system, started = least(ROUNDS, timed(chain), timed(m.system), timed(lambda: m.system().p0))
     yield f"{LINKS} links and joints in Python", 1e3 * links, "ms", 5

@@ -26,7 +26,7 @@ SYSTEMS = {
     **{f"closed chain of {links} links": f"_energies.closed_pendulum({links})" for links in (4, 6, 20, 80)},
     "Andrews": "_energies.andrews()", "bicycle": "_energies.bicycle()"}
 STAGES = ("energies in SymPy", "deriving", "eliminating common subexpressions", "writing C", "compiling", "start",
-          "direct functions")
+          "closed-form functions")
 COLUMNS = ["what", "version", *(f"{stage} [s]" for stage in STAGES), "terms together [s]", "terms by the clock [s]",
            "all by the clock [s]"]
 
@@ -87,8 +87,8 @@ for (stage, before), (_, after) in zip(marks, marks[1:]):
     seconds[stage] = seconds.get(stage, 0) + after - before
 seconds["compiling"] -= sum(meanwhile)
 before = spent()
-system._direct.library(list(closed_form_library.LANES)[PROCESSOR_UNIT])
-seconds["direct functions"] = spent() - before + sum(meanwhile)
+system._closed_form.library(list(closed_form_library.LANES)[PROCESSOR_UNIT])
+seconds["closed-form functions"] = spent() - before + sum(meanwhile)
 print(json.dumps([seconds, clock, time.perf_counter() - began]))
 """
 
@@ -105,7 +105,7 @@ def row(what, version, rounds):
     """The least of the rounds, of each stage and of all."""
     measured = [costs(SYSTEMS[what]) for _ in range(rounds)]
     stages = [min(seconds.get(stage, 0.0) for seconds, *_ in measured) for stage in STAGES]
-    together = min(sum(seconds.values()) - seconds["direct functions"] for seconds, *_ in measured)
+    together = min(sum(seconds.values()) - seconds["closed-form functions"] for seconds, *_ in measured)
     clocks = (min(each) for each in zip(*(clocks for _, *clocks in measured), strict=True))
     return [what, version, *(f"{value:.3f}" for value in (*stages, together, *clocks))]
 

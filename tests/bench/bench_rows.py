@@ -58,9 +58,9 @@ def processor_seconds(system, tolerance, **options):
 
 def of_events():
     """About a hundred in each run; rows as those of `measured`."""
-    for integrator, tolerance, (path, direct) in itertools.product(METHODS, (1e-6, 1e-9), PATHS.items()):
+    for integrator, tolerance, (path, closed_form) in itertools.product(METHODS, (1e-6, 1e-9), PATHS.items()):
         for what, (system, events) in WATCHED.items():
-            run = functools.partial(processor_seconds, system, tolerance, integrator=integrator, direct=direct)
+            run = functools.partial(processor_seconds, system, tolerance, integrator=integrator, closed_form=closed_form)
             without, with_them = least(ROUNDS[FEW], run(), run(events=events))
             found = zd.simulate(system, SPAN, rtol=tolerance, atol=tolerance, integrator=integrator, events=events).t_events
             count = sum(map(len, found))
@@ -71,8 +71,8 @@ def of_events():
 def measured():
     """Rows (what, value, unit, limit)."""
     for integrator in METHODS:
-        for path, direct in PATHS.items():
-            run = functools.partial(seconds, BAR, integrator=integrator, direct=direct)
+        for path, closed_form in PATHS.items():
+            run = functools.partial(seconds, BAR, integrator=integrator, closed_form=closed_form)
             few, some = least(ROUNDS[SOME], run(FEW), run(SOME))
             fewer, many = least(ROUNDS[MANY], run(SOME), run(MANY))
             name = f"{integrator}, {path}"

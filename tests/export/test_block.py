@@ -34,7 +34,7 @@ def run(core, duration, **inputs):
 
 def assert_bits(system, duration=STEPS * STEP, **settings):
     core = BlockCore(zd.block(system, step=STEP, outputs=[], **settings))
-    samples, sol = run(core, duration), zd.simulate(system, duration, step=STEP, vector="baseline", direct=False, **settings)
+    samples, sol = run(core, duration), zd.simulate(system, duration, step=STEP, vector="baseline", closed_form=False, **settings)
     for name in ("t", "p", "v", "multipliers", "position_violation", "velocity_violation", "potential_energy"):
         np.testing.assert_array_equal(samples[name.removesuffix("_energy")], getattr(sol, name), err_msg=name)
     return core

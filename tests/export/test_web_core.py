@@ -81,7 +81,7 @@ def test_runs_have_the_bits_of_the_native_core(web, model):
     step, steps = MODELS[model]
     found, = web(f"const m = zd.create(core, block('it')); zd.step(m, {steps});"
                  "tell([bits(zd.positions(m)), bits(zd.velocities(m))]);", it=zd.block(model(), step=step, outputs=[]))
-    run = zd.Run(model(), step=step, direct=False, vector="baseline")
+    run = zd.Run(model(), step=step, closed_form=False, vector="baseline")
     run.step(steps)
     assert found == [bits(run.p), bits(run.v)]
 
@@ -103,7 +103,7 @@ def test_runs_have_the_bits_of_the_native_core_in_chromium(web, tmp_path):
                 const m = zd.create(await core, zd.bytes("{blocks[model]}"));
                 zd.step(m, {FEW});
                 return [zd.bits(zd.positions(m)), zd.bits(zd.velocities(m))]; }})()""")
-            run = zd.Run(model(), step=step, direct=False, vector="baseline")
+            run = zd.Run(model(), step=step, closed_form=False, vector="baseline")
             run.step(FEW)
             assert found == [bits(run.p), bits(run.v)], model
         assert browser.errors == []
@@ -252,7 +252,7 @@ def test_a_grip_is_a_force_on_a_point_of_a_body(web, model, link, force):
     script = GRIP.replace("BODY", str(number + 1)).replace("POINT", str(point.tolist())).replace("FORCE", str(list(force)))
     (p, poses), = web(script, it=block)
     loaded.force("load", f"{link}.end", value=force)
-    sol = zd.simulate(loaded, 0.2, step=1e-3, direct=False, vector="baseline")
+    sol = zd.simulate(loaded, 0.2, step=1e-3, closed_form=False, vector="baseline")
     np.testing.assert_allclose(p, sol.p[-1], atol=1e-9)         # the projections of the grip's parameters
     native = start.system._first_core.poses(np.array(p))[0]
     expected = native if len(force) == 2 else [[*at, *R.T.ravel()] for at, R in map(placed, native)]

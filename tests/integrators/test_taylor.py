@@ -134,11 +134,11 @@ def test_rows_that_follow_from_others(pendulum, equations):
 
 
 @pytest.mark.parametrize("equations", ["mixed", "independent"])
-@pytest.mark.parametrize("direct", [False, None])
-def test_states_in_independent_velocities(pendulum, equations, direct):
+@pytest.mark.parametrize("closed_form", [False, None])
+def test_states_in_independent_velocities(pendulum, equations, closed_form):
     """Through several choices of variables, by matrices and in closed form: against all of (p, v)."""
     times = np.linspace(0, 4, 33)
-    sol = zd.simulate(pendulum, 4.0, **FINE, formulation=equations, direct=direct, t_eval=times)
+    sol = zd.simulate(pendulum, 4.0, **FINE, formulation=equations, closed_form=closed_form, t_eval=times)
     other = zd.simulate(pendulum, 4.0, **FINE, t_eval=times)
     assert sol.stats["repartitions"] > 2
     assert max(np.abs(sol.p - other.p).max(), np.abs(sol.v - other.v).max() / 5) < 1e-12

@@ -78,7 +78,7 @@ def test_terms_are_those_of_the_tables(name, layout):
 def test_motions_and_all_measures_are_the_same(name, layout):
     one, other = (zd.simulate(system, 0.1, step=1e-3, save_every=50, energy=True, formulation="augmented")
                   for system in both(MADE[name](), layout))
-    assert other.settings["direct"] == one.settings["direct"]
+    assert other.settings["closed_form"] == one.settings["closed_form"]
     for measure in one.system.measures:
         a, b, same = one[measure], other[measure], np.atleast_1d(one.unique(measure))
         off = np.abs(a - b).reshape(len(a), -1)[:, same]
@@ -116,7 +116,7 @@ def test_a_changed_system_keeps_its_direct_functions_and_so_does_one_that_was_se
     system = four_bar().system(compiled=True)
     changed = system.with_parameters({"coupler.mass": 4.0})
     sent = pickle.loads(pickle.dumps(changed))
-    assert sent._direct[1].source == changed._direct[1].source == system._direct[1].source
+    assert sent._closed_form[1].source == changed._closed_form[1].source == system._closed_form[1].source
     one, other = (zd.simulate(each, 0.5, step=1e-3) for each in (changed, sent))
     assert (one.p == other.p).all()
     assert (one.multipliers == other.multipliers).all()

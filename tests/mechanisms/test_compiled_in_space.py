@@ -104,10 +104,10 @@ def driven():
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
 def test_angles_count_turns_on_both_roads(layout):
     m = driven()
-    one, other, general = (zd.simulate(m.system(layout, compiled=written), 4.0, step=1e-2, save_every=40, direct=direct)
-                           for written, direct in ((False, None), (True, None), (True, False)))
+    one, other, general = (zd.simulate(m.system(layout, compiled=written), 4.0, step=1e-2, save_every=40, closed_form=closed_form)
+                           for written, closed_form in ((False, None), (True, None), (True, False)))
     assert np.ptp(one["hinge.angle"]) > 2 * np.pi
-    assert other.settings["direct"] is not False
+    assert other.settings["closed_form"] is not False
     for sol in (other, general):
         assert off(one, sol) < 1e-9     # 400 steps
 

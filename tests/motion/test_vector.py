@@ -29,7 +29,7 @@ def run(name, **options):
 def test_it_is_told_and_a_run_made_again_has_the_same_bits(name, vector):
     sol = run(name, vector=vector)
     assert sol.settings["vector"] == vector
-    assert sol.stats["direct_steps"] == sol.stats["steps"]
+    assert sol.stats["closed_form_steps"] == sol.stats["steps"]
     again = zd.simulate(sol.system, sol.t_span, **sol.settings)
     assert np.array_equal(again.p, sol.p)
     assert np.array_equal(sol(0.123)[0], run(name, vector=vector, t_eval=[0.123]).p[0])
@@ -72,11 +72,11 @@ def test_what_there_is_not_is_refused(monkeypatch):
 @pytest.mark.parametrize("vector", UNITS[1:])
 def test_where_the_compiler_has_no_vectors_the_baseline_is_told(vector):
     system = symbolic_counterparts.four_bar()
-    plain = system._direct.library_of("0x40000000")     # no set that a compiler could write
-    system._direct._libraries[f"ZD_SET_{vector.upper()}_1"] = plain
+    plain = system._closed_form.library_of("0x40000000")     # no set that a compiler could write
+    system._closed_form._libraries[f"ZD_SET_{vector.upper()}_1"] = plain
     sol = zd.simulate(system, 1.0, step=0.01, vector=vector)
     assert sol.settings["vector"] == "baseline"
-    assert sol.stats["direct_steps"] == sol.stats["steps"]
+    assert sol.stats["closed_form_steps"] == sol.stats["steps"]
     assert np.array_equal(sol.p, run("symbolic", vector="baseline").p)
 
 
@@ -90,5 +90,5 @@ def test_solutions_of_before_used_none():
 
 
 def test_all_other_roads_have_the_same_bits_with_all_units():
-    general = [run("built in", direct=False, vector=vector).p for vector in UNITS]
+    general = [run("built in", closed_form=False, vector=vector).p for vector in UNITS]
     assert all(np.array_equal(each, general[0]) for each in general)

@@ -109,11 +109,11 @@ def chosen(system, rtol, times=None, **options):
     return zd.simulate(system, 2.0, **{"integrator": "dop853", "rtol": rtol, "atol": rtol, "t_eval": times, **options})
 
 
-@pytest.mark.parametrize("options", [{}, {"direct": False}, {"formulation": "augmented"}, {"energy": True},
+@pytest.mark.parametrize("options", [{}, {"closed_form": False}, {"formulation": "augmented"}, {"energy": True},
                                      {"stabilization": "baumgarte"}, {"integrator": "dormand_prince"},
                                      {"formulation": "mixed"}, {"formulation": "independent", "energy": True},
-                                     {"formulation": "independent", "direct": False}, {"formulation": "mixed", "direct": False},
-                                     {"integrator": "dormand_prince", "direct": False, "energy": True}], ids=str)
+                                     {"formulation": "independent", "closed_form": False}, {"formulation": "mixed", "closed_form": False},
+                                     {"integrator": "dormand_prince", "closed_form": False, "energy": True}], ids=str)
 def test_the_polynomial_of_a_method_errs_as_its_steps_do(bar, options):
     """By how much the rows between steps are off, beside the rows at their ends: at either, what the tolerance leaves."""
     times = np.linspace(0, 2, 217)
@@ -220,7 +220,7 @@ def test_the_polynomial_where_variables_are_chosen_anew_at_the_end_of_its_step(n
     """Values within the step use the variables of that step, and the run continues in the new ones, undisturbed by samples."""
     make, v0, end = CHOSEN_ANEW[name]
     system, times = make(), np.linspace(0, end, 241)
-    options = {"integrator": method, "formulation": variables, "direct": False}
+    options = {"integrator": method, "formulation": variables, "closed_form": False}
     exact = zd.simulate(system, end, None, v0, integrator="dop853", rtol=1e-11, atol=1e-11, t_eval=times)
     for rtol in (1e-4, 1e-7):
         steps = zd.simulate(system, end, None, v0, rtol=rtol, atol=rtol, **options)

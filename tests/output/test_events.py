@@ -95,8 +95,8 @@ def test_the_pendulum_in_closed_form_by_chosen_steps(method, tolerance):
         assert_close(times, expected, 50 * tolerance, scale=1)
 
 
-@pytest.mark.parametrize("options", [{}, {"direct": False}, {"energy": True}, {"stabilization": zd.Projection(every=3)},
-                                     {"stabilization": None}], ids=["direct", "general", "energy", "every 3", "none"])
+@pytest.mark.parametrize("options", [{}, {"closed_form": False}, {"energy": True}, {"stabilization": zd.Projection(every=3)},
+                                     {"stabilization": None}], ids=["closed_form", "general", "energy", "every 3", "none"])
 @pytest.mark.parametrize("method", POLYNOMIAL)
 @pytest.mark.parametrize("terminal", [False, 5])
 def test_an_event_is_a_row(bar, method, options, terminal):
@@ -120,12 +120,12 @@ def test_an_event_is_a_row(bar, method, options, terminal):
 @pytest.mark.parametrize("method", POLYNOMIAL)
 def test_a_run_ends_with_a_step_and_not_with_a_value_between(bar, method):
     """The step is made once more by itself: to the same bits, where the polynomial of the longer step has others."""
-    at, options = event(lambda t, p, v: p[0] - TURN), {"integrator": method, "direct": False, "rtol": 1e-4, "atol": 1e-4}
+    at, options = event(lambda t, p, v: p[0] - TURN), {"integrator": method, "closed_form": False, "rtol": 1e-4, "atol": 1e-4}
     noted = zd.simulate(bar, 1.0, events=at, **options)
     at.terminal = True
     ended = zd.simulate(bar, 1.0, events=at, **options)
     h = ended.t[-1] - ended.t[-2]
-    again = zd.simulate(bar, (ended.t[-2], ended.t[-1]), ended.p[-2], ended.v[-2], integrator=method, direct=False, step=h)
+    again = zd.simulate(bar, (ended.t[-2], ended.t[-1]), ended.p[-2], ended.v[-2], integrator=method, closed_form=False, step=h)
     assert again.p[-1].tobytes() == ended.p[-1].tobytes()
     assert again.v[-1].tobytes() == ended.v[-1].tobytes()
     assert abs(ended.p[-1, 0] - TURN) <= 4 * tol.EPS * np.abs(ended.v[-1]).max()

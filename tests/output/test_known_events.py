@@ -38,7 +38,7 @@ def assert_same_bits(some, others):
 @pytest.mark.parametrize("terminal", [False, True])
 @pytest.mark.parametrize("options", [{}, {"step": None, "integrator": "dop853", "rtol": 1e-8},
                                      {"formulation": "mixed", "stabilization": zd.Projection(every=3)}],
-                         ids=["direct", "chosen", "general"])
+                         ids=["closed_form", "chosen", "general"])
 @pytest.mark.parametrize(("what", "value", "function"), [
     ("alpha1", 2.0, lambda p: p[0]), ("alpha2_dot", 0.0, lambda v: v[1]), (sp.Symbol("alpha3") + T, 0.0, lambda t, p: p[2] + t)],
     ids=["coordinate", "velocity", "expression"])

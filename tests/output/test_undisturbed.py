@@ -17,7 +17,7 @@ def middle(sol):
 def assert_same_run(one, other):
     assert other.p[-1].tobytes() == one.p[-1].tobytes()
     assert other.v[-1].tobytes() == one.v[-1].tobytes()
-    for count in ("steps", "rejected", "subdivided", "rank_drops", "direct_steps"):
+    for count in ("steps", "rejected", "subdivided", "rank_drops", "closed_form_steps"):
         assert other.stats[count] == one.stats[count], count
 
 
@@ -44,7 +44,7 @@ def test_every_method_in_every_formulation(system, integrator, formulation):
 
 
 @pytest.mark.pairs(name=["four_bar", "pendulum"], options={
-    "general": {"direct": False}, "energy": {"energy": True}, "baumgarte": {"stabilization": "baumgarte"},
+    "general": {"closed_form": False}, "energy": {"energy": True}, "baumgarte": {"stabilization": "baumgarte"},
     "none": {"stabilization": None}, "every 3": {"stabilization": zd.Projection(every=3)}})
 @pytest.mark.each_value
 @pytest.mark.filterwarnings("ignore::zerodrift.CorrectionWarning", "ignore::zerodrift.AccuracyWarning")

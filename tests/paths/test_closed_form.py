@@ -42,14 +42,14 @@ STABILIZATIONS = {
 
 def both(moving, span=SPAN, **options):
     """The motion along the matrix path and along the direct one."""
-    return [zd.simulate(moving, span, direct=direct, on_failure="return", **options) for direct in (False, None)]
+    return [zd.simulate(moving, span, closed_form=closed_form, on_failure="return", **options) for closed_form in (False, None)]
 
 
-def assert_same_motion(general, direct, error=tol.STEPPED):
-    assert general.stats["direct_steps"] == 0
-    assert direct.stats["direct_steps"] == direct.stats["steps"] == general.stats["steps"]
+def assert_same_motion(general, closed_form, error=tol.STEPPED):
+    assert general.stats["closed_form_steps"] == 0
+    assert closed_form.stats["closed_form_steps"] == closed_form.stats["steps"] == general.stats["steps"]
     for name in COLUMNS:
-        a, b = getattr(general, name), getattr(direct, name)
+        a, b = getattr(general, name), getattr(closed_form, name)
         if a is not None and a.size:
             allowed = (100 if name == "multipliers" else 1) * error * max(1.0, np.abs(a).max())
             assert np.abs(b - a).max() <= allowed, name
@@ -76,23 +76,23 @@ def test_integrators_take_it(method):
 
 
 def test_steps_that_are_chosen_take_it():
-    general, direct = both(system("four_bar"), rtol=1e-9, atol=1e-9, integrator="dop853", t_eval=np.linspace(0, SPAN, 7))
-    assert direct.stats["direct_steps"] == direct.stats["steps"]
-    assert_close(direct.p, general.p, 1e-8)     # what the tolerance leaves, as rounding may choose other steps
-    assert direct.stats["factorizations"] < 5
+    general, closed_form = both(system("four_bar"), rtol=1e-9, atol=1e-9, integrator="dop853", t_eval=np.linspace(0, SPAN, 7))
+    assert closed_form.stats["closed_form_steps"] == closed_form.stats["steps"]
+    assert_close(closed_form.p, general.p, 1e-8)     # what the tolerance leaves, as rounding may choose other steps
+    assert closed_form.stats["factorizations"] < 5
 
 
 @pytest.mark.parametrize(("name", "options"), [
     ("rolling_disc", {"formulation": "independent"}), ("sleigh", {"formulation": "mixed"}),
-    ("four_bar", {"integrator": "rattle"}), ("four_bar", {"integrator": "trapezoidal"}), ("four_bar", {"direct": False}),
+    ("four_bar", {"integrator": "rattle"}), ("four_bar", {"integrator": "trapezoidal"}), ("four_bar", {"closed_form": False}),
 ], ids=str)
 def test_what_it_does_not_serve_takes_the_matrix_path(name, options, tmp_path):
     """Such as systems with a kinematic matrix, or with a complement of their own."""
     sol = zd.simulate(zd.systems.chaplygin_sleigh() if name == "sleigh" else system(name), 0.1, step=0.01, **options)
-    assert sol.stats["direct_steps"] == 0
+    assert sol.stats["closed_form_steps"] == 0
     assert sol.settings["vector"] is None
     (name, value), = options.items()
-    why = f"{name} {value!r} has none{' for such a system' * (name == 'formulation')}" if value else "direct=False"
+    why = f"{name} {value!r} has none{' for such a system' * (name == 'formulation')}" if value else "closed_form=False"
     assert f"\n  evaluation  matrices, no closed form: {why}\n" in repr(sol)
     assert sol.stats["matrix_path_reason"] == why
     loaded = zd.load(sol.save(tmp_path / "motion"))
@@ -102,11 +102,12 @@ def test_what_it_does_not_serve_takes_the_matrix_path(name, options, tmp_path):
 
 def test_statistics_answer_to_the_keys_of_earlier_versions(tmp_path):
     """The key is listed under its name of today alone; files of earlier versions have the other."""
-    sol = zd.simulate(system("four_bar"), 0.1, step=0.01, direct=False)
+    sol = zd.simulate(system("four_bar"), 0.1, step=0.01, closed_form=False)
     copies = sol, pickle.loads(pickle.dumps(sol)), zd.load(sol.save(tmp_path / "motion"))
-    older = dataclasses.replace(sol, stats={"general_road": "direct=False"})
+    older = dataclasses.replace(sol, stats={"general_road": "closed_form=False"})
     for each in (*copies, older):
-        assert each.stats["general_road"] == each.stats.get("general_road") == each.stats["matrix_path_reason"] == "direct=False"
+        assert each.stats["general_road"] == each.stats.get("general_road") == "closed_form=False"
+        assert each.stats["matrix_path_reason"] == "closed_form=False"
         assert "general_road" in each.stats
         assert "general_road" not in list(each.stats)
     with refused("wrong-name"):
@@ -119,10 +120,10 @@ def test_redundant_constraints_take_the_matrix_path():
     made = zd.symbolic([x, y, z], speeds=[vx, vy, vz], kinetic=(vx**2 + vy**2 + vz**2) / 2, potential=10 * y,
                        constraints=[x + y, x + sp.Symbol("a") * y + z * sp.Symbol("b")], parameters={"a": 1.0, "b": 1.0},
                        p0=[0.0, 0.0, 0.0], v0=[0.0, 0.0, 0.0])
-    assert zd.simulate(made, 0.1, step=0.01).stats["direct_steps"] == 10
+    assert zd.simulate(made, 0.1, step=0.01).stats["closed_form_steps"] == 10
     sol = zd.simulate(made.with_parameters(b=0.0), 0.1, step=0.01)
     assert sol.stats["rank"] == 1
-    assert sol.stats["direct_steps"] == 0
+    assert sol.stats["closed_form_steps"] == 0
     assert "no closed form: some constraints are redundant" in repr(sol)
 
 
@@ -142,8 +143,8 @@ def test_repeated_to_the_last_bit():
 
 @pytest.mark.parametrize("value", [True, 1, "no"])
 def test_only_none_and_false_are_known(value):
-    with refused("wrong-value", r"^direct must be None, which uses direct functions, or False, not "):
-        zd.simulate(system("four_bar"), 0.1, step=0.01, direct=value)
+    with refused("wrong-value", r"^closed_form must be None, which uses closed-form functions, or False, not "):
+        zd.simulate(system("four_bar"), 0.1, step=0.01, closed_form=value)
 
 
 # ---- formulations in independent velocities ----
@@ -166,30 +167,30 @@ def test_both_roads_integrate_the_same_independent_velocities(name, equations, s
     if stabilization == "projection" and name not in ("driven_four_bar", 4):     # where all motion is enforced, or nearly
         options["energy"] = True
     of = moving(name)
-    general, direct = both(of, MOVING[name], **options)
+    general, closed_form = both(of, MOVING[name], **options)
     if equations == "independent" and (of.mh * of.mn or of.evaluate().A is not None):
-        assert direct.stats["direct_steps"] == 0
+        assert closed_form.stats["closed_form_steps"] == 0
     else:
-        assert_same_motion_but_where_it_is_left(general, direct)
+        assert_same_motion_but_where_it_is_left(general, closed_form)
 
 
-def assert_same_motion_but_where_it_is_left(general, direct):
-    assert direct.status == general.status
-    assert direct.stats["repartitions"] == general.stats["repartitions"]
-    left = direct.stats["steps"] - direct.stats["direct_steps"]
-    assert 0 <= left <= max(direct.stats["repartitions"], 0.1 * direct.stats["steps"])
-    direct.stats["direct_steps"] += left
-    assert_same_motion(general, direct, 10 * tol.STEPPED)
+def assert_same_motion_but_where_it_is_left(general, closed_form):
+    assert closed_form.status == general.status
+    assert closed_form.stats["repartitions"] == general.stats["repartitions"]
+    left = closed_form.stats["steps"] - closed_form.stats["closed_form_steps"]
+    assert 0 <= left <= max(closed_form.stats["repartitions"], 0.1 * closed_form.stats["steps"])
+    closed_form.stats["closed_form_steps"] += left
+    assert_same_motion(general, closed_form, 10 * tol.STEPPED)
 
 
 def test_where_neither_order_nor_choice_lasts_the_matrix_path_does():
     """A chain of seven links between two points has fifteen choices, and orders for four."""
     chain = energy_models.closed_pendulum(6)
     for equations in INDEPENDENT:
-        general, direct = both(chain, 1.0, step=0.005, formulation=equations)
-        assert 0 < direct.stats["direct_steps"] < direct.stats["steps"]
-        assert direct.stats["repartitions"] == general.stats["repartitions"] > 2
-        assert_close(direct.p, general.p, 1e-10)
+        general, closed_form = both(chain, 1.0, step=0.005, formulation=equations)
+        assert 0 < closed_form.stats["closed_form_steps"] < closed_form.stats["steps"]
+        assert closed_form.stats["repartitions"] == general.stats["repartitions"] > 2
+        assert_close(closed_form.p, general.p, 1e-10)
 
 
 @pytest.mark.parametrize("equations", INDEPENDENT)
@@ -197,7 +198,7 @@ def test_independent_velocities_between_steps_and_again(equations):
     options = {"formulation": equations, "step": 0.01}
     sol = zd.simulate(system("four_bar"), SPAN, **options)
     again = zd.simulate(system("four_bar"), SPAN, t_eval=[0.123, 0.3], **options)
-    assert again.stats["direct_steps"] == again.stats["steps"]
+    assert again.stats["closed_form_steps"] == again.stats["steps"]
     assert (again.p[1] == sol.p[30]).all()
     p, v = sol(0.123)       # by a shorter step in velocities that are chosen there: here the same
     assert (p == again.p[0]).all()
@@ -210,10 +211,10 @@ def test_independent_velocities_between_steps_and_again(equations):
 def test_steps_that_are_chosen_take_independent_velocities(equations):
     """Rejected ones, too: these go back to where they began, in the same velocities."""
     options = {"rtol": 1e-9, "atol": 1e-9, "integrator": "dop853", "first_step": 0.3, "formulation": equations}
-    general, direct = both(system("four_bar"), 4.0, **options)
-    assert direct.stats["rejected"]
-    assert direct.stats["direct_steps"] > 0.9 * direct.stats["steps"]
-    assert_close(direct.p[-1], general.p[-1], 1e-6)
+    general, closed_form = both(system("four_bar"), 4.0, **options)
+    assert closed_form.stats["rejected"]
+    assert closed_form.stats["closed_form_steps"] > 0.9 * closed_form.stats["steps"]
+    assert_close(closed_form.p[-1], general.p[-1], 1e-6)
 
 
 # ---- random rows that depend on each other, nearly or not at all ----
@@ -234,15 +235,15 @@ def with_a_row_apart(seed, apart):
 def test_both_roads_agree_however_far_rows_are_apart(seed, equations, apart):
     """Constraints that are equal, or nearly equal, are ranked on the matrix path."""
     of = with_a_row_apart(seed, apart)
-    general, direct = both(of, 0.3, step=0.01, formulation=equations)
+    general, closed_form = both(of, 0.3, step=0.01, formulation=equations)
     assert general.success
-    assert direct.stats["rank"] == general.stats["rank"] == len(of.constraints) - (apart == 0)
+    assert closed_form.stats["rank"] == general.stats["rank"] == len(of.constraints) - (apart == 0)
     if apart <= 1e-3 or (equations == "independent" and of.mh * of.mn):
-        assert direct.stats["direct_steps"] == 0
+        assert closed_form.stats["closed_form_steps"] == 0
     elif apart == 1:
-        assert direct.stats["direct_steps"] == direct.stats["steps"]
-    direct.stats["direct_steps"] = direct.stats["steps"]
-    assert_same_motion(general, direct, tol.STEPPED / max(apart, 1e-3) ** 2)
+        assert closed_form.stats["closed_form_steps"] == closed_form.stats["steps"]
+    closed_form.stats["closed_form_steps"] = closed_form.stats["steps"]
+    assert_same_motion(general, closed_form, tol.STEPPED / max(apart, 1e-3) ** 2)
 
 
 # ---- where it is left ----
@@ -264,37 +265,37 @@ NEAR = {"parallelogram": (0.3, 1.0, 0.3, 1.0), "nearly": (0.3, 1.0, 0.3 + 1e-9, 
 @pytest.mark.parametrize("name", NEAR)
 def test_bifurcations_are_judged_alike(name, on_singular, options):
     """A turn of a crank, flat at a quarter and at three quarters of it or nearly so."""
-    general, direct = both(bar(NEAR[name], 0.0, 2 * np.pi), 1.0, on_singular=on_singular, **options)
-    assert direct.success == general.success
+    general, closed_form = both(bar(NEAR[name], 0.0, 2 * np.pi), 1.0, on_singular=on_singular, **options)
+    assert closed_form.success == general.success
     if not general.success:     # so near to it, rounding decides which of two sentences says so
-        errors = {zd.ZerodriftError, type(_gateway.error_of(general.status, "")), type(_gateway.error_of(direct.status, ""))}
+        errors = {zd.ZerodriftError, type(_gateway.error_of(general.status, "")), type(_gateway.error_of(closed_form.status, ""))}
         assert errors <= {zd.ZerodriftError, zd.Bifurcation, zd.BranchJump}
-        assert abs(direct.t[-1] - general.t[-1]) < 0.02
-    left = direct.stats["steps"] - direct.stats["direct_steps"]
-    if name != "next to one" and direct.success:
+        assert abs(closed_form.t[-1] - general.t[-1]) < 0.02
+    left = closed_form.stats["steps"] - closed_form.stats["closed_form_steps"]
+    if name != "next to one" and closed_form.success:
         assert left
-        assert f"closed form ({left} of {direct.stats['steps']} steps by matrices)" in repr(direct)
+        assert f"closed form ({left} of {closed_form.stats['steps']} steps by matrices)" in repr(closed_form)
     if "step" in options:
-        assert direct.stats["rank_drops"] == general.stats["rank_drops"]
-        assert_close(direct.p, general.p, 1e-7)     # near a bifurcation, rounding is divided by the relative pivot
+        assert closed_form.stats["rank_drops"] == general.stats["rank_drops"]
+        assert_close(closed_form.p, general.p, 1e-7)     # near a bifurcation, rounding is divided by the relative pivot
 
 
 @pytest.mark.parametrize("equations", INDEPENDENT)
 @pytest.mark.parametrize("name", ["parallelogram", "nearly", "near"])
 def test_bifurcations_are_judged_alike_in_independent_velocities(name, equations):
     """The next to one is too hard for such steps in these: on both paths, the energy is off by a fifth of the kinetic energy."""
-    general, direct = both(bar(NEAR[name], 0.0, 2 * np.pi), 1.0, step=1 / 137, on_singular="continue", formulation=equations)
-    assert direct.success == general.success == (name != "nearly")
-    assert direct.stats["repartitions"] == general.stats["repartitions"]
-    assert direct.stats["direct_steps"] < direct.stats["steps"]
-    assert abs(direct.t[-1] - general.t[-1]) < 0.02
-    assert_close(direct.p, general.p[:len(direct.p)], 1e-6)
+    general, closed_form = both(bar(NEAR[name], 0.0, 2 * np.pi), 1.0, step=1 / 137, on_singular="continue", formulation=equations)
+    assert closed_form.success == general.success == (name != "nearly")
+    assert closed_form.stats["repartitions"] == general.stats["repartitions"]
+    assert closed_form.stats["closed_form_steps"] < closed_form.stats["steps"]
+    assert abs(closed_form.t[-1] - general.t[-1]) < 0.02
+    assert_close(closed_form.p, general.p[:len(closed_form.p)], 1e-6)
 
 
 def test_a_step_too_long_to_be_known_from_its_ends_leaves_it():
-    general, direct = both(bar(rate=30.0), 1.0, step=0.05)      # more than a radian in each
-    assert direct.status == general.status
-    assert direct.stats["direct_steps"] < direct.stats["steps"]
+    general, closed_form = both(bar(rate=30.0), 1.0, step=0.05)      # more than a radian in each
+    assert closed_form.status == general.status
+    assert closed_form.stats["closed_form_steps"] < closed_form.stats["steps"]
 
 
 def test_a_light_part_that_its_coupling_makes_singular_leaves_it():
@@ -302,19 +303,19 @@ def test_a_light_part_that_its_coupling_makes_singular_leaves_it():
     x, y, vx, vy, share = sp.symbols("x y vx vy share")
     made = zd.symbolic([x, y], speeds=[vx, vy], kinetic=(vx**2 + vy**2) / 2 + (1 - share) * vx * vy, potential=x**2 + y**2,
                        parameters={share: 0.5}, p0=[1.0, 0.0], v0=[0.0, 0.0])
-    assert zd.simulate(made, 0.1, step=0.01).stats["direct_steps"] == 10
-    assert zd.simulate(made.with_parameters(share=1e-8), 0.1, step=1e-5).stats["direct_steps"] == 0
+    assert zd.simulate(made, 0.1, step=0.01).stats["closed_form_steps"] == 10
+    assert zd.simulate(made.with_parameters(share=1e-8), 0.1, step=1e-5).stats["closed_form_steps"] == 0
 
 
 class Failing:
-    """The four-bar, one of whose direct functions does not know from a time on; or only then."""
+    """The four-bar, one of whose closed-form functions does not know from a time on; or only then."""
 
     def __init__(self, member, fails):
-        embeds, functions = member == "embed", system("four_bar")._direct
+        embeds, functions = member == "embed", system("four_bar")._closed_form
         functions = functions.embedding if embeds else functions
-        self.core = system("four_bar")._direct_core(embeds=embeds)
-        direct = self.core.c.closed_form[0]
-        order = (direct.embedding if embeds else direct.order)[0]
+        self.core = system("four_bar")._closed_form_core(embeds=embeds)
+        closed_form = self.core.c.closed_form[0]
+        order = (closed_form.embedding if embeds else closed_form.order)[0]
         self.order = ffi.new("zd_elimination[1]", [order])
         inner = getattr(order, member)
 
@@ -326,11 +327,12 @@ class Failing:
             self.order[0].finish = ffi.NULL
         setattr(self.order[0], member, self.function)
         orders = {"embeddings": 1, "embedding": self.order} if embeds else {"orders": 1, "order": self.order}
-        self.direct = ffi.new("zd_closed_form[1]", [{"lanes": 1} | orders])
+        self.closed_form = ffi.new("zd_closed_form[1]", [{"lanes": 1} | orders])
         self.system = system("four_bar").starting()
-        address, data = int(ffi.cast("intptr_t", self.direct)), self.system._with_direct_data(functions.library(), functions)
-        made = self.core.with_direct(address, data, self)
-        self.system._with_direct = dict.fromkeys([(vector, embeds) for vector in VECTOR_UNITS], made)
+        address = int(ffi.cast("intptr_t", self.closed_form))
+        data = self.system._with_closed_form_data(functions.library(), functions)
+        made = self.core.with_closed_form(address, data, self)
+        self.system._with_closed_form = dict.fromkeys([(vector, embeds) for vector in VECTOR_UNITS], made)
 
 
 @pytest.mark.parametrize("options", [
@@ -339,8 +341,8 @@ class Failing:
 def test_functions_that_do_not_know_are_done_without(member, options):
     failing = Failing(member, lambda t: 0.1 < t < 0.2)
     sol = zd.simulate(failing.system, 0.4, **options)
-    assert 0 < sol.stats["direct_steps"] < sol.stats["steps"]
-    general = zd.simulate(failing.system, 0.4, direct=False, **options)
+    assert 0 < sol.stats["closed_form_steps"] < sol.stats["steps"]
+    general = zd.simulate(failing.system, 0.4, closed_form=False, **options)
     assert sol.stats["steps"] == general.stats["steps"]
     assert_close(sol.p, general.p, tol.STEPPED if "step" in options else 1e-7)     # rounding may choose other steps
     assert_close(sol.multipliers[-1], general.multipliers[-1], 1e-6)
@@ -352,8 +354,8 @@ def test_functions_that_do_not_know_are_done_without(member, options):
 def test_embeddings_that_do_not_know_are_done_without(equations, options):
     options = options | {"formulation": equations}
     sol = zd.simulate(Failing("embed", lambda t: 0.1 < t < 0.2).system, 0.4, **options)
-    assert 0 < sol.stats["direct_steps"] < sol.stats["steps"]
-    general = zd.simulate(system("four_bar"), 0.4, direct=False, **options)
+    assert 0 < sol.stats["closed_form_steps"] < sol.stats["steps"]
+    general = zd.simulate(system("four_bar"), 0.4, closed_form=False, **options)
     assert sol.stats["steps"] == general.stats["steps"]
     assert_close(sol.p, general.p, tol.STEPPED if "step" in options else 1e-7)
 
@@ -363,7 +365,7 @@ def test_a_single_step_does_without_them_too(member):
     failing = Failing(member, lambda t: t > 0.105)
     sol = zd.simulate(system("four_bar"), 0.2, step=0.01)
     other = zd.simulate(failing.system, 0.2, step=0.01)
-    assert other.stats["direct_steps"] == 10
+    assert other.stats["closed_form_steps"] == 10
     assert_close(other(0.115)[0], sol(0.115)[0], tol.STEPPED)
 
 
@@ -371,12 +373,12 @@ def test_a_value_between_steps_does_without_them_too():
     """Neither the polynomial's value nor the shorter step can be landed: so it is made on the matrix path."""
     options = {"integrator": "dop853", "rtol": 1e-8, "t_eval": [0.1, 0.115, 0.2]}
     sol = zd.simulate(Failing("finish", lambda t: t == 0.115).system, 0.2, **options)
-    assert sol.stats["direct_steps"] == sol.stats["steps"]
+    assert sol.stats["closed_form_steps"] == sol.stats["steps"]
     knowing = zd.simulate(system("four_bar"), 0.2, **options)
     assert_close(sol.p, knowing.p, 1e-7)
     assert_close(sol.p[2], knowing.p[2], tol.STEPPED)       # the run goes on from where it was; accelerations there are made anew
 
 
 def test_perturbed_systems_have_none():
-    core = _gateway.perturbed(system("four_bar")._direct_core(), 1e-8, 1)
+    core = _gateway.perturbed(system("four_bar")._closed_form_core(), 1e-8, 1)
     assert core.c.closed_forms == 0

@@ -12,7 +12,8 @@ TIMES = np.linspace(0, 2, 9)
 def stone():
     """The rattleback, whose quaternions have pdot = A v and whose independent velocities change often; its exact positions."""
     system = zd.models.rattleback().system("joint", compiled=True)
-    exact = zd.simulate(system, 2.0, t_eval=TIMES, integrator="dop853", rtol=1e-13, atol=1e-13, formulation="schur", direct=False)
+    exact = zd.simulate(system, 2.0, t_eval=TIMES, integrator="dop853", rtol=1e-13, atol=1e-13, formulation="schur",
+                        closed_form=False)
     return system, exact.p
 
 
@@ -36,12 +37,12 @@ def slider_crank(length=0.33, crank=0.07):
 def test_a_linkage_errs_in_closed_form_as_by_matrices():
     """Two formulations on both paths: `mixed` in closed form was up to 94 times as far off as by matrices."""
     system, how = slider_crank(), {"t_eval": np.linspace(0, 1, 5), "integrator": "dop853"}
-    exact = zd.simulate(system, 1.0, rtol=1e-13, atol=1e-13, formulation="schur", direct=False, **how)["slider.position"]
+    exact = zd.simulate(system, 1.0, rtol=1e-13, atol=1e-13, formulation="schur", closed_form=False, **how)["slider.position"]
     for formulation in ("schur", "mixed"):
-        sols = [zd.simulate(system, 1.0, rtol=1e-8, atol=1e-8, formulation=formulation, direct=direct, **how)
-                for direct in (None, False)]
+        sols = [zd.simulate(system, 1.0, rtol=1e-8, atol=1e-8, formulation=formulation, closed_form=closed_form, **how)
+                for closed_form in (None, False)]
         closed, matrices = (np.abs(sol["slider.position"] - exact).max() for sol in sols)
-        assert sols[0].stats["direct_steps"] > 0
+        assert sols[0].stats["closed_form_steps"] > 0
         assert closed < 3 * matrices        # in other choices of independent velocities, whose steps differ
 
 
@@ -50,9 +51,10 @@ def test_independent_velocities_in_closed_form_err_as_by_matrices(stone, method)
     """After a rejection pdot was that of the last stage: errors were 300 times as large, and every second step was rejected."""
     system, exact = stone
     errors, rejected = [], []
-    for direct in (None, False):
-        sol = zd.simulate(system, 2.0, t_eval=TIMES, integrator=method, rtol=1e-9, atol=1e-9, formulation="mixed", direct=direct)
-        assert (sol.stats["direct_steps"] > 0) == (direct is None)
+    for closed_form in (None, False):
+        sol = zd.simulate(system, 2.0, t_eval=TIMES, integrator=method, rtol=1e-9, atol=1e-9, formulation="mixed",
+                          closed_form=closed_form)
+        assert (sol.stats["closed_form_steps"] > 0) == (closed_form is None)
         errors.append(np.abs(sol.p - exact).max())
         rejected.append(sol.stats["rejected"])
     assert rejected[1] > 0

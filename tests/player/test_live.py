@@ -52,7 +52,7 @@ def test_violations_are_drawn_and_the_energy_error_is_that_of_a_run(browser, tmp
     browser.evaluate("document.getElementById('play').click()")
     t, found, drawn = browser.evaluate(f"""[{TIME}, zerodrift.energyViolation(zerodrift.live.mechanism),
         zerodrift.live.trust.map(each => each.length)]""")
-    sol = zd.simulate(zd.models.slider_crank(), round(t, 3), step=1e-3, direct=False, vector="baseline")
+    sol = zd.simulate(zd.models.slider_crank(), round(t, 3), step=1e-3, closed_form=False, vector="baseline")
     assert found == pytest.approx(sol.energy_violation[-1], abs=1e-13)       # rounding of energies of some joules
     assert min(drawn) > 3
     assert browser.evaluate("""(() => { const empty = document.createElement('canvas'), strip = document.getElementById('trust');

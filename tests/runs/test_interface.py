@@ -63,7 +63,7 @@ def listed(member, *content):
 ELIMINATION = {"solve": [0, 1, 1, 1], "row": [3, 0, 1, 2], "column": [5, 0, 1, 2]}
 
 
-def direct(*sets, **changed):
+def closed_form(*sets, **changed):
     """Each with four orders, which eliminate one row and then three for four of six velocities."""
     def make(made):
         tables = ELIMINATION | changed
@@ -118,7 +118,7 @@ FITTING = {
     "structure with a kinematic matrix": {"provides": lib.ZD_A, "nq": 7, "structure": {"coordinates": [2, 2, 3]}},
     "no constraints": {"mh": 0, "mn": 0, "structure": {"groups": 0}},
     "operations": {"operations": lambda made: made.of("zd_operations", {})},
-    "direct": {"closed_forms": 3, "closed_form": direct({"lanes": 4}, {"orders": 4}, {"unit": 2})},
+    "closed_form": {"closed_forms": 3, "closed_form": closed_form({"lanes": 4}, {"orders": 4}, {"unit": 2})},
     "direct, embedding": {"closed_forms": 1, "closed_form": embedding("embed")},
     "series": {"series": brought("zd_series", "evaluate")},
     "jacobian": {"jacobian": brought("zd_jacobian", "evaluate", scratch=5)},
@@ -169,19 +169,19 @@ def in_structure(**changed):
     ({"operations": brought("zd_operations", "subtract_weighted")},
      "operations: subtract_weighted and add_weighted must come together"),
     ({"closed_forms": 1}, "closed_form: there must be at most one set .*, not 1 sets"),
-    ({"closed_form": direct({})}, "closed_form: there must be at most one set .*, not 0 sets"),
-    ({"closed_forms": 13, "closed_form": direct(*[{}] * 13)}, "closed_form: there must be .*, not 13 sets"),
-    ({"closed_forms": 1, "closed_form": direct({"orders": 5})},
+    ({"closed_form": closed_form({})}, "closed_form: there must be at most one set .*, not 0 sets"),
+    ({"closed_forms": 13, "closed_form": closed_form(*[{}] * 13)}, "closed_form: there must be .*, not 13 sets"),
+    ({"closed_forms": 1, "closed_form": closed_form({"orders": 5})},
      "set 0 must have arrays of up to 4 orders of elimination, .* not of 5 and 0"),
-    ({"closed_forms": 1, "closed_form": direct({"orders": 0})}, "set 0 must have an order of elimination"),
-    ({"closed_forms": 2, "closed_form": direct({}, {"lanes": 3})}, "set 1 must have 1, 2, 4 or 8 lanes, not 3"),
-    ({"closed_forms": 2, "closed_form": direct({}, {})}, "set 1 must not be a second one of 1 lanes"),
-    ({"closed_forms": 2, "closed_form": direct({}, {"unit": 3})}, "the vector unit of set 1 must be from 0 to 2, not 3"),
-    ({"closed_forms": 1, "closed_form": direct({"order": ffi.NULL})}, "set 0 must have arrays .* not of 1 and 0$"),
-    ({"closed_forms": 1, "closed_form": direct({"embeddings": 1})}, "set 0 must have arrays .* not of 1 and 1$"),
-    ({"closed_forms": 1, "closed_form": direct({"embeddings": 5})}, "set 0 must have arrays .* not of 1 and 5$"),
+    ({"closed_forms": 1, "closed_form": closed_form({"orders": 0})}, "set 0 must have an order of elimination"),
+    ({"closed_forms": 2, "closed_form": closed_form({}, {"lanes": 3})}, "set 1 must have 1, 2, 4 or 8 lanes, not 3"),
+    ({"closed_forms": 2, "closed_form": closed_form({}, {})}, "set 1 must not be a second one of 1 lanes"),
+    ({"closed_forms": 2, "closed_form": closed_form({}, {"unit": 3})}, "the vector unit of set 1 must be from 0 to 2, not 3"),
+    ({"closed_forms": 1, "closed_form": closed_form({"order": ffi.NULL})}, "set 0 must have arrays .* not of 1 and 0$"),
+    ({"closed_forms": 1, "closed_form": closed_form({"embeddings": 1})}, "set 0 must have arrays .* not of 1 and 1$"),
+    ({"closed_forms": 1, "closed_form": closed_form({"embeddings": 5})}, "set 0 must have arrays .* not of 1 and 5$"),
     ({"closed_forms": 1, "closed_form": embedding("accelerate")}, "order 0 of set 0 must eliminate 4 rows"),
-    *[({"closed_forms": 1, "closed_form": direct({}, **changed)}, "order 0 of set 0 must eliminate 4 rows") for changed in (
+    *[({"closed_forms": 1, "closed_form": closed_form({}, **changed)}, "order 0 of set 0 must eliminate 4 rows") for changed in (
         {"accelerate": None}, {"correct": None}, {"row": None}, {"solves": 0}, {"solves": 5}, {"solves": 1},
         {"row": [3, 0, 1, 4]}, {"row": [3, 0, 1, 1]}, {"column": [5, 0, 1, 6]}, {"column": [5, 0, 0, 1]},
         {"solve": [0, 1, 0, 1]}, {"solve": [0, 2, 2, 2]})],

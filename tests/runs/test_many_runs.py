@@ -186,7 +186,7 @@ def test_runs_in_lanes_have_the_bits_that_they_have_alone(case, vector):
             pair.step(int(rng.integers(1, 12)))
     for i, run in enumerate(pair.alone):
         ours, its = pair.many._core[i].results().statistics, run._core.results().statistics
-        assert (ours.steps, ours.direct_steps) == (its.steps, its.direct_steps)
+        assert (ours.steps, ours.closed_form_steps) == (its.steps, its.closed_form_steps)
 
 
 def test_constants_that_follow_from_inputs_are_computed_for_each_lane():

@@ -69,7 +69,7 @@ def test_looking_at_every_row_costs_nothing(system, formulation):
     next one need not need it.
     """
     full, sparse = (motion(system, 1.0, 100, formulation=formulation, save_every=every).stats for every in (1, 100))
-    left = full["steps"] - full["direct_steps"] if full["direct_steps"] else 0
+    left = full["steps"] - full["closed_form_steps"] if full["closed_form_steps"] else 0
     assert 0 <= full["factorizations"] - sparse["factorizations"] <= left
     assert 0 <= full["solves"] - sparse["solves"] <= left
 
@@ -112,7 +112,7 @@ def test_a_start_within_the_tolerance_asked_for_is_taken(bar):
 
 def test_cost_of_a_step(bar):
     """RK4 with projection: the velocity correction's matrix serves the first of the next step's four stages."""
-    stats = motion(bar, 8.0, 800, direct=False).stats
+    stats = motion(bar, 8.0, 800, closed_form=False).stats
     iterations = stats["position_iterations"]
     assert stats["velocity_corrections"] == stats["steps"] == 800
     assert stats["factorizations"] == 1 + 4 * 800 + iterations
@@ -131,13 +131,13 @@ def test_cost_of_a_step_of_declared_structure(make, n):
 
 
 def test_cost_of_a_step_without_corrections(bar):
-    stats = motion(bar, 8.0, 800, direct=False, stabilization=None).stats
+    stats = motion(bar, 8.0, 800, closed_form=False, stabilization=None).stats
     assert stats["factorizations"] == stats["solves"] == 1 + 4 * 800
     assert stats["position_iterations"] == stats["velocity_corrections"] == stats["energy_corrections"] == 0
 
 
 def test_energy_correction_needs_no_further_matrix(bar):
-    stats = motion(bar, 8.0, 800, direct=False, energy=True).stats
+    stats = motion(bar, 8.0, 800, closed_form=False, energy=True).stats
     assert stats["factorizations"] == 1 + 4 * 800 + stats["position_iterations"]
     assert stats["energy_corrections"] == 800
 
@@ -145,7 +145,7 @@ def test_energy_correction_needs_no_further_matrix(bar):
 def test_cost_of_a_direct_step(bar):
     """A step starts with the accelerations at the end of the last one; a correction's last call includes the velocities."""
     stats = motion(bar, 8.0, 800, save_every=800).stats
-    assert stats["direct_steps"] == stats["velocity_corrections"] == 800
+    assert stats["closed_form_steps"] == stats["velocity_corrections"] == 800
     assert stats["factorizations"] == 1
     assert stats["evaluations"] <= 20 + (4 + 1) * 800 + stats["position_iterations"] + 800 // 8
 

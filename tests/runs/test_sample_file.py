@@ -134,7 +134,7 @@ def test_a_record_that_memory_has_no_room_for(tmp_path):
     """A record of 72 MB with 48 MB of memory allowed."""
     lines = ran("""
     import resource, sys, numpy as np, zerodrift as zd
-    bar, options = zd.systems.four_bar(), {"step": 1e-6, "direct": None}
+    bar, options = zd.systems.four_bar(), {"step": 1e-6, "closed_form": None}
     zd.simulate(bar, 1e-3, save_to=sys.argv[1], **options)
     taken = int(open("/proc/self/statm").read().split()[5]) * resource.getpagesize()
     resource.setrlimit(resource.RLIMIT_DATA, (taken + 48 * 2**20,) * 2)

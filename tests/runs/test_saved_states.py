@@ -24,8 +24,8 @@ def test_copies_continue_with_the_same_bits():
 
 
 @pytest.mark.parametrize("options", [
-    {"step": 0.004}, {"step": 0.004, "direct": False}, {"rtol": 1e-10, "atol": 1e-12, "max_step": 0.01},
-    {"integrator": "radau", "step": 0.01}, {"formulation": "mixed", "step": 0.004, "direct": False},
+    {"step": 0.004}, {"step": 0.004, "closed_form": False}, {"rtol": 1e-10, "atol": 1e-12, "max_step": 0.01},
+    {"integrator": "radau", "step": 0.01}, {"formulation": "mixed", "step": 0.004, "closed_form": False},
     {"formulation": "mixed", "rtol": 1e-10, "atol": 1e-12, "max_step": 0.01}], ids=str)
 def test_a_run_that_is_saved_at_every_sample_has_the_bits_of_one(bar, options):
     case = saved_runs.of(bar, options, 0.2)

@@ -21,7 +21,7 @@ from random_symbolic import random_system
 RUNS = tuple({"formulation": formulation, **how} for formulation, how in itertools.product(
     ("augmented", "nullspace", "schur", "mixed", "independent"),
     ({"integrator": "rk4", "step": 0.004}, {"integrator": "dormand_prince", "rtol": 1e-6, "atol": 1e-8},
-     {"integrator": "radau", "step": 0.01}, {"integrator": "trapezoidal", "step": 0.01, "direct": False})))
+     {"integrator": "radau", "step": 0.01}, {"integrator": "trapezoidal", "step": 0.01, "closed_form": False})))
 DURATION = 0.08
 MANY = 300              # velocities: of more, dense matrices and Newton iterations would take hours
 

@@ -42,7 +42,8 @@ static void run(const zd_system *system, const zd_settings *settings, const doub
     int status;
     zd_run *run = zd_run_create(system, settings, p, v, &status, message, sizeof message);
     if (run) status = zd_run_advance(run, &record, 1e9);
-    if (status || zd_run_statistics(run)->direct_steps != (settings->direct ? zd_run_statistics(run)->steps : 0)) exit(EXIT_FAILURE);
+    if (status || zd_run_statistics(run)->closed_form_steps != (settings->closed_form ? zd_run_statistics(run)->steps : 0))
+        exit(EXIT_FAILURE);
     zd_run_free(run);
 }
 
@@ -64,7 +65,7 @@ int main(int count, char **argument)
     const int projection = zd_row_named(ZD_CORRECTIONS, "projection"), energy = zd_row_named(ZD_CORRECTIONS, "energy");
     zd_settings settings = {
         .formulation = zd_row_named(ZD_FORMULATIONS, "schur"), .integrator = zd_row_named(ZD_INTEGRATORS, "rk4"),
-        .t1 = 0.3, .step = 0.01, .save_every = 1, .direct = atoi(argument[2]),
+        .t1 = 0.3, .step = 0.01, .save_every = 1, .closed_form = atoi(argument[2]),
     };
     settings.correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
     settings.correction[energy] = zd_initial(zd_row(ZD_CORRECTIONS, energy));

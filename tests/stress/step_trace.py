@@ -53,9 +53,9 @@ def units(trace, csrc, addresses):
     return [file.relative_to(csrc.resolve()).with_suffix("").as_posix() for file in files]
 
 
-def follow(trace, csrc, direct):
+def follow(trace, csrc, closed_form):
     """The calls of a step, as pairs of files, caller first; the first caller is the outer loop."""
-    run = subprocess.run([trace, str(STEP), str(direct), address_of_step(trace)], check=True, capture_output=True, text=True)
+    run = subprocess.run([trace, str(STEP), str(closed_form), address_of_step(trace)], check=True, capture_output=True, text=True)
     depths, addresses = zip(*(line.split() for line in run.stdout.splitlines()), strict=True)
     stack, pairs = ["simulate"], []
     for depth, unit in zip(map(int, depths), units(trace, csrc, addresses), strict=True):
@@ -81,8 +81,8 @@ def main(versions):
     for name, csrc in versions:
         with tempfile.TemporaryDirectory() as folder:
             trace = program(csrc, Path(folder))
-            for path, direct in PATHS.items():
-                print("|", " | ".join(map(str, (name, path, *measure(follow(trace, csrc, direct))))), "|", flush=True)
+            for path, closed_form in PATHS.items():
+                print("|", " | ".join(map(str, (name, path, *measure(follow(trace, csrc, closed_form))))), "|", flush=True)
 
 
 if __name__ == "__main__":

@@ -26,9 +26,9 @@ def ways(system, formulations=("schur", "independent"), steps=(0.02, 0.3)):
     return [way for way in every if not settings.disagreement(way.settings)]
 
 
-def assert_the_same(system, combinations, monkeypatch, direct=False, t_end=0.3):
+def assert_the_same(system, combinations, monkeypatch, closed_form=False, t_end=0.3):
     """By the core and by `simulate`; returns the rows."""
-    bench = Bench(system, (0.0, t_end), None, None, lambda t: np.zeros(system.nq), direct)
+    bench = Bench(system, (0.0, t_end), None, None, lambda t: np.zeros(system.nq), closed_form)
     assert not bench.needs_python
     found = [row._replace(seconds=0.0) for row in bench.rows(combinations)]
     with monkeypatch.context() as patched:
@@ -40,7 +40,7 @@ def assert_the_same(system, combinations, monkeypatch, direct=False, t_end=0.3):
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_rows_have_the_bits_of_single_runs(name, monkeypatch):
-    rows = assert_the_same(SYSTEMS[name], ways(SYSTEMS[name]), monkeypatch, direct=None)
+    rows = assert_the_same(SYSTEMS[name], ways(SYSTEMS[name]), monkeypatch, closed_form=None)
     assert any(row.success for row in rows)
 
 
@@ -66,7 +66,7 @@ def test_a_run_that_cannot_begin_says_why_as_any_other():
     bar = SYSTEMS["four_bar"]
     bench = Bench(bar, (0.0, 0.1), 1.1 * bar.p0, bar.v0, lambda t: np.zeros(3))
     with pytest.raises(zd.InconsistentStart) as alone:
-        zd.simulate(bar, 0.1, 1.1 * bar.p0, bar.v0, step=0.01, direct=False)
+        zd.simulate(bar, 0.1, 1.1 * bar.p0, bar.v0, step=0.01, closed_form=False)
     with pytest.raises(zd.InconsistentStart) as refused:
         bench.rows([Setting("schur", "rk4", 0.01, None)])
     assert str(refused.value) == str(alone.value)

@@ -29,7 +29,7 @@ def test_errors_are_those_at_the_steps_of_the_run():
     from zerodrift.studies.bench import Setting
 
     reference = zd.reference(BAR, 4.0, error=1e-11)
-    bench, missed = Bench(BAR, (0.0, 4.0), None, None, reference, direct=None), []
+    bench, missed = Bench(BAR, (0.0, 4.0), None, None, reference, closed_form=None), []
     for row in bench.timed([Setting("schur", "dop853", 4 / steps, None) for steps in (320, 480, 640)]):
         sol = zd.simulate(BAR, 4.0, **row.setting.settings)
         error = np.abs(compare.difference(sol, reference)).max()

@@ -39,8 +39,8 @@ def test_the_error_is_that_of_the_run_itself():
     """Also at times at which no step of the run ends."""
     exact = zd.reference(BAR, 0.5, error=1e-10, t_eval=np.linspace(0, 0.5, 33))
     for row in measured(reference=exact).rows:
-        sol = zd.simulate(BAR, 0.5, **row.setting.settings, direct=False)     # formulations are compared without
-        at = zd.simulate(BAR, 0.5, **row.setting.settings, direct=False, t_eval=exact.solution.t)
+        sol = zd.simulate(BAR, 0.5, **row.setting.settings, closed_form=False)     # formulations are compared without
+        at = zd.simulate(BAR, 0.5, **row.setting.settings, closed_form=False, t_eval=exact.solution.t)
         error = np.abs(at.p - exact.solution.p).max()
         assert abs(row.error - error) <= exact.error
         assert row.steps == sol.stats["steps"]

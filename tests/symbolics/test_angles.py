@@ -7,7 +7,7 @@ import pytest
 
 import zerodrift as zd
 from native_systems import needs_compiler
-from vector_units import DirectSet, direct_sets
+from vector_units import DirectSet, closed_form_sets
 from zerodrift.symbolics.graph import angles
 from zerodrift.symbolics.graph.lowering import Lowering
 
@@ -61,16 +61,16 @@ def turned():
 
 @functools.cache
 def plain_functions():
-    direct, sizes, data, _ = direct_sets(turned())
-    return DirectSet(direct[0, 1], sizes, data[None, :])
+    closed_form, sizes, data, _ = closed_form_sets(turned())
+    return DirectSet(closed_form[0, 1], sizes, data[None, :])
 
 
 @needs_compiler
 @pytest.mark.parametrize("size", SIZES)
 def test_near_cancellation_nothing_is_lost_that_the_angles_have(size):
     """An error of 2^-53 of each angle's own sine is what these angles as numbers have by themselves."""
-    assert "ZD_SINES(2, " in turned()._direct.source
-    direct, rng = plain_functions(), np.random.default_rng(1)
+    assert "ZD_SINES(2, " in turned()._closed_form.source
+    closed_form, rng = plain_functions(), np.random.default_rng(1)
     with mpmath.workdps(60):
         for apart in 10.0 ** -np.arange(0, 16):
             a = SIZES[size] * rng.uniform(0.5, 1.5)
@@ -78,6 +78,6 @@ def test_near_cancellation_nothing_is_lost_that_the_angles_have(size):
             A, B = mpmath.mpf(a), mpmath.mpf(b)
             exact = [mpmath.sin(A - B) + mpmath.sin(A) * mpmath.cos(2 * A - B),
                      mpmath.sin(2 * A - 2 * B) + mpmath.sin(B) * mpmath.cos(A)]
-            found = direct.accelerate(0, np.zeros(1), np.array([[a, b]]), np.zeros((1, 2)))["vdot"][0]
+            found = closed_form.accelerate(0, np.zeros(1), np.array([[a, b]]), np.zeros((1, 2)))["vdot"][0]
             for value, right in zip(found, exact, strict=True):
                 assert abs(float(value - right)) <= 16 * 2.0**-53 * max(abs(np.sin(a)), abs(np.sin(b)))

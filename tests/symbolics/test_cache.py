@@ -219,13 +219,13 @@ def test_where_the_cache_is_on_windows(as_windows, tmp_path, monkeypatch):
 def test_direct_functions_are_written_once(cache_folder, monkeypatch):
     """Their text is found by what it depends on: the operations, numbers at which orders were chosen, and the limits."""
     system = made()
-    source = system._direct.source
+    source = system._closed_form.source
     assert source
     monkeypatch.setattr(closed_form, "write", lambda *given, **options: pytest.fail("written again"))
-    assert made()._direct.source == source
-    assert made().with_parameters(a=3.0)._direct.constants == system._direct.constants
+    assert made()._closed_form.source == source
+    assert made().with_parameters(a=3.0)._closed_form.constants == system._closed_form.constants
     monkeypatch.setattr(closed_form, "write", lambda *given, **options: ("another", 0))
     other = zd.symbolic([Q], **(GIVEN | {"potential": A * sp.sin(Q)}))
-    assert other._direct.source == "another"
+    assert other._closed_form.source == "another"
     monkeypatch.setattr(closed_form_writer, "MOST_STATEMENTS", 900)
-    assert made()._direct.source == "another"
+    assert made()._closed_form.source == "another"

@@ -20,7 +20,7 @@ from zerodrift.symbolics.compile import shared_library
 
 pytestmark = pytest.mark.skipif(kept.AS_WINDOWS, reason="owners and permissions are those of POSIX")
 OTHER, OTHERS_GROUP = 12345, 12345
-FILES = 4           # of a system: what was derived, its direct functions, a library and the note that it belongs to the source
+FILES = 4       # of a system: what was derived, its closed-form functions, a library and the note that it belongs to the source
 needs_root = pytest.mark.skipif(kept.AS_WINDOWS or os.geteuid() != 0, reason="only root can give files away")
 
 

@@ -1,4 +1,4 @@
-"""Direct functions of several trajectories give each what it has by itself: to the last bit, whatever is in the other lanes."""
+"""Closed-form functions of several trajectories give each what it has alone: to the last bit, whatever is in the other lanes."""
 
 import functools
 
@@ -13,7 +13,7 @@ from mechanisms.random_mechanisms import Maker
 from native_systems import needs_compiler
 from random_symbolic import random_system
 from symbolic_counterparts import OF_PARAMETERS
-from vector_units import SETS, DirectSet, available, direct_sets
+from vector_units import SETS, DirectSet, available, closed_form_sets
 
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler
@@ -42,7 +42,7 @@ SYSTEMS = {**{name: getattr(zd.systems, name) for name in OF_PARAMETERS},
 def sets_of(name):
     """All sets of a system, by unit and lanes, with its sizes, its data and its start."""
     system = SYSTEMS[name]()
-    return direct_sets(system)
+    return closed_form_sets(system)
 
 
 def inputs(name, lanes, seed):
@@ -122,7 +122,7 @@ def test_contraction_changes_no_more_than_rounding(name):
 
 def test_a_compiler_that_has_no_vectors_writes_the_plain_functions():
     """The compiler emits the requested sets that it supports, or else the baseline."""
-    functions = random_system(2)._direct
+    functions = random_system(2)._closed_form
     plain = functions.library_of("0x40000000")
-    table = ffi.cast("const zd_closed_form *", zd._gateway.address_of(plain, "zd_symbolic_direct"))
+    table = ffi.cast("const zd_closed_form *", zd._gateway.address_of(plain, "zd_symbolic_closed_form"))
     assert (table[0].unit, table[0].lanes) == (0, 1)

@@ -53,7 +53,7 @@ def test_terms_and_motion_have_the_same_bits(make, monkeypatch):
             value, again = getattr(a, name), getattr(b, name)
             assert (value is None) == (again is None), name
             assert value is None or np.asarray(value).tobytes() == np.asarray(again).tobytes(), name
-    assert_same_bits(*(zd.simulate(system, 0.1, step=0.01, direct=False) for system in (one, other)))
+    assert_same_bits(*(zd.simulate(system, 0.1, step=0.01, closed_form=False) for system in (one, other)))
 
 
 def test_no_function_of_a_long_chain_is_long():

@@ -55,8 +55,8 @@ def test_what_couples_all_bodies_leaves_nothing_to_find():
     assert rods(3).structure is None        # small
 
 
-@pytest.mark.parametrize("direct", [None, False])
-def test_the_motion_is_that_of_the_dense_system(request, direct):
+@pytest.mark.parametrize("closed_form", [None, False])
+def test_the_motion_is_that_of_the_dense_system(request, closed_form):
     system = rods()
     request.getfixturevalue("dense")
     twin = rods()
@@ -67,7 +67,7 @@ def test_the_motion_is_that_of_the_dense_system(request, direct):
     for name in ("M", "C", "Phi", "xi", "force"):
         assert (getattr(one, name) == getattr(other, name)).all(), name
     for formulation in zd.formulations():
-        runs = [zd.simulate(each, 0.2, step=0.01, formulation=formulation, direct=direct) for each in (system, twin)]
+        runs = [zd.simulate(each, 0.2, step=0.01, formulation=formulation, closed_form=closed_form) for each in (system, twin)]
         assert_close(runs[0].p, runs[1].p, 1e-10)
         assert_close(runs[0].multipliers, runs[1].multipliers, 1e-9)
 

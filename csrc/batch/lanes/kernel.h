@@ -100,7 +100,7 @@ ZD_KERNEL void ZD_NAMED(call)(const zd_lanes *self, const zd_elimination *order,
 ZD_KERNEL int ZD_NAMED(common_order)(const zd_lanes *self)
 {
     const double first = self->order[0];
-    if (self->direct->orders == 1) return 0;
+    if (self->closed_form->orders == 1) return 0;
     return ZD_ANY(*REAL(self->order) != first) ? -1 : (int)first;
 }
 
@@ -112,17 +112,17 @@ ZD_KERNEL void ZD_NAMED(accelerate)(const zd_lanes *self, const double *t, const
     }
     const int common = ZD_NAMED(common_order)(self), nq = self->nq, nv = self->nv, m = self->m;
     if (common >= 0) {
-        ZD_NAMED(call)(self, self->direct->order + common, t, p, v, to);
+        ZD_NAMED(call)(self, self->closed_form->order + common, t, p, v, to);
         return;
     }
     double *other = self->other;
     const ZD_NAMED(rates) there = {other, other + nq * ZD_LANES, to->lambda ? other + (nq + nv) * ZD_LANES : NULL,
                                    to->power ? other + (nq + nv + m) * ZD_LANES : NULL,
                                    to->pivots ? other + (nq + nv + m + 1) * ZD_LANES : NULL};
-    for (int i = 0; i < self->direct->orders; i++) {
+    for (int i = 0; i < self->closed_form->orders; i++) {
         const zd_condition has = *REAL(self->order) == (double)i;
         if (!ZD_ANY(has)) continue;
-        ZD_NAMED(call)(self, self->direct->order + i, t, p, v, &there);
+        ZD_NAMED(call)(self, self->closed_form->order + i, t, p, v, &there);
         ZD_NAMED(take_where)(has, self->has_A ? nq : 0, there.pdot, to->pdot);
         ZD_NAMED(take_where)(has, nv, there.vdot, to->vdot);
         ZD_NAMED(take_where)(has, to->lambda ? m : 0, there.lambda, to->lambda);
@@ -139,13 +139,13 @@ ZD_KERNEL void ZD_NAMED(correct)(const zd_lanes *self, const double *t, const do
         return;
     }
     const int common = ZD_NAMED(common_order)(self);
-    const zd_elimination *order = self->direct->order;
+    const zd_elimination *order = self->closed_form->order;
     if (common >= 0) {
         order[common].correct(self->data, self->inputs, t, p, v, self->Phi, self->dp, self->dv);
         return;
     }
     double *dp = self->other, *dv = dp + self->nq * ZD_LANES;
-    for (int i = 0; i < self->direct->orders; i++) {
+    for (int i = 0; i < self->closed_form->orders; i++) {
         const zd_condition has = *REAL(self->order) == (double)i;
         if (!ZD_ANY(has)) continue;
         order[i].correct(self->data, self->inputs, t, p, v, self->Phi, dp, dv);

@@ -29,7 +29,7 @@ typedef struct zd_watched {
 
 /* Numbers common to all lanes, then those of each lane. */
 typedef struct zd_lanes {
-    const zd_closed_form *direct;   /* closed-form functions; NULL: revolute joints are used instead */
+    const zd_closed_form *closed_form;   /* closed-form functions; NULL: revolute joints are used instead */
     zd_lane_pins *pins;     /* bodies joined by revolute joints; NULL: closed-form functions are used */
     zd_method method;
     int lanes, nq, nv, m, mh, size;     /* size: of the state y = p, v and, if required, the energy input */

@@ -104,11 +104,11 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
     zd_condition sound = ZD_SPLAT(0.0) != 0.0;
     *continues = sound;
     if (self->pins) return *continues = ~HOLDS(self->pins->is_lost);
-    for (int i = 0; i < self->direct->orders; i++) {
+    for (int i = 0; i < self->closed_form->orders; i++) {
         const zd_condition has = *REAL(self->order) == (double)i;
         if (!ZD_ANY(has)) continue;
         zd_real of_rows, of_mass;
-        ZD_NAMED(smallest)(self, self->direct->order + i, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
+        ZD_NAMED(smallest)(self, self->closed_form->order + i, self->scale + i * self->nv * ZD_LANES, self->pivots1, &of_rows, &of_mass);
         sound |= has & (of_rows >= ZD_SMALL_PIVOT) & (of_mass >= ZD_LARGE_PIVOT);
         if (i == 0) *continues = has & (of_rows >= ZD_LARGE_PIVOT) & (of_mass >= ZD_LARGE_PIVOT);
     }
@@ -170,7 +170,7 @@ ZD_KERNEL zd_condition ZD_NAMED(is_accepted)(zd_lanes *self, zd_real h, zd_real 
 /* Selects order i in the lanes that have none, if its pivots are large enough. */
 ZD_KERNEL void ZD_NAMED(try_order)(zd_lanes *self, int i, double enough)
 {
-    const zd_elimination *order = self->direct->order + i;
+    const zd_elimination *order = self->closed_form->order + i;
     const ZD_NAMED(rates) to = {self->pdot1, self->vdot1, NULL, self->has_input ? self->power1 : NULL, self->pivots1};
     zd_real of_rows, of_mass;
     ZD_NAMED(call)(self, order, self->t, self->y, self->y + self->nq * ZD_LANES, &to);
@@ -188,7 +188,7 @@ ZD_KERNEL void ZD_NAMED(try_order)(zd_lanes *self, int i, double enough)
 ZD_KERNEL void ZD_NAMED(choose)(zd_lanes *self)
 {
     for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < self->direct->orders; i++)
+        for (int i = 0; i < self->closed_form->orders; i++)
             if (ZD_ANY(*REAL(self->order) != *REAL(self->order))) ZD_NAMED(try_order)(self, i, pass ? ZD_SUFFICIENT_PIVOT : ZD_LARGE_PIVOT);
     const zd_real order = *REAL(self->order);
     const zd_condition has_none = order != order;

@@ -12,7 +12,7 @@
 int zd_lane_may_enter(const zd_open_lanes *self, const zd_run *run)
 {
     const zd_step_loop *loop = &run->loop;
-    return run->motion.path.direct->order == self->order && !run->outcome.status && !loop->parts && !loop->steps_before
+    return run->motion.path.closed_form->order == self->order && !run->outcome.status && !loop->parts && !loop->steps_before
         && loop->t_begin == run->settings.t0 && loop->end == INFINITY && !run->held.has_ramp;
 }
 
@@ -84,7 +84,7 @@ static void store_statistics(zd_lanes *lanes, int lane, double steps, zd_run *ru
     zd_statistics *statistics = &run->motion.statistics;
     const int64_t made = (int64_t)steps - run->loop.step, iterations = (int64_t)lanes->iterations[lane];
     statistics->steps += made;
-    statistics->direct_steps += made;
+    statistics->closed_form_steps += made;
     statistics->velocity_corrections += lanes->corrects ? made : 0;
     zd_count_position_iterations(&run->motion, (int)lanes->most_iterations[lane]);
     statistics->position_iterations += iterations - (int64_t)lanes->most_iterations[lane];
@@ -106,7 +106,7 @@ static int move_to(const zd_lanes *lanes, int lane, double t, double steps, cons
     motion->path.was_taken = 1;
     run->loop.step = (int64_t)steps;
     zd_point_move(motion->point, t, stepper->y, stepper->y + lanes->nq);
-    return zd_direct_choose(motion) ? zd_guard_begin(&run->safeguards.guard, run->loop.step + 1) : ZD_DONE;
+    return zd_closed_form_choose(motion) ? zd_guard_begin(&run->safeguards.guard, run->loop.step + 1) : ZD_DONE;
 }
 
 int zd_lane_put_back(zd_open_lanes *self, int lane, int64_t i, double t, double steps, const double *y)

@@ -128,7 +128,8 @@ ZD_INLINE void eliminate(const int n, const int is_same, const int is_whole, con
     }
 }
 
-ZD_INLINE void eliminate_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *restrict x, zd_pivots *pivots)
+ZD_INLINE void eliminate_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *restrict x,
+                             zd_pivots *pivots)
 {
     zd_pivots found = *pivots;              /* in registers */
     for (int k = 0; k < self->count; k++) eliminate(n, is_same, is_whole, self, k, NULL, 0, x, &found);

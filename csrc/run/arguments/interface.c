@@ -145,10 +145,10 @@ static int is_an_elimination(const zd_system *system, const zd_elimination *orde
 
 static int check_orders(const zd_system *system, int set, text message)
 {
-    const zd_closed_form *direct = &system->closed_form[set];
-    for (int i = 0; i < direct->orders + direct->embeddings; i++) {
-        const int embeds = i >= direct->orders;
-        const zd_elimination *order = embeds ? direct->embedding + (i - direct->orders) : direct->order + i;
+    const zd_closed_form *closed_form = &system->closed_form[set];
+    for (int i = 0; i < closed_form->orders + closed_form->embeddings; i++) {
+        const int embeds = i >= closed_form->orders;
+        const zd_elimination *order = embeds ? closed_form->embedding + (i - closed_form->orders) : closed_form->order + i;
         if (!is_an_elimination(system, order, embeds))
             return refuse(message, "closed_form: order %d of set %d must eliminate %d rows, each once, for as many of %d velocities", i, set,
                           system->mh + system->mn, system->nv);
@@ -161,7 +161,7 @@ static int is_no_number_of_orders(int count, const zd_elimination *order)
     return count < 0 || count > 4 || (count > 0 && !order);
 }
 
-static int check_direct(const zd_system *system, text message)
+static int check_closed_form(const zd_system *system, text message)
 {
     int known[ZD_AVX512 + 1] = {0};
     if (system->closed_forms < 0 || system->closed_forms > 12 || (system->closed_forms > 0) != (system->closed_form != NULL))
@@ -169,18 +169,20 @@ static int check_direct(const zd_system *system, text message)
                       "not %d sets",
                       system->closed_forms);
     for (int i = 0; i < system->closed_forms; i++) {
-        const zd_closed_form *direct = &system->closed_form[i];
-        if (is_no_number_of_orders(direct->orders, direct->order) || is_no_number_of_orders(direct->embeddings, direct->embedding))
+        const zd_closed_form *closed_form = &system->closed_form[i];
+        if (is_no_number_of_orders(closed_form->orders, closed_form->order)
+            || is_no_number_of_orders(closed_form->embeddings, closed_form->embedding))
             return refuse(message, "closed_form: set %d must have arrays of up to 4 orders of elimination, and of up to 4 for independent "
-                          "velocities, not of %d and %d", i, direct->orders, direct->embeddings);
-        if (!(direct->orders + direct->embeddings)) return refuse(message, "closed_form: set %d must have an order of elimination", i);
-        if (direct->lanes != 1 && direct->lanes != 2 && direct->lanes != 4 && direct->lanes != 8)
-            return refuse(message, "closed_form: set %d must have 1, 2, 4 or 8 lanes, not %d", i, direct->lanes);
-        if ((unsigned)direct->unit > ZD_AVX512)
-            return refuse(message, "closed_form: the vector unit of set %d must be from 0 to 2, not %d", i, (int)direct->unit);
-        if (known[direct->unit] & direct->lanes)
-            return refuse(message, "closed_form: set %d must not be a second one of %d lanes for its vector unit", i, direct->lanes);
-        known[direct->unit] |= direct->lanes;
+                          "velocities, not of %d and %d", i, closed_form->orders, closed_form->embeddings);
+        if (!(closed_form->orders + closed_form->embeddings))
+            return refuse(message, "closed_form: set %d must have an order of elimination", i);
+        if (closed_form->lanes != 1 && closed_form->lanes != 2 && closed_form->lanes != 4 && closed_form->lanes != 8)
+            return refuse(message, "closed_form: set %d must have 1, 2, 4 or 8 lanes, not %d", i, closed_form->lanes);
+        if ((unsigned)closed_form->unit > ZD_AVX512)
+            return refuse(message, "closed_form: the vector unit of set %d must be from 0 to 2, not %d", i, (int)closed_form->unit);
+        if (known[closed_form->unit] & closed_form->lanes)
+            return refuse(message, "closed_form: set %d must not be a second one of %d lanes for its vector unit", i, closed_form->lanes);
+        known[closed_form->unit] |= closed_form->lanes;
         int status = check_orders(system, i, message);
         if (status) return status;
     }
@@ -304,7 +306,7 @@ static int check_followers(const zd_system *system, text message)
 int zd_check_interface(const zd_system *system, char *message, int size)
 {
     static int (*const checks[])(const zd_system *, text) = {
-        check_followers, check_structure, check_operations, check_direct, check_measures, check_series, check_jacobian,
+        check_followers, check_structure, check_operations, check_closed_form, check_measures, check_series, check_jacobian,
         check_residuals, check_magnitudes, check_inputs, check_switched_groups, check_quaternions,
     };
     int status = ZD_DONE;

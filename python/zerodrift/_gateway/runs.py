@@ -44,9 +44,9 @@ def settings(members: dict[str, Any], like: Any = None) -> Any:
     return made
 
 
-def takes_direct(core: CoreSystem, settings: Any) -> bool:
+def takes_closed_form(core: CoreSystem, settings: Any) -> bool:
     """True if a run of this system with these settings uses closed-form functions, if the system has them."""
-    return bool(lib.zd_takes_direct(settings) and lib.zd_may_have_direct(core.c, settings))
+    return bool(lib.zd_takes_closed_form(settings) and lib.zd_may_have_closed_form(core.c, settings))
 
 
 def disagreement(settings: Any) -> str:
@@ -80,9 +80,9 @@ def lanes_serve(core: CoreSystem, settings: Any) -> bool:
     return settings.steps == lib.ZD_FIXED_STEPS and bool(lib.zd_lanes_serve_settings(core.c, settings))
 
 
-def direct_unit(core: CoreSystem, settings: Any) -> int | None:
+def closed_form_unit(core: CoreSystem, settings: Any) -> int | None:
     """Number of the vector unit whose closed-form functions a run of this system uses; None if it uses none."""
-    unit = lib.zd_direct_unit(core.c, settings)
+    unit = lib.zd_closed_form_unit(core.c, settings)
     return unit if unit >= 0 else None
 
 

@@ -117,7 +117,7 @@ class CoreSystem(Measuring):
         return work
 
     @property
-    def has_direct(self) -> bool:
+    def has_closed_form(self) -> bool:
         """True if the system has closed-form functions."""
         return self.c.closed_forms > 0
 
@@ -129,7 +129,7 @@ class CoreSystem(Measuring):
     @property
     def lane_numbers(self) -> Any:
         """Numbers that closed-form functions read, an array of C, or None without such functions."""
-        return self._data[0] if self.has_direct and self._data[0] else None
+        return self._data[0] if self.has_closed_form and self._data[0] else None
 
     def with_lanes(self, address: int, keep: Any) -> Self:
         """Copy of the system with a second `zd_closed_form`, at `address`, for SIMD lanes; unchanged if that serves one

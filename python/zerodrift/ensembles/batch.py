@@ -14,7 +14,7 @@ from ..runs.ending import solution_of_rows
 from ..runs.operations import assembly
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
-from ..systems.base import BaseSystem, core_of, direct_core_of, with_what_it_takes
+from ..systems.base import BaseSystem, closed_form_core_of, core_of, with_what_it_takes
 from ..systems.parameter_tables import NumberTables
 from .part import BY_CORE, IN_LANES, Part, nothing
 from .plan import OPTIONS, Plan
@@ -31,7 +31,7 @@ class Batch(NamedTuple):
     rows: int                               # largest number of samples of a run
     columns: dict[str, tuple[str, Any]]     # group ("p", "v", "multipliers", "outputs") and column or columns of each output
     outputs: _gateway.Outputs | None        # measures that the core records
-    direct: tuple[str, bool] | None         # vector unit of the closed-form functions, and whether they embed; None: matrix path
+    closed_form: tuple[str, bool] | None    # vector unit of the closed-form functions, and whether they embed; None: matrix path
     assembly: _gateway.Assembly | None      # settings that make starts consistent; None: starts are used unchanged
     settings: dict[str, Any]                # as in `Solution.settings`; keeps t_eval alive, to which `core_settings` points
     events: _gateway.Watcher | None         # events that the core evaluates
@@ -71,14 +71,14 @@ def _batch(plan: Plan) -> Batch | None:
     found = settings.plan(system, span, **options)
     if found.rows is None:
         return None
-    takes_direct = _gateway.takes_direct(core_of(system), found.core_settings)
-    direct = (found.settings["vector"], _gateway.takes_embeddings(found.core_settings)) if takes_direct else None
-    tables = runs.tables(system, 0, 1, direct)      # closed-form functions are compiled here, once
+    takes_closed_form = _gateway.takes_closed_form(core_of(system), found.core_settings)
+    closed_form = (found.settings["vector"], _gateway.takes_embeddings(found.core_settings)) if takes_closed_form else None
+    tables = runs.tables(system, 0, 1, closed_form)      # closed-form functions are compiled here, once
     found_columns = _columns(system, plan.names, system._watching.core if tables is None else tables.core)
     is_family = tables is not None and tables.family is not None
     if found_columns is None or (is_family and (watched is not None or (tables.family.drives and span[0] != 0))):
         return None
-    batch = Batch(system, found.core_settings, found.rows, *found_columns, direct,
+    batch = Batch(system, found.core_settings, found.rows, *found_columns, closed_form,
                   assembly(system, runs.hold) if runs.assembles(system) else None, found.settings,
                   None if watched is None else _gateway.Watcher(core_of(system), watched, core_of(system)),
                   tables.family.numbers if is_family else 0)
@@ -123,7 +123,7 @@ def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.
 
     None if the runs differ in more than numbers and must be made individually.
     """
-    tables = plan.runs.tables(batch.system, first, last, batch.direct)
+    tables = plan.runs.tables(batch.system, first, last, batch.closed_form)
     if tables is None:
         return None
     made = _make(plan, batch, tables, first, last, ("t", *(group for group, _ in batch.columns.values())), stop)
@@ -155,7 +155,7 @@ STATES = ("t", "p", "v", "input", "multipliers", *_gateway.COUNTS)
 def made_again(plan: Plan, run: int) -> Solution:
     """Repeat one run individually, bitwise equal to the run in the batch."""
     batch = batch_of(plan)
-    tables = None if batch is None else plan.runs.tables(batch.system, run, run + 1, batch.direct)
+    tables = None if batch is None else plan.runs.tables(batch.system, run, run + 1, batch.closed_form)
     if batch is None or tables is None:
         return plan.solution(run)
     if tables.family is not None:
@@ -183,7 +183,7 @@ def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int)
         return None
     states = {name: column[0, :made.rows[0]] for name, column in made.columns.items()}
     system, span = plan.runs.system(run), _check.span(plan.t_span)
-    core = direct_core_of(system, batch.settings["vector"], batch.core_settings)
+    core = closed_form_core_of(system, batch.settings["vector"], batch.core_settings)
     p0, v0 = system._state_or_start(*plan.runs.start(run, system, span[0]), t=span[0])
     again, record = _gateway.Run(core, batch.core_settings, p0, v0), _gateway.Record(core, max(1, len(states["t"])))
     again.record_states(record, states)

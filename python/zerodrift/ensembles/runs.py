@@ -171,7 +171,8 @@ class Runs:
         has_start = "p0" in self.states or is_mechanism or system.p0 is not None
         return fits and has_start and self.tables(system, run, run + 1) is not None
 
-    def tables(self, system: BaseSystem, first: int, last: int, direct: tuple[str, bool] | None = None) -> NumberTables | None:
+    def tables(self, system: BaseSystem, first: int, last: int, closed_form: tuple[str, bool] | None = None,
+               ) -> NumberTables | None:
         """Tables of the runs first ... last - 1, which differ from this system in parameters only; None if it has no tables.
 
         None also if the numbers of one run are inconsistent: each run is then built individually and has its own error.
@@ -179,7 +180,7 @@ class Runs:
         parameters = self.parameters_from(first, last)
         more = {"starts_are_known": bool(self.states)} if isinstance(system, MechanismSystem) else {}
         try:
-            return system._number_tables(parameters, last - first, direct, **more)
+            return system._number_tables(parameters, last - first, closed_form, **more)
         except (ValueError, ZerodriftError):
             return None
 

@@ -109,7 +109,7 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
     core_settings = settings.plan(
         system, (t0, t0 + 1), None, 1, step, formulation=chosen.get("formulation"),
         stabilization=chosen.get("stabilization", settings.STABILIZATION), on_singular=chosen.get("on_singular", "stop"),
-        max_steps=chosen.get("max_steps", settings.MAX_STEPS), direct=False, vector="baseline", **given).core_settings
+        max_steps=chosen.get("max_steps", settings.MAX_STEPS), closed_form=False, vector="baseline", **given).core_settings
     names = None if outputs is None else _measures(_outputs.names(outputs, system), system)
     return Chosen(system, p, v, core_settings, names, _inputs(inputs))
 

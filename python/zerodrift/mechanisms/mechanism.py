@@ -100,13 +100,13 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             velocities a body, and the angles of all joints. Chains of balls are cheaper in absolute coordinates, those of hinges
             from some twenty on.
         compiled : bool
-            Whether the equations are written out, compiled and kept for the next time, with direct functions where these pay:
+            True: the equations are written out, compiled and cached, with closed-form functions where these pay:
             several times faster for small mechanisms, after a second or more once. Numbers stay numbers that
             `with_parameters` changes; which of them are zero or one, and which points of a body coincide, is in the code, and
             where that changes, it is compiled anew by itself. What the user prescribes must be numbers, SymPy expressions
             or profiles of cams: `zerodrift.table` is a function, too. Without a compiler the tables are interpreted, with a
             `NoCompilerWarning`.
-            In space it is joint coordinates that are written out whole; of absolute ones direct functions alone, up to some
+            In space it is joint coordinates that are written out whole; of absolute ones closed-form functions alone, up to some
             four bodies, and all else keeps the tables. Loops with redundant rows, such as those of full hinges, have no direct
             functions in either.
 

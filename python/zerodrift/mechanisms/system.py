@@ -16,7 +16,7 @@ from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.plane import MechanismCore
 from ..errors import WrongValue, ZerodriftError, sentence
-from ..symbolics.compile.closed_form_library import DIRECT, NO_COMPILER, ClosedFormFunctions
+from ..symbolics.compile.closed_form_library import CLOSED_FORM, NO_COMPILER, ClosedFormFunctions
 from ..systems.base import WithInputs
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
@@ -64,7 +64,7 @@ class MechanismSystem(Reported):
     """
 
     def __init__(self, drawing: Drawing, layout: str | None, changed: dict[str, float], compiled: bool = False,
-                 direct: tuple[str, ClosedFormFunctions] | None = None) -> None:
+                 closed_form: tuple[str, ClosedFormFunctions] | None = None) -> None:
         self._drawing, self._changed, self.name = drawing, changed, drawing.name
         self._numbers = Numbers(changed)
         self._tables = tables_of(drawing, self._numbers, in_tree=layout != "absolute")
@@ -73,7 +73,7 @@ class MechanismSystem(Reported):
             self._tables = self._tables.absolute()
         self._start = Starting(drawing, self._numbers, self._tables)
         self._first_core = self._plain_core(self._tables)
-        self._is_written_out, self._given_direct = compiled, direct
+        self._is_written_out, self._given_closed_form = compiled, closed_form
         if compiled:
             self._check_no_reactions()
             self._tables.laws.check_written()
@@ -156,37 +156,37 @@ class MechanismSystem(Reported):
         return Written(self._interpreted, self._started_tables.laws, self._tables.parameters, self.name)
 
     @functools.cached_property
-    def _direct(self) -> tuple[str, ClosedFormFunctions]:
+    def _closed_form(self) -> tuple[str, ClosedFormFunctions]:
         """Closed-form functions and the name of their code; elimination orders are those of the system that this one was made
         from by changing numbers.
         """
-        if self._given_direct is not None and self._given_direct[0] == self._written.key:
-            return self._given_direct
+        if self._given_closed_form is not None and self._given_closed_form[0] == self._written.key:
+            return self._given_closed_form
         try:
             p0 = self.p0
         except ZerodriftError:      # a run from another start does not need this one
             p0 = None
         is_length = np.array([is_length_of(variable) for variable in (*self.coordinates, *self.velocities)])
-        return self._written.key, self._written.direct_functions(p0, is_length)
+        return self._written.key, self._written.closed_form_functions(p0, is_length)
 
     @functools.cached_property
-    def _cores_with_direct(self) -> dict[tuple[str, bool], MechanismCore]:
+    def _cores_with_closed_form(self) -> dict[tuple[str, bool], MechanismCore]:
         """Core systems by vector unit, and by whether they embed."""
         return {}
 
-    def _direct_core(self, vector: str = "baseline", embeds: bool = False) -> MechanismCore:
+    def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> MechanismCore:
         if not self.compiled:
             return self._core
-        cores = self._cores_with_direct
+        cores = self._cores_with_closed_form
         if (vector, embeds) not in cores:
-            functions = self._direct[1]
-            cores[vector, embeds] = self._written.with_direct(functions.embedding if embeds else functions, vector)
+            functions = self._closed_form[1]
+            cores[vector, embeds] = self._written.with_closed_form(functions.embedding if embeds else functions, vector)
         return cores[vector, embeds]
 
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> MechanismCore:
-        core = self._direct_core(vector, embeds)
-        library = None if embeds or not core.has_direct else self._direct[1].library_in_lanes(vector)
-        return core if library is None else core.with_lanes(_gateway.address_of(library, DIRECT), library)
+        core = self._closed_form_core(vector, embeds)
+        library = None if embeds or not core.has_closed_form else self._closed_form[1].library_in_lanes(vector)
+        return core if library is None else core.with_lanes(_gateway.address_of(library, CLOSED_FORM), library)
 
     def _with_jacobian(self, core: MechanismCore, vector: str = "baseline") -> MechanismCore:
         return self._written.with_jacobian(vector) if self.compiled and core is self._core else core
@@ -221,10 +221,10 @@ class MechanismSystem(Reported):
                 for group in (self.coordinates, self.velocities))
         return p, v
 
-    def _why_not_direct(self, embeds: bool = False) -> str | None:
+    def _why_no_closed_form(self, embeds: bool = False) -> str | None:
         if not self._is_written_out:
             return None
-        functions = self._direct[1]
+        functions = self._closed_form[1]
         return (functions.embedding if embeds else functions).why_none if self.compiled else NO_COMPILER
 
     @functools.cached_property
@@ -274,11 +274,11 @@ class MechanismSystem(Reported):
                                  "redundant: free a joint of the loop, such as by spherical() in the place of revolute()",
                                  "not-unique")
 
-    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, direct: tuple[str, bool] | None = None, *,
+    def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int, closed_form: tuple[str, bool] | None = None, *,
                        starts_are_known: bool = True) -> NumberTables | None:
         plain = not self._is_written_out and not self._drawing.is_balanced
         if not parameters or not plain or not are_plain(self._drawing, self._tables, self._start):
-            return super()._number_tables(parameters, count, direct) if starts_are_known else None
+            return super()._number_tables(parameters, count, closed_form) if starts_are_known else None
         wrong, own = np.zeros(count, dtype=bool), self.parameters
         for name, each in parameters.items():
             if each.ndim != 1 or name not in own:
@@ -302,8 +302,8 @@ class MechanismSystem(Reported):
 
     def _with(self, changed: dict[str, Any]) -> MechanismSystem:
         numbers = {name: checked(name, value) for name, value in changed.items()}
-        direct = self._direct if self._is_written_out else None
-        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._is_written_out, direct)
+        closed_form = self._closed_form if self._is_written_out else None
+        return MechanismSystem(self._drawing, self.layout, self._changed | numbers, self._is_written_out, closed_form)
 
     def _driven_from(self, places: list[float]) -> MechanismSystem:
         """The same system with these initial positions of its motors of constant speed, as assembled or nearly."""
@@ -316,8 +316,8 @@ class MechanismSystem(Reported):
         return self.layout, drawing.gravity, drawing.elements
 
     def __reduce__(self) -> tuple[Any, ...]:
-        direct = self._direct if self._is_written_out else None
-        return MechanismSystem, (self._drawing, self.layout, self._changed, self._is_written_out, direct)
+        closed_form = self._closed_form if self._is_written_out else None
+        return MechanismSystem, (self._drawing, self.layout, self._changed, self._is_written_out, closed_form)
 
     def _described(self) -> dict[str, Any]:
         """As of any system, with the mechanism or the reason why it cannot be saved."""
@@ -328,7 +328,7 @@ class MechanismSystem(Reported):
         return super()._described() | more
 
     def __repr__(self) -> str:
-        how = f", compiled{self._direct[1].in_words}" if self.compiled else ""
+        how = f", compiled{self._closed_form[1].in_words}" if self.compiled else ""
         dear = cost.of_a_step(self._cost) if self._cost else ""
         return (f"<system of {self.name}{how}: {self.layout} coordinates, {self.nq}, {self.mh} holonomic and {self.mn} "
                 f"nonholonomic constraints{f'; {dear}' if dear else ''}>")

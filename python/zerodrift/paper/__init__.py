@@ -92,5 +92,5 @@ def run(example: Example) -> dict[str, Solution]:
     101
     """
     with unwarned():
-        return {case: simulate(example.system, example.end, on_failure="return", direct=False, **settings)
+        return {case: simulate(example.system, example.end, on_failure="return", closed_form=False, **settings)
                 for case, settings in example.cases.items()}

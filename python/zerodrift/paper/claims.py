@@ -92,7 +92,7 @@ def _projected(tol: float) -> list[Solution]:
     """Cases (c) and (d) with another tolerance."""
     cases = [settings for settings in FOUR_BAR.cases.values() if isinstance(settings["stabilization"], Projection)]
     with unwarned():
-        return [simulate(FOUR_BAR.system, FOUR_BAR.end, on_failure="return", direct=False,
+        return [simulate(FOUR_BAR.system, FOUR_BAR.end, on_failure="return", closed_form=False,
                          **settings | {"stabilization": replace(settings["stabilization"], tol=tol)}) for settings in cases]
 
 

@@ -128,7 +128,7 @@ def _run_with_step(settings: dict[str, Any], step: float) -> Solution:
     every = max(1, round(reference.SPACING / step))     # only where the exact motion is stored
     settings = settings | {"step": step, "save_every": every, "on_failure": "return"}
     with unwarned():
-        return simulate(FOUR_BAR.system, FOUR_BAR.end, direct=False, **settings)
+        return simulate(FOUR_BAR.system, FOUR_BAR.end, closed_form=False, **settings)
 
 
 def _cost(repetitions: list[Solution]) -> tuple[float, float]:

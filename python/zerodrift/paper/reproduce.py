@@ -17,7 +17,7 @@ DPI = 150
 
 def compute() -> tuple[dict[str, Figure], list[claims.Claim]]:
     """All figures by the name of their file, and all claims."""
-    fine = simulate(FOUR_BAR.system, FOUR_BAR.end, direct=False, **FOUR_BAR_REFERENCE)
+    fine = simulate(FOUR_BAR.system, FOUR_BAR.end, closed_form=False, **FOUR_BAR_REFERENCE)
     bar, oscillator = run(FOUR_BAR), run(OSCILLATOR)
     pictures = {
         "figure_4": figures.figure_4(fine),

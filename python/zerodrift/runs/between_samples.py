@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _gateway
 from ..errors import WrongValue
-from ..systems.base import direct_core_of
+from ..systems.base import closed_form_core_of
 from .inputs import Declared
 from .settings import core_settings
 
@@ -30,12 +30,12 @@ def _cores(solution: Any, settings: Any, rows: np.ndarray) -> Iterator[tuple[Any
     system, vector = solution.system, solution.settings.get("vector") or "baseline"
     names = solution.settings.get("inputs", ())
     if not names:
-        yield direct_core_of(system, vector, settings), np.ones(len(rows), dtype=bool)
+        yield closed_form_core_of(system, vector, settings), np.ones(len(rows), dtype=bool)
         return
     of = system._with_inputs(names)
     given = np.column_stack([solution[name] for name in names])
     declared = Declared(tuple(names), given[0], given[0], of, _gateway.Following())
-    inputs, (core, _) = declared.bound(direct_core_of(of.system, vector, settings), of.system._watching.core)
+    inputs, (core, _) = declared.bound(closed_form_core_of(of.system, vector, settings), of.system._watching.core)
     if any(inputs.c.place[i].is_speed for i in range(inputs.c.places)):
         raise _wrong("a speed is an input")
     each, which = np.unique(given[rows + 1], axis=0, return_inverse=True)

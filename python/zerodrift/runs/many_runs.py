@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..errors import WrongName, WrongValue
-from ..systems.base import BaseSystem, direct_core_of
+from ..systems.base import BaseSystem, closed_form_core_of
 from .inputs import Speeds
 from .opening import Prepared, known_settings, nominal_span, prepared, with_own
 from .reading import Reading
@@ -324,7 +324,7 @@ def _in_lanes(ready: Prepared) -> Prepared:
     """Arguments with functions for SIMD lanes, if the system has them and the settings admit lanes."""
     of: BaseSystem = ready.declared.of.system if ready.declared else ready.system
     vector = ready.settings["vector"]
-    if vector is None or not ready.source.has_direct or not _gateway.lanes_serve(ready.source, ready.core_settings):
+    if vector is None or not ready.source.has_closed_form or not _gateway.lanes_serve(ready.source, ready.core_settings):
         return ready
     return ready._replace(source=of._core_in_lanes(vector))
 
@@ -333,7 +333,7 @@ def _with_parameters(ready: Prepared, parameters: dict[str, Any]) -> Prepared:
     system = ready.system.with_parameters(parameters)
     declared = ready.declared and ready.declared._replace(of=system._with_inputs(ready.declared.names))
     of = declared.of.system if declared else system
-    core = direct_core_of(of, ready.settings["vector"] or "baseline", ready.core_settings)
+    core = closed_form_core_of(of, ready.settings["vector"] or "baseline", ready.core_settings)
     if ready.source.has_lanes:
         core = of._core_in_lanes(ready.settings["vector"])
     p0, v0 = of._state_or_start(None, None, t=ready.span[0]) if system.p0 is not None else (ready.p0, ready.v0)

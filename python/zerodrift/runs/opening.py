@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..errors import CostWarning, DrawingWarning, SingularSystem, WrongType, advised
-from ..systems.base import BaseSystem, core_of, direct_core_of
+from ..systems.base import BaseSystem, closed_form_core_of, core_of
 from . import evaluation_path, recording, settings
 from . import events as _events
 from . import outputs as _outputs
@@ -76,7 +76,7 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     of = declared.of.system if declared else system
     plan = settings.plan(of, span, **arguments)
     plan.core_settings.is_open = is_open
-    core = direct_core_of(of, plan.settings["vector"], plan.core_settings)
+    core = closed_form_core_of(of, plan.settings["vector"], plan.core_settings)
     plan.settings["vector"] = evaluation_path.unit(core, plan.core_settings)
     if declared:
         plan.settings.update(speeds.settings())

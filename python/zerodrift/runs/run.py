@@ -67,7 +67,7 @@ class Run:
         With `runs`: parameters of the system in each run.
     **settings
         As of `simulate`: `rtol`, `atol`, `first_step`, `max_step`, `max_move`, `max_steps`, `events`, `formulation`,
-        `integrator`, `stabilization`, `energy`, `correction`, `save_every`, `outputs`, `on_singular`, `direct`, `vector`.
+        `integrator`, `stabilization`, `energy`, `correction`, `save_every`, `outputs`, `on_singular`, `closed_form`, `vector`.
 
     Attributes
     ----------

@@ -112,7 +112,7 @@ TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None, 
 ARGUMENTS_OF_PLAN = {   # arguments of `plan` besides step and t_eval, with their defaults
     "save_every": 1, "rtol": None, "atol": None, "first_step": None, "max_step": None, "max_move": None, "max_steps": MAX_STEPS,
     "formulation": None, "integrator": None, "stabilization": STABILIZATION, "energy": None, "correction": None,
-    "on_singular": "stop", "direct": None, "vector": None}
+    "on_singular": "stop", "closed_form": None, "vector": None}
 FINEST_RTOL = 100 * np.finfo(float).eps     # smallest rtol: below it, error estimates are rounding
 RESOLVED = 16 * float(np.finfo(float).eps)      # shortest step, relative to the time
 
@@ -142,7 +142,7 @@ class _Known(NamedTuple):
 
 def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every: Any, step: Any, rtol: Any, atol: Any,
          first_step: Any, max_step: Any, max_move: Any, max_steps: Any, formulation: Any, integrator: Any,
-         stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any, vector: Any) -> CheckedSettings:
+         stabilization: Any, energy: Any, correction: Any, on_singular: Any, closed_form: Any, vector: Any) -> CheckedSettings:
     """Check the arguments of `simulate` and translate them for the core."""
     if isinstance(correction, list):
         correction = tuple(correction)
@@ -151,7 +151,7 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
     if formulation is None:
         formulation = system._formulation
     given = (save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
-             stabilization, energy, correction, on_singular, direct, vector_unit(vector))
+             stabilization, energy, correction, on_singular, closed_form, vector_unit(vector))
     try:
         found = _plan(*given)
     except TypeError:       # raised for unhashable arguments, too, most of which are wrong: check them without the cache
@@ -171,15 +171,15 @@ def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every:
 # Cached, as the checks take as long as a short run. `typed` keeps 1 and True apart.
 @functools.lru_cache(typed=True)
 def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any, max_move: Any, max_steps: Any,
-          formulation: Any, integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, direct: Any,
+          formulation: Any, integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, closed_form: Any,
           vector: str) -> _Known:
     on_singular_row(on_singular)
-    if direct is not None and direct is not False:
-        raise WrongValue(f"direct must be None, which uses direct functions, or False, not {direct!r}")
+    if closed_form is not None and closed_form is not False:
+        raise WrongValue(f"closed_form must be None, which uses closed-form functions, or False, not {closed_form!r}")
     tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step, "max_move": max_move}
     methods, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
     settings = {**_steps(step, integrator, max_steps, tolerances), **methods,
-              "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "direct": direct,
+              "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "closed_form": closed_form,
               "vector": vector}
     return _Known(settings, core_settings((0.0, 0.0), settings), corrections, requires)
 
@@ -293,7 +293,7 @@ _PASSED_ON = ("step", "rtol", "atol", "first_step", "max_step", "max_move", "max
 def core_settings(span: tuple[float, float], settings: dict[str, Any]) -> Any:
     """Settings of the core from those of a solution."""
     like = _core_methods(settings["formulation"], settings["integrator"], settings.get("on_singular", "stop"),
-                         settings.get("direct") is None, VECTOR_UNITS.index(settings.get("vector") or "baseline"),
+                         settings.get("closed_form") is None, VECTOR_UNITS.index(settings.get("vector") or "baseline"),
                          *corrections_of(settings))
     changed = {name: settings[name] for name in _PASSED_ON if settings.get(name) is not None}
     steps = _gateway.ADAPTIVE_STEPS if settings.get("step") is None else _gateway.FIXED_STEPS
@@ -301,12 +301,12 @@ def core_settings(span: tuple[float, float], settings: dict[str, Any]) -> Any:
 
 
 @functools.lru_cache(typed=True)
-def _core_methods(formulation: Any, integrator: Any, on_singular: str, direct: bool, vector: int,
+def _core_methods(formulation: Any, integrator: Any, on_singular: str, closed_form: bool, vector: int,
                   *corrections: RowSettings) -> Any:
     """Settings of the core that select the methods; cached."""
     return _gateway.settings({
         "formulation": formulation_row(formulation), "integrator": integrator_row(integrator),
-        "on_singular": on_singular_row(on_singular), "direct": direct, "vector": vector,
+        "on_singular": on_singular_row(on_singular), "closed_form": closed_form, "vector": vector,
         **given(formulation, integrator, *corrections)})
 
 

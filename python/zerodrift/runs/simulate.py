@@ -46,7 +46,7 @@ def simulate(
     outputs: Any = None,
     save_to: Any = None,
     on_singular: str = "stop",
-    direct: bool | None = None,
+    closed_form: bool | None = None,
     vector: str | None = None,
     on_failure: str = "raise",
     inputs: Any = None,
@@ -131,7 +131,7 @@ def simulate(
         motion are not detected, and "continue" acts as "stop": the run passes through with a loss of digits. A start at a
         bifurcation raises the error. With a definite mass matrix, a warning and ``repr`` of the solution report the smallest
         relative pivot of a constraint.
-    direct : None or False
+    closed_form : None or False
         None: evaluate steps in closed form where the system has closed-form functions: constraints are eliminated in generated
         code, which gives the same motion to rounding in a fraction of the time. This requires an explicit integrator and
         constraints that are not redundant; with formulation "independent" also ``pdot = v`` and constraints that are all
@@ -223,8 +223,8 @@ def simulate(
     ready = prepared(system, _check.span(t_span), p0, v0, events, outputs, save_to, {
         "t_eval": t_eval, "save_every": save_every, "step": step, "rtol": rtol, "atol": atol, "first_step": first_step,
         "max_step": max_step, "max_move": max_move, "max_steps": max_steps, "formulation": formulation, "integrator": integrator,
-        "stabilization": stabilization, "energy": energy, "correction": correction, "on_singular": on_singular, "direct": direct,
-        "vector": vector}, inputs=inputs, speeds=Speeds(hold, ramp))
+        "stabilization": stabilization, "energy": energy, "correction": correction, "on_singular": on_singular,
+        "closed_form": closed_form, "vector": vector}, inputs=inputs, speeds=Speeds(hold, ramp))
     of = controls(control)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     path = ready.path

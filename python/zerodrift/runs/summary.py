@@ -27,8 +27,8 @@ def summary(solution: Any) -> str:
         lines.append(
             f"  cost        {_duration(stats['seconds'])}, {steps} steps of {_duration(stats['seconds'] / steps)}, "
             f"{stats['evaluations'] / steps:.3g} evaluations and {stats['factorizations'] / steps:.3g} factorizations each")
-    if stats.get("direct_steps"):
-        left = stats["steps"] - stats["direct_steps"]
+    if stats.get("closed_form_steps"):
+        left = stats["steps"] - stats["closed_form_steps"]
         lines.append("  evaluation  closed form" + (f" ({left} of {stats['steps']} steps by matrices)" if left else ""))
     elif stats.get("matrix_path_reason"):
         lines.append(f"  evaluation  matrices, no closed form: {stats['matrix_path_reason']}")

@@ -15,7 +15,7 @@ from ..runs.diagnosis import instability, unwarned
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
 from ..runs.threads import processors, side_by_side
-from ..systems.base import BaseSystem, core_of, direct_core_of
+from ..systems.base import BaseSystem, closed_form_core_of, core_of
 from . import reference as certified
 from .compare import states_of
 
@@ -103,8 +103,8 @@ class Bench:
     """Bench: a motion and the reference to which its runs are compared."""
 
     def __init__(self, system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any, reference: Any,
-                 direct: bool | None = False) -> None:
-        self.system, self.span, self.start, self.direct = system, span, (p0, v0), direct
+                 closed_form: bool | None = False) -> None:
+        self.system, self.span, self.start, self.closed_form = system, span, (p0, v0), closed_form
         is_certified = isinstance(reference, certified.Reference)
         self.reference_error, self.caveats = (reference.error_in_double, reference.caveats) if is_certified else (np.nan, ())
         self._reference = reference
@@ -150,7 +150,7 @@ class Bench:
     def verified(self, row: Row) -> Row:
         """Entry whose error includes that at the ends and in the middle of the run's own steps; for references with all steps."""
         with unwarned():
-            own = simulate(self.system, self.span, *self.start, **row.setting.settings, direct=self.direct).t
+            own = simulate(self.system, self.span, *self.start, **row.setting.settings, closed_form=self.closed_form).t
         times = np.sort(np.concatenate([own, (own[1:] + own[:-1]) / 2]))
         times = times[np.unique(np.linspace(0, len(times) - 1, TIMES_OF_STEPS).round().astype(int))]
         exact = states_of(self._reference, times, self.system.nq)[:, :self.system.nq]
@@ -177,7 +177,7 @@ class Bench:
             return self._run(setting, **saved)
 
     def _run(self, setting: Setting, **saved: Any) -> Outcome:
-        solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, direct=self.direct,
+        solution = simulate(self.system, self.span, *self.start, **setting.settings, **saved, closed_form=self.closed_form,
                             on_failure="return")
         if solution.status == _gateway.INTERRUPTED:
             raise KeyboardInterrupt
@@ -206,10 +206,11 @@ class Bench:
         return [found[place] for place in range(len(plans))]
 
     def _plan(self, setting: Setting, t_eval: Any = None) -> settings.CheckedSettings:
-        return settings.plan(self.system, self.span, **(OPTIONS | setting.settings | {"direct": self.direct, "t_eval": t_eval}))
+        return settings.plan(self.system, self.span, **(
+            OPTIONS | setting.settings | {"closed_form": self.closed_form, "t_eval": t_eval}))
 
     def _core(self, plan: settings.CheckedSettings) -> _gateway.CoreSystem:
-        return direct_core_of(self.system, plan.settings["vector"], plan.core_settings)
+        return closed_form_core_of(self.system, plan.settings["vector"], plan.core_settings)
 
     def _made(self, core: _gateway.CoreSystem, plans: Sequence[settings.CheckedSettings],
               stop: _gateway.Stop | None) -> _gateway.BatchResults:

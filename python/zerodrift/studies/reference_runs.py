@@ -89,7 +89,7 @@ class Motion:
         self.method, self.other = cards[0].name, cards[1].name
         with unwarned():
             probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, formulation=formulation, integrator=self.method,
-                             stabilization=stabilization, direct=False, **bounds)
+                             stabilization=stabilization, closed_form=False, **bounds)
         self.size, self.probe, self.bounds = float(np.abs(probe.p).max()), probe, bounds
         self.speed = float(np.abs(np.diff(probe.p, axis=0) / np.diff(probe.t)[:, None]).max(initial=0.0))
         most_move = bounds.get("max_move")
@@ -113,7 +113,7 @@ class Motion:
         found.method, found.other = SERIES, self.method
         with unwarned():
             probe = simulate(self.system, self.span, *self.start, rtol=PROBE, atol=PROBE, formulation=formulation,
-                             integrator=SERIES, stabilization=self.stabilization, direct=False, **self.bounds)
+                             integrator=SERIES, stabilization=self.stabilization, closed_form=False, **self.bounds)
         found.steps = UNIT * math.ceil(max(probe.stats["steps"], self.most) / UNIT)
         return found
 
@@ -155,7 +155,7 @@ class Motion:
         try:
             run = simulate(system, self.span, p0, v0, step=(self.span[1] - self.span[0]) / way.steps,
                            formulation=way.formulation, integrator=way.integrator, stabilization=self.stabilization,
-                           direct=False, progress=look if stop else False, **saved)
+                           closed_form=False, progress=look if stop else False, **saved)
             return self._in_own_coordinates(run) if way.is_elsewhere else run
         except ZerodriftError as error:
             if error.solution is None:      # the run could not start

@@ -112,8 +112,8 @@ def tune(
     reference = certified.reference(system, span, p0, v0, error=None)
     goal.check(reference.error)
     sweep = work_precision(system, span, p0, v0, formulations=formulations, integrators=integrators, reference=reference,
-                           direct=None, progress=progress, rounds=1)
-    search = _Search(goal, Bench(system, span, p0, v0, reference, direct=None), sweep)
+                           closed_form=None, progress=progress, rounds=1)
+    search = _Search(goal, Bench(system, span, p0, v0, reference, closed_form=None), sweep)
     try:
         search.extend()
         search.refine()

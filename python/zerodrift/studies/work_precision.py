@@ -145,7 +145,7 @@ def work_precision(
     stabilizations: Iterable[str | settings.Stabilization] = (settings.STABILIZATION,),
     energy: Iterable[bool | settings.EnergyCorrection | None] = (None,),
     reference: certified.Reference | Solution | Callable[[float], Any] | None = None,
-    direct: bool | None = False,
+    closed_form: bool | None = False,
     progress: bool | Callable[[float], None] = False,
     rounds: int = 3,
 ) -> WorkPrecision:
@@ -174,7 +174,7 @@ def work_precision(
         Values of `stabilization` and `energy`, as in `simulate`. By default projection without energy correction.
     reference : Reference, Solution or callable, optional
         Motion to which runs are compared, at its times. By default the most accurate that `reference` can certify.
-    direct : None or False
+    closed_form : None or False
         As in `simulate`. The default False uses the matrices of each formulation, so that formulations differ.
     progress : bool or callable
         As in `simulate`.
@@ -219,7 +219,7 @@ def work_precision(
         raise WrongValue("at least one combination must be possible: steps, or tolerances with an integrator of adaptive steps")
     rounds = _check.count("rounds", rounds)
     reference = certified.reference(system, span, p0, v0, error=None) if reference is None else reference
-    return measured(Bench(system, span, p0, v0, reference, direct), combinations, rounds, progress)
+    return measured(Bench(system, span, p0, v0, reference, closed_form), combinations, rounds, progress)
 
 
 def measured(bench: Bench, combinations: Sequence[Setting], rounds: int, progress: Any = False) -> WorkPrecision:

@@ -23,7 +23,7 @@ from ..systems.structure import Structure, checked
 from ..systems.variables import quaternion_places, with_units
 from . import rounding_factors
 from .compile import compilers, shared_library
-from .compile.closed_form_library import DIRECT, NO_COMPILER, ClosedFormFunctions
+from .compile.closed_form_library import CLOSED_FORM, NO_COMPILER, ClosedFormFunctions
 from .compile.series_library import JacobianFunctions, PreciseFunctions, SeriesFunctions
 from .graph.smoothness import is_plain_program
 
@@ -46,7 +46,7 @@ class Code:
     python_source: str
     drawing: tuple[int, int]            # points, dimension
     drawing_source: str
-    program: dict[str, Any] | str       # from which direct functions are written, or why they are not
+    program: dict[str, Any] | str       # from which closed-form functions are written, or why they are not
 
     @classmethod
     def from_json(cls, content: dict[str, Any]) -> Code:
@@ -70,7 +70,7 @@ class SymbolicSystem(BaseSystem):
 
     def __init__(self, code: Code, parameters: Mapping[str, float], units: Sequence[str] | None = None, p0: Any = None,
                  v0: Any = None, name: str = "symbolic", progress: Callable[[str], Any] = lambda what: None,
-                 quaternions: Sequence[int | str] = (), direct: ClosedFormFunctions | None = None,
+                 quaternions: Sequence[int | str] = (), closed_form: ClosedFormFunctions | None = None,
                  inputs: Sequence[str] = ()) -> None:
         self._inputs = tuple(inputs)
         self._code, self.name, self.parameters, self._units = code, name, dict(parameters), units
@@ -82,19 +82,19 @@ class SymbolicSystem(BaseSystem):
         self._set_start(p0, v0)
         self._values = np.array([_check.number(f"parameter {key!r}", parameters[key]) for key in code.parameters])
         is_length = [_gateway.is_length(variable) for variable in (*self.coordinates, *self.velocities)]
-        self._direct = direct or ClosedFormFunctions(
+        self._closed_form = closed_form or ClosedFormFunctions(
             code.program, code.sizes, self._values, self.p0, np.array(is_length), len(self._values) + code.constants)
         self._series = SeriesFunctions(code.program, code.sizes)
         self._precise = PreciseFunctions(code.program, code.sizes)
         self._jacobian = JacobianFunctions(code.program, code.sizes)
         self._perturbed: SeriesFunctions | None = None      # of the same off by rounding
-        self._library = shared_library.library(code.c_source, progress, meanwhile=self._direct.prepare)
+        self._library = shared_library.library(code.c_source, progress, meanwhile=self._closed_form.prepare)
         self.compiled = self._library is not None
         if not self.compiled:
             warnings.warn(f"there is no C compiler (looked for {compilers.looked_for()}): {self.name} is evaluated in Python, "
                           f"some hundred times slower", NoCompilerWarning, stacklevel=3)
         self._core = self._native() if self.compiled else self._in_python()
-        self._with_direct: dict[tuple[str, bool], _gateway.NativeCore] = {}     # by vector unit, and whether they embed
+        self._with_closed_form: dict[tuple[str, bool], _gateway.NativeCore] = {}     # by vector unit, and whether they embed
 
     def _native(self) -> _gateway.NativeCore:
         code, address = self._code, _gateway.address_of(self._library, "zd_symbolic_evaluate")
@@ -110,17 +110,18 @@ class SymbolicSystem(BaseSystem):
         data.flags.writeable = False
         return data
 
-    def _direct_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
+    def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
         functions = self._functions(embeds)
         library = functions.library(vector) if self.compiled else None
         if library is None:
             return self._core
-        if (vector, embeds) not in self._with_direct:
-            data = self._with_direct_data(library, functions)
-            self._with_direct[vector, embeds] = self._core.with_direct(_gateway.address_of(library, DIRECT), data, library)
-        return self._with_direct[vector, embeds]
+        if (vector, embeds) not in self._with_closed_form:
+            data = self._with_closed_form_data(library, functions)
+            address = _gateway.address_of(library, CLOSED_FORM)
+            self._with_closed_form[vector, embeds] = self._core.with_closed_form(address, data, library)
+        return self._with_closed_form[vector, embeds]
 
-    def _why_not_direct(self, embeds: bool = False) -> str:
+    def _why_no_closed_form(self, embeds: bool = False) -> str:
         return self._functions(embeds).why_none if self.compiled else NO_COMPILER
 
     def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
@@ -169,7 +170,7 @@ class SymbolicSystem(BaseSystem):
         return is_plain_program(self._code.program)
 
     def _functions(self, embeds: bool) -> ClosedFormFunctions:
-        return self._direct.embedding if embeds else self._direct
+        return self._closed_form.embedding if embeds else self._closed_form
 
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
         for name in names:
@@ -187,33 +188,33 @@ class SymbolicSystem(BaseSystem):
     def _bound(self, core: _gateway.NativeCore, names: Sequence[str]) -> Bound:
         """The system of one run, with data of its own."""
         alone = core.without_lanes or core
-        libraries = [self._library, next((functions.library(vector) for (vector, embeds), known in self._with_direct.items()
+        libraries = [self._library, next((functions.library(vector) for (vector, embeds), known in self._with_closed_form.items()
                                           for functions in [self._functions(embeds)] if known is alone), None)]
-        derive = zip(libraries, ("zd_symbolic_constants", f"{DIRECT}_constants"), strict=True)
+        derive = zip(libraries, ("zd_symbolic_constants", f"{CLOSED_FORM}_constants"), strict=True)
         mine, pointer, memory = core.with_copied_data()
         places = [Place(name, False, pointer + self._code.parameters.index(name)) for name in names]
         return Bound(mine, places, [(_gateway.address_of(*each), pointer) for each in derive if each[0]], memory)
 
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
         """System of one run with functions for SIMD lanes as well; these do not support independent velocities."""
-        core = self._direct_core(vector, embeds)
-        library = None if embeds or core is self._core else self._direct.library_in_lanes(vector)
-        return core if library is None else core.with_lanes(_gateway.address_of(library, DIRECT), library)
+        core = self._closed_form_core(vector, embeds)
+        library = None if embeds or core is self._core else self._closed_form.library_in_lanes(vector)
+        return core if library is None else core.with_lanes(_gateway.address_of(library, CLOSED_FORM), library)
 
-    def _with_direct_data(self, library: ctypes.CDLL, functions: ClosedFormFunctions) -> np.ndarray:
+    def _with_closed_form_data(self, library: ctypes.CDLL, functions: ClosedFormFunctions) -> np.ndarray:
         """Data of the compiled function followed by the constants of the closed-form functions."""
         data = np.concatenate([self._data(), np.zeros(functions.constants)])
-        library.zd_symbolic_direct_constants(ctypes.c_void_p(data.ctypes.data))
+        library.zd_symbolic_closed_form_constants(ctypes.c_void_p(data.ctypes.data))
         return data
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
-                       direct: tuple[str, bool] | None = None) -> NumberTables | None:
+                       closed_form: tuple[str, bool] | None = None) -> NumberTables | None:
         if not self.compiled:
-            return super()._number_tables(parameters, count, direct)
+            return super()._number_tables(parameters, count, closed_form)
         if any(each.ndim > 1 for each in parameters.values()):
             return None
-        vector, embeds = direct or ("", False)
-        core, functions = self._core_in_lanes(vector, embeds) if direct else self._core, self._functions(embeds)
+        vector, embeds = closed_form or ("", False)
+        core, functions = self._core_in_lanes(vector, embeds) if closed_form else self._core, self._functions(embeds)
         library = self._library if core is self._core else functions.library(vector)
         further = 0 if library is self._library else functions.constants
         data = np.zeros((count, len(self._values) + self._code.constants + 1 + further))
@@ -222,7 +223,7 @@ class SymbolicSystem(BaseSystem):
             data[:, self._code.parameters.index(name)] = each
         _gateway.derive(_gateway.address_of(self._library, "zd_symbolic_constants"), data)
         if library is not self._library:
-            _gateway.derive(_gateway.address_of(library, f"{DIRECT}_constants"), data)
+            _gateway.derive(_gateway.address_of(library, f"{CLOSED_FORM}_constants"), data)
         refused = refusals(self._with, parameters, not_finite(parameters, count))
         return NumberTables(core, data, data.shape[1], self.p0, self.v0, refused)
 
@@ -238,7 +239,7 @@ class SymbolicSystem(BaseSystem):
 
     def _with(self, changed: dict[str, Any]) -> SymbolicSystem:
         other = self._copied()
-        other._with_direct = {}
+        other._with_closed_form = {}
         other.parameters, other._values = self.parameters | changed, self._values.copy()
         for key, value in changed.items():
             other._values[self._code.parameters.index(key)] = _check.number(f"parameter {key!r}", value)
@@ -276,20 +277,20 @@ class SymbolicSystem(BaseSystem):
         return drawing.reshape(count, dimension)
 
     def __repr__(self) -> str:
-        how = self._direct.in_words if self.compiled else ", evaluated in Python"
+        how = self._closed_form.in_words if self.compiled else ", evaluated in Python"
         return f"<zd.symbolic {self.name}: {self._sizes_in_words()}{how}>"
 
     def _definition(self) -> str:
         return self._code.python_source
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._direct,
+        return _restored, (self._code, self.parameters, self._units, self.p0, self.v0, self.name, self._places, self._closed_form,
                            self._inputs)
 
 
 def _restored(code: Code, parameters: dict[str, float], units: Any, p0: Any, v0: Any, name: str, places: tuple[int, ...],
-              direct: ClosedFormFunctions, inputs: tuple[str, ...] = ()) -> SymbolicSystem:
-    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, direct=direct, inputs=inputs)
+              closed_form: ClosedFormFunctions, inputs: tuple[str, ...] = ()) -> SymbolicSystem:
+    return SymbolicSystem(code, parameters, units, p0, v0, name, quaternions=places, closed_form=closed_form, inputs=inputs)
 
 
 # ---- without a compiler ----

@@ -203,24 +203,24 @@ class BaseSystem:
             return least
         return f"{self.nv - rank}" + (f", redundant constraints at the start: {self.m - rank}" if rank < self.m else "")
 
-    def _direct_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
+    def _closed_form_core(self, vector: str = "baseline", embeds: bool = False) -> _gateway.CoreSystem:
         """The core's system with closed-form functions; those for independent velocities (`embeds`) are separate functions."""
         return self._core
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
-                       direct: tuple[str, bool] | None = None) -> NumberTables | None:
+                       closed_form: tuple[str, bool] | None = None) -> NumberTables | None:
         """Tables of `count` systems with these parameters, (count,) or (count, size) each; None if each must be made or run in
-        Python. `direct`: the vector unit of closed-form functions, and True for those in independent velocities.
+        Python. `closed_form`: the vector unit of closed-form functions, and True for those in independent velocities.
         """
         core = getattr(self, "_core", None)
         if parameters or core is None or core.for_run() is not core:
             return None
-        return NumberTables(core if direct is None else self._direct_core(*direct), None, 0, self.p0, self.v0, {})
+        return NumberTables(core if closed_form is None else self._closed_form_core(*closed_form), None, 0, self.p0, self.v0, {})
 
-    def _why_not_direct(self, embeds: bool = False) -> str | None:
+    def _why_no_closed_form(self, embeds: bool = False) -> str | None:
         """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none."""
         core = getattr(self, "_core", None)
-        return "" if core is not None and core.has_direct else None
+        return "" if core is not None and core.has_closed_form else None
 
     def _parameter_units(self) -> dict[str, str]:
         """Units of the parameters, as far as they are known."""
@@ -349,7 +349,7 @@ class BaseSystem:
 
     def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
         """The core's system with its closed-form functions, for SIMD lanes, too, where it has them."""
-        return self._direct_core(vector, embeds)
+        return self._closed_form_core(vector, embeds)
 
     def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
         """The core's system with the Taylor series of its motion, if there is one."""
@@ -461,14 +461,14 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     return core
 
 
-def direct_core_of(system: Any, vector: str, core_settings: Any) -> _gateway.CoreSystem:
+def closed_form_core_of(system: Any, vector: str, core_settings: Any) -> _gateway.CoreSystem:
     """Core system with closed-form functions for a vector unit, if the system has any that a run with these settings uses.
 
     They are compiled at first use.
     """
     core = core_of(system)
-    if _gateway.takes_direct(core, core_settings):
-        core = system._direct_core(vector, _gateway.takes_embeddings(core_settings))
+    if _gateway.takes_closed_form(core, core_settings):
+        core = system._closed_form_core(vector, _gateway.takes_embeddings(core_settings))
         core.name_rows(system)
     brought = with_what_it_takes(system, core, vector, core_settings)
     if brought is not core:

@@ -48,7 +48,7 @@ class SystemOfKind(BaseSystem):
         return {parameter.name: parameter.unit for parameter in self._kind.parameters}
 
     def _number_tables(self, parameters: Mapping[str, np.ndarray], count: int,
-                       direct: tuple[str, bool] | None = None) -> NumberTables | None:
+                       closed_form: tuple[str, bool] | None = None) -> NumberTables | None:
         if not parameters:
             return NumberTables(self._core, None, self._kind.constants, self.p0, self.v0, {})
         columns, wrong = [], not_finite(parameters, count)

@@ -73,5 +73,5 @@ def test_rows_of_several_quantities():
 def test_what_is_written_out_goes_without():
     """Compiled terms leave nothing for them: the motion is that of the tables."""
     m = four_bars(2)
-    one, other = (zd.simulate(m.system("absolute", compiled=it), 0.1, step=0.01, direct=False) for it in (False, True))
+    one, other = (zd.simulate(m.system("absolute", compiled=it), 0.1, step=0.01, closed_form=False) for it in (False, True))
     assert_close(other.p, one.p, 1e-12)

@@ -58,7 +58,7 @@ class NativeCore(CoreSystem):
         other = self.with_data(memory)
         return other, other._data[0], memory
 
-    def with_direct(self, address: int, data: np.ndarray, keep: Any) -> NativeCore:
+    def with_closed_form(self, address: int, data: np.ndarray, keep: Any) -> NativeCore:
         """Copy of the system with closed-form functions, a `zd_closed_form` at `address`; all its functions receive `data`."""
         other = self.with_data(data)
         other.c.closed_form, other.c.closed_forms = ffi.cast("const zd_closed_form *", address), 1

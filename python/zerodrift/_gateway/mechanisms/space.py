@@ -226,7 +226,7 @@ class SpaceCore(CoreSystem):
     @property
     def lane_numbers(self) -> Any:
         """Numbers that generated closed-form functions read, an array of C, or None without such functions."""
-        return self._numbers if self.has_direct and self._numbers else None
+        return self._numbers if self.has_closed_form and self._numbers else None
 
     @property
     def calls_python(self) -> bool:

@@ -31,7 +31,7 @@ from ..._gateway.mechanisms.space import SpaceCore
 from ...errors import NoCompilerWarning, UnsuitedIntegrator
 from ...symbolics.compile import cache as kept
 from ...symbolics.compile import compilers, shared_library
-from ...symbolics.compile.closed_form_library import DIRECT, ClosedFormFunctions
+from ...symbolics.compile.closed_form_library import CLOSED_FORM, ClosedFormFunctions
 from ...symbolics.compile.series_library import JacobianFunctions, PreciseFunctions, SeriesFunctions
 from ...symbolics.graph.plain_functions import Plain
 from ...systems.exact_numbers import low_parts_of_frames
@@ -43,7 +43,7 @@ from .tables import Tables
 DATA = "*(const double *const *)data"       # the doubles that functions receive: csrc/mechanisms/plane/tables.h
 MOST_VELOCITIES = 400   # with six a body, each of which takes more than ten operations: see closed_form_writer.MOST_OPERATIONS
 FOLLOWED = "coordinates that follow from others have none"
-OF_DIRECT = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in SIMD lanes these alone differ between groups
+CLOSED_FORM_DATA = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in SIMD lanes these alone differ between groups
 
 
 @dataclass(frozen=True)
@@ -108,12 +108,12 @@ class Written:
 
     def _derive(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
         """Code of the equations; it is stored for equal plans."""
-        code = self._code_of(written()) if self._has_terms else self._direct_alone(written)
+        code = self._code_of(written()) if self._has_terms else self._closed_form_alone(written)
         kept.write(self.key, asdict(code))
         _codes[self.key] = code
         return code
 
-    def _direct_alone(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
+    def _closed_form_alone(self, written: Callable[[], nodes.Equations | space_nodes.Equations]) -> Code:
         """Code for the closed form alone; with too many velocities only the reason why there is none."""
         from ...symbolics.emit import closed_form, closed_form_writer
         from ...symbolics.graph.lowering import Lowering
@@ -140,26 +140,26 @@ class Written:
         knows_time = any(operation.code == "leaf" and operation.arguments[0] == "t" for operation in lowering.operations)
         return Code(list(terms), not knows_time, constants, scratch, c_source, closed_form.as_json(lowering, outputs))
 
-    def _compiled(self, direct: ClosedFormFunctions | None, vector: str = "baseline", jacobian: Any = None,
+    def _compiled(self, closed_form: ClosedFormFunctions | None, vector: str = "baseline", jacobian: Any = None,
                   series: Any = None) -> MechanismCore | SpaceCore:
         """System with compiled functions."""
         code = self._code
-        numbers = np.concatenate([self._values, np.zeros(code.constants + (direct.constants if direct else 0) + 1)])
+        numbers = np.concatenate([self._values, np.zeros(code.constants + (closed_form.constants if closed_form else 0) + 1)])
         libraries, address, terms = [self._library], None, None
         if self._library is not None:
             self._library.zd_symbolic_constants(ctypes.c_void_p(numbers.ctypes.data))
             evaluate = _gateway.address_of(self._library, "zd_symbolic_evaluate")
             terms = WrittenTerms(evaluate, code.provides, code.timeless, code.scratch)
-        if direct:
-            libraries.append(direct.library(vector))
-            libraries[1].zd_symbolic_direct_constants(ctypes.c_void_p(numbers.ctypes.data))
-            address = _gateway.address_of(libraries[1], DIRECT)
+        if closed_form:
+            libraries.append(closed_form.library(vector))
+            libraries[1].zd_symbolic_closed_form_constants(ctypes.c_void_p(numbers.ctypes.data))
+            address = _gateway.address_of(libraries[1], CLOSED_FORM)
         numbers.flags.writeable = False
         rates = jacobian and _gateway.address_of(jacobian, JacobianFunctions.symbol)
         coefficients = series and _gateway.address_of(series, SeriesFunctions.symbol)
-        core = with_functions(self._interpreted, numbers, [*libraries, jacobian, series], terms=terms, direct=address,
+        core = with_functions(self._interpreted, numbers, [*libraries, jacobian, series], terms=terms, closed_form=address,
                               jacobian=rates, series=coefficients)
-        derive = zip(libraries, ("zd_symbolic_constants", f"{DIRECT}_constants"), strict=False)
+        derive = zip(libraries, ("zd_symbolic_constants", f"{CLOSED_FORM}_constants"), strict=False)
         core.written_inputs = WrittenInputs(numbers, self._index, [_gateway.address_of(*each) for each in derive if each[0]])
         return core
 
@@ -187,14 +187,14 @@ class Written:
         numbers = _pairs(self._values, self._frames)
         return Precise(_gateway.address_of(library, PreciseFunctions.symbol), numbers, self._sizes, library)
 
-    def direct_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> ClosedFormFunctions:
+    def closed_form_functions(self, p0: np.ndarray | None, is_length: np.ndarray) -> ClosedFormFunctions:
         """Closed-form functions, with elimination orders for these numbers and the start p0."""
         return ClosedFormFunctions(self._code.program, self._sizes, self._values, p0, is_length,
-                               len(self._values) + self._code.constants, OF_DIRECT)
+                               len(self._values) + self._code.constants, CLOSED_FORM_DATA)
 
-    def with_direct(self, direct: ClosedFormFunctions, vector: str) -> MechanismCore | SpaceCore:
+    def with_closed_form(self, closed_form: ClosedFormFunctions, vector: str) -> MechanismCore | SpaceCore:
         """Core system with closed-form functions for a vector unit, if these can be generated; otherwise the core system."""
-        return self._compiled(direct, vector) if self.is_compiled and direct.library(vector) else self.core
+        return self._compiled(closed_form, vector) if self.is_compiled and closed_form.library(vector) else self.core
 
 
 def measure_program(tables: Tables, name: str, component: int) -> tuple[Any, int, np.ndarray] | None:

@@ -16,7 +16,7 @@ from . import cache as kept
 from . import shared_library
 
 LANES = {"baseline": 2, "avx2": 4, "avx512": 8}
-DIRECT = "zd_symbolic_direct"       # symbol of the functions in their library
+CLOSED_FORM = "zd_symbolic_closed_form"       # symbol of the functions in their library
 NO_COMPILER = "there is no C compiler"      # reason why a system has no closed-form functions
 
 
@@ -69,14 +69,15 @@ class ClosedFormFunctions:
         program, sizes, values, p0, is_length = self._definition
         calls = {operation[1] for operation in program["operations"] if operation[0] == "call"}
         limits = closed_form_writer.MOST_OPERATIONS, closed_form_writer.MOST_STATEMENTS
-        return kept.digest_of("direct functions", _writing_code(calls <= set(NAMED)), limits, program, sizes, values.tolist(),
+        return kept.digest_of("closed-form functions", _writing_code(calls <= set(NAMED)), limits, program, sizes,
+                              values.tolist(),
                               None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data, self._embeds)
 
     def _written_anew(self) -> dict[str, Any]:
         from ..elimination.steps import Unwritten
         from ..emit import closed_form
         try:
-            source, constants = closed_form.write(*self._definition, offset=self._offset, symbol=DIRECT, data=self._data,
+            source, constants = closed_form.write(*self._definition, offset=self._offset, symbol=CLOSED_FORM, data=self._data,
                                              embeds=(self._embeds,))
         except Unwritten as reason:
             return {"source": "", "constants": 0, "why": str(reason)}
@@ -85,7 +86,7 @@ class ClosedFormFunctions:
     @property
     def in_words(self) -> str:
         """Reason why the system has no closed-form functions, as shown in its `repr`."""
-        return f", no direct functions: {self.why_none}" if self.why_none else ""
+        return f", no closed-form functions: {self.why_none}" if self.why_none else ""
 
     @property
     def constants(self) -> int:
@@ -110,7 +111,7 @@ class ClosedFormFunctions:
     def library_of(self, sets: str, optimized: tuple[str, ...] = shared_library.OPTIMIZED) -> ctypes.CDLL | None:
         """Library of some sets of functions, given as a C expression of the bits in zerodrift/units.h."""
         if sets not in self._libraries and self.source:
-            symbols = DIRECT, f"{DIRECT}_constants"
+            symbols = CLOSED_FORM, f"{CLOSED_FORM}_constants"
             self._libraries[sets] = shared_library.library(self.source, symbols=symbols, defined=[f"ZD_SETS={sets}"],
                                                           optimized=optimized)
         return self._libraries.get(sets)

@@ -1,4 +1,4 @@
-/* Written by python/write_direct.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
 #ifndef ZD_LANES
 #include "slider_crank.h"
 
@@ -6,7 +6,7 @@
 #include "../../include/zerodrift/units.h"
 
 /* Constants computed from the parameters alone, stored after them. */
-void zd_slider_crank_direct_constants(double *k)
+void zd_slider_crank_closed_form_constants(double *k)
 {
     k[11] = 0.5 * k[5];
     k[12] = k[1] * k[8];
@@ -51,7 +51,7 @@ static const int column_1[] = {1, 2};
 #include "slider_crank.c"
 #endif
 
-const zd_closed_form zd_slider_crank_direct[] = {
+const zd_closed_form zd_slider_crank_closed_form[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 1, orders_0_1, 1, embeddings_0_1},
 #endif

@@ -1,4 +1,4 @@
-/* Written by python/write_direct.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
 #ifndef ZD_LANES
 #include "oscillator.h"
 
@@ -6,7 +6,7 @@
 #include "../../include/zerodrift/units.h"
 
 /* Constants computed from the parameters alone, stored after them. */
-void zd_oscillator_direct_constants(double *k)
+void zd_oscillator_closed_form_constants(double *k)
 {
     k[4] = 1.0 / k[0];
 }
@@ -50,7 +50,7 @@ static const int column_1[] = {0};
 #include "oscillator.c"
 #endif
 
-const zd_closed_form zd_oscillator_direct[] = {
+const zd_closed_form zd_oscillator_closed_form[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 1, orders_0_1, 1, embeddings_0_1},
 #endif

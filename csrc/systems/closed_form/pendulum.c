@@ -1,4 +1,4 @@
-/* Written by python/write_direct.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
 #ifndef ZD_LANES
 #include "pendulum.h"
 
@@ -6,7 +6,7 @@
 #include "../../include/zerodrift/units.h"
 
 /* Constants computed from the parameters alone, stored after them. */
-void zd_pendulum_direct_constants(double *k)
+void zd_pendulum_closed_form_constants(double *k)
 {
     k[5] = k[1] * k[2];
     k[8] = k[0] * k[0];
@@ -59,7 +59,7 @@ static const int column_3[] = {1};
 #include "pendulum.c"
 #endif
 
-const zd_closed_form zd_pendulum_direct[] = {
+const zd_closed_form zd_pendulum_closed_form[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 2, orders_0_1, 2, embeddings_0_1},
 #endif

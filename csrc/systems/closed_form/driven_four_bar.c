@@ -1,4 +1,4 @@
-/* Written by python/write_direct.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
 #ifndef ZD_LANES
 #include "driven_four_bar.h"
 
@@ -6,7 +6,7 @@
 #include "../../include/zerodrift/units.h"
 
 /* Constants computed from the parameters alone, stored after them. */
-void zd_driven_four_bar_direct_constants(double *k)
+void zd_driven_four_bar_closed_form_constants(double *k)
 {
     k[15] = k[7] + ((k[1] * k[1]) * (k[6] + ((k[4] * 0.25) + k[5])));
     const double x32 = k[6] + (k[5] * 0.5);
@@ -63,7 +63,7 @@ static const int column_1[] = {0, 1, 2};
 #include "driven_four_bar.c"
 #endif
 
-const zd_closed_form zd_driven_four_bar_direct[] = {
+const zd_closed_form zd_driven_four_bar_closed_form[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 1, orders_0_1, 1, embeddings_0_1},
 #endif

@@ -1,4 +1,4 @@
-/* Written by python/write_direct.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
 #ifndef ZD_LANES
 #include "chaplygin_sleigh.h"
 
@@ -6,7 +6,7 @@
 #include "../../include/zerodrift/units.h"
 
 /* Constants computed from the parameters alone, stored after them. */
-void zd_chaplygin_sleigh_direct_constants(double *k)
+void zd_chaplygin_sleigh_closed_form_constants(double *k)
 {
     k[6] = k[0] * k[2];
     k[7] = k[1] + (k[0] * (k[2] * k[2]));
@@ -51,7 +51,7 @@ static const int column_1[] = {0};
 #include "chaplygin_sleigh.c"
 #endif
 
-const zd_closed_form zd_chaplygin_sleigh_direct[] = {
+const zd_closed_form zd_chaplygin_sleigh_closed_form[] = {
 #if (ZD_SETS) & ZD_SET_BASELINE_1
     {0, 1, 2, orders_0_1, 0, NULL},
 #endif

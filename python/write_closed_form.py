@@ -1,6 +1,6 @@
 """Writer of csrc/systems/direct, the closed-form functions of built-in systems, from their
 derivations in tests/symbolic_counterparts.py:
-``python python/write_direct.py``, after which the core has to be built again.
+``python python/write_closed_form.py``, after which the core has to be built again.
 """
 
 import sys
@@ -14,13 +14,13 @@ sys.path += [str(ROOT / "tests"), str(ROOT / "python")]     # where it does not 
 from symbolic_counterparts import OF_PARAMETERS  # noqa: E402
 from zerodrift.symbolics.emit import closed_form  # noqa: E402
 
-FOLDER = ROOT / "csrc" / "systems" / "direct"
+FOLDER = ROOT / "csrc" / "systems" / "closed_form"
 # Offset of the constants of the closed-form functions in the doubles of a system: after its own, or 0 where they are the same.
 BEGINS = {"four_bar": 14, "driven_four_bar": 18, "pendulum": 0, "slider_crank": 0, "chaplygin_sleigh": 0,
           "oscillator": 0, "knife_edge": 0, "vertical_disc": 0}
 # Systems that provide D have no independent velocities that are entries of v.
 EMBEDS = {"chaplygin_sleigh": (False,), "knife_edge": (False,)}
-HEADING = f"/* Written by python/write_direct.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
+HEADING = f"/* Written by python/write_closed_form.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
 
 
 def sources():
@@ -28,10 +28,11 @@ def sources():
     texts, sizes = {}, {}
     for name, counterpart in OF_PARAMETERS.items():
         system = counterpart()
-        symbol, count = f"zd_{name}_direct", len(system.parameters)
+        symbol, count = f"zd_{name}_closed_form", len(system.parameters)
         heading = [HEADING, f'#include "{name}.h"', "", "#include <math.h>", '#include "../../include/zerodrift/units.h"']
         texts[f"{name}.c"], constants = closed_form.write(
-            *system._direct._definition, offset=count, symbol=symbol, heading=heading, embeds=EMBEDS.get(name, (False, True)),
+            *system._closed_form._definition, offset=count, symbol=symbol, heading=heading,
+            embeds=EMBEDS.get(name, (False, True)),
             file=f"{name}.c", lanes_header='"../../include/zerodrift/lanes.h"',
             data=f"(const double *)data + {BEGINS[name]} * ZD_LANES" if BEGINS[name] else "data")
         sizes[name] = count + constants
@@ -50,9 +51,9 @@ def header(name, size):
 /* Range of the constants of the closed-form functions among those of the system. */
 enum {{ {capitals}_BEGINS = {BEGINS[name]}, {capitals}_ENDS = {BEGINS[name] + size} }};
 
-extern const zd_closed_form zd_{name}_direct[];
+extern const zd_closed_form zd_{name}_closed_form[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
-void zd_{name}_direct_constants(double *k);
+void zd_{name}_closed_form_constants(double *k);
 
 #endif
 """

@@ -1,7 +1,7 @@
 """Cost of steps on the closed-form path, compared in one run with a four-bar eliminated by hand and with heyoka.py's best.
 
-Run it with ``python tests/bench/bench_direct.py``; it needs a C compiler and SymPy, and heyoka.py for the comparison with that.
-It writes ``results/direct.csv``. Problems and settings are those of ``peers``; zerodrift's are those with DOP853.
+Run it with ``python tests/bench/bench_closed_form.py``; it needs a C compiler and SymPy, and heyoka.py for the comparison.
+It writes ``results/closed_form.csv``. Problems and settings are those of ``peers``; zerodrift's are those with DOP853.
 """
 
 import ctypes
@@ -48,7 +48,7 @@ def steps(problems, ours):
     with tempfile.TemporaryDirectory() as folder:
         calls = dict(floors(folder, zd.systems.four_bar()))
         for kind in ours.kinds(chain):
-            for name, settings in [*((unit, {"vector": unit}) for unit in yardsticks), ("matrix path", {"direct": False})]:
+            for name, settings in [*((unit, {"vector": unit}) for unit in yardsticks), ("matrix path", {"closed_form": False})]:
                 ours_by[f"{kind}, {name}"] = yardsticks.get(name)
                 calls[f"{kind}, {name}"] = functools.partial(simulated, ours.system_of(chain, kind), settings)
         times = least(30, *(functools.partial(processor_time, call, count)
@@ -124,4 +124,4 @@ def measured():
 
 
 if __name__ == "__main__":
-    record("direct", measured(), ("what", "value", "unit", "at most"))
+    record("closed_form", measured(), ("what", "value", "unit", "at most"))

@@ -1,0 +1,15 @@
+/* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+#ifndef ZD_CHAPLYGIN_SLEIGH_CLOSED_FORM_H
+#define ZD_CHAPLYGIN_SLEIGH_CLOSED_FORM_H
+
+#include "../../include/zerodrift/system.h"
+#include "../../include/zerodrift/units.h"
+
+/* Range of the constants of the closed-form functions among those of the system. */
+enum { ZD_CHAPLYGIN_SLEIGH_CLOSED_FORM_BEGINS = 0, ZD_CHAPLYGIN_SLEIGH_CLOSED_FORM_ENDS = 8 };
+
+extern const zd_closed_form zd_chaplygin_sleigh_closed_form[];
+/* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
+void zd_chaplygin_sleigh_closed_form_constants(double *k);
+
+#endif
