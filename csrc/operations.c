@@ -6,7 +6,7 @@
 #include "linalg/norms.h"
 #include "motion/derivatives.h"
 #include "motion/reactions.h"
-#include "paths/spread.h"
+#include "paths/dense_output.h"
 #include "point/point.h"
 #include "point/quaternions.h"
 #include "registry.h"
@@ -270,7 +270,7 @@ int zd_states_between(const zd_system *system, const zd_settings *settings, cons
     zd_run *run = zd_run_create(system, settings, saved->p, saved->v, &status, message, message_size);
     if (!run) return status;
     zd_resample resample = {.run = run, .saved = saved, .row = -1};
-    status = zd_spread_prepare(&run->stepper);
+    status = zd_dense_output_take(&run->stepper);
     for (int64_t i = 0; i < count && !status; i++) {
         status = zd_resample_move(&resample, t[i]);
         copy_state(system, run->motion.point->p, run->motion.point->v, p + i * system->nq, v + i * system->nv);

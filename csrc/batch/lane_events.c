@@ -60,7 +60,7 @@ static int next_reported(const zd_lane_search *search, int index)
 /* True if the state at the event is interpolated between the states before and after. */
 static int is_mixed(const zd_lane_group *self, const zd_lane_search *search)
 {
-    return !zd_lanes_may_spread(&self->lanes) || zd_bracket_leaps(&search->occurrence[search->index].bracket);
+    return !zd_lanes_have_dense_output(&self->lanes) || zd_bracket_leaps(&search->occurrence[search->index].bracket);
 }
 
 static void proceed_to_next(zd_lane_group *self, zd_lane_search *search, int index)
@@ -97,7 +97,7 @@ static void go_to_states(zd_lane_group *self, int lane)
     if (search->is_cut) {
         search->last = search->occurrences++;
         search->occurrence[search->last] = search->cut;
-    } else if (search->last >= 0 && zd_lanes_may_spread(&self->lanes)) {
+    } else if (search->last >= 0 && zd_lanes_have_dense_output(&self->lanes)) {
         int first, last;
         search->cut = search->occurrence[search->last];
         search->event = search->cut.event;

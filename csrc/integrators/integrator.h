@@ -29,8 +29,8 @@ typedef struct zd_integrator {
     double (*fit)(const void *self, double h);  /* best size of the next step, at most h, for the iteration; NULL: h */
     /* Dense output of the step just made from (t, y0) to (t + h, y1): prepares the polynomial; evaluates it at a fraction of the step.
      * NULL: the method has none, and shorter steps are made instead. */
-    int (*spread)(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1);
-    void (*between)(const void *self, double share, const double *y0, double *y);
+    int (*prepare_dense)(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1);
+    void (*dense_output)(const void *self, double share, const double *y0, double *y);
 } zd_integrator;
 
 /* True if the method evaluates accelerations, with which reactions are solved that user functions read. */

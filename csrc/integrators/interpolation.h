@@ -62,8 +62,8 @@ ZD_INLINE int zd_prepare_dense_in_closed_form(const int n, const zd_tableau *T, 
     return status ? ZD_CALLBACK : ZD_DONE;
 }
 
-ZD_INLINE int zd_spread_any(const int size, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t, double h,
-                            const double *y0)
+ZD_INLINE int zd_prepare_dense_in_general(const int size, const zd_tableau *T, const zd_runge_kutta *self, const zd_rate *rate, double t,
+                                          double h, const double *y0)
 {
     const int first = T->stages + 1, all = first + T->more;
     int status = ZD_DONE;
@@ -77,8 +77,8 @@ ZD_INLINE int zd_spread_any(const int size, const zd_tableau *T, const zd_runge_
 }
 
 /* Three and four coordinates with as many velocities are those whose sums are written out. */
-ZD_INLINE int zd_runge_kutta_spread(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h, const double *y0,
-                                    const double *y1)
+ZD_INLINE int zd_runge_kutta_prepare_dense(const zd_tableau *T, zd_runge_kutta *self, const zd_rate *rate, double t, double h,
+                                           const double *y0, const double *y1)
 {
     const int size = self->size, is_plain = rate->closed_form && !(rate->system->provides & ZD_A);
     self->h = h;
@@ -87,8 +87,8 @@ ZD_INLINE int zd_runge_kutta_spread(const zd_tableau *T, zd_runge_kutta *self, c
     return status || !T->more    ? status
          : is_plain && size == 6 ? zd_prepare_dense_in_closed_form(3, T, self, rate, t, h, y0)
          : is_plain && size == 8 ? zd_prepare_dense_in_closed_form(4, T, self, rate, t, h, y0)
-         : size == 6             ? zd_spread_any(6, T, self, rate, t, h, y0)
-                                 : zd_spread_any(size, T, self, rate, t, h, y0);
+         : size == 6             ? zd_prepare_dense_in_general(6, T, self, rate, t, h, y0)
+                                 : zd_prepare_dense_in_general(size, T, self, rate, t, h, y0);
 }
 
 /* weight (all,) <- weights of the rates k_j, times h, at a fraction x of the step */
@@ -106,7 +106,7 @@ ZD_INLINE void zd_weigh_stages(const zd_tableau *T, double h, double x, double *
     weight[T->stages] -= h * x * z * x;
 }
 
-ZD_INLINE double zd_value_between(int i, const int size, const zd_tableau *T, const zd_runge_kutta *self, double of_change,
+ZD_INLINE double zd_dense_output_value(int i, const int size, const zd_tableau *T, const zd_runge_kutta *self, double of_change,
                                   const double *weight, const double *y0)
 {
     double value = y0[i] + of_change * self->change[i];
@@ -116,34 +116,34 @@ ZD_INLINE double zd_value_between(int i, const int size, const zd_tableau *T, co
     return value;
 }
 
-ZD_INLINE void zd_between_sized(const int size, const zd_tableau *T, const zd_runge_kutta *self, double x, const double *y0, double *y)
+ZD_INLINE void zd_dense_output_sized(const int size, const zd_tableau *T, const zd_runge_kutta *self, double x, const double *y0, double *y)
 {
     const double z = 1 - x, of_change = x * x * (x + 3 * z);     /* x - x z + 2 x^2 z */
     double weight[ZD_MOST_STAGES];
     zd_weigh_stages(T, self->h, x, weight);
     for (int i = 0; i + 1 < size; i += 2)
-        zd_store_pair(zd_value_between(i, size, T, self, of_change, weight, y0),
-                      zd_value_between(i + 1, size, T, self, of_change, weight, y0), y + i);
-    if (size % 2) y[size - 1] = zd_value_between(size - 1, size, T, self, of_change, weight, y0);
+        zd_store_pair(zd_dense_output_value(i, size, T, self, of_change, weight, y0),
+                      zd_dense_output_value(i + 1, size, T, self, of_change, weight, y0), y + i);
+    if (size % 2) y[size - 1] = zd_dense_output_value(size - 1, size, T, self, of_change, weight, y0);
 }
 
-ZD_INLINE void zd_runge_kutta_between(const zd_tableau *T, const zd_runge_kutta *self, double x, const double *y0, double *y)
+ZD_INLINE void zd_runge_kutta_dense_output(const zd_tableau *T, const zd_runge_kutta *self, double x, const double *y0, double *y)
 {
-    if (self->size == 6) zd_between_sized(6, T, self, x, y0, y);
-    else if (self->size == 8) zd_between_sized(8, T, self, x, y0, y);
-    else zd_between_sized(self->size, T, self, x, y0, y);
+    if (self->size == 6) zd_dense_output_sized(6, T, self, x, y0, y);
+    else if (self->size == 8) zd_dense_output_sized(8, T, self, x, y0, y);
+    else zd_dense_output_sized(self->size, T, self, x, y0, y);
 }
 
 /* The functions of a method whose table is `tableau`, and their place in its descriptor. */
 #define ZD_RUNGE_KUTTA_INTERPOLATION                                                                                        \
-    static int spread(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1)              \
+    static int prepare_dense(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1)              \
     {                                                                                                                       \
-        return zd_runge_kutta_spread(&tableau, self, rate, t, h, y0, y1);                                                   \
+        return zd_runge_kutta_prepare_dense(&tableau, self, rate, t, h, y0, y1);                                                   \
     }                                                                                                                       \
-    static void between(const void *self, double share, const double *y0, double *y)                                        \
+    static void dense_output(const void *self, double share, const double *y0, double *y)                                        \
     {                                                                                                                       \
-        zd_runge_kutta_between(&tableau, self, share, y0, y);                                                   \
+        zd_runge_kutta_dense_output(&tableau, self, share, y0, y);                                                   \
     }
-#define ZD_INTERPOLATED .spread = spread, .between = between
+#define ZD_INTERPOLATED .prepare_dense = prepare_dense, .dense_output = dense_output
 
 #endif

@@ -15,7 +15,7 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_l
         .recorder = recorder,
         .t_eval = settings->t_eval,
         .t_evals = settings->t_evals,
-        .has_polynomial = zd_is_adaptive(loop) && stepper->integrator->spread,
+        .has_polynomial = zd_is_adaptive(loop) && stepper->integrator->prepare_dense,
     };
     if (settings->t_eval || settings->events) {
         self.before = zd_state_take(arena, stepper->motion);
@@ -30,7 +30,7 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_l
 void zd_output_keep_beginning(zd_output *self)
 {
     zd_stepper_keep_place(self->stepper, &self->before);
-    self->is_spread = self->is_away = 0;
+    self->is_prepared = self->is_away = 0;
 }
 
 static void keep_end(zd_output *self)
@@ -47,7 +47,7 @@ void zd_output_leave_end(zd_output *self)
     keep_end(self);
     zd_checkpoint_set(&self->aside, self->stepper);
     self->is_away = 1;
-    self->is_spread = self->is_short = 0;
+    self->is_prepared = self->is_short = 0;
 }
 
 static int return_to_end(zd_output *self)
@@ -84,30 +84,30 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
     self->after.t = stepper->t;
     if (!self->is_short) keep_end(self);
     if (stepper->motion->formulation->settle) zd_checkpoint_set_variables(&self->aside, stepper);
-    int status = self->is_spread ? ZD_DONE : zd_spread(stepper);
+    int status = self->is_prepared ? ZD_DONE : zd_dense_output_prepare(stepper);
     if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* dense output reads them in place */
-    self->is_spread = !status;
+    self->is_prepared = !status;
     return !status || zd_callable_failed(stepper->motion, status) ? status : go_on_with_shorter_steps(self);
 }
 
 int zd_output_leave(zd_output *self, int may_stay)
 {
-    if (zd_output_may_spread(self)) return leave_for_polynomial(self, may_stay);
+    if (zd_output_has_dense(self)) return leave_for_polynomial(self, may_stay);
     zd_output_leave_end(self);
     return ZD_DONE;
 }
 
 int zd_output_make_shorter(zd_output *self, double t)
 {
-    self->is_spread = 0;
+    self->is_prepared = 0;
     int status = zd_stepper_return_to(self->stepper, &self->before);
     return status ? status : zd_substep(self->loop, t);
 }
 
 int zd_output_go(zd_output *self, double t)
 {
-    if (self->is_spread) {
-        int status = zd_spread_land(self->stepper, t, self->is_short ? self->y : self->stepper->y);
+    if (self->is_prepared) {
+        int status = zd_dense_output_move(self->stepper, t, self->is_short ? self->y : self->stepper->y);
         if (!status || zd_callable_failed(self->stepper->motion, status)) return status;
         status = go_on_with_shorter_steps(self);
         if (status) return status;

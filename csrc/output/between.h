@@ -4,7 +4,7 @@
 
 #include "../paths/checkpoint.h"
 #include "../paths/closed_form.h"
-#include "../paths/spread.h"
+#include "../paths/dense_output.h"
 #include "../step/step.h"
 #include "record.h"
 
@@ -22,7 +22,7 @@ typedef struct zd_output {
     zd_checkpoint aside;    /* other quantities that the next step reads */
     int is_waiting;         /* true if the record was full before all samples of the step were saved */
     int is_open;            /* true while samples within the step remain */
-    int is_spread;          /* true if its dense output is prepared */
+    int is_prepared;          /* true if its dense output is prepared */
     int is_away;            /* true while the motion is not at the end of the step, which is saved */
     int is_short;           /* true while dense output is evaluated into y, the stepper's state staying that of the end */
     double *y;              /* (size,) state from dense output */
@@ -32,9 +32,9 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_l
 static inline int zd_output_looks_between(const zd_output *self) { return self->has_polynomial && self->aside.y; }
 void zd_output_keep_beginning(zd_output *self);
 /* True if dense output is available for the last step. */
-static inline int zd_output_may_spread(const zd_output *self)
+static inline int zd_output_has_dense(const zd_output *self)
 {
-    return self->has_polynomial && zd_may_spread(self->stepper, self->before.t);
+    return self->has_polynomial && zd_has_dense_output(self->stepper, self->before.t);
 }
 /* Saves the end of the step before the motion leaves it: for shorter steps only; or for any values within the step, preparing dense output
  * if available. zd_output_come_back() returns to the end, so that the bits of the next step do not change. `may_stay`: the stepper's state

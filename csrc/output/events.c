@@ -124,7 +124,7 @@ static int cut(zd_watch *self, double *end)
     zd_occurrence last = self->occurrence[self->last];
     const int earlier = self->events->terminal[last.event] - self->found[last.event] - 1;
     last.bracket = widened(self, &last);
-    output->is_spread = 0;
+    output->is_prepared = 0;
     int status = locate(self, &last);
     if (!status) status = zd_output_make_shorter(output, last.bracket.b);
     if (!status) status = zd_watch_evaluate_all(self, self->now);
@@ -181,7 +181,7 @@ static int settle_between(zd_watch *self, const zd_occurrence *found, const zd_s
 static int settle(zd_watch *self, const zd_occurrence *found, const zd_state **there)
 {
     const zd_stepper *stepper = self->output->stepper;
-    const int jumps = !self->output->is_spread || zd_bracket_leaps(&found->bracket);
+    const int jumps = !self->output->is_prepared || zd_bracket_leaps(&found->bracket);
     const int is_mixed = jumps && !zd_watch_reads_accelerations(self, found->event);
     int status = is_mixed ? zd_watch_move(self, found->bracket.a) : ZD_DONE;
     if (is_mixed) zd_stepper_keep_place(stepper, &self->early);
@@ -219,7 +219,7 @@ static int find_all(zd_watch *self, double *end)
     int status = zd_watch_leave(self);
     if (!status) status = zd_watch_sample(self);
     if (!status) status = locate_all(self, &first_end);
-    if (!status && self->ended && output->is_spread) status = cut(self, &first_end);
+    if (!status && self->ended && output->is_prepared) status = cut(self, &first_end);
     if (!status) status = report(self, first_end);
     if (self->ended) *end = first_end;
     return status;

@@ -82,7 +82,7 @@ static void predict_by_dense_output(zd_watch *self, double x)
     const zd_stepper *stepper = self->output->stepper;
     const zd_system *system = &stepper->motion->system;
     double *y = self->output->y;
-    stepper->integrator->between(stepper->memory, x, stepper->last.y, y);
+    stepper->integrator->dense_output(stepper->memory, x, stepper->last.y, y);
     zd_copy_all(system->nq, y, self->mixed.p);
     zd_copy_all(system->nv, y + system->nq, self->mixed.v);
 }
@@ -120,7 +120,7 @@ static int may_predict(const zd_watch *self)
 {
     const zd_stepper *stepper = self->output->stepper;
     if (is_fixed(self)) return self->at_start.are_known;
-    return zd_output_may_spread(self->output) && stepper->last.p == stepper->last.y && !reads_any_accelerations(self);
+    return zd_output_has_dense(self->output) && stepper->last.p == stepper->last.y && !reads_any_accelerations(self);
 }
 
 /* Prepares the polynomial; *is_known <- 0 if dense output failed. */
@@ -129,7 +129,7 @@ static int prepare_prediction(zd_watch *self, int moves, int *is_known)
     zd_output *output = self->output;
     int status = is_fixed(self) ? find_rates(self, &self->at_end) : zd_watch_leave(self);
     if (!status && moves && !output->is_away) zd_output_leave_end(output);
-    *is_known = is_fixed(self) || output->is_spread;
+    *is_known = is_fixed(self) || output->is_prepared;
     return status;
 }
 
@@ -180,8 +180,8 @@ void zd_watch_span(zd_watch *self)
 int zd_watch_leave(zd_watch *self)
 {
     zd_output *output = self->output;
-    const int is_corrected = output->is_away && !output->is_spread;
-    int status = is_corrected && zd_output_may_spread(output) ? zd_output_come_back(output) : ZD_DONE;
+    const int is_corrected = output->is_away && !output->is_prepared;
+    int status = is_corrected && zd_output_has_dense(output) ? zd_output_come_back(output) : ZD_DONE;
     return status || output->is_away ? status : zd_output_leave(output, 0);
 }
 

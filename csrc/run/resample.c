@@ -9,7 +9,7 @@
 
 #include "../step/step.h"
 #include "../paths/choose.h"
-#include "../paths/spread.h"
+#include "../paths/dense_output.h"
 
 /* One sample of an array with `size` numbers per sample. */
 static const double *row_of(const zd_saved *saved, const double *array, int size, int64_t row)
@@ -90,7 +90,7 @@ static int begin_from_before(zd_resample *self, int64_t row)
 
 static int may_have_polynomial(const zd_resample *self)
 {
-    return zd_is_adaptive(&self->run->loop) && self->run->stepper.integrator->spread;
+    return zd_is_adaptive(&self->run->loop) && self->run->stepper.integrator->prepare_dense;
 }
 
 static int make_general_step(zd_resample *self, int64_t row)
@@ -123,8 +123,8 @@ static int find_path(zd_resample *self, int64_t row)
     self->row = row;
     self->is_general = self->has_polynomial = 0;
     int status = may_interpolate || zd_has_closed_form(&self->run->motion) ? make_again(self, row) : ZD_DONE;
-    if (!status && may_interpolate && zd_may_spread(stepper, stepper->last.t)) {
-        status = zd_spread(stepper);
+    if (!status && may_interpolate && zd_has_dense_output(stepper, stepper->last.t)) {
+        status = zd_dense_output_prepare(stepper);
         self->has_polynomial = !status;
     }
     if (!zd_callable_failed(&self->run->motion, status)) return ZD_DONE;
@@ -139,7 +139,7 @@ int zd_resample_move(zd_resample *self, double t)
     int status = row == self->row ? ZD_DONE : find_path(self, row);
     if (status) return status;
     if (self->has_polynomial) {
-        status = zd_spread_land(&self->run->stepper, t, self->run->stepper.y);
+        status = zd_dense_output_move(&self->run->stepper, t, self->run->stepper.y);
         if (!status || zd_callable_failed(&self->run->motion, status)) return status;
     }
     self->has_polynomial = 0;

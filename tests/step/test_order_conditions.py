@@ -35,7 +35,7 @@ NATIVE = """
     {                                                                                            \\
         const double zeros[ZD_MOST_STAGES] = {0};                                                \\
         const zd_runge_kutta self = {.size = all, .k = identity, .h = 1, .change = change};      \\
-        zd_##name.between(&self, x, zeros, b);                                                   \\
+        zd_##name.dense_output(&self, x, zeros, b);                                                   \\
     }
 WEIGHTS(dormand_prince)
 WEIGHTS(dop853)

@@ -170,7 +170,7 @@ ZD_KERNEL void ZD_NAMED(advance)(zd_lanes *self)
 
 /* Dense output of the last step, in these lanes: polynomial through y0 and y from the rates at the ends of the step and of some more
  * stages: interpolation.h. */
-ZD_KERNEL void ZD_NAMED(spread)(zd_lanes *self, zd_condition which, zd_real h)
+ZD_KERNEL void ZD_NAMED(prepare_dense)(zd_lanes *self, zd_condition which, zd_real h)
 {
     const zd_method *method = &self->method;
     const int size = self->size, f1 = method->stages;
@@ -216,9 +216,9 @@ ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
 {
     const zd_real t = *REAL(self->t), before = *REAL(self->t_before), t_sample = *REAL(self->t_sample);
     const zd_condition inside = HOLDS(self->is_wanted) & (t_sample != t);
-    const int may_spread = zd_lanes_may_spread(self);
-    if (may_spread && !self->has_polynomial) ZD_NAMED(spread)(self, t == t, t - before);
-    self->has_polynomial = may_spread;
+    const int has_dense = zd_lanes_have_dense_output(self);
+    if (has_dense && !self->has_polynomial) ZD_NAMED(prepare_dense)(self, t == t, t - before);
+    self->has_polynomial = has_dense;
     return (ZD_NAMED(between)){inside, ZD_WHERE(inside, t - before, ZD_SPLAT(0.0)), ZD_WHERE(inside, t_sample - before, ZD_SPLAT(0.0))};
 }
 
@@ -268,5 +268,5 @@ ZD_KERNEL void ZD_NAMED(cut)(zd_lanes *self)
     const zd_condition inside = ZD_NAMED(make_shorter)(self);
     ZD_NAMED(take_where)(inside, self->size, self->y_sample, self->y);
     *REAL(self->t) = ZD_WHERE(inside, *REAL(self->t_sample), *REAL(self->t));
-    ZD_NAMED(spread)(self, inside, *REAL(self->t) - *REAL(self->t_before));
+    ZD_NAMED(prepare_dense)(self, inside, *REAL(self->t) - *REAL(self->t_before));
 }

@@ -97,7 +97,7 @@ typedef struct zd_lanes {
 } zd_lanes;
 
 /* True if the method has dense output for adaptive steps. */
-static inline int zd_lanes_may_spread(const zd_lanes *self) { return !self->is_fixed && self->method.tableau->coefficients; }
+static inline int zd_lanes_have_dense_output(const zd_lanes *self) { return !self->is_fixed && self->method.tableau->coefficients; }
 
 /* Functions of one vector unit. */
 typedef struct zd_lane_functions {

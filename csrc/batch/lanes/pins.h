@@ -39,7 +39,7 @@ ZD_KERNEL void ZD_NAMED(solve)(const zd_lane_pins *pins)
 }
 
 /* x <- g - M^-1 C^T y, without g where `falls` is 0 */
-ZD_KERNEL void ZD_NAMED(spread_forces)(const zd_lanes *self, double falls, double *x)
+ZD_KERNEL void ZD_NAMED(distribute_forces)(const zd_lanes *self, double falls, double *x)
 {
     const zd_lane_pins *pins = self->pins;
     const zd_stored *g = REAL(self->data) + pins->gravity, *y = REAL(pins->y);
@@ -112,7 +112,7 @@ ZD_KERNEL void ZD_NAMED(refine)(const zd_lanes *self, double *x)
         open &= (left > 0.0) & (left < 0.5 * before);
         if (!ZD_ANY(open)) break;
         ZD_NAMED(solve)(pins);
-        ZD_NAMED(spread_forces)(self, 0, pins->step);
+        ZD_NAMED(distribute_forces)(self, 0, pins->step);
         for (int j = 0; j < self->nv; j++) REAL(x)[j] += ZD_WHERE(open, REAL(pins->step)[j], ZD_SPLAT(0.0));
         for (int j = 0; j < 2 * pins->count; j++) REAL(pins->lambda)[j] += ZD_WHERE(open, REAL(pins->y)[j], ZD_SPLAT(0.0));
         before = left;
@@ -124,7 +124,7 @@ ZD_KERNEL void ZD_NAMED(refine)(const zd_lanes *self, double *x)
 ZD_KERNEL void ZD_NAMED(exchange)(const zd_lanes *self, double falls, double *x)
 {
     ZD_NAMED(solve)(self->pins);
-    ZD_NAMED(spread_forces)(self, falls, x);
+    ZD_NAMED(distribute_forces)(self, falls, x);
     ZD_NAMED(refine)(self, x);
 }
 

@@ -34,7 +34,7 @@ ZD_INLINE void zd_radau_transform(const int n, const double matrix[ZD_RADAU_STAG
 }
 
 /* The value at a share of the step of the polynomial through 0 and the three stages z */
-ZD_INLINE double zd_radau_value_between(const double *z, int n, double x)
+ZD_INLINE double zd_radau_dense_output(const double *z, int n, double x)
 {
     double sum = 0;
     for (int i = 0; i < ZD_RADAU_STAGES; i++) {

@@ -72,7 +72,7 @@ static void start(radau *self)
     if (self->before_h == 0) return;
     for (int s = 0; s < STAGES; s++)
         for (int i = 0; i < n; i++)
-            it->z[s * n + i] = zd_radau_value_between(self->before + i, n, 1 + c[s] * it->h / self->before_h) - self->before[2 * n + i];
+            it->z[s * n + i] = zd_radau_dense_output(self->before + i, n, 1 + c[s] * it->h / self->before_h) - self->before[2 * n + i];
 }
 
 /* The step before is the one last made, where this begins at its end; or still the one before that, where it begins at its beginning anew. */
@@ -224,17 +224,17 @@ static double fit(const void *memory, double h)
 }
 
 /* The collocation polynomial through the stages needs no preparation. */
-static int spread(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
+static int prepare_dense(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1)
 {
     (void)self, (void)rate, (void)t, (void)h, (void)y0, (void)y1;
     return ZD_DONE;
 }
 
-static void between(const void *memory, double share, const double *y0, double *y)
+static void dense_output(const void *memory, double share, const double *y0, double *y)
 {
     const radau *self = memory;
     const zd_radau_newton *it = &self->newton;
-    for (int i = 0; i < it->size; i++) y[i] = y0[i] + zd_radau_value_between(it->z + i, it->size, share);
+    for (int i = 0; i < it->size; i++) y[i] = y0[i] + zd_radau_dense_output(it->z + i, it->size, share);
 }
 
 const zd_integrator zd_radau = {
@@ -258,6 +258,6 @@ const zd_integrator zd_radau = {
     .weigh = weigh,
     .error = error,
     .fit = fit,
-    .spread = spread,
-    .between = between,
+    .prepare_dense = prepare_dense,
+    .dense_output = dense_output,
 };

@@ -151,7 +151,8 @@ ZD_INLINE void subtract_rows(double scale, zd_two l0, zd_two l1, zd_two b0, zd_t
 
 /* Eliminates all blocks if each has two rows, with their loops unrolled. Both columns of a block are held as pairs. Products with the
  * inverse P are divided by its determinant last, as a division takes longest. `carries`: 1 if a right-hand side x is eliminated, too. */
-ZD_INLINE void eliminate_twos(const int carries, const zd_blocks *self, double *restrict x, zd_pivots *pivots)
+ZD_INLINE void eliminate_twos(const int carries, const zd_blocks *self, double *restrict x,
+                             zd_pivots *pivots)
 {
     const int count = self->count, *begin = self->begin, *row = self->row, *target = self->target;
     double *S = self->S, *pivot = S, *entry = S + 4 * count;

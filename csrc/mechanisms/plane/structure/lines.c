@@ -141,8 +141,8 @@ void zd_lines_write(const zd_lines *self, const zd_revolute_joints *revolutes, c
     if (!self->count) return;
     const zd_plane_tree *tree = &mechanism->tree;
     if (want & (ZD_PHI | ZD_PHI_T | ZD_XI)) begin_rows(self, &mechanism->elements, want, t, out);
-    const double *place = want & (ZD_MOVED | ZD_PHI | ZD_XI) ? zd_revolute_joints_spread(revolutes, tree, p, frame->place) : NULL;
+    const double *place = want & (ZD_MOVED | ZD_PHI | ZD_XI) ? zd_revolute_joints_expand(revolutes, tree, p, frame->place) : NULL;
     if (want & (ZD_MOVED | ZD_PHI)) write_pulls(self, frame, want, mechanism->elements.mh, place, out->Phi);
     if (want & ZD_C) write_C(self, frame, out->C);
-    if (want & ZD_XI) write_xi(self, frame, place, zd_revolute_joints_spread(revolutes, tree, v, frame->spread), out->xi);
+    if (want & ZD_XI) write_xi(self, frame, place, zd_revolute_joints_expand(revolutes, tree, v, frame->spread), out->xi);
 }

@@ -12,7 +12,7 @@ static void times_C(const void *data, const zd_terms *terms, const double *x, do
     const zd_plane *mechanism = data;
     const zd_revolute_joints *self = &mechanism->packing->revolutes;
     const zd_vector *arm = arms_in(terms->scratch);
-    const double *of = zd_revolute_joints_spread(self, &mechanism->tree, x, room_in(terms->scratch, self));
+    const double *of = zd_revolute_joints_expand(self, &mechanism->tree, x, room_in(terms->scratch, self));
     for (int k = 0; k < self->count; k++, arm += 2) {
         const double *a = zd_of_body(of, self->between[k].first), *b = zd_of_body(of, self->between[k].second);
         y[2 * k] = b[0] - b[2] * arm[1].y - (a[0] - a[2] * arm[0].y);

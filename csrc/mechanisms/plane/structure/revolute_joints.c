@@ -58,7 +58,7 @@ void zd_revolute_joints_turn(const zd_revolute_joints *self, const zd_plane *mec
     }
 }
 
-const double *zd_revolute_joints_spread(const zd_revolute_joints *self, const zd_plane_tree *tree, const double *x, double *to)
+const double *zd_revolute_joints_expand(const zd_revolute_joints *self, const zd_plane_tree *tree, const double *x, double *to)
 {
     if (self->have_angles) return x;
     double *of = to;
@@ -120,8 +120,8 @@ void zd_revolute_joints_write(const zd_revolute_joints *self, const zd_plane *me
                               const double *p, const double *v,
                    const zd_terms *out)
 {
-    if (want & ZD_PHI) write_Phi(self, frame, zd_revolute_joints_spread(self, &mechanism->tree, p, frame->spread), out->Phi);
-    if (want & ZD_XI) write_xi(self, frame, zd_revolute_joints_spread(self, &mechanism->tree, v, frame->spread), out->xi);
+    if (want & ZD_PHI) write_Phi(self, frame, zd_revolute_joints_expand(self, &mechanism->tree, p, frame->spread), out->Phi);
+    if (want & ZD_XI) write_xi(self, frame, zd_revolute_joints_expand(self, &mechanism->tree, v, frame->spread), out->xi);
     if (want & ZD_C) write_C(self, frame, out->C);
     for (int k = 0; (want & ZD_PHI_T) && k < self->count; k++) out->Phi_t[self->between[k].row] = out->Phi_t[self->between[k].row + 1] = 0;
 }

@@ -45,7 +45,7 @@ void zd_revolute_joints_write(const zd_revolute_joints *self, const zd_plane *me
                                const double *v, const zd_terms *out);
 
 /* x (nv,) with three entries for each body: x itself if all bodies have three coordinates, otherwise a copy in `to`. */
-const double *zd_revolute_joints_spread(const zd_revolute_joints *self, const zd_plane_tree *tree, const double *x, double *to);
+const double *zd_revolute_joints_expand(const zd_revolute_joints *self, const zd_plane_tree *tree, const double *x, double *to);
 /* Entries of body i; zeros for the ground. */
 static inline const double *zd_of_body(const double *spread, int i)
 {

@@ -10,7 +10,7 @@ from ..._gateway.mechanisms.assembly import DRAWN, STAYS
 from ..._gateway.mechanisms.element_tables import OutputSpec
 from ..._gateway.mechanisms.parameter_variants import Held, Varied
 from ..._gateway.mechanisms.plane import MechanismCore
-from ..elements.columns import Column, Varies, spread
+from ..elements.columns import Column, Varies, expand
 from ..elements.drawing import Drawing
 from ..elements.frames import turned
 from ..elements.numbers import Numbers
@@ -50,7 +50,7 @@ def varied(drawing: Drawing, changed: Mapping[str, float], parameters: Mapping[s
         index = {row.name: i for i, row in enumerate(observed)}
         staying = [*_staying(places, observed, index, is_rate=False), *_staying(rates, observed, index, is_rate=True)]
         held = [*_held(drawing, index), *staying, *(Held(index[name], 0, False, 0.0, DRAWN) for name in drawn_names)]
-        poses, length = _drawn(tables, count), spread(size_of(drawing, numbers), count)
+        poses, length = _drawn(tables, count), expand(size_of(drawing, numbers), count)
         moving, drawn = tables.written(*read(tables)), absolute.written(quantities, observed)
     except Varies:
         return None
@@ -89,5 +89,5 @@ def _drawn(tables: Tables, count: int) -> np.ndarray:
     for i, body in enumerate(tables.parts):
         place = body.pose.origin + turned(body.pose.angle, tables.inertias.of[body.name][2])
         for j, each in enumerate((*place, body.pose.angle)):
-            poses[:, i, j] = spread(each, count)
+            poses[:, i, j] = expand(each, count)
     return poses

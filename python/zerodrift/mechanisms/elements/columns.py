@@ -90,7 +90,7 @@ def chosen(condition: Any, one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return np.array([_of(np.where, condition, a, b) for a, b in zip(one, other, strict=True)])
 
 
-def spread(number: Any, count: int) -> np.ndarray:
+def expand(number: Any, count: int) -> np.ndarray:
     """Values (count,) of a number."""
     return np.broadcast_to(number.values if isinstance(number, Column) else float(number), count)
 
@@ -100,5 +100,5 @@ def longest_side(places: Sequence[np.ndarray]) -> Any:
     columns = [each.values for place in places for each in place if isinstance(each, Column)]
     if not columns:
         return float(np.ptp(places, axis=0).max())
-    values = np.array([[spread(each, len(columns[0])) for each in place] for place in places])
+    values = np.array([[expand(each, len(columns[0])) for each in place] for place in places])
     return Column(np.ptp(values, axis=0).max(axis=0))

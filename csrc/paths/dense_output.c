@@ -4,7 +4,7 @@
  * formulation's choice at the start of the step is copied, and restored while values within the step are computed. On the closed-form path
  * the variables do not change within a step.
  */
-#include "spread.h"
+#include "dense_output.h"
 
 #include <string.h>
 
@@ -17,10 +17,10 @@ static void *take_chosen(zd_arena *arena, const void *of)
     return zd_take(arena, motion->memory_of_chosen.bytes);
 }
 
-int zd_spread_prepare(zd_stepper *stepper)
+int zd_dense_output_take(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;
-    if (stepper->last.chosen || !stepper->integrator->spread || !motion->formulation->settle) return ZD_DONE;
+    if (stepper->last.chosen || !stepper->integrator->prepare_dense || !motion->formulation->settle) return ZD_DONE;
     stepper->last.chosen = zd_store_take(&motion->store, take_chosen, motion);
     return stepper->last.chosen ? ZD_DONE : ZD_NO_MEMORY;
 }
@@ -32,14 +32,14 @@ static void take_variables_back(zd_stepper *stepper)
     motion->point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED | ZD_ACCELERATED);
 }
 
-int zd_may_spread(const zd_stepper *stepper, double t0)
+int zd_has_dense_output(const zd_stepper *stepper, double t0)
 {
     const zd_last *last = &stepper->last;
-    if (!stepper->integrator->spread || last->t != t0 || last->h != stepper->t - t0) return 0;
+    if (!stepper->integrator->prepare_dense || last->t != t0 || last->h != stepper->t - t0) return 0;
     return !zd_motion_settles(stepper->motion) || last->chosen;
 }
 
-int zd_spread(zd_stepper *stepper)
+int zd_dense_output_prepare(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;
     const zd_last *last = &stepper->last;
@@ -50,16 +50,16 @@ int zd_spread(zd_stepper *stepper)
     }
     /* The point is where the step has ended. */
     motion->rate.vdot = motion->path.is_short && motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
-    if (!status) status = stepper->integrator->spread(stepper->memory, &motion->rate, last->t, last->h, last->y, stepper->y);
+    if (!status) status = stepper->integrator->prepare_dense(stepper->memory, &motion->rate, last->t, last->h, last->y, stepper->y);
     motion->rate.vdot = NULL;
     return status;
 }
 
-int zd_spread_land(zd_stepper *stepper, double t, double *y)
+int zd_dense_output_move(zd_stepper *stepper, double t, double *y)
 {
     const zd_last *last = &stepper->last;
     if (zd_motion_settles(stepper->motion)) take_variables_back(stepper);
-    stepper->integrator->between(stepper->memory, (t - last->t) / last->h, last->y, y);
+    stepper->integrator->dense_output(stepper->memory, (t - last->t) / last->h, last->y, y);
     stepper->motion->statistics.output_steps++;
     if (stepper->motion->path.is_short) return zd_short_land_between(stepper, t, y);
     return zd_path_end(zd_path_of_state(stepper->motion), stepper, t, 0, 1, 1);
