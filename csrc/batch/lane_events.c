@@ -317,7 +317,7 @@ static int go_all(zd_lane_group *self, int way)
     int any = 0;
     for (int lane = 0; lane < lanes->lanes; lane++) any |= request(self, lane, way);
     if (!any) return 0;
-    if (way == BETWEEN) self->functions->move_between(lanes, 0);
+    if (way == BETWEEN) self->functions->move_within(lanes, 0);
     else if (way == BY_SHORTER_STEP) self->functions->substep(lanes);
     else self->functions->cut(lanes);
     for (int lane = 0; lane < lanes->lanes; lane++)

@@ -108,7 +108,7 @@ void zd_lane_group_save(zd_lane_group *self)
     const int by_time = self->batch->settings->t_eval != NULL, multipliers = self->batch->multipliers != NULL;
     int is_within;
     while (mark(self, &is_within)) {
-        if (is_within || multipliers) self->functions->move_between(lanes, multipliers);
+        if (is_within || multipliers) self->functions->move_within(lanes, multipliers);
         else memcpy(lanes->y_sample, lanes->y, (size_t)(lanes->size * lanes->lanes) * sizeof *lanes->y);
         save_marked(self);
     }

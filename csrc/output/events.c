@@ -1,7 +1,7 @@
 /* Events: instants at which a function of the motion passes through zero.
  *
  * Two points of a step at which the function has different signs bracket such an instant, see step_samples.c. The bracket is narrowed to
- * the rounding of t by values within the step, see between.c: of the dense output, with adaptive steps of a method that has one, or else
+ * the rounding of t by values within the step, see within_step.c: of the dense output, with adaptive steps of a method that has one, or else
  * of shorter steps. All these points are corrected. So the ends of the step are corrected, too, before events are evaluated, even if the
  * run itself continues without correction (every k-th step only): otherwise the function would jump at the ends, and change its sign
  * without a zero.
@@ -164,7 +164,7 @@ static const zd_state *mix(zd_watch *self, double share)
 }
 
 /* *there <- the interpolated state at which the event function is zero. */
-static int settle_between(zd_watch *self, const zd_occurrence *found, const zd_state **there)
+static int interpolate_event(zd_watch *self, const zd_occurrence *found, const zd_state **there)
 {
     zd_bracket it = zd_bracket_of(0, 1, found->bracket.ga, found->bracket.gb, ZD_TIME_RESOLUTION);
     while (it.gb != 0 && it.b - it.a > ZD_TIME_RESOLUTION) {
@@ -188,7 +188,7 @@ static int settle(zd_watch *self, const zd_occurrence *found, const zd_state **t
     if (!status) status = zd_watch_move(self, found->bracket.b);
     zd_stepper_keep_place(stepper, &self->late);
     *there = &self->late;
-    return status || !is_mixed ? status : settle_between(self, found, there);
+    return status || !is_mixed ? status : interpolate_event(self, found, there);
 }
 
 static int report_one(zd_watch *self, int index)

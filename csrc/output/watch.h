@@ -3,7 +3,7 @@
 #define ZD_WATCH_H
 
 #include "../linalg/bracket.h"
-#include "between.h"
+#include "within_step.h"
 #include "reading.h"
 #include "zeros.h"
 

@@ -282,16 +282,16 @@ static int check_state(zd_stepper *stepper, zd_safeguards *safeguards, int64_t n
 
 const zd_evaluation_path zd_closed_form_path = {"closed form", 1, integrate_from, project_state, correct_state, NULL, check_state};
 
-ZD_INLINE int land_between(const int n, zd_stepper *stepper, double t, double *y)
+ZD_INLINE int project_within(const int n, zd_stepper *stepper, double t, double *y)
 {
     int status = project(n, stepper, t, y);
     if (!status && stepper->motion->others_after_step) status = correct(n, stepper, y, 0, 1);
     return status || is_finite(n, y) ? status : ZD_NOT_FINITE;
 }
 
-int zd_short_land_between(zd_stepper *stepper, double t, double *y)
+int zd_plain_project_within(zd_stepper *stepper, double t, double *y)
 {
-    return ZD_SIZED(land_between, stepper->motion->system.nv, stepper, t, y);
+    return ZD_SIZED(project_within, stepper->motion->system.nv, stepper, t, y);
 }
 
 /* Exchanges the arrays of accelerations at the end of the step with others: a copy would take as long as saving a sample. */

@@ -17,7 +17,7 @@ static inline int zd_short_may_stay(const zd_stepper *stepper)
     return stepper->motion->path.is_short && (stepper->motion->point->known & ZD_ACCELERATED);
 }
 /* Projects a state y within an accepted step and moves the point there; saves and restores accelerations at the end of the step. */
-int zd_short_land_between(zd_stepper *stepper, double t, double *y);
+int zd_plain_project_within(zd_stepper *stepper, double t, double *y);
 void zd_short_keep_rates(const zd_stepper *stepper, zd_cached_accelerations *rates);
 void zd_short_return_to_end(zd_stepper *stepper, double t, zd_cached_accelerations *rates);
 

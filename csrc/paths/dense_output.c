@@ -61,6 +61,6 @@ int zd_dense_output_move(zd_stepper *stepper, double t, double *y)
     if (zd_motion_settles(stepper->motion)) take_variables_back(stepper);
     stepper->integrator->dense_output(stepper->memory, (t - last->t) / last->h, last->y, y);
     stepper->motion->statistics.output_steps++;
-    if (stepper->motion->path.is_short) return zd_short_land_between(stepper, t, y);
+    if (stepper->motion->path.is_short) return zd_plain_project_within(stepper, t, y);
     return zd_path_end(zd_path_of_state(stepper->motion), stepper, t, 0, 1, 1);
 }

@@ -3,7 +3,7 @@
 #define ZD_RUN_H
 
 #include "../motion/motion.h"
-#include "../output/between.h"
+#include "../output/within_step.h"
 #include "../output/events.h"
 #include "../output/record.h"
 #include "../safeguards/safeguards.h"

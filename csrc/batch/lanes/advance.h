@@ -212,7 +212,7 @@ typedef struct ZD_NAMED(between) {
     zd_real h, part;        /* size of the step, and its part up to that time; 0 in other lanes */
 } ZD_NAMED(between);
 
-ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
+ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_within)(zd_lanes *self)
 {
     const zd_real t = *REAL(self->t), before = *REAL(self->t_before), t_sample = *REAL(self->t_sample);
     const zd_condition inside = HOLDS(self->is_wanted) & (t_sample != t);
@@ -223,7 +223,7 @@ ZD_KERNEL ZD_NAMED(between) ZD_NAMED(find_between)(zd_lanes *self)
 }
 
 /* Projects y_sample onto the constraints at t_sample; evaluates its multipliers if required. */
-ZD_KERNEL void ZD_NAMED(project_between)(zd_lanes *self, zd_condition inside, const double *t_sample, int multipliers)
+ZD_KERNEL void ZD_NAMED(project_within)(zd_lanes *self, zd_condition inside, const double *t_sample, int multipliers)
 {
     zd_condition failed = ZD_SPLAT(0.0) != 0.0;
     if (self->m && self->corrects) failed = ZD_NAMED(correct_state)(self, t_sample, self->y_sample, inside) & inside;
@@ -237,23 +237,23 @@ ZD_KERNEL void ZD_NAMED(project_between)(zd_lanes *self, zd_condition inside, co
 
 /* y_sample at t_sample by dense output, if the method has it and steps are adaptive, else by a shorter step. Orders of elimination may have
  * changed since the start of the step; they are valid at its end. */
-ZD_KERNEL void ZD_NAMED(move_between)(zd_lanes *self, int multipliers)
+ZD_KERNEL void ZD_NAMED(move_within)(zd_lanes *self, int multipliers)
 {
-    const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
+    const ZD_NAMED(between) at = ZD_NAMED(find_within)(self);
     const zd_stored t_sample = ZD_WHERE(at.inside, *REAL(self->t_sample), *REAL(self->t));
     if (self->has_polynomial)
         ZD_NAMED(evaluate)(self, ZD_WHERE(at.inside, at.part / ZD_WHERE(at.inside, at.h, ZD_SPLAT(1.0)), ZD_SPLAT(1.0)));
     else ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_sample);
-    ZD_NAMED(project_between)(self, at.inside, (const double *)&t_sample, multipliers);
+    ZD_NAMED(project_within)(self, at.inside, (const double *)&t_sample, multipliers);
 }
 
 /* y_sample at t_sample by a shorter step. Its stages overwrite those of dense output, which is therefore computed before. */
 ZD_KERNEL zd_condition ZD_NAMED(make_shorter)(zd_lanes *self)
 {
-    const ZD_NAMED(between) at = ZD_NAMED(find_between)(self);
+    const ZD_NAMED(between) at = ZD_NAMED(find_within)(self);
     const zd_stored t_sample = ZD_WHERE(at.inside, *REAL(self->t_sample), *REAL(self->t));
     ZD_NAMED(integrate)(self, self->y0, *REAL(self->t_before), at.part, self->y_sample);
-    ZD_NAMED(project_between)(self, at.inside, (const double *)&t_sample, 0);
+    ZD_NAMED(project_within)(self, at.inside, (const double *)&t_sample, 0);
     return at.inside;
 }
 

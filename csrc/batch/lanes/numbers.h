@@ -110,7 +110,7 @@ typedef struct zd_lane_functions {
     /* Makes steps until a lane requires attention. */
     void (*advance)(zd_lanes *self);
     /* y_sample <- state at t_sample in lanes with is_wanted, on the constraints; with `multipliers`, lambda_sample, too. */
-    void (*move_between)(zd_lanes *self, int multipliers);
+    void (*move_within)(zd_lanes *self, int multipliers);
     /* substep: the same by a shorter step, even if the method has dense output; cut: that step also replaces the last one. */
     void (*substep)(zd_lanes *self);
     void (*cut)(zd_lanes *self);

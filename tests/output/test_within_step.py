@@ -112,7 +112,8 @@ def chosen(system, rtol, times=None, **options):
 @pytest.mark.parametrize("options", [{}, {"closed_form": False}, {"formulation": "augmented"}, {"energy": True},
                                      {"stabilization": "baumgarte"}, {"integrator": "dormand_prince"},
                                      {"formulation": "mixed"}, {"formulation": "independent", "energy": True},
-                                     {"formulation": "independent", "closed_form": False}, {"formulation": "mixed", "closed_form": False},
+                                     {"formulation": "independent", "closed_form": False},
+                                     {"formulation": "mixed", "closed_form": False},
                                      {"integrator": "dormand_prince", "closed_form": False, "energy": True}], ids=str)
 def test_the_polynomial_of_a_method_errs_as_its_steps_do(bar, options):
     """By how much the rows between steps are off, beside the rows at their ends: at either, what the tolerance leaves."""

@@ -4,7 +4,7 @@
  * With adaptive steps, the dense output of a method that has one costs less: its values, corrected alike, have errors as small as those of
  * such steps. Fixed steps may be too long for it.
  */
-#include "between.h"
+#include "within_step.h"
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder)
 {

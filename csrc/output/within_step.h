@@ -1,6 +1,6 @@
 /* Values between steps. */
-#ifndef ZD_BETWEEN_H
-#define ZD_BETWEEN_H
+#ifndef ZD_WITHIN_STEP_H
+#define ZD_WITHIN_STEP_H
 
 #include "../paths/checkpoint.h"
 #include "../paths/closed_form.h"
@@ -29,7 +29,7 @@ typedef struct zd_output {
 } zd_output;
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder);
-static inline int zd_output_looks_between(const zd_output *self) { return self->has_polynomial && self->aside.y; }
+static inline int zd_output_has_checkpoint(const zd_output *self) { return self->has_polynomial && self->aside.y; }
 void zd_output_keep_beginning(zd_output *self);
 /* True if dense output is available for the last step. */
 static inline int zd_output_has_dense(const zd_output *self)
