@@ -164,9 +164,9 @@ static double distance(const zd_selection *self, int row)
 {
     const double *w = self->limits->w + row * self->n, *wdot = self->limits->wdot + row * self->n;
     double own = zd_dot(self->n, w, w), along = zd_dot(self->n, w, wdot), rate = zd_dot(self->n, wdot, wdot);
-    double aside = own - along / rate * along;
+    double across = own - along / rate * along;
     int resolved = own > ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
-    return resolved && !(aside <= PARALLEL * PARALLEL * own) ? INFINITY : along / rate;
+    return resolved && !(across <= PARALLEL * PARALLEL * own) ? INFINITY : along / rate;
 }
 
 static double limit(const zd_point *point, int row, int i)

@@ -27,7 +27,7 @@ struct zd_rank {
     int was_ill_conditioned;    /* 1: v = D u lost digits in this step, as a residual norm was small: see paths/variables.c */
     int was_turned;         /* 1: the row space of C may have reversed, as beyond a bifurcation, since the flag was cleared */
     int lost;               /* number of constraints replaced by limits: the last holonomic rows of point->C */
-    int is_aside;           /* 1: points belong to auxiliary steps; the selection kept from step to step is not changed */
+    int is_auxiliary;           /* 1: points belong to auxiliary steps; the selection kept from step to step is not changed */
     double *start_square;   /* (m,): squared lengths of the rows at the start */
     double *terms_square;   /* (m,): squared magnitudes of the terms summed in each row; where not known, start_square */
     double *rhs;            /* (m,): right-hand side, for formulations that compute the velocity; else NULL */

@@ -40,7 +40,7 @@ typedef struct search {
     double *U;              /* and its square, stored as M is */
     double *x, *change;     /* (nv,) */
     double *v0, *v;         /* (nv,): velocity at the start, and a random one */
-    unsigned char *aside;   /* (m,) */
+    unsigned char *candidate;   /* (m,) */
 } search;
 
 static void *take(zd_arena *arena, const void *of)
@@ -53,7 +53,7 @@ static void *take(zd_arena *arena, const void *of)
         .change = zd_take_doubles(arena, (size_t)system->nv),
         .v0 = zd_take_doubles(arena, (size_t)system->nv),
         .v = zd_take_doubles(arena, (size_t)system->nv),
-        .aside = zd_take(arena, (size_t)zd_constraints(system)),
+        .candidate = zd_take(arena, (size_t)zd_constraints(system)),
     };
     return zd_take_filled(arena, &self, sizeof self);
 }
@@ -145,9 +145,9 @@ static int restore_violated(search *self, const zd_point *point, int *holonomic)
     int count = *holonomic = 0;
     for (int k = 0; k < zd_constraints(point->system); k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        if (!is_satisfied_by_velocity(self, &row)) self->aside[k] = 0;
-        count += self->aside[k];
-        *holonomic += self->aside[k] && k < point->system->mh;
+        if (!is_satisfied_by_velocity(self, &row)) self->candidate[k] = 0;
+        count += self->candidate[k];
+        *holonomic += self->candidate[k] && k < point->system->mh;
     }
     return count;
 }
@@ -167,7 +167,7 @@ static int agree(search *self, zd_point *point, const double *v, int *they_do)
     *they_do = 1;
     for (int k = 0; k < zd_constraints(point->system) && *they_do; k++) {
         const zd_row_of_C row = zd_point_row(point, k);
-        *they_do = !self->aside[k] || is_satisfied(&row, self->x, point->terms.xi[k], SATISFIED_BY_ACCELERATION,
+        *they_do = !self->candidate[k] || is_satisfied(&row, self->x, point->terms.xi[k], SATISFIED_BY_ACCELERATION,
                                                             largest * point->size[k]);
         if (!*they_do) point->failed_index = k;
     }
@@ -205,7 +205,7 @@ static int note(search *self, zd_point *point)
     if (!count) return ZD_DONE;
     rank->left_out = zd_store_take(rank->store, take_note, point->system);
     if (!rank->left_out) return ZD_NO_MEMORY;
-    memcpy(rank->left_out, self->aside, (size_t)zd_constraints(point->system));
+    memcpy(rank->left_out, self->candidate, (size_t)zd_constraints(point->system));
     rank->most_rows -= count;
     rank->most_holonomic -= holonomic;
     return classify(self, point);
@@ -213,13 +213,13 @@ static int note(search *self, zd_point *point)
 
 /* Sets rows with small pivots aside. If the dependent rows are the welds that join the parts of a split body, bodies are no longer
  * split. */
-static int set_aside(search *self, const zd_point *point, double little)
+static int find_candidates(search *self, const zd_point *point, double little)
 {
     for (;;) {
         const int is_whole = self->whole.most_touchers == INT_MAX;
         if (!self->weighted) self->weighted = zd_weighted_create(&self->store, &self->whole);
         if (!self->weighted) return ZD_NO_MEMORY;
-        const int of_welds = zd_weighted_leave_out(self->weighted, point->terms.C, self->U, little, self->aside);
+        const int of_welds = zd_weighted_leave_out(self->weighted, point->terms.C, self->U, little, self->candidate);
         if (of_welds < 0) return ZD_NO_MEMORY;
         if (!of_welds || is_whole) return ZD_DONE;
         self->whole.most_touchers = INT_MAX;
@@ -253,9 +253,9 @@ static int find(search *self, zd_point *point)
     set_metric(self, point);
     self->whole = *point->layout;
     for (size_t i = 0, is_found = 0; i < sizeof SMALL_PIVOTS / sizeof *SMALL_PIVOTS && !is_found; i++) {
-        int any = 0, status = set_aside(self, point, SMALL_PIVOTS[i]);
+        int any = 0, status = find_candidates(self, point, SMALL_PIVOTS[i]);
         if (status) return status;
-        for (int k = 0; k < zd_constraints(point->system); k++) any |= self->aside[k];
+        for (int k = 0; k < zd_constraints(point->system); k++) any |= self->candidate[k];
         if (!any) return ZD_DONE;
         project_random(self, point);
         is_found = satisfies_all(self, point);

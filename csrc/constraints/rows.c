@@ -21,7 +21,7 @@ static int keep_selection(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;
     const int is_whole = self->is_started && point->rows == self->most_rows && self->most_rows < self->m && !self->lost && !is_ill;
-    if (self->is_aside) return ZD_DONE;
+    if (self->is_auxiliary) return ZD_DONE;
     if (self->kept) self->kept->is_known = 0;
     if (!is_whole) return ZD_DONE;
     if (!self->kept) self->kept = zd_store_take(self->store, take_kept, point->system);

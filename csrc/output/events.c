@@ -229,13 +229,13 @@ int zd_watch_after(zd_watch *self, int corrected, double *end)
 {
     zd_output *output = self->output;
     int occurs = 0;
-    if (!corrected) zd_output_leave_end(output);
+    if (!corrected) zd_output_save_end(output);
     int status = corrected ? ZD_DONE : zd_watch_correct(output->stepper);
     if (!status) status = zd_watch_evaluate_all(self, self->now);
     if (!status) status = zd_watch_predict(self, &occurs);
     if (!status && occurs) status = find_all(self, end);
-    if (!status && output->is_away && !self->ended) status = zd_output_come_back(output);
-    output->is_away = 0;
+    if (!status && output->is_within && !self->ended) status = zd_output_return_to_end(output);
+    output->is_within = 0;
     double *now = self->now;
     self->now = self->before;
     self->before = now;

@@ -128,7 +128,7 @@ static int prepare_prediction(zd_watch *self, int moves, int *is_known)
 {
     zd_output *output = self->output;
     int status = is_fixed(self) ? find_rates(self, &self->at_end) : zd_watch_leave(self);
-    if (!status && moves && !output->is_away) zd_output_leave_end(output);
+    if (!status && moves && !output->is_within) zd_output_save_end(output);
     *is_known = is_fixed(self) || output->is_prepared;
     return status;
 }
@@ -180,9 +180,9 @@ void zd_watch_span(zd_watch *self)
 int zd_watch_leave(zd_watch *self)
 {
     zd_output *output = self->output;
-    const int is_corrected = output->is_away && !output->is_prepared;
-    int status = is_corrected && zd_output_has_dense(output) ? zd_output_come_back(output) : ZD_DONE;
-    return status || output->is_away ? status : zd_output_leave(output, 0);
+    const int is_corrected = output->is_within && !output->is_prepared;
+    int status = is_corrected && zd_output_has_dense(output) ? zd_output_return_to_end(output) : ZD_DONE;
+    return status || output->is_within ? status : zd_output_leave(output, 0);
 }
 
 int zd_watch_predict(zd_watch *self, int *occurs)

@@ -21,7 +21,7 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_l
         self.before = zd_state_take(arena, stepper->motion);
         self.after = zd_state_take(arena, stepper->motion);
         self.rates = zd_rates_take(arena, stepper->motion);
-        self.aside = zd_checkpoint_take(arena, stepper);
+        self.checkpoint = zd_checkpoint_take(arena, stepper);
         self.y = zd_take_doubles(arena, self.has_polynomial ? (size_t)stepper->capacity : 0);
     }
     return self;
@@ -30,7 +30,7 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_l
 void zd_output_keep_beginning(zd_output *self)
 {
     zd_stepper_keep_place(self->stepper, &self->before);
-    self->is_prepared = self->is_away = 0;
+    self->is_prepared = self->is_within = 0;
 }
 
 static void keep_end(zd_output *self)
@@ -39,29 +39,29 @@ static void keep_end(zd_output *self)
     zd_stepper_keep_rates(self->stepper, &self->rates);
     const zd_motion *motion = self->stepper->motion;
     self->is_factored = (motion->point->known & ZD_FACTORED) && !self->rates.are_known && !motion->formulation->settle;
-    self->aside.is_set = 0;
+    self->checkpoint.is_set = 0;
 }
 
-void zd_output_leave_end(zd_output *self)
+void zd_output_save_end(zd_output *self)
 {
     keep_end(self);
-    zd_checkpoint_set(&self->aside, self->stepper);
-    self->is_away = 1;
+    zd_checkpoint_set(&self->checkpoint, self->stepper);
+    self->is_within = 1;
     self->is_prepared = self->is_short = 0;
 }
 
 static int return_to_end(zd_output *self)
 {
-    int status = self->aside.is_set ? zd_checkpoint_return(&self->aside, self->stepper, &self->after)
+    int status = self->checkpoint.is_set ? zd_checkpoint_return(&self->checkpoint, self->stepper, &self->after)
                                     : zd_stepper_return_to(self->stepper, &self->after);
     if (!status) zd_stepper_restore_rates(self->stepper, &self->rates);
     /* A factorization that includes a right-hand side rounds differently from a later solve, so it is repeated. */
     return !status && self->is_factored ? zd_motion_factor(self->stepper->motion) : status;
 }
 
-int zd_output_come_back(zd_output *self)
+int zd_output_return_to_end(zd_output *self)
 {
-    self->is_away = 0;
+    self->is_within = 0;
     if (!self->is_short) return return_to_end(self);
     zd_short_return_to_end(self->stepper, self->after.t, &self->rates);
     return ZD_DONE;
@@ -70,8 +70,8 @@ int zd_output_come_back(zd_output *self)
 /* Continues with shorter steps after dense output has failed. */
 static int go_on_with_shorter_steps(zd_output *self)
 {
-    const int status = zd_output_come_back(self);
-    if (!status) zd_output_leave_end(self);
+    const int status = zd_output_return_to_end(self);
+    if (!status) zd_output_save_end(self);
     return status;
 }
 
@@ -79,11 +79,11 @@ static int go_on_with_shorter_steps(zd_output *self)
 static int leave_for_polynomial(zd_output *self, int may_stay)
 {
     zd_stepper *stepper = self->stepper;
-    self->is_away = 1;
+    self->is_within = 1;
     self->is_short = may_stay && zd_short_may_stay(stepper);
     self->after.t = stepper->t;
     if (!self->is_short) keep_end(self);
-    if (stepper->motion->formulation->settle) zd_checkpoint_set_variables(&self->aside, stepper);
+    if (stepper->motion->formulation->settle) zd_checkpoint_set_variables(&self->checkpoint, stepper);
     int status = self->is_prepared ? ZD_DONE : zd_dense_output_prepare(stepper);
     if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* dense output reads them in place */
     self->is_prepared = !status;
@@ -93,7 +93,7 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
 int zd_output_leave(zd_output *self, int may_stay)
 {
     if (zd_output_has_dense(self)) return leave_for_polynomial(self, may_stay);
-    zd_output_leave_end(self);
+    zd_output_save_end(self);
     return ZD_DONE;
 }
 
@@ -129,7 +129,7 @@ static int is_wanted_before(const zd_output *self, double t)
 static int move_to_next(zd_output *self)
 {
     const double t = self->t_eval[self->next++];
-    int status = self->is_away ? ZD_DONE : zd_output_leave(self, 1);
+    int status = self->is_within ? ZD_DONE : zd_output_leave(self, 1);
     return status ? status : zd_output_go(self, t);
 }
 
@@ -149,7 +149,7 @@ static int save_within(zd_output *self, zd_record *record)
 static int save_end(zd_output *self, zd_record *record, int is_end)
 {
     const double t1 = self->after.t;
-    int status = self->is_away ? zd_output_come_back(self) : ZD_DONE;
+    int status = self->is_within ? zd_output_return_to_end(self) : ZD_DONE;
     const int here = is_wanted(self, t1);
     if (status || !(here || is_end)) return status;
     if (!zd_record_has_room(record)) return ZD_FULL;

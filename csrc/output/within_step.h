@@ -19,17 +19,17 @@ typedef struct zd_output {
     zd_state before, after; /* start and end of the step */
     zd_cached_accelerations rates; /* acceleration at its end */
     int is_factored;        /* true if the leading matrix is factored at its end */
-    zd_checkpoint aside;    /* other quantities that the next step reads */
+    zd_checkpoint checkpoint;    /* other quantities that the next step reads */
     int is_waiting;         /* true if the record was full before all samples of the step were saved */
     int is_open;            /* true while samples within the step remain */
     int is_prepared;          /* true if its dense output is prepared */
-    int is_away;            /* true while the motion is not at the end of the step, which is saved */
+    int is_within;            /* true while the motion is not at the end of the step, which is saved */
     int is_short;           /* true while dense output is evaluated into y, the stepper's state staying that of the end */
     double *y;              /* (size,) state from dense output */
 } zd_output;
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder);
-static inline int zd_output_has_checkpoint(const zd_output *self) { return self->has_polynomial && self->aside.y; }
+static inline int zd_output_has_checkpoint(const zd_output *self) { return self->has_polynomial && self->checkpoint.y; }
 void zd_output_keep_beginning(zd_output *self);
 /* True if dense output is available for the last step. */
 static inline int zd_output_has_dense(const zd_output *self)
@@ -37,11 +37,11 @@ static inline int zd_output_has_dense(const zd_output *self)
     return self->has_polynomial && zd_has_dense_output(self->stepper, self->before.t);
 }
 /* Saves the end of the step before the motion leaves it: for shorter steps only; or for any values within the step, preparing dense output
- * if available. zd_output_come_back() returns to the end, so that the bits of the next step do not change. `may_stay`: the stepper's state
+ * if available. zd_output_return_to_end() returns there, so that the bits of the next step do not change. `may_stay`: the stepper's state
  * may stay at the end, as only dense output follows. */
-void zd_output_leave_end(zd_output *self);
+void zd_output_save_end(zd_output *self);
 int zd_output_leave(zd_output *self, int may_stay);
-int zd_output_come_back(zd_output *self);
+int zd_output_return_to_end(zd_output *self);
 /* Moves to a time within the step, after its end was saved: by dense output, or else by a shorter step; the second function always by a
  * shorter step. */
 int zd_output_go(zd_output *self, double t);

@@ -37,7 +37,7 @@ void zd_checkpoint_set_variables(zd_checkpoint *self, const zd_stepper *stepper)
     self->was_deficient = rank->was_deficient;
     self->was_doubtful = rank->was_doubtful;
     self->has_integrator = 0;
-    self->is_set = rank->is_aside = 1;
+    self->is_set = rank->is_auxiliary = 1;
 }
 
 int zd_checkpoint_return(zd_checkpoint *self, zd_stepper *stepper, const zd_state *end)
@@ -47,7 +47,7 @@ int zd_checkpoint_return(zd_checkpoint *self, zd_stepper *stepper, const zd_stat
     if (self->has_integrator) memcpy(stepper->memory_of_integrator.at, self->of_integrator, stepper->memory_of_integrator.bytes);
     memcpy(motion->memory_of_chosen.at, self->of_chosen, motion->memory_of_chosen.bytes);
     zd_variables_restore(stepper, self->formulation);
-    rank->is_aside = 0;
+    rank->is_auxiliary = 0;
     motion->point->known &= motion->point->constant;    /* the point may be at this state already, with other factors */
     int status = zd_stepper_return_to(stepper, end);
     zd_copy(motion->rate.size, self->y, stepper->y);

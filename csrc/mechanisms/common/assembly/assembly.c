@@ -30,7 +30,7 @@ static int report_unmet(zd_assembly *self, int roles, double *p)
     const int rows = self->rows;
     for (int k = 0; k < rows; k++) others |= !zd_assembly_is_joint(self, k);
     zd_assembly_find(self, &all, self->begun);
-    if (!others && self->rows > rows && self->given->aside) {
+    if (!others && self->rows > rows && self->given->nudge) {
         zd_assembly_perturb(self, p);
         zd_assembly_approach(self, 0, roles, p);
         zd_assembly_find(self, &all, p);

@@ -48,7 +48,7 @@ typedef struct zd_assembly_given {
     const int *row;             /* (mh,) enum zd_assembly_row */
     int targets;
     const zd_target *target;    /* (targets,) */
-    const double *aside;        /* (nv,) random displacement of about one: at a dead centre no step leads away from it; NULL: none */
+    const double *nudge;        /* (nv,) random displacement of about one: at a dead centre no step leads away from it; NULL: none */
     const zd_many_bodies *many; /* NULL: dense matrices */
     int (*interrupted)(void *owner);    /* nonzero: the assembly ends with ZD_CALLBACK; NULL: it is not interrupted */
     void *owner;

@@ -165,7 +165,7 @@ static int lead(zd_assembly *self, int roles, double *p)
 void zd_assembly_perturb(zd_assembly *self, double *p)
 {
     const zd_conditions joints = {.choice = ZD_OF_JOINTS};
-    for (int i = 0; i < self->n; i++) self->x[i] = NUDGE * self->given->aside[i];
+    for (int i = 0; i < self->n; i++) self->x[i] = NUDGE * self->given->nudge[i];
     zd_assembly_move(self, p, INFINITY, self->x, self->led);
     if (zd_assembly_newton(self, &joints, self->led)) zd_copy_all(self->system->nq, self->led, p);
 }
@@ -174,7 +174,7 @@ int zd_assembly_track(zd_assembly *self, int roles, double *p)
 {
     const zd_conditions all = {.choice = ZD_OF_ALL, .roles = roles};
     if (lead(self, roles, p)) return 1;
-    for (int i = 0; i < (self->given->aside ? 2 : 1) && !self->status; i++) {
+    for (int i = 0; i < (self->given->nudge ? 2 : 1) && !self->status; i++) {
         zd_copy_all(self->system->nq, p, self->begun);
         if (i) zd_assembly_perturb(self, self->begun);
         if (zd_assembly_least_squares(self, &all, self->begun) > 1e3 * ZD_CLOSED) continue;

@@ -58,7 +58,7 @@ class CoreAssembly:
         self._many = core.many_bodies() if is_of_many else ffi.NULL
         self._rows = ffi.new("int[]", [ROWS[row] for row in rows])
         self._is_angle = ffi.new("int[]", [int(coordinate.kind == "angle") for coordinate in core.motions])
-        self._aside = np.random.default_rng(0).standard_normal(core.nv)
+        self._nudge = np.random.default_rng(0).standard_normal(core.nv)
 
     def run(self, operation: str, p: np.ndarray, targets: Sequence[CoreTarget] = (), *, left_out: Sequence[int] = ()) -> Outcome:
         """Outcome of a function of the core that changes positions, ``zd_<operation>``, from p (nq,) on.
@@ -83,7 +83,7 @@ class CoreAssembly:
         target, inputs = ffi.new("zd_target[]", list(targets)), core.initial_inputs()
         given = ffi.new("zd_assembly_given *", {
             "system": core.c, "inputs": inputs, "t": self.t, "length": self.length, "is_angle": self._is_angle, "row": rows,
-            "targets": len(targets), "target": target, "aside": doubles(self._aside, core.nv), "many": self._many,
+            "targets": len(targets), "target": target, "nudge": doubles(self._nudge, core.nv), "many": self._many,
             "interrupted": lib.zd_interrupted_in_python, "owner": handle,
             "residual": doubles(residual, residual.size, writable=True), "size": doubles(size, size.size, writable=True)})
         outcome = getattr(lib, f"zd_{operation}")(given, *arrays)
