@@ -9,14 +9,14 @@ int zd_dependent_state_size(const zd_system *system)
     return system->nq + system->nv;
 }
 
-int zd_dependent_enter(void *self, zd_point *point, double t, const double *y)
+int zd_dependent_unpack(void *self, zd_point *point, double t, const double *y)
 {
     (void)self;
     zd_point_move(point, t, y, y + point->system->nq);
     return ZD_DONE;
 }
 
-int zd_dependent_leave(void *self, zd_point *point, double *y)
+int zd_dependent_pack(void *self, zd_point *point, double *y)
 {
     (void)self;
     zd_copy_all(point->system->nq, point->p, y);

@@ -5,15 +5,15 @@
 #include "formulation.h"
 
 int zd_dependent_state_size(const zd_system *system);
-int zd_dependent_enter(void *self, zd_point *point, double t, const double *y);
-int zd_dependent_leave(void *self, zd_point *point, double *y);
+int zd_dependent_unpack(void *self, zd_point *point, double t, const double *y);
+int zd_dependent_pack(void *self, zd_point *point, double *y);
 int zd_dependent_rate(void *self, zd_point *point, double *ydot);
 
 #define ZD_DEPENDENT_STATE                         \
     .drifts_from = ZD_PHI | ZD_C,                     \
     .state_size = zd_dependent_state_size,         \
-    .enter = zd_dependent_enter,                   \
-    .leave = zd_dependent_leave,                   \
+    .unpack = zd_dependent_unpack,                   \
+    .pack = zd_dependent_pack,                   \
     .rate = zd_dependent_rate
 
 #endif

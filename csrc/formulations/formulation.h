@@ -36,9 +36,9 @@ typedef struct zd_formulation {
     void (*lend_workspace)(void *self, double **Q, double **G);
     /* Solves M x + C^T lambda = force, C x = rhs with the factors. force NULL: zero; lambda NULL: not required. */
     void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
-    int (*enter)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */
-    int (*leave)(void *self, zd_point *point, double *y);                   /* (p, v) of the point -> state */
-    /* As leave(), but never chooses new variables; NULL together with settle(). */
+    int (*unpack)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */
+    int (*pack)(void *self, zd_point *point, double *y);                   /* (p, v) of the point -> state */
+    /* As pack(), but never chooses new variables; NULL together with settle(). */
     int (*express)(void *self, zd_point *point, double *y);
     /* Sets v of the point from its p and the state; NULL if v is part of the state. */
     int (*settle)(void *self, zd_point *point);

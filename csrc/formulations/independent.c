@@ -41,31 +41,31 @@ static int state_size(const zd_system *system)
     return (system->nv - system->mh) + (system->nv - zd_constraints(system));
 }
 
-static int enter(void *memory, zd_point *point, double t, const double *y)
+static int unpack(void *memory, zd_point *point, double t, const double *y)
 {
     independent *self = memory;
     zd_partition_sparse *many = self->minimal.many;
     if (many) {
         int status = zd_partition_sparse_place(many, point, t, y);
-        return status ? status : zd_minimal_enter(&self->minimal, point, y + many->k);
+        return status ? status : zd_minimal_unpack(&self->minimal, point, y + many->k);
     }
     zd_minimal_note_lead_time(&self->minimal, point, t);
     int status = zd_embedding_place(&self->embedding, point, t, y);
-    return status ? status : zd_minimal_enter(&self->minimal, point, y + self->embedding.k);
+    return status ? status : zd_minimal_unpack(&self->minimal, point, y + self->embedding.k);
 }
 
-static int leave_many(zd_minimal *minimal, zd_point *point, double *y)
+static int pack_many(zd_minimal *minimal, zd_point *point, double *y)
 {
     int status = zd_partition_sparse_coordinates(minimal->many, point, y);
-    return status ? status : zd_minimal_leave(minimal, point, y + minimal->many->k);
+    return status ? status : zd_minimal_pack(minimal, point, y + minimal->many->k);
 }
 
-static int leave(void *memory, zd_point *point, double *y)
+static int pack(void *memory, zd_point *point, double *y)
 {
     independent *self = memory;
     const zd_embedding *embedding = &self->embedding;
     if (!suits(point->system)) return ZD_UNSUITED;
-    if (self->minimal.many) return leave_many(&self->minimal, point, y);
+    if (self->minimal.many) return pack_many(&self->minimal, point, y);
     int changed, status = zd_embedding_review(&self->embedding, point, &changed);
     if (status) return status;
     /* (19): u is qdot */
@@ -74,7 +74,7 @@ static int leave(void *memory, zd_point *point, double *y)
         point->known &= ~(ZD_COMPLEMENTED | ZD_FACTORED | ZD_ACCELERATED);
     }
     zd_embedding_coordinates(embedding, point, y);
-    return zd_minimal_leave(&self->minimal, point, y + embedding->k);
+    return zd_minimal_pack(&self->minimal, point, y + embedding->k);
 }
 
 static int express(void *memory, zd_point *point, double *y)
@@ -168,8 +168,8 @@ const zd_formulation zd_independent = {
     .lend_workspace = zd_minimal_lend,
     .factor = zd_minimal_factor,
     .solve = zd_minimal_solve,
-    .enter = enter,
-    .leave = leave,
+    .unpack = unpack,
+    .pack = pack,
     .express = express,
     .settle = zd_minimal_settle,
     .may_have_entries = may_have_entries,

@@ -158,7 +158,7 @@ void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t
     self->lead_time = point->known & ZD_ACCELERATED ? t - point->t : 0;
 }
 
-int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u)
+int zd_minimal_unpack(zd_minimal *self, zd_point *point, const double *u)
 {
     const int size = self->many ? self->many->size : self->size;
     memcpy(self->many ? self->many->u : self->u, u, (size_t)size * sizeof *u);
@@ -180,7 +180,7 @@ int zd_minimal_express(zd_minimal *self, zd_point *point, double *u)
     return status;
 }
 
-int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u)
+int zd_minimal_pack(zd_minimal *self, zd_point *point, double *u)
 {
     if (self->many) return zd_partition_sparse_speeds(self->many, point, u);
     int status = zd_complement_review(&self->complement, point);

@@ -30,9 +30,9 @@ void zd_minimal_solve(void *self, const double *force, const double *rhs, double
 /* Records, before the point moves to time t, the time since its acceleration: used where u alone does not determine v. */
 void zd_minimal_note_lead_time(zd_minimal *self, const zd_point *point, double t);
 /* Stores u, and sets v of the point from it. */
-int zd_minimal_enter(zd_minimal *self, zd_point *point, const double *u);
+int zd_minimal_unpack(zd_minimal *self, zd_point *point, const double *u);
 /* u of the point, after a review of the independent velocities; and without. */
-int zd_minimal_leave(zd_minimal *self, zd_point *point, double *u);
+int zd_minimal_pack(zd_minimal *self, zd_point *point, double *u);
 int zd_minimal_express(zd_minimal *self, zd_point *point, double *u);
 /* udot of the point's vdot, (15) */
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot);

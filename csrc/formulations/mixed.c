@@ -20,17 +20,17 @@ static int state_size(const zd_system *system)
     return system->nq + system->nv - zd_constraints(system);
 }
 
-static int enter(void *self, zd_point *point, double t, const double *y)
+static int unpack(void *self, zd_point *point, double t, const double *y)
 {
     zd_minimal_note_lead_time(self, point, t);
     zd_point_move(point, t, y, point->v);
-    return zd_minimal_enter(self, point, y + point->system->nq);
+    return zd_minimal_unpack(self, point, y + point->system->nq);
 }
 
-static int leave(void *self, zd_point *point, double *y)
+static int pack(void *self, zd_point *point, double *y)
 {
     memcpy(y, point->p, (size_t)point->system->nq * sizeof *y);
-    return zd_minimal_leave(self, point, y + point->system->nq);
+    return zd_minimal_pack(self, point, y + point->system->nq);
 }
 
 static int express(void *self, zd_point *point, double *y)
@@ -90,8 +90,8 @@ const zd_formulation zd_mixed = {
     .lend_workspace = zd_minimal_lend,
     .factor = zd_minimal_factor,
     .solve = zd_minimal_solve,
-    .enter = enter,
-    .leave = leave,
+    .unpack = unpack,
+    .pack = pack,
     .express = express,
     .settle = zd_minimal_settle,
     .may_have_entries = zd_minimal_may_have_entries,

@@ -229,7 +229,7 @@ static int find_velocities(rattle *self)
     motion->statistics.solves++;
     zd_motion_solve(motion, self->F, self->rhs, self->x, NULL);
     zd_point_move_velocity(point, self->x);
-    return motion->formulation->leave(motion->solver, point, self->state);
+    return motion->formulation->pack(motion->solver, point, self->state);
 }
 
 /* A system may also have its Mdot v in f and no d: then M shows it. */
@@ -264,7 +264,7 @@ static int step_of_motion(void *memory, zd_motion *motion, double t, double h, d
     self->probe->statistics = &motion->statistics;
     self->probe->known = 0;     /* the step may be a repeated one */
     motion->state = y;
-    status = motion->formulation->enter(motion->solver, motion->point, t, y);
+    status = motion->formulation->unpack(motion->solver, motion->point, t, y);
     if (!status && along) status = zd_motion_rate(motion, t, y, self->rate0);
     if (status) return status;
     memcpy(self->p0, motion->point->p, (size_t)self->n * sizeof(double));

@@ -109,7 +109,7 @@ void zd_motion_extra_rates(const zd_motion *motion, double *ydot)
 int zd_motion_rate(void *context, double t, const double *y, double *ydot)
 {
     zd_motion *motion = context;
-    int status = motion->formulation->enter(motion->solver, motion->point, t, y);
+    int status = motion->formulation->unpack(motion->solver, motion->point, t, y);
     motion->state = y;
     if (motion->corrections_size) motion->point->known &= ~ZD_ACCELERATED;     /* vdot depends on the corrections' own state, too */
     if (!status) status = zd_motion_accelerate(motion);
@@ -120,10 +120,10 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     return ZD_DONE;
 }
 
-int zd_motion_leave(zd_motion *motion, double *y)
+int zd_motion_pack(zd_motion *motion, double *y)
 {
-    return motion->formulation->leave(motion->solver, motion->point, y);
+    return motion->formulation->pack(motion->solver, motion->point, y);
 }
 
 const zd_equations zd_equations_by_matrices = {
-    accelerate, zd_motion_rate, zd_motion_leave, zd_motion_expand, zd_motion_reduce, ~0, 1};
+    accelerate, zd_motion_rate, zd_motion_pack, zd_motion_expand, zd_motion_reduce, ~0, 1};

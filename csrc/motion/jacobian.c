@@ -72,7 +72,7 @@ static void find_multipliers(zd_motion *motion)
 static int move_there(zd_motion *motion, double t, const double *y)
 {
     zd_point *point = motion->point;
-    int status = motion->formulation->enter(motion->solver, point, t, y);
+    int status = motion->formulation->unpack(motion->solver, point, t, y);
     motion->state = y;
     if (!status) status = zd_motion_accelerate(motion);
     if (!status) status = zd_motion_factor(motion);
@@ -209,7 +209,7 @@ static int apply_chain(zd_motion *motion, double t, const double *y, const doubl
     const zd_point *point = motion->point;
     const int width = motion->system.nq + motion->system.nv, entries = motion->formulation_size;
     if (!chain->J) return ZD_SINGULAR;
-    int status = motion->formulation->enter(motion->solver, motion->point, t, y);
+    int status = motion->formulation->unpack(motion->solver, motion->point, t, y);
     motion->state = y;
     if (!status) status = find_tangents(motion, increment);
     if (!status) status = evaluate(motion, point->p, point->v, t, chain->J);

@@ -76,7 +76,7 @@ typedef struct zd_balance {
 typedef struct zd_equations {
     int (*accelerate)(zd_motion *motion);   /* vdot and lambda at the point */
     int (*rate)(void *motion, double t, const double *y, double *ydot);     /* ydot of the integrated state */
-    int (*leave)(zd_motion *motion, double *y);     /* y <- the formulation's part of the state at the point */
+    int (*pack)(zd_motion *motion, double *y);     /* y <- the formulation's part of the state at the point */
     int (*expand)(void *motion, double t, const double *y, double *whole);      /* as in zd_rate, for states in independent velocities */
     int (*reduce)(void *motion, double t, const double *whole, double *y);
     int terms;              /* mask of zd_motion.acceleration_needs: the terms that accelerate() evaluates */
@@ -236,7 +236,7 @@ static inline int zd_motion_acceleration_terms(const zd_motion *motion)
 }
 static inline int zd_motion_settles(const zd_motion *motion) { return motion->formulation->settle && motion->equations->settles; }
 void zd_motion_stabilize(zd_motion *motion);    /* point.rhs <- point.rhs with the terms that corrections add to the right side of (6) */
-int zd_motion_leave(zd_motion *motion, double *y);  /* by the formulation */
+int zd_motion_pack(zd_motion *motion, double *y);  /* by the formulation */
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);     /* after a move of the point there */
 void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* rates of the corrections' part of the state */
 

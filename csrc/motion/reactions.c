@@ -301,7 +301,7 @@ static int accelerate(zd_motion *motion)
 }
 
 static const zd_equations equations = {
-    accelerate, zd_motion_rate, zd_motion_leave, zd_motion_expand, zd_motion_reduce, ~(ZD_FORCE | ZD_POWER), 1};
+    accelerate, zd_motion_rate, zd_motion_pack, zd_motion_expand, zd_motion_reduce, ~(ZD_FORCE | ZD_POWER), 1};
 
 static zd_reactions take(zd_arena *arena, const zd_system *system)
 {

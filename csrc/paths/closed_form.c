@@ -75,7 +75,7 @@ static int rate(void *context, double t, const double *y, double *ydot)
     return status ? ZD_CALLBACK : ZD_DONE;
 }
 
-const zd_equations zd_equations_in_closed_form = {accelerate, rate, zd_motion_leave, NULL, NULL, 0, 0};
+const zd_equations zd_equations_in_closed_form = {accelerate, rate, zd_motion_pack, NULL, NULL, 0, 0};
 
 /* ---- integration ---- */
 

@@ -68,7 +68,7 @@ int zd_project_in_closed_form(zd_motion *motion, int64_t step, int forced)
 
 static int project(zd_stepper *self, double t1, int64_t step, int forced)
 {
-    int status = zd_path_enter(self, t1);
+    int status = zd_path_unpack(self, t1);
     return status ? status : zd_project_in_closed_form(self->motion, step, forced);
 }
 

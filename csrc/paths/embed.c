@@ -184,7 +184,7 @@ static void move_there(zd_motion *motion, double t)
     else motion->point->known &= ~ZD_ACCELERATED;       /* it lacks the stabilization terms of (6) */
 }
 
-int zd_embed_enter(zd_motion *motion, double t, const double *y)
+int zd_embed_unpack(zd_motion *motion, double t, const double *y)
 {
     zd_path *path = &motion->path;
     zd_embed_read(motion, t, y);
@@ -207,7 +207,7 @@ int zd_embed_settle(zd_motion *motion)
     return status;
 }
 
-int zd_embed_leave(zd_motion *motion, double *y)
+int zd_embed_pack(zd_motion *motion, double *y)
 {
     zd_embed_write(motion, motion->point->p, motion->point->v, y);
     return zd_embed_settle(motion);

@@ -16,9 +16,9 @@ void zd_embed_begin(zd_motion *motion);
 int zd_embed_is_steep(const zd_motion *motion);
 /* The acceleration at the point, with the terms `added` to the right side of (6) */
 int zd_embed_accelerate(zd_motion *motion, const double *added);
-/* Counterparts of a formulation's enter(), leave() and settle(), for a step that begins or ends at the point. */
-int zd_embed_enter(zd_motion *motion, double t, const double *y);
-int zd_embed_leave(zd_motion *motion, double *y);
+/* Counterparts of a formulation's unpack(), pack() and settle(), for a step that begins or ends at the point. */
+int zd_embed_unpack(zd_motion *motion, double t, const double *y);
+int zd_embed_pack(zd_motion *motion, double *y);
 int zd_embed_settle(zd_motion *motion);
 /* p and v of the path from the state; entries that the state does not have are estimates. */
 void zd_embed_read(zd_motion *motion, double t, const double *y);

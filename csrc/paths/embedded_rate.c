@@ -81,4 +81,4 @@ static int reduce(void *context, double t, const double *whole, double *y)
     return ZD_DONE;
 }
 
-const zd_equations zd_equations_of_independent = {accelerate, rate, zd_embed_leave, expand, reduce, 0, 0};
+const zd_equations zd_equations_of_independent = {accelerate, rate, zd_embed_pack, expand, reduce, 0, 0};

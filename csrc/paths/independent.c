@@ -5,14 +5,14 @@
 static int project(zd_stepper *self, double t1, int64_t step, int forced)
 {
     zd_stepper_begin_end(self, t1);
-    int status = zd_embed_enter(self->motion, t1, self->y);
+    int status = zd_embed_unpack(self->motion, t1, self->y);
     return status ? status : zd_project_in_closed_form(self->motion, step, forced);
 }
 
 static int finish(zd_stepper *self, int within)
 {
     (void)within;       /* variables do not change within a step */
-    int status = zd_embed_leave(self->motion, self->y);
+    int status = zd_embed_pack(self->motion, self->y);
     return status || zd_point_is_finite(self->motion->point) ? status : ZD_NOT_FINITE;
 }
 

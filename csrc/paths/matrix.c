@@ -11,19 +11,19 @@ int zd_path_integrate(zd_stepper *self, double h)
     return zd_is_finite(self->motion->rate.size, self->y) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
-int zd_path_enter(zd_stepper *self, double t1)
+int zd_path_unpack(zd_stepper *self, double t1)
 {
     zd_motion *motion = self->motion;
     const zd_formulation *formulation = motion->formulation;
     zd_stepper_begin_end(self, t1);
     /* If Phi drifts, the state begins with p; otherwise p has been normalised when it was computed. */
     if (formulation->drifts_from & ZD_PHI) zd_quaternions_normalise(&motion->system, self->y);
-    return formulation->enter(motion->solver, motion->point, t1, self->y);
+    return formulation->unpack(motion->solver, motion->point, t1, self->y);
 }
 
 static int project(zd_stepper *self, double t1, int64_t step, int forced)
 {
-    int status = zd_path_enter(self, t1);
+    int status = zd_path_unpack(self, t1);
     return status ? status : zd_motion_project(self->motion, step, forced);
 }
 
@@ -38,7 +38,7 @@ int zd_path_finish(zd_stepper *self, int within)
     const zd_formulation *formulation = motion->formulation;
     zd_point_follow(motion->point);
     int status = within && formulation->settle ? formulation->express(motion->solver, motion->point, self->y)
-                                               : formulation->leave(motion->solver, motion->point, self->y);
+                                               : formulation->pack(motion->solver, motion->point, self->y);
     /* Dependent velocities are recomputed from the state to the last bit, so that the next step can start from quantities known here. */
     if (!status && formulation->settle) status = formulation->settle(motion->solver, motion->point);
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;

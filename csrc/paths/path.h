@@ -26,7 +26,7 @@ extern const zd_evaluation_path zd_matrix_path, zd_converted_path, zd_independen
 
 /* matrix.c: parts of steps whose state the formulation converts. The second moves the point to the state y at t1. */
 int zd_path_integrate(zd_stepper *self, double h);
-int zd_path_enter(zd_stepper *self, double t1);
+int zd_path_unpack(zd_stepper *self, double t1);
 int zd_path_correct(zd_stepper *self, int64_t step, int forced);
 int zd_path_finish(zd_stepper *self, int within);
 /* converted.c: the projection by closed-form functions, if it is due in this step or `forced`. */

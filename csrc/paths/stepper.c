@@ -78,7 +78,7 @@ int zd_stepper_return(zd_stepper *self)
     zd_copy(motion->rate.size, self->last.y, self->y);
     zd_point_move(motion->point, self->last.t, self->last.p, self->last.v);
     /* The variables of the state may be chosen anew; on the closed-form path they do not change. */
-    return zd_motion_settles(motion) ? motion->equations->leave(motion, self->y) : ZD_DONE;
+    return zd_motion_settles(motion) ? motion->equations->pack(motion, self->y) : ZD_DONE;
 }
 
 /* ---- places ---- */
@@ -92,7 +92,7 @@ int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *
     zd_point_normalise(motion->point);
     int status = zd_point_measure(motion->point);
     if (status) return status;
-    return motion->equations->leave(motion, self->y);
+    return motion->equations->pack(motion, self->y);
 }
 
 static size_t extras(const zd_motion *motion)

@@ -62,7 +62,7 @@ int zd_variables_use_dependent(zd_stepper *stepper)
     use(stepper, dependent, last->y + motion->formulation_size);
     /* This near a bifurcation, the constraints must be satisfied far better than the tolerance requires, and can be. */
     int status = zd_motion_correct(motion, 0, 1);
-    return status ? status : motion->formulation->leave(motion->solver, motion->point, stepper->y);
+    return status ? status : motion->formulation->pack(motion->solver, motion->point, stepper->y);
 }
 
 void zd_variables_restore(zd_stepper *stepper, const zd_formulation *formulation)
@@ -75,5 +75,5 @@ int zd_variables_use_chosen(zd_stepper *stepper)
     zd_motion *motion = stepper->motion;
     if (motion->formulation == stepper->chosen.formulation || motion->point->rank->was_ill_conditioned) return ZD_DONE;
     use(stepper, &stepper->chosen, stepper->y + motion->formulation_size);
-    return motion->formulation->leave(motion->solver, motion->point, stepper->y);
+    return motion->formulation->pack(motion->solver, motion->point, stepper->y);
 }

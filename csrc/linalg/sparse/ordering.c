@@ -54,7 +54,7 @@ static void append(queues *self, int degree, int k)
     self->lowest = least(self->lowest, degree);
 }
 
-static void take_away(queues *self, int degree, int k)
+static void remove(queues *self, int degree, int k)
 {
     if (self->before[k] < 0) self->first[degree] = self->after[k];
     else self->after[self->before[k]] = self->after[k];
@@ -179,7 +179,7 @@ static void enter_clique(search *self, int k, int step)
     for (int j = self->begin[step]; !self->given && j < self->begin[step + 1]; j++) {
         const int i = self->members[j];
         if (self->degree[i] == TO_BE_FOUND) continue;
-        take_away(&self->waiting, self->degree[i], i);
+        remove(&self->waiting, self->degree[i], i);
         append(&self->waiting, self->degree[i] = TO_BE_FOUND, i);
     }
 }
@@ -191,12 +191,12 @@ static int next_of(search *self, const int *column)
     const int are_through = waiting->first[waiting->lowest] < 0;
     while (are_through && waiting->first[TO_BE_FOUND] >= 0) {
         const int i = waiting->first[TO_BE_FOUND];
-        take_away(waiting, TO_BE_FOUND, i);
+        remove(waiting, TO_BE_FOUND, i);
         append(waiting, self->degree[i] = degree_of(self, column, i), i);
     }
     while (waiting->first[waiting->lowest] < 0) waiting->lowest++;
     const int k = waiting->first[waiting->lowest];
-    take_away(waiting, waiting->lowest, k);
+    remove(waiting, waiting->lowest, k);
     return k;
 }
 
