@@ -243,7 +243,7 @@ static int after_step(void *self, zd_motion *motion)
     if (has_positions(motion) && (motion->drifts_from & ZD_PHI) && motion->system.mh) status = correct_positions(self, motion);
     if (status || !zd_constraints(&motion->system)) return status;
     if (motion->drifts_from & ZD_C) return has_velocities(motion) ? correct_velocities(self, motion) : ZD_DONE;
-    return zd_motion_settles(motion) ? motion->formulation->settle(motion->solver, motion->point) : ZD_DONE;
+    return zd_motion_updates(motion) ? motion->formulation->update(motion->solver, motion->point) : ZD_DONE;
 }
 
 const zd_correction zd_projection_row = {

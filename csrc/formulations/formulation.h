@@ -38,16 +38,16 @@ typedef struct zd_formulation {
     void (*solve)(void *self, const double *force, const double *rhs, double *x, double *lambda);
     int (*unpack)(void *self, zd_point *point, double t, const double *y);   /* state -> (p, v) of the point */
     int (*pack)(void *self, zd_point *point, double *y);                   /* (p, v) of the point -> state */
-    /* As pack(), but never chooses new variables; NULL together with settle(). */
+    /* As pack(), but never chooses new variables; NULL together with update(). */
     int (*express)(void *self, zd_point *point, double *y);
     /* Sets v of the point from its p and the state; NULL if v is part of the state. */
-    int (*settle)(void *self, zd_point *point);
+    int (*update)(void *self, zd_point *point);
     /* For such formulations: true if the state can consist of entries of p and v, as closed-form functions require; and if it does,
-     * their indices. NULL together with settle(). */
+     * their indices. NULL together with update(). */
     int (*may_have_entries)(const zd_system *system);
     int (*entries)(const void *self, zd_entries *entries);
     int (*rate)(void *self, zd_point *point, double *ydot);                 /* needs the acceleration */
-    /* For the Jacobian of the rate; NULL if the state is (p, v) or settle() is NULL. T (size, nq + nv) <- derivatives of p and v with
+    /* For the Jacobian of the rate; NULL if the state is (p, v) or update() is NULL. T (size, nq + nv) <- derivatives of p and v with
      * respect to each entry of the state, at the point: first those of p with respect to its first entries, the coordinates, whose number
      * is *positions; then all others, with the derivatives Psi_along (positions, m) of (5) along these p. A nonzero return: they are not
      * available there. pick(): ydot (size,) <- rate of the state, from the rates of p and v. */

@@ -123,7 +123,7 @@ static int update_velocity(zd_minimal *self, zd_point *point, double *change)
 /* Velocity at a bifurcation. u determines it on each branch, but not the branch. The branch is taken whose velocity is nearest to the
  * extrapolation with the last known acceleration. Limits depend on the velocity, so that this is Newton's iteration for c(v) = 0 of
  * limits.c. */
-static int settle_on_branch(zd_minimal *self, zd_point *point)
+static int update_on_branch(zd_minimal *self, zd_point *point)
 {
     zd_copy(self->complement.n, point->v, self->b);
     zd_add_scaled(self->complement.n, self->b, self->lead_time, point->vdot);
@@ -141,12 +141,12 @@ static int settle_on_branch(zd_minimal *self, zd_point *point)
     return ZD_BIFURCATION;
 }
 
-int zd_minimal_settle(void *memory, zd_point *point)
+int zd_minimal_update(void *memory, zd_point *point)
 {
     zd_minimal *self = memory;
-    if (self->many) return zd_partition_sparse_settle(self->many, point);
+    if (self->many) return zd_partition_sparse_update(self->many, point);
     int status = zd_complement_at(&self->complement, point);
-    if (!status && point->rank->lost) return settle_on_branch(self, point);
+    if (!status && point->rank->lost) return update_on_branch(self, point);
     if (!status) status = check_size(self);
     if (!status) status = zd_complement_velocity(&self->complement, point, self->u, self->b);
     if (!status) zd_point_move_velocity(point, self->b);
@@ -162,7 +162,7 @@ int zd_minimal_unpack(zd_minimal *self, zd_point *point, const double *u)
 {
     const int size = self->many ? self->many->size : self->size;
     memcpy(self->many ? self->many->u : self->u, u, (size_t)size * sizeof *u);
-    return zd_minimal_settle(self, point);
+    return zd_minimal_update(self, point);
 }
 
 int zd_minimal_express(zd_minimal *self, zd_point *point, double *u)

@@ -36,7 +36,7 @@ int zd_minimal_pack(zd_minimal *self, zd_point *point, double *u);
 int zd_minimal_express(zd_minimal *self, zd_point *point, double *u);
 /* udot of the point's vdot, (15) */
 int zd_minimal_rate(zd_minimal *self, zd_point *point, double *udot);
-int zd_minimal_settle(void *self, zd_point *point);
+int zd_minimal_update(void *self, zd_point *point);
 /* T (positions + size, nq + nv): its first rows hold the dp of each coordinate of the state and get their dv; the rows of u follow.
  * Psi_along: see tangents_of_v(). */
 int zd_minimal_tangents(zd_minimal *self, zd_point *point, const double *Psi_along, int positions, double *T);

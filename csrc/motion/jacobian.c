@@ -170,7 +170,7 @@ static void write_column(const zd_motion *motion, int j, double *J)
 {
     const zd_chain *chain = &motion->chain;
     const int size = motion->rate.size, entries = motion->formulation_size, width = motion->system.nq + motion->system.nv;
-    const int picks = motion->formulation->settle != NULL;
+    const int picks = motion->formulation->update != NULL;
     if (picks) motion->formulation->pick(motion->solver, motion->point, chain->rates, chain->rates + motion->system.nq, chain->picked);
     const double *column = picks ? chain->picked : chain->rates;
     for (int i = 0; i < entries; i++) J[i * size + j] = column[i];
@@ -225,7 +225,7 @@ static int apply_chain(zd_motion *motion, double t, const double *y, const doubl
 static int take_own(zd_motion *motion, double t, const double *y, const double *increment, double *J)
 {
     const int nq = motion->system.nq;
-    if (motion->formulation->settle) return apply_chain(motion, t, y, increment, J);
+    if (motion->formulation->update) return apply_chain(motion, t, y, increment, J);
     int status = evaluate(motion, y, y + nq, t, J);
     if (!status) widen(motion->rate.size, nq + motion->system.nv, J);
     return status;
@@ -235,15 +235,15 @@ static int take_own(zd_motion *motion, double t, const double *y, const double *
 static int take_by_residuals(zd_motion *motion, double t, const double *y, const double *increment, double *J)
 {
     const zd_chain *chain = &motion->chain;
-    const int width = motion->system.nq + motion->system.nv, settles = motion->formulation->settle != NULL;
+    const int width = motion->system.nq + motion->system.nv, updates = motion->formulation->update != NULL;
     int status = move_there(motion, t, y);
-    if (!status && settles) status = find_tangents(motion, increment);
+    if (!status && updates) status = find_tangents(motion, increment);
     if (!status) begin(motion);
     memset(chain->unit, 0, (size_t)width * sizeof(double));
     for (int j = 0; j < motion->formulation_size && !status; j++) {
-        if (!settles) chain->unit[j] = 1;
-        status = differentiate(motion, settles ? chain->T + j * width : chain->unit, increment[j]);
-        if (!settles) chain->unit[j] = 0;
+        if (!updates) chain->unit[j] = 1;
+        status = differentiate(motion, updates ? chain->T + j * width : chain->unit, increment[j]);
+        if (!updates) chain->unit[j] = 0;
         if (!status) write_column(motion, j, J);
     }
     clear_last_column(motion, J);

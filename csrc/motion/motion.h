@@ -80,7 +80,7 @@ typedef struct zd_equations {
     int (*expand)(void *motion, double t, const double *y, double *whole);      /* as in zd_rate, for states in independent velocities */
     int (*reduce)(void *motion, double t, const double *whole, double *y);
     int terms;              /* mask of zd_motion.acceleration_needs: the terms that accelerate() evaluates */
-    int settles;            /* true if a formulation with settle() calls it at corrected positions, and may choose its variables anew */
+    int updates;            /* true if a formulation with update() calls it at corrected positions, and may choose its variables anew */
 } zd_equations;
 
 extern const zd_equations zd_equations_by_matrices;     /* accelerate.c */
@@ -234,7 +234,7 @@ static inline int zd_motion_acceleration_terms(const zd_motion *motion)
 {
     return motion->point->known & ZD_ACCELERATED ? 0 : motion->acceleration_needs & motion->equations->terms;
 }
-static inline int zd_motion_settles(const zd_motion *motion) { return motion->formulation->settle && motion->equations->settles; }
+static inline int zd_motion_updates(const zd_motion *motion) { return motion->formulation->update && motion->equations->updates; }
 void zd_motion_stabilize(zd_motion *motion);    /* point.rhs <- point.rhs with the terms that corrections add to the right side of (6) */
 int zd_motion_pack(zd_motion *motion, double *y);  /* by the formulation */
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);     /* after a move of the point there */

@@ -10,7 +10,7 @@ static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *i
     const zd_system *system = &motion->system;
     zd_rank *rank = zd_rank_take(arena, system, zd_takes_many_rows(formulation, system));
     zd_rank_monitor *monitor = NULL;
-    double *rhs = formulation->settle ? zd_take_doubles(arena, (size_t)zd_constraints(system)) : NULL;
+    double *rhs = formulation->update ? zd_take_doubles(arena, (size_t)zd_constraints(system)) : NULL;
     int lends = formulation->lend_workspace && zd_constraints(independent) == zd_constraints(system) && !system->structure;
     double counted, *Q = lends ? &counted : NULL, *G = Q;
     if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
@@ -60,11 +60,11 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
 
 void zd_motion_describe_rate(zd_motion *motion)
 {
-    const int are_pairs = !motion->formulation->settle && !(motion->system.provides & ZD_A) && !motion->corrections_size;
+    const int are_pairs = !motion->formulation->update && !(motion->system.provides & ZD_A) && !motion->corrections_size;
     motion->rate.pairs = are_pairs ? motion->system.nv : 0;
     motion->rate.evaluate = motion->equations->rate;
-    motion->rate.expand = motion->formulation->settle ? motion->equations->expand : NULL;
-    motion->rate.reduce = motion->formulation->settle ? motion->equations->reduce : NULL;
+    motion->rate.expand = motion->formulation->update ? motion->equations->expand : NULL;
+    motion->rate.reduce = motion->formulation->update ? motion->equations->reduce : NULL;
 }
 
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given)

@@ -178,7 +178,7 @@ static int interpolate_event(zd_watch *self, const zd_occurrence *found, const z
 }
 
 /* *there <- the state at the event; the motion is moved to it or next to it. */
-static int settle(zd_watch *self, const zd_occurrence *found, const zd_state **there)
+static int move_to_event(zd_watch *self, const zd_occurrence *found, const zd_state **there)
 {
     const zd_stepper *stepper = self->output->stepper;
     const int jumps = !self->output->is_prepared || zd_bracket_leaps(&found->bracket);
@@ -196,7 +196,7 @@ static int report_one(zd_watch *self, int index)
     const zd_events *events = self->events;
     const zd_occurrence *found = &self->occurrence[index];
     const zd_state *there;
-    int status = settle(self, found, &there);
+    int status = move_to_event(self, found, &there);
     if (!status) status = events->found(events->data, found->event, there->t, there->p, there->v);
     if (!status) self->found[found->event]++;
     return status || index != self->last || there == &self->late ? status : zd_stepper_return_to(self->output->stepper, there);

@@ -38,7 +38,7 @@ static void keep_end(zd_output *self)
     zd_stepper_keep_place(self->stepper, &self->after);
     zd_stepper_keep_rates(self->stepper, &self->rates);
     const zd_motion *motion = self->stepper->motion;
-    self->is_factored = (motion->point->known & ZD_FACTORED) && !self->rates.are_known && !motion->formulation->settle;
+    self->is_factored = (motion->point->known & ZD_FACTORED) && !self->rates.are_known && !motion->formulation->update;
     self->checkpoint.is_set = 0;
 }
 
@@ -83,7 +83,7 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
     self->is_short = may_stay && zd_short_may_stay(stepper);
     self->after.t = stepper->t;
     if (!self->is_short) keep_end(self);
-    if (stepper->motion->formulation->settle) zd_checkpoint_set_variables(&self->checkpoint, stepper);
+    if (stepper->motion->formulation->update) zd_checkpoint_set_variables(&self->checkpoint, stepper);
     int status = self->is_prepared ? ZD_DONE : zd_dense_output_prepare(stepper);
     if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* dense output reads them in place */
     self->is_prepared = !status;

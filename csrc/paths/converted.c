@@ -63,7 +63,7 @@ int zd_project_in_closed_form(zd_motion *motion, int64_t step, int forced)
     if (motion->path.lands) return zd_closed_form_finish(motion, point->t, point->p, point->v);
     const int status = correct_both(motion, positions, velocities);
     /* The next correction needs the dependent velocities at these positions. */
-    return !status && motion->path.embeds && motion->corrections > 1 ? zd_embed_settle(motion) : status;
+    return !status && motion->path.embeds && motion->corrections > 1 ? zd_embed_update(motion) : status;
 }
 
 static int project(zd_stepper *self, double t1, int64_t step, int forced)

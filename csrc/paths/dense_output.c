@@ -20,7 +20,7 @@ static void *take_chosen(zd_arena *arena, const void *of)
 int zd_dense_output_take(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;
-    if (stepper->last.chosen || !stepper->integrator->prepare_dense || !motion->formulation->settle) return ZD_DONE;
+    if (stepper->last.chosen || !stepper->integrator->prepare_dense || !motion->formulation->update) return ZD_DONE;
     stepper->last.chosen = zd_store_take(&motion->store, take_chosen, motion);
     return stepper->last.chosen ? ZD_DONE : ZD_NO_MEMORY;
 }
@@ -36,7 +36,7 @@ int zd_has_dense_output(const zd_stepper *stepper, double t0)
 {
     const zd_last *last = &stepper->last;
     if (!stepper->integrator->prepare_dense || last->t != t0 || last->h != stepper->t - t0) return 0;
-    return !zd_motion_settles(stepper->motion) || last->chosen;
+    return !zd_motion_updates(stepper->motion) || last->chosen;
 }
 
 int zd_dense_output_prepare(zd_stepper *stepper)
@@ -44,7 +44,7 @@ int zd_dense_output_prepare(zd_stepper *stepper)
     zd_motion *motion = stepper->motion;
     const zd_last *last = &stepper->last;
     int status = ZD_DONE;
-    if (zd_motion_settles(motion)) {
+    if (zd_motion_updates(motion)) {
         take_variables_back(stepper);
         status = motion->formulation->express(motion->solver, motion->point, stepper->y);
     }
@@ -58,7 +58,7 @@ int zd_dense_output_prepare(zd_stepper *stepper)
 int zd_dense_output_move(zd_stepper *stepper, double t, double *y)
 {
     const zd_last *last = &stepper->last;
-    if (zd_motion_settles(stepper->motion)) take_variables_back(stepper);
+    if (zd_motion_updates(stepper->motion)) take_variables_back(stepper);
     stepper->integrator->dense_output(stepper->memory, (t - last->t) / last->h, last->y, y);
     stepper->motion->statistics.output_steps++;
     if (stepper->motion->path.is_short) return zd_plain_project_within(stepper, t, y);

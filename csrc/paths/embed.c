@@ -197,7 +197,7 @@ int zd_embed_unpack(zd_motion *motion, double t, const double *y)
     return ZD_DONE;
 }
 
-int zd_embed_settle(zd_motion *motion)
+int zd_embed_update(zd_motion *motion)
 {
     const zd_point *point = motion->point;
     if (point->known & ZD_ACCELERATED) return ZD_DONE;
@@ -210,5 +210,5 @@ int zd_embed_settle(zd_motion *motion)
 int zd_embed_pack(zd_motion *motion, double *y)
 {
     zd_embed_write(motion, motion->point->p, motion->point->v, y);
-    return zd_embed_settle(motion);
+    return zd_embed_update(motion);
 }

@@ -16,10 +16,10 @@ void zd_embed_begin(zd_motion *motion);
 int zd_embed_is_steep(const zd_motion *motion);
 /* The acceleration at the point, with the terms `added` to the right side of (6) */
 int zd_embed_accelerate(zd_motion *motion, const double *added);
-/* Counterparts of a formulation's unpack(), pack() and settle(), for a step that begins or ends at the point. */
+/* Counterparts of a formulation's unpack(), pack() and update(), for a step that begins or ends at the point. */
 int zd_embed_unpack(zd_motion *motion, double t, const double *y);
 int zd_embed_pack(zd_motion *motion, double *y);
-int zd_embed_settle(zd_motion *motion);
+int zd_embed_update(zd_motion *motion);
 /* p and v of the path from the state; entries that the state does not have are estimates. */
 void zd_embed_read(zd_motion *motion, double t, const double *y);
 /* y <- the independent entries of p and v, or of their rates */

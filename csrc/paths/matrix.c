@@ -37,10 +37,10 @@ int zd_path_finish(zd_stepper *self, int within)
     zd_motion *motion = self->motion;
     const zd_formulation *formulation = motion->formulation;
     zd_point_follow(motion->point);
-    int status = within && formulation->settle ? formulation->express(motion->solver, motion->point, self->y)
+    int status = within && formulation->update ? formulation->express(motion->solver, motion->point, self->y)
                                                : formulation->pack(motion->solver, motion->point, self->y);
     /* Dependent velocities are recomputed from the state to the last bit, so that the next step can start from quantities known here. */
-    if (!status && formulation->settle) status = formulation->settle(motion->solver, motion->point);
+    if (!status && formulation->update) status = formulation->update(motion->solver, motion->point);
     return status || zd_point_is_finite(motion->point) ? status : ZD_NOT_FINITE;
 }
 

@@ -18,7 +18,7 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
     const size_t used = arena->used;
     void *memory = integrator->take(arena, integrator->table, system, (int)size, given);
     const zd_span memory_of_integrator = zd_span_since(arena, used);
-    const int is_whole = !motion->formulation->settle;     /* then the state begins with p and v */
+    const int is_whole = !motion->formulation->update;     /* then the state begins with p and v */
     *self = (zd_stepper){
         .motion = motion,
         .chosen = {motion->formulation, motion->solver, own},
@@ -78,7 +78,7 @@ int zd_stepper_return(zd_stepper *self)
     zd_copy(motion->rate.size, self->last.y, self->y);
     zd_point_move(motion->point, self->last.t, self->last.p, self->last.v);
     /* The variables of the state may be chosen anew; on the closed-form path they do not change. */
-    return zd_motion_settles(motion) ? motion->equations->pack(motion, self->y) : ZD_DONE;
+    return zd_motion_updates(motion) ? motion->equations->pack(motion, self->y) : ZD_DONE;
 }
 
 /* ---- places ---- */
@@ -141,7 +141,7 @@ void zd_stepper_keep_rates(const zd_stepper *self, zd_cached_accelerations *rate
 {
     const zd_motion *motion = self->motion;
     const zd_point *point = motion->point;
-    const int has_more = motion->balance.input || motion->corrections_size || motion->formulation->settle || point->terms.A
+    const int has_more = motion->balance.input || motion->corrections_size || motion->formulation->update || point->terms.A
         || motion->reactions.reading;
     rates->are_known = (point->known & ZD_ACCELERATED) && !has_more;
     if (!rates->are_known) return;

@@ -5,11 +5,11 @@
 
 const zd_closed_form *zd_closed_form_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit)
 {
-    if (zd_constraints(system) > system->nv || (formulation->settle && !formulation->may_have_entries(system))) return NULL;
+    if (zd_constraints(system) > system->nv || (formulation->update && !formulation->may_have_entries(system))) return NULL;
     const zd_closed_form *found = NULL;
     for (int i = 0; i < system->closed_forms; i++) {
         const zd_closed_form *closed_form = &system->closed_form[i];
-        if (!(formulation->settle ? closed_form->embeddings : closed_form->orders)) continue;
+        if (!(formulation->update ? closed_form->embeddings : closed_form->orders)) continue;
         if (closed_form->lanes == 1 && closed_form->unit <= unit && (!found || closed_form->unit > found->unit)) found = closed_form;
     }
     return found;
@@ -20,7 +20,7 @@ void zd_closed_form_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
     const zd_system *system = &motion->system;
     const zd_closed_form *closed_form = zd_closed_form_of(system, motion->formulation, unit);
     if (!closed_form) return;
-    const int embeds = motion->formulation->settle != NULL, orders = embeds ? closed_form->embeddings : closed_form->orders;
+    const int embeds = motion->formulation->update != NULL, orders = embeds ? closed_form->embeddings : closed_form->orders;
     motion->path = (zd_path){
         .closed_form = closed_form,
         .equations = embeds ? &zd_equations_of_independent : &zd_equations_in_closed_form,

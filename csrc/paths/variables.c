@@ -21,7 +21,7 @@ static int is_held(const zd_constraint_target *target)
 
 zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integrator, const zd_system *independent)
 {
-    int loses = motion->formulation->settle && zd_constraints(independent);
+    int loses = motion->formulation->update && zd_constraints(independent);
     if (!loses || integrator->step_of_motion || !is_held(&motion->target)) return (zd_variables){NULL, NULL, 0};
     const zd_formulation *used = zd_takes_many_rows(motion->formulation, &motion->system) ? &zd_augmented : &zd_augmented_dense;
     return (zd_variables){used, NULL, used->state_size(independent)};

@@ -82,7 +82,7 @@ static int compare_with_terms(zd_point *point, double length)
 }
 
 /* Rows that vanish within rounding at the start get the size of the largest row. */
-static void settle_sizes(int m, double *size, double *inverse_size)
+static void limit_sizes(int m, double *size, double *inverse_size)
 {
     double largest = zd_max_abs(m, size);
     for (int k = 0; k < m; k++) {
@@ -138,7 +138,7 @@ int zd_point_measure(zd_point *point)
     for (int k = 0; k < zd_constraints(system); k++) point->size[k] = size_of_row(point, k);
     status = compare_with_terms(point, length);
     if (status) return status;
-    settle_sizes(zd_constraints(system), point->size, point->inverse_size);
+    limit_sizes(zd_constraints(system), point->size, point->inverse_size);
     point->measured = 1;
     return ZD_DONE;
 }

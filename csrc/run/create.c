@@ -33,7 +33,7 @@ int zd_takes_closed_form(const zd_settings *settings)
 
 int zd_takes_embeddings(const zd_settings *settings)
 {
-    return zd_formulation_of(settings->formulation)->settle != NULL;
+    return zd_formulation_of(settings->formulation)->update != NULL;
 }
 
 int zd_takes_series(const zd_settings *settings)
@@ -49,7 +49,7 @@ int zd_takes_jacobian(const zd_settings *settings)
 int zd_may_have_closed_form(const zd_system *system, const zd_settings *settings)
 {
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
-    return !formulation->settle || formulation->may_have_entries(system);
+    return !formulation->update || formulation->may_have_entries(system);
 }
 
 int zd_closed_form_unit(const zd_system *system, const zd_settings *settings)

@@ -31,7 +31,7 @@ void zd_open_lanes_free(zd_open_lanes *self);
 /* zd_open_runs_advance() of these runs. A run itself may then be behind its lane. */
 void zd_open_lanes_advance(zd_open_lanes *self, int64_t steps, double t);
 /* Brings run i, which is behind its lane, to the present state; returns its status. */
-int zd_open_lanes_settle(zd_open_lanes *self, int64_t i);
+int zd_open_lanes_update_run(zd_open_lanes *self, int64_t i);
 /* Run i is replaced by another one. */
 void zd_open_lanes_forget(zd_open_lanes *self, int64_t i);
 

@@ -259,7 +259,7 @@ void zd_open_lanes_advance(zd_open_lanes *self, int64_t steps, double t)
 
 /* ---- single runs ---- */
 
-int zd_open_lanes_settle(zd_open_lanes *self, int64_t i)
+int zd_open_lanes_update_run(zd_open_lanes *self, int64_t i)
 {
     const int64_t k = i - self->first, group = k / self->lanes.lanes;
     zd_lanes *lanes = &self->lanes;

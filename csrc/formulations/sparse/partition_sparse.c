@@ -48,7 +48,7 @@ static void note_condition(const zd_partition *of, const zd_point *point)
     point->rank->was_ill_conditioned |= !(of->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED);
 }
 
-int zd_partition_sparse_settle(zd_partition_sparse *self, zd_point *point)
+int zd_partition_sparse_update(zd_partition_sparse *self, zd_point *point)
 {
     int status = need_speeds(self, point);
     if (!status && !(point->known & ZD_COMPLEMENTED)) status = zd_partition_factor(self->of_v, point);

@@ -155,7 +155,7 @@ class ManyOpenRuns:
     def __getitem__(self, i: int) -> OpenRun:
         """A run, brought to its present state."""
         run, lanes = self._runs[i], self._lanes_of(i)
-        if lanes and (status := lib.zd_open_lanes_settle(lanes, i)):
+        if lanes and (status := lib.zd_open_lanes_update_run(lanes, i)):
             raise run.error(status)
         return run
 
