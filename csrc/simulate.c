@@ -103,6 +103,6 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds)
 
 int zd_run_step(zd_run *run, int64_t steps, zd_record *record)
 {
-    const int status = zd_run_aim(run, steps, INFINITY);
+    const int status = zd_run_set_goal(run, steps, INFINITY);
     return status ? status : zd_run_advance(run, record, SLICE);
 }

@@ -16,17 +16,17 @@ typedef struct zd_integrator {
     /* Replaces step() in methods that solve the constraints within the step. */
     int (*step_of_motion)(void *self, zd_motion *motion, double t, double h, double *y);
     /* Receives the approximate error scale (size,) of the next step. NULL: not needed. */
-    void (*weigh)(void *self, int size, const double *scale);
+    void (*set_scale)(void *self, int size, const double *scale);
     /* Receives the tolerances of adaptive steps, once, before the first. NULL: not needed. */
-    void (*aim)(void *self, double rtol, double atol);
+    void (*set_tolerance)(void *self, double rtol, double atol);
     /* h <- the longest step from y at t whose error is at most 1 in units of scale, computed before the step; NULL: not known before. */
-    int (*foresee)(void *self, const zd_rate *rate, double t, const double *y, const double *scale, double *h);
+    int (*predict_step)(void *self, const zd_rate *rate, double t, const double *y, const double *scale, double *h);
     double decay;           /* the largest |lambda h| for which y' = lambda y with lambda < 0 decays; 0: any */
     /* Error estimate of the step just made to y at t1, RMS in units of scale, and |lambda h| of the fastest component there, 0: not
      * known. NULL if card.error_order is 0. */
     int (*error)(void *self, const zd_rate *rate, double t1, double h, const double *y, const double *scale, double *norm,
                  double *lambda_h);
-    double (*fit)(const void *self, double h);  /* best size of the next step, at most h, for the iteration; NULL: h */
+    double (*limit_step)(const void *self, double h);  /* best size of the next step, at most h, for the iteration; NULL: h */
     /* Dense output of the step just made from (t, y0) to (t + h, y1): prepares the polynomial; evaluates it at a fraction of the step.
      * NULL: the method has none, and shorter steps are made instead. */
     int (*prepare_dense)(void *self, const zd_rate *rate, double t, double h, const double *y0, const double *y1);

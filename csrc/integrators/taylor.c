@@ -75,7 +75,7 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
     return zd_take_filled(arena, &self, sizeof self);
 }
 
-static void aim(void *memory, double rtol, double atol)
+static void set_tolerance(void *memory, double rtol, double atol)
 {
     taylor *self = memory;
     const double ten = 2.302585092994045684;    /* its logarithm; C libraries' own natural one ties the library to newer ones */
@@ -172,7 +172,7 @@ static const double *scales_of(taylor *self, const zd_rate *rate, const double *
     return self->own_scale;
 }
 
-static int foresee(void *memory, const zd_rate *rate, double t, const double *y, const double *scale, double *h)
+static int predict_step(void *memory, const zd_rate *rate, double t, const double *y, const double *scale, double *h)
 {
     taylor *self = memory;
     int status = find_series(self, rate, t, y);
@@ -252,7 +252,7 @@ const zd_integrator zd_taylor = {
     .suits = suits,
     .take = take,
     .step = step,
-    .aim = aim,
-    .foresee = foresee,
+    .set_tolerance = set_tolerance,
+    .predict_step = predict_step,
     .error = error,
 };

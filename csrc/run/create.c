@@ -79,7 +79,8 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
     zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent,
                     independent);
     /* Also for a repeated step of given size in resampling, whose run had adaptive steps. */
-    if (run->stepper.memory && integrator->aim && settings->atol > 0) integrator->aim(run->stepper.memory, settings->rtol, settings->atol);
+    if (run->stepper.memory && integrator->set_tolerance && settings->atol > 0)
+        integrator->set_tolerance(run->stepper.memory, settings->rtol, settings->atol);
     zd_safeguards_take(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
     run->loop = (zd_step_loop){
         .settings = &run->settings,

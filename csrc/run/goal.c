@@ -30,7 +30,7 @@ static void begin_anew(zd_run *run)
 }
 
 /* Steps to time t; the last one is shortened if t is between the ends of two. */
-static void aim_at_time(zd_run *run, double t)
+static void set_goal_time(zd_run *run, double t)
 {
     zd_step_loop *loop = &run->loop;
     const double size = run->settings.step, steps = zd_count_steps(loop->t_begin, t, size), ratio = (t - loop->t_begin) / size;
@@ -42,7 +42,7 @@ static void aim_at_time(zd_run *run, double t)
     loop->steps = is_fixed(run) ? last : 0;
 }
 
-int zd_run_aim(zd_run *run, int64_t steps, double t)
+int zd_run_set_goal(zd_run *run, int64_t steps, double t)
 {
     const int64_t made = run->loop.step;
     if (!(t >= run->stepper.t) || steps < 0) return ZD_BAD_ARGUMENT;
@@ -55,7 +55,7 @@ int zd_run_aim(zd_run *run, int64_t steps, double t)
         run->watch.ended = 0;
     }
     run->goal.step = steps < INT64_MAX - made ? made + steps : INT64_MAX;
-    if (t < INFINITY) aim_at_time(run, t);
+    if (t < INFINITY) set_goal_time(run, t);
     return ZD_DONE;
 }
 

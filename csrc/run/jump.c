@@ -93,7 +93,7 @@ static int violation_at(zd_run *run, int input, double speed, double *Psi)
 }
 
 /* The constraint whose residual changes most by 1 of the speed, which it is linear in, is made zero. */
-static int fit(zd_run *run, int input, double *Psi)
+static int fit_speed(zd_run *run, int input, double *Psi)
 {
     const int m = zd_constraints(&run->motion.system);
     double *at_zero = run->motion.point->rhs, largest = 0, speed = run->held.value[input];
@@ -129,7 +129,7 @@ int zd_speeds_fit(zd_run *run, double *Psi)
     for (int input = 0; !status && input < inputs->count; input++)
         for (int k = 0; !status && k < inputs->places; k++) {
             if (!is_speed_of(inputs->place + k, input)) continue;
-            status = fit(run, input, Psi);
+            status = fit_speed(run, input, Psi);
             break;
         }
     return status;

@@ -56,7 +56,7 @@ int zd_adaptive_start(zd_step_loop *loop, double *work)
     double *f0 = work, *f1 = f0 + n, *y1 = f1 + n, *y = stepper->y, t = stepper->t;
     zd_collapse_begin(&control->collapse, settings->max_steps);
     control->h = settings->first_step;
-    if (!(control->h > 0) && stepper->integrator->foresee) control->h = INFINITY;
+    if (!(control->h > 0) && stepper->integrator->predict_step) control->h = INFINITY;
     if (control->h > 0) return ZD_DONE;
     set_scale(loop, y, y);
     int status = rate->evaluate(rate->context, t, y, f0);
@@ -87,23 +87,23 @@ static void watch_stiffness(zd_step_loop *loop, double lambda_h)
     } else if (++control->stiffness.below_limit >= ZD_NOT_STIFF_AFTER) control->stiffness.at_limit = 0;
 }
 
-void zd_adaptive_weigh(zd_step_loop *loop)
+void zd_adaptive_set_scale(zd_step_loop *loop)
 {
     zd_stepper *stepper = loop->stepper;
-    if (!stepper->integrator->weigh) return;
+    if (!stepper->integrator->set_scale) return;
     set_scale(loop, stepper->y, stepper->y);
-    stepper->integrator->weigh(stepper->memory, loop->motion->rate.size, loop->control.scale);
+    stepper->integrator->set_scale(stepper->memory, loop->motion->rate.size, loop->control.scale);
 }
 
 /* Shortens the step if the method knows before that it would be too long. */
-static int foresee(zd_step_loop *loop)
+static int predict_step(zd_step_loop *loop)
 {
     zd_stepper *stepper = loop->stepper;
     zd_control *control = &loop->control;
     double longest;
-    if (!stepper->integrator->foresee) return ZD_DONE;
+    if (!stepper->integrator->predict_step) return ZD_DONE;
     set_scale(loop, stepper->y, stepper->y);
-    int status = stepper->integrator->foresee(stepper->memory, &loop->motion->rate, stepper->t, stepper->y, control->scale, &longest);
+    int status = stepper->integrator->predict_step(stepper->memory, &loop->motion->rate, stepper->t, stepper->y, control->scale, &longest);
     if (!status && longest < control->h) control->h = longest, control->is_by_move = 0;
     return status;
 }
@@ -163,7 +163,7 @@ static int begin(zd_step_loop *loop)
     loop->control.norm = 0;
     loop->control.largest_factor = ZD_MAX_FACTOR;
     loop->control.smallest = 16 * 0x1p-52 * fmax(fabs(loop->stepper->t), isfinite(loop->end) ? fabs(loop->end) : 0);
-    return foresee(loop);
+    return predict_step(loop);
 }
 
 static int next(zd_step_loop *loop, zd_attempt *attempt)
@@ -198,7 +198,7 @@ static int accept(zd_step_loop *loop)
     const int status = watch_collapse(loop);
     control->h = by_move(control, h, h * fmin(control->largest_factor, factor(loop, control->norm)));
     if (loop->stepper->t == loop->end) control->h = fmax(control->h, intended);     /* an open run goes on as if it had not been cut */
-    if (integrator->fit) control->h = integrator->fit(loop->stepper->memory, control->h);
+    if (integrator->limit_step) control->h = integrator->limit_step(loop->stepper->memory, control->h);
     zd_step_histogram_step(&control->histogram, loop->stepper->t);
     return status;
 }
@@ -224,4 +224,4 @@ static int repeats(zd_step_loop *loop, int *status)
     return !*status;
 }
 
-const zd_step_sizes zd_adaptive_sizes = {begin, next, zd_adaptive_weigh, estimate, repeats};
+const zd_step_sizes zd_adaptive_sizes = {begin, next, zd_adaptive_set_scale, estimate, repeats};

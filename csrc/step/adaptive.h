@@ -8,6 +8,6 @@ zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t
 /* Chooses the size of the first step; work (3, size). */
 int zd_adaptive_start(zd_step_loop *loop, double *work);
 /* Passes the approximate error scale of the next step to an integrator that needs it. */
-void zd_adaptive_weigh(zd_step_loop *loop);
+void zd_adaptive_set_scale(zd_step_loop *loop);
 
 #endif

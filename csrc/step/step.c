@@ -44,7 +44,7 @@ ZD_INLINE int attempt(zd_step_loop *loop, const zd_attempt *a, const int kind)
     const zd_step_sizes *sizes = loop->sizes;
     const int is_new = kind == ZD_NEW_STEP, is_checked = is_new || kind == ZD_THROUGH_BIFURCATION;
     const zd_evaluation_path *path = is_checked ? zd_path_of(motion) : zd_path_of_state(motion);
-    if (sizes->weigh && (is_new || kind == ZD_REPEATED_STEP)) sizes->weigh(loop);
+    if (sizes->set_scale && (is_new || kind == ZD_REPEATED_STEP)) sizes->set_scale(loop);
     int status = path->integrate(stepper, a->h);
     if (!status && sizes->estimate && is_new) {
         status = sizes->estimate(loop, a);

@@ -48,7 +48,7 @@ typedef struct zd_step_loop zd_step_loop;
 typedef struct zd_step_sizes {
     int (*begin)(zd_step_loop *loop);   /* before the first attempt at a step */
     int (*next)(zd_step_loop *loop, zd_attempt *attempt);   /* size and end of the next attempt */
-    void (*weigh)(zd_step_loop *loop);  /* passes the approximate error scale to an integrator that needs it */
+    void (*set_scale)(zd_step_loop *loop);  /* passes the approximate error scale to an integrator that needs it */
     int (*estimate)(zd_step_loop *loop, const zd_attempt *attempt);     /* control.norm and control.move of an integrated step */
     /* True if another attempt follows this one with *status; otherwise *status is that of the step. Not called for a whole fixed step that
      * succeeded. */

@@ -99,8 +99,8 @@ int zd_run_advance(zd_run *run, zd_record *record, double seconds);
 /* Sets the goal: so many steps from the present state, or the time t if that comes first (INFINITY: none). ZD_BAD_ARGUMENT: t is before the
  * present time. Fixed steps reach a time within rounding of a whole number of steps as t0 + k step; otherwise the last one is shortened, and
  * further steps are counted from there. Adaptive steps end at t. */
-int zd_run_aim(zd_run *run, int64_t steps, double t);
-/* zd_run_aim() at a number of steps, and zd_run_advance() for a time slice: ZD_PAUSED after that, to be advanced further. */
+int zd_run_set_goal(zd_run *run, int64_t steps, double t);
+/* zd_run_set_goal() at a number of steps, and zd_run_advance() for a time slice: ZD_PAUSED after that, to be advanced further. */
 int zd_run_step(zd_run *run, int64_t steps, zd_record *record);
 /* The present state: time, p (nq,), v (nv,). The pointers stay valid as long as the run. */
 double zd_run_time(const zd_run *run);

@@ -173,12 +173,12 @@ static int advance(zd_opened *self, int status)
 int zd_opened_step(zd_opened *self, double steps)
 {
     if (!(steps >= 0 && steps < 0x1p53)) return advance(self, ZD_BAD_ARGUMENT);
-    return advance(self, zd_run_aim(self->run, (int64_t)steps, INFINITY));
+    return advance(self, zd_run_set_goal(self->run, (int64_t)steps, INFINITY));
 }
 
 int zd_opened_advance(zd_opened *self, double t)
 {
-    return advance(self, isfinite(t) ? zd_run_aim(self->run, INT64_MAX, t) : ZD_BAD_ARGUMENT);
+    return advance(self, isfinite(t) ? zd_run_set_goal(self->run, INT64_MAX, t) : ZD_BAD_ARGUMENT);
 }
 
 static int evaluate(zd_opened *self, int measure, const double *vdot, const double *lambda, double *value)

@@ -171,7 +171,7 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
 
 /* ---- its error ---- */
 
-static void weigh(void *memory, int size, const double *scale)
+static void set_scale(void *memory, int size, const double *scale)
 {
     radau *self = memory;
     zd_radau_newton *it = &self->newton;
@@ -215,7 +215,7 @@ static int error(void *memory, const zd_rate *rate, double t1, double h, const d
 
 /* Largest step for which the iteration is expected to converge. Its contraction is not known before, as J changes within a step, so bounds
  * are learned from steps that failed. */
-static double fit(const void *memory, double h)
+static double limit_step(const void *memory, double h)
 {
     const radau *self = memory;
     const zd_radau_newton *it = &self->newton;
@@ -255,9 +255,9 @@ const zd_integrator zd_radau = {
     .suits = suits,
     .take = take,
     .step = step,
-    .weigh = weigh,
+    .set_scale = set_scale,
     .error = error,
-    .fit = fit,
+    .limit_step = limit_step,
     .prepare_dense = prepare_dense,
     .dense_output = dense_output,
 };

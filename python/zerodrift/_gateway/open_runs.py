@@ -59,9 +59,9 @@ class OpenRun(Run):
         """Numbers of the system, as SIMD lanes read them; None: it has no closed-form functions."""
         return self._core.lane_numbers
 
-    def aim(self, steps: int, t: float) -> int:
+    def set_goal(self, steps: int, t: float) -> int:
         """Set the goal, a number of steps or a time; return the status."""
-        return lib.zd_run_aim(self.c, steps, t)
+        return lib.zd_run_set_goal(self.c, steps, t)
 
     @property
     def ended_by(self) -> int:

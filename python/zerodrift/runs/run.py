@@ -191,7 +191,7 @@ class Run:
         if sampling is not None:
             sampling.call(self)
             steps, instant = sampling.next(self)
-            core.aim(_gateway.MOST_STEPS if steps is None else steps, instant)
+            core.set_goal(_gateway.MOST_STEPS if steps is None else steps, instant)
         if self._history is not None:
             self._history.note(core.t, self.inputs)
 
@@ -300,7 +300,7 @@ class Run:
         core, begin = self._core, time.perf_counter()
         if self._history is not None:
             self._history.note(core.t, self.inputs)
-        status = core.aim(steps, t) or core.advance(self._record, SLICE)
+        status = core.set_goal(steps, t) or core.advance(self._record, SLICE)
         self._note_jump()
         self._attend(status)
         self._seconds += time.perf_counter() - begin
