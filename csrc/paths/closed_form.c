@@ -258,7 +258,7 @@ ZD_INLINE int passes_quick_check(const int n, zd_safeguards *self, double h, int
     const seen_step seen = see(n, 0.5 * h, last->p, last->v, p, v, guard->motion->point->inverse_unit_p);
     if (!(ZD_CALM_DETOUR * ZD_CALM_DETOUR * seen.detour <= seen.moved + guard->nearby) || !(seen.moved <= guard->reach)) return 0;
     if (!pivots_stay(&guard->motion->path)) return 0;
-    if (next_step >= guard->next_look) zd_guard_watch_next(guard);
+    if (next_step >= guard->next_check) zd_guard_watch_next(guard);
     return 1;
 }
 

@@ -191,7 +191,7 @@ int zd_consistency_jacobian(zd_consistency *self, int64_t step)
 
 /* ---- after a step ---- */
 
-int zd_consistency_look(zd_consistency *self, int64_t step)
+int zd_consistency_check(zd_consistency *self, int64_t step)
 {
     int status = (self->motion->point->known & ZD_M) ? zd_consistency_mass(self->motion->point) : ZD_DONE;
     if (status || !self->compares) return status;

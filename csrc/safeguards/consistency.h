@@ -21,6 +21,6 @@ zd_consistency zd_consistency_take(zd_arena *arena, zd_motion *motion, const zd_
 int zd_consistency_mass(zd_point *point);           /* checks that M, already evaluated, is symmetric; else ZD_NOT_SYMMETRIC */
 /* Checks hand-written C and Phi_t against differences of Phi, in a direction that depends on the step; else ZD_NOT_JACOBIAN. */
 int zd_consistency_jacobian(zd_consistency *self, int64_t step);
-int zd_consistency_look(zd_consistency *self, int64_t step);   /* both checks, the second at its intervals */
+int zd_consistency_check(zd_consistency *self, int64_t step);   /* both checks, the second at its intervals */
 
 #endif

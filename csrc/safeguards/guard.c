@@ -140,7 +140,7 @@ ZD_INLINE int evaluate_end(zd_guard *guard, int64_t next_step)
     zd_point *point = motion->point;
     int status = zd_point_need_times_A(point, 0);
     /* The next step needs this acceleration anyway. */
-    if (!status && (guard->watches_step || next_step >= guard->next_look)) status = zd_motion_accelerate(motion);
+    if (!status && (guard->watches_step || next_step >= guard->next_check)) status = zd_motion_accelerate(motion);
     if (!status && point->terms.A) zd_point_rate(point, point->v, guard->rate);
     return status;
 }
@@ -157,15 +157,15 @@ ZD_INLINE void keep(zd_guard *guard, int64_t next_step)
     const zd_point *point = guard->motion->point;
     if (point->terms.A) zd_copy(point->system->nq, guard->rate, guard->pdot);
     guard->watches_step = 0;
-    if (next_step >= guard->next_look) zd_guard_watch_next(guard);
+    if (next_step >= guard->next_check) zd_guard_watch_next(guard);
     guard->has_begun = 1;
 }
 
-static void look_soon(zd_guard *guard, int64_t next_step)
+static void check_soon(zd_guard *guard, int64_t next_step)
 {
     const int64_t soon = next_of(ZD_CHECK_EVERY, next_step);
     guard->pause = ZD_CHECK_EVERY;
-    if (guard->next_look > soon) guard->next_look = soon;
+    if (guard->next_check > soon) guard->next_check = soon;
 }
 
 /* The most that a coordinate has moved: of many, all together move far in any step. */
@@ -191,7 +191,7 @@ int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *fo
     int status = evaluate_end(guard, next_step);
     if (status) return status;
     const zd_detour sum = *found = ZD_SIZED(zd_guard_find, point->system->nq, guard, guard->last->p, point->p, h, point->inverse_unit_p);
-    if (!zd_guard_is_calm(guard, &sum)) look_soon(guard, next_step);
+    if (!zd_guard_is_calm(guard, &sum)) check_soon(guard, next_step);
     const double allowed = zd_guard_allows(guard, h, &sum);
     if (!guard->checks_branch) return ZD_DONE;
     if (!(sum.detour <= allowed) && !(least_detour(guard, h) <= allowed)) return ZD_BRANCH;
@@ -213,7 +213,7 @@ void zd_guard_pause(zd_guard *guard, int64_t step, int is_ample)
 {
     if (!is_ample || !guard->is_ample) guard->pause = ZD_CHECK_EVERY;
     else if (guard->pause < ZD_CHECK_SELDOM && step % guard->pause == 0) guard->pause *= 2;
-    guard->next_look = guard->streak ? step + 1 : step < ZD_CHECK_EVERY ? 2 * step : next_of(guard->pause, step);
+    guard->next_check = guard->streak ? step + 1 : step < ZD_CHECK_EVERY ? 2 * step : next_of(guard->pause, step);
 }
 
 void zd_guard_keep(zd_guard *guard, int64_t next_step)

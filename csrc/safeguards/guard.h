@@ -19,7 +19,7 @@ typedef struct zd_guard {
     double *rate;           /* (nq,): pdot at the end */
     double fastest;         /* largest |pdot|^2 at the end of a checked step, in characteristic scales */
     double reach;           /* largest |p1 - p0|^2 for which the quick check suffices, likewise; 0 until the first full check */
-    int64_t pause, next_look;   /* steps between full checks; the step of the next one */
+    int64_t pause, next_check;   /* steps between full checks; the step of the next one */
     int is_ample;           /* true if the last checked step was far below the stability limit */
     int streak;             /* consecutive steps longer than the method is stable for */
     double largest_fourth;  /* largest (omega h)^4 of all checked steps */

@@ -129,7 +129,7 @@ static void add_up_turns(zd_resolution *self, double h, double steps)
     }
 }
 
-int zd_resolution_look_at_turns(zd_resolution *self, double h, int64_t step, int parts)
+int zd_resolution_check_turns(zd_resolution *self, double h, int64_t step, int parts)
 {
     int status = self->motion->system.quaternions ? zd_turning_evaluate(&self->turning) : ZD_DONE;
     if (!status) add_up_turns(self, h, (double)(step - self->step) * parts);
@@ -137,8 +137,8 @@ int zd_resolution_look_at_turns(zd_resolution *self, double h, int64_t step, int
     return status;
 }
 
-int zd_resolution_look(zd_resolution *self, double h, int64_t step)
+int zd_resolution_check(zd_resolution *self, double h, int64_t step)
 {
     ZD_SIZED(add_up, self->motion->system.nv, self, h, (double)(step - self->step));
-    return zd_resolution_look_at_turns(self, h, step, 1);
+    return zd_resolution_check_turns(self, h, step, 1);
 }

@@ -21,18 +21,18 @@ int zd_safeguards_begin(zd_safeguards *self, int64_t step)
 }
 
 /* Full checks, made at intervals: stability, energy, resolution of each coordinate, and consistency of the system. */
-static int look_closely(zd_safeguards *self, const zd_detour *found, double h, int64_t step)
+static int check_fully(zd_safeguards *self, const zd_detour *found, double h, int64_t step)
 {
     int status = zd_guard_watch(&self->guard, found, h);
-    if (!status && self->guard.checks_stability) status = zd_resolution_look(&self->resolution, h, step);
+    if (!status && self->guard.checks_stability) status = zd_resolution_check(&self->resolution, h, step);
     zd_guard_pause(&self->guard, step, !self->guard.checks_stability || self->resolution.is_ample);
-    return status ? status : zd_consistency_look(&self->consistency, step);
+    return status ? status : zd_consistency_check(&self->consistency, step);
 }
 
-static int look(zd_safeguards *self, const zd_detour *found, double h, int64_t step, int parts)
+static int check_step(zd_safeguards *self, const zd_detour *found, double h, int64_t step, int parts)
 {
-    if (!parts) return look_closely(self, found, h, step);
-    return self->guard.checks_stability ? zd_resolution_look_at_turns(&self->resolution, h, step, parts) : ZD_DONE;
+    if (!parts) return check_fully(self, found, h, step);
+    return self->guard.checks_stability ? zd_resolution_check_turns(&self->resolution, h, step, parts) : ZD_DONE;
 }
 
 int zd_safeguards_compare(zd_safeguards *self, double h, double moved)
@@ -47,7 +47,7 @@ int zd_safeguards_judge(zd_safeguards *self, zd_comparison *compare, double h, i
     int status = zd_guard_compare(&self->guard, h, next_step, &found);
     if (!status) status = compare(self, h, found.moved);
     if (status) return status;
-    if (self->guard.watches_step) status = look(self, &found, h, next_step - 1, parts);
+    if (self->guard.watches_step) status = check_step(self, &found, h, next_step - 1, parts);
     zd_guard_keep(&self->guard, next_step);
     return status;
 }

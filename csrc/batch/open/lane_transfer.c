@@ -30,7 +30,7 @@ static void load_checks(zd_lanes *lanes, int lane, const zd_run *run)
 {
     const zd_resolution *resolution = &run->safeguards.resolution;
     const zd_guard *guard = &run->safeguards.guard;
-    lanes->next_check[lane] = (double)guard->next_look;
+    lanes->next_check[lane] = (double)guard->next_check;
     lanes->check_pause[lane] = (double)guard->pause;
     lanes->fastest[lane] = guard->fastest;
     lanes->last_checked[lane] = (double)resolution->step;
@@ -46,7 +46,7 @@ static void store_checks(const zd_lanes *lanes, int lane, double steps, zd_run *
     zd_resolution *resolution = &run->safeguards.resolution;
     zd_guard *guard = &run->safeguards.guard;
     const double h = lanes->step;
-    guard->next_look = (int64_t)lanes->next_check[lane];
+    guard->next_check = (int64_t)lanes->next_check[lane];
     guard->pause = lanes->check_soon[lane] != 0 ? ZD_CHECK_EVERY : (int64_t)lanes->check_pause[lane];
     guard->fastest = lanes->fastest[lane];
     guard->reach = fmin(ZD_LONG_PATH * ZD_LONG_PATH, ZD_FASTER_SPEED * h * h * guard->fastest + guard->nearby);

@@ -32,7 +32,7 @@ typedef struct sight {      /* from mass centre to point, of both bodies, and fr
     zd_vector u, w, apart;
 } sight;
 
-ZD_INLINE sight look(const zd_line *line, const zd_plane_frame *frame, const double *p)
+ZD_INLINE sight sight_of(const zd_line *line, const zd_plane_frame *frame, const double *p)
 {
     const zd_vector a = frame->axis[line->first], b = frame->axis[line->second];
     const double *x1 = zd_of_body(p, line->first), *x2 = zd_of_body(p, line->second);
@@ -58,7 +58,7 @@ static zd_plane_pull pull_of(const zd_line *line, const zd_plane_frame *frame, c
         *value = c * (zd_of_body(p, line->second)[2] - zd_of_body(p, line->first)[2] - line->zero);
         return (zd_plane_pull){{0, 0}, -c, c};
     }
-    const sight at = look(line, frame, p);
+    const sight at = sight_of(line, frame, p);
     const double length = line->kind == ZD_PLANE_DISTANCE ? sqrt(zd_inner(at.apart, at.apart)) : 0;
     const zd_vector e = zd_times(c, direction_of(line, frame->axis[line->first], at.apart, length));
     const zd_vector on_first = turns_along(line->kind) ? zd_plus(at.u, at.apart) : at.u;
@@ -100,7 +100,7 @@ static void write_C(const zd_lines *self, const zd_plane_frame *frame, double *C
 static double bias_of(const zd_line *line, const zd_plane_frame *frame, zd_vector e, const double *p, const double *v)
 {
     const double *v1 = zd_of_body(v, line->first), *v2 = zd_of_body(v, line->second), turn1 = v1[2], turn2 = v2[2];
-    const sight at = look(line, frame, p);
+    const sight at = sight_of(line, frame, p);
     zd_vector speed = zd_plus((zd_vector){v2[0], v2[1]}, zd_turned(turn2, at.w)), change = zd_times(-turn2 * turn2, at.w);
     const zd_vector edot = zd_turned(turn1, e);
     if (is_of_second_alone(line->kind)) return zd_inner(e, change) + zd_inner(edot, speed);
