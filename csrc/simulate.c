@@ -20,7 +20,7 @@ static int is_plain(const zd_settings *settings)
 static int take_step(zd_run *run)
 {
     const zd_settings *settings = &run->settings;
-    if (settings->t_eval || settings->events) zd_output_keep_beginning(&run->output);
+    if (settings->t_eval || settings->events) zd_output_save_start(&run->output);
     if (settings->events) zd_watch_before(&run->watch);
     int status = zd_step(&run->loop);
     if (status || !settings->events) return status;
@@ -63,7 +63,7 @@ static int take_step_within_ramp(zd_run *run)
 /* One step with what precedes it. An open run can go on after a step that failed: it returns to the start of that step. */
 static int go_on(zd_run *run)
 {
-    if (run->settings.is_open) zd_run_keep_good(run);
+    if (run->settings.is_open) zd_run_save_good(run);
     const zd_inputs *inputs = run->settings.inputs;
     int status = inputs ? zd_inputs_begin_step(run) : ZD_DONE;
     if (status) return status;

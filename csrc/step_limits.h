@@ -31,7 +31,7 @@ enum {
     ZD_CHECK_SELDOM = 64,           /* at most: ZD_CHECK_EVERY times a power of two, not above the interval of consistency.c */
 };
 #define ZD_AMPLE_STABILITY 0x1p-8   /* ratio of (omega h)^4 to its limit: a quarter of the largest omega h */
-#define ZD_FORGET (1.0 / 128)       /* decay of sums per check, or per eight steps if checks are further apart */
+#define ZD_DECAY (1.0 / 128)       /* decay of sums per check, or per eight steps if checks are further apart */
 #define ZD_ERROR_SHARE 1e-3         /* error of a coordinate, relative to the distance it has covered */
 #define ZD_NOTED_ERROR 1e-3         /* error of a coordinate: a smaller one is not recorded in the statistics */
 #define ZD_UNRESOLVED_ERROR 0.03    /* error of a coordinate: a larger one is reported to the user */

@@ -132,7 +132,7 @@ static inline void zd_rank_find_multipliers(const zd_point *point)
     self->are_awaited = 0;
 }
 /* Discards pending multipliers, which are provided otherwise. */
-static inline void zd_rank_forget_awaited(const zd_point *point)
+static inline void zd_rank_discard_awaited(const zd_point *point)
 {
     if (point->rank->selection) point->rank->selection->are_awaited = 0;
 }

@@ -147,7 +147,7 @@ static int improve_position(void *context)
     return ZD_DONE;
 }
 
-static int improve_and_remember(void *context)
+static int improve_and_save(void *context)
 {
     position_problem *problem = context;
     projection *self = problem->self;
@@ -210,7 +210,7 @@ static int correct_positions(projection *self, zd_motion *motion)
     const zd_rank *rank = motion->point->rank;
     if (!status && rank->was_ill_conditioned && rank->most_rows == rank->m) return improve_position(&problem);
     if (!status || status == ZD_CALLBACK || status == ZD_NO_MEMORY || !problem.has_moved) return status;
-    newton.improve = improve_and_remember;
+    newton.improve = improve_and_save;
     newton.contraction = 0;
     newton.retreat = retreat;
     status = begin_again(&problem);

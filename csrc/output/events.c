@@ -129,7 +129,7 @@ static int cut(zd_watch *self, double *end)
     if (!status) status = zd_output_make_shorter(output, last.bracket.b);
     if (!status) status = zd_watch_evaluate_all(self, self->now);
     if (status) return status;
-    zd_stepper_keep_place(output->stepper, &self->end);
+    zd_stepper_save_state(output->stepper, &self->end);
     zd_watch_span(self);
     status = zd_output_leave(output, 0);
     if (!status) status = zd_watch_sample(self);
@@ -184,9 +184,9 @@ static int move_to_event(zd_watch *self, const zd_occurrence *found, const zd_st
     const int jumps = !self->output->is_prepared || zd_bracket_leaps(&found->bracket);
     const int is_mixed = jumps && !zd_watch_reads_accelerations(self, found->event);
     int status = is_mixed ? zd_watch_move(self, found->bracket.a) : ZD_DONE;
-    if (is_mixed) zd_stepper_keep_place(stepper, &self->early);
+    if (is_mixed) zd_stepper_save_state(stepper, &self->early);
     if (!status) status = zd_watch_move(self, found->bracket.b);
-    zd_stepper_keep_place(stepper, &self->late);
+    zd_stepper_save_state(stepper, &self->late);
     *there = &self->late;
     return status || !is_mixed ? status : interpolate_event(self, found, there);
 }

@@ -187,7 +187,7 @@ int zd_watch_leave(zd_watch *self)
 
 int zd_watch_predict(zd_watch *self, int *occurs)
 {
-    zd_stepper_keep_place(self->output->stepper, &self->end);
+    zd_stepper_save_state(self->output->stepper, &self->end);
     zd_watch_span(self);
     int is_known = may_predict(self), status = is_known ? predict_all(self, &is_known) : ZD_DONE;
     for (int i = 0; !status && i < self->events->count; i++) *occurs |= occurs_by(self, i, is_known);

@@ -27,16 +27,16 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_l
     return self;
 }
 
-void zd_output_keep_beginning(zd_output *self)
+void zd_output_save_start(zd_output *self)
 {
-    zd_stepper_keep_place(self->stepper, &self->before);
+    zd_stepper_save_state(self->stepper, &self->before);
     self->is_prepared = self->is_within = 0;
 }
 
-static void keep_end(zd_output *self)
+static void copy_end(zd_output *self)
 {
-    zd_stepper_keep_place(self->stepper, &self->after);
-    zd_stepper_keep_rates(self->stepper, &self->rates);
+    zd_stepper_save_state(self->stepper, &self->after);
+    zd_stepper_save_rates(self->stepper, &self->rates);
     const zd_motion *motion = self->stepper->motion;
     self->is_factored = (motion->point->known & ZD_FACTORED) && !self->rates.are_known && !motion->formulation->update;
     self->checkpoint.is_set = 0;
@@ -44,7 +44,7 @@ static void keep_end(zd_output *self)
 
 void zd_output_save_end(zd_output *self)
 {
-    keep_end(self);
+    copy_end(self);
     zd_checkpoint_set(&self->checkpoint, self->stepper);
     self->is_within = 1;
     self->is_prepared = self->is_short = 0;
@@ -82,7 +82,7 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
     self->is_within = 1;
     self->is_short = may_stay && zd_short_may_stay(stepper);
     self->after.t = stepper->t;
-    if (!self->is_short) keep_end(self);
+    if (!self->is_short) copy_end(self);
     if (stepper->motion->formulation->update) zd_checkpoint_set_variables(&self->checkpoint, stepper);
     int status = self->is_prepared ? ZD_DONE : zd_dense_output_prepare(stepper);
     if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* dense output reads them in place */

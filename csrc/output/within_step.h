@@ -30,7 +30,7 @@ typedef struct zd_output {
 
 zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder);
 static inline int zd_output_has_checkpoint(const zd_output *self) { return self->has_polynomial && self->checkpoint.y; }
-void zd_output_keep_beginning(zd_output *self);
+void zd_output_save_start(zd_output *self);
 /* True if dense output is available for the last step. */
 static inline int zd_output_has_dense(const zd_output *self)
 {

@@ -77,7 +77,7 @@ static uint64_t bits_of(double x)
 static const zd_range NOWHERE = {UINT64_MAX, 0};    /* contains no finite number */
 
 /* Clears pivots and ranges after a change of the order: the quick check fails until a full comparison has set them. */
-static void forget_pivots(zd_motion *motion)
+static void discard_pivots(zd_motion *motion)
 {
     motion->path.ranges = count_pivots(motion);
     for (int k = 0; k < motion->system.nv; k++) {
@@ -88,7 +88,7 @@ static void forget_pivots(zd_motion *motion)
 
 /* Ranges in which pivots of the next step pass the quick check, if the order is the first: large, and within a factor of four, so that none
  * has shrunk by more than sixteen from one step to the next. */
-static void remember_pivots(zd_motion *motion)
+static void save_pivots(zd_motion *motion)
 {
     zd_path *path = &motion->path;
     const double *scale = scale_of(motion, path->order), factor = 1 / sqrt(ZD_SHRUNK_PIVOT);
@@ -106,7 +106,7 @@ static void use(zd_motion *motion, const zd_elimination *order)
     motion->point->known &= ~ZD_ACCELERATED;
     motion->path.order = order;
     motion->path.continues = 0;
-    if (order) forget_pivots(motion);
+    if (order) discard_pivots(motion);
     motion->path.lands = order && order->finish && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->path.allowed[k] = motion->target.tolerance * motion->point->size[k];
     motion->equations = order ? motion->path.equations : &zd_equations_by_matrices;
@@ -207,7 +207,7 @@ int zd_closed_form_compare(zd_safeguards *safeguards, double h, double moved)
     if (path->embeds && zd_embed_is_steep(motion)) return ZD_SINGULAR;
     path->smallest = smallest;
     path->was_taken = 1;
-    remember_pivots(motion);
+    save_pivots(motion);
     return ZD_DONE;
 }
 

@@ -87,7 +87,7 @@ ZD_INLINE int is_finite(const int n, const double *y)
     return zero == 0;
 }
 
-ZD_INLINE void remember(const int n, zd_stepper *stepper)
+ZD_INLINE void save_start(const int n, zd_stepper *stepper)
 {
     zd_copy(n, stepper->y, stepper->last.y);
     zd_copy(n, stepper->y + n, stepper->last.y + n);
@@ -96,7 +96,7 @@ ZD_INLINE void remember(const int n, zd_stepper *stepper)
 ZD_INLINE int integrate(const int n, zd_stepper *stepper, double h)
 {
     zd_motion *motion = stepper->motion;
-    remember(n, stepper);
+    save_start(n, stepper);
     motion->rate.vdot = motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
     int status = stepper->integrator->step(stepper->memory, &motion->rate, stepper->t, h, stepper->y, &motion->statistics);
     motion->rate.vdot = NULL;

@@ -5,7 +5,7 @@
 
 int zd_path_integrate(zd_stepper *self, double h)
 {
-    zd_stepper_remember(self, h);
+    zd_stepper_save_start(self, h);
     int status = zd_stepper_make(self, h);
     if (status) return status;
     return zd_is_finite(self->motion->rate.size, self->y) ? ZD_DONE : ZD_NOT_FINITE;

@@ -40,7 +40,7 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
 
 /* ---- a step ---- */
 
-void zd_stepper_remember(zd_stepper *self, double h)
+void zd_stepper_save_start(zd_stepper *self, double h)
 {
     const zd_motion *motion = self->motion;
     const zd_point *point = motion->point;
@@ -109,7 +109,7 @@ zd_state zd_state_take(zd_arena *arena, const zd_motion *motion)
     };
 }
 
-void zd_stepper_keep_place(const zd_stepper *self, zd_state *place)
+void zd_stepper_save_state(const zd_stepper *self, zd_state *place)
 {
     const zd_motion *motion = self->motion;
     place->t = self->t;
@@ -137,7 +137,7 @@ zd_cached_accelerations zd_rates_take(zd_arena *arena, const zd_motion *motion)
     };
 }
 
-void zd_stepper_keep_rates(const zd_stepper *self, zd_cached_accelerations *rates)
+void zd_stepper_save_rates(const zd_stepper *self, zd_cached_accelerations *rates)
 {
     const zd_motion *motion = self->motion;
     const zd_point *point = motion->point;
@@ -158,7 +158,7 @@ void zd_stepper_restore_rates(zd_stepper *self, const zd_cached_accelerations *r
     zd_motion *motion = self->motion;
     if (!rates->are_known || rates->order != motion->path.order) return;
     motion->point->known |= ZD_ACCELERATED;
-    zd_rank_forget_awaited(motion->point);
+    zd_rank_discard_awaited(motion->point);
     motion->path.smallest = rates->smallest;
     zd_copy_all(motion->system.nv, rates->vdot, motion->point->vdot);
     zd_copy_all(zd_constraints(&motion->system), rates->lambda, motion->point->lambda);

@@ -34,7 +34,7 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
 /* Integrates y from t to t + h. */
 int zd_stepper_make(zd_stepper *self, double h);
 /* Saves the start of a step of size h, so that it can be undone. */
-void zd_stepper_remember(zd_stepper *self, double h);
+void zd_stepper_save_start(zd_stepper *self, double h);
 /* Sets the time at the end of a step, before the point is moved to y. */
 void zd_stepper_begin_end(zd_stepper *self, double t1);
 /* Returns point and y to the start of the step. */
@@ -43,11 +43,11 @@ int zd_stepper_return(zd_stepper *self);
 /* Moves point and y to (t, p, v). */
 int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *v);
 zd_state zd_state_take(zd_arena *arena, const zd_motion *motion);
-void zd_stepper_keep_place(const zd_stepper *self, zd_state *place);
+void zd_stepper_save_state(const zd_stepper *self, zd_state *place);
 int zd_stepper_return_to(zd_stepper *self, const zd_state *place);
 /* Save the acceleration at the point, if it is known and depends on p and v only; restore it there. */
 zd_cached_accelerations zd_rates_take(zd_arena *arena, const zd_motion *motion);
-void zd_stepper_keep_rates(const zd_stepper *self, zd_cached_accelerations *rates);
+void zd_stepper_save_rates(const zd_stepper *self, zd_cached_accelerations *rates);
 void zd_stepper_restore_rates(zd_stepper *self, const zd_cached_accelerations *rates);
 
 #endif

@@ -59,9 +59,9 @@ int zd_run_set_goal(zd_run *run, int64_t steps, double t)
     return ZD_DONE;
 }
 
-void zd_run_keep_good(zd_run *run)
+void zd_run_save_good(zd_run *run)
 {
-    zd_stepper_keep_place(&run->stepper, &run->goal.good);
+    zd_stepper_save_state(&run->stepper, &run->goal.good);
     run->goal.good_step = run->loop.step;
     run->goal.good_h = run->loop.control.h;
 }

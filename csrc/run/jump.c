@@ -24,7 +24,7 @@ int zd_jump_begin(zd_run *run)
     zd_closed_form_leave(&run->motion);
     const int status = zd_point_need(run->motion.point, ZD_PHI_T);
     for (int k = 0; !status && k < zd_constraints(point->system); k++) jump->works[k] = point->terms.Phi_t ? point->terms.Phi_t[k] / 2 : 0;
-    zd_stepper_keep_place(&run->stepper, &run->held.start);
+    zd_stepper_save_state(&run->stepper, &run->held.start);
     return status;
 }
 

@@ -308,7 +308,7 @@ static int check_elsewhere(zd_run *run, const workspace *work, const double *p0,
     return status ? status : zd_motion_accelerate(motion);
 }
 
-static void forget(zd_run *run, const void *data)
+static void discard(zd_run *run, const void *data)
 {
     zd_motion *motion = &run->motion;
     zd_closed_form_discard(motion);
@@ -330,7 +330,7 @@ int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const do
     zd_arena arena = {.base = memory};
     const workspace work = lay_out(&arena, &run->motion);
     zd_point *point = run->motion.point;
-    forget(run, data);
+    discard(run, data);
     zd_point_move(point, run->settings.t0, p0, v0);
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T | ZD_M | ZD_POTENTIAL);      /* all terms needed below, in one call */
     if (!status) status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);

@@ -216,7 +216,7 @@ void zd_guard_pause(zd_guard *guard, int64_t step, int is_ample)
     guard->next_check = guard->streak ? step + 1 : step < ZD_CHECK_EVERY ? 2 * step : next_of(guard->pause, step);
 }
 
-void zd_guard_keep(zd_guard *guard, int64_t next_step)
+void zd_guard_save(zd_guard *guard, int64_t next_step)
 {
     keep(guard, next_step);
 }

@@ -43,7 +43,7 @@ int zd_guard_watch(zd_guard *guard, const zd_detour *found, double h);
 /* Schedules the next full check; `is_ample`: all other checked quantities were far from their limits. */
 void zd_guard_pause(zd_guard *guard, int64_t step, int is_ample);
 /* Saves the end of the step as the start of the next, */
-void zd_guard_keep(zd_guard *guard, int64_t next_step);
+void zd_guard_save(zd_guard *guard, int64_t next_step);
 /* or only the acceleration, if the next step gets the full checks. */
 void zd_guard_watch_next(zd_guard *guard);
 double zd_guard_omega_h(const zd_guard *guard);     /* largest omega h of all checked steps */

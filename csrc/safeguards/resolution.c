@@ -80,7 +80,7 @@ ZD_INLINE int counts(double error, double path, double share)
 
 static double forgotten(double steps)
 {
-    return steps > 8 ? steps / 8 * ZD_FORGET : ZD_FORGET;
+    return steps > 8 ? steps / 8 * ZD_DECAY : ZD_DECAY;
 }
 
 static void note(zd_motion *motion, int i, double error)
@@ -97,12 +97,12 @@ ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
     const zd_point *point = self->motion->point;
     const double *inverse_unit = point->inverse_unit;
     const int first = self->step == 0;
-    const double forget = forgotten(steps);
+    const double decay = forgotten(steps);
     int near = 0;
     for (int i = 0; i < n; i++) {
         double led = steps * h / 2 * (self->last->v[i] + point->v[i]) * inverse_unit[i], at = locate(self, i, led);
-        self->error[i] += steps * self->weight * fabs(missed(self, i, h)) * inverse_unit[i] - forget * self->error[i];
-        self->path[i] += fabs(led) - forget * self->path[i];
+        self->error[i] += steps * self->weight * fabs(missed(self, i, h)) * inverse_unit[i] - decay * self->error[i];
+        self->path[i] += fabs(led) - decay * self->path[i];
         if (self->by_velocity) self->place[i] = at;
         self->lowest[i] = first || at < self->lowest[i] ? at : self->lowest[i];
         self->highest[i] = first || at > self->highest[i] ? at : self->highest[i];
@@ -116,13 +116,13 @@ ZD_INLINE void add_up(const int n, zd_resolution *self, double h, double steps)
 /* The same for rotations; the error of an attitude cannot exceed half a turn. */
 static void add_up_turns(zd_resolution *self, double h, double steps)
 {
-    const double forget = forgotten(steps);
+    const double decay = forgotten(steps);
     for (int k = 0; k < self->motion->system.quaternions; k++) {
         const int i = self->motion->system.nv + k;
         double missed, turned;
         zd_turning_compare(&self->turning, k, h, &missed, &turned);
-        self->error[i] += steps * error_by_defect(self->order) * missed - forget * self->error[i];
-        self->path[i] += steps * turned - forget * self->path[i];
+        self->error[i] += steps * error_by_defect(self->order) * missed - decay * self->error[i];
+        self->path[i] += steps * turned - decay * self->path[i];
         double error = fmin(self->error[i], HALF_TURN);
         self->is_ample &= !counts(error, self->path[i], ZD_AMPLE_RESOLUTION);
         if (counts(error, self->path[i], 1)) note(self->motion, i, error);

@@ -48,6 +48,6 @@ int zd_safeguards_judge(zd_safeguards *self, zd_comparison *compare, double h, i
     if (!status) status = compare(self, h, found.moved);
     if (status) return status;
     if (self->guard.watches_step) status = check_step(self, &found, h, next_step - 1, parts);
-    zd_guard_keep(&self->guard, next_step);
+    zd_guard_save(&self->guard, next_step);
     return status;
 }

@@ -38,7 +38,7 @@ static void *take_state(zd_arena *arena, const void *of)
     return zd_take_filled(arena, &state, sizeof state);
 }
 
-static int remember_undivided(zd_step_loop *loop)
+static int save_undivided(zd_step_loop *loop)
 {
     zd_motion *motion = loop->motion;
     const zd_last *last = &loop->stepper->last;
@@ -73,7 +73,7 @@ static int divide(zd_step_loop *loop, int *status)
 
 static int begin_parts(zd_step_loop *loop, int *status)
 {
-    if (remember_undivided(loop)) {
+    if (save_undivided(loop)) {
         *status = ZD_NO_MEMORY;
         return 0;
     }

@@ -8,7 +8,7 @@ zd_step_histogram zd_step_histogram_take(zd_arena *arena, double t0)
     return histogram;
 }
 
-void zd_step_histogram_keep(zd_step_histogram *histogram, double t)
+void zd_step_histogram_save(zd_step_histogram *histogram, double t)
 {
     if (histogram->count == ZD_STEP_HISTOGRAM) {
         for (int i = 0; 2 * i < ZD_STEP_HISTOGRAM; i++) histogram->t[i] = histogram->t[2 * i];

@@ -15,11 +15,11 @@ typedef struct zd_step_histogram {
 } zd_step_histogram;
 
 zd_step_histogram zd_step_histogram_take(zd_arena *arena, double t0);
-void zd_step_histogram_keep(zd_step_histogram *histogram, double t);
+void zd_step_histogram_save(zd_step_histogram *histogram, double t);
 void zd_step_histogram_half(const zd_step_histogram *histogram, double *from, double *to);   /* shortest interval with half of the steps */
 static inline void zd_step_histogram_step(zd_step_histogram *histogram, double t)
 {
-    if (--histogram->left == 0) zd_step_histogram_keep(histogram, t);
+    if (--histogram->left == 0) zd_step_histogram_save(histogram, t);
 }
 
 #endif

@@ -33,7 +33,7 @@ void zd_open_lanes_advance(zd_open_lanes *self, int64_t steps, double t);
 /* Brings run i, which is behind its lane, to the present state; returns its status. */
 int zd_open_lanes_update_run(zd_open_lanes *self, int64_t i);
 /* Run i is replaced by another one. */
-void zd_open_lanes_forget(zd_open_lanes *self, int64_t i);
+void zd_open_lanes_discard(zd_open_lanes *self, int64_t i);
 
 /* ---- many runs of one system, whose numbers differ ---- */
 

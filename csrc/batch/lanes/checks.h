@@ -34,15 +34,15 @@ ZD_KERNEL zd_condition ZD_NAMED(counts)(zd_real error, zd_real path, double shar
 /* Accumulates error and path of coordinate i in the lanes checked; returns whether the error is well below the significant ones. */
 ZD_KERNEL zd_condition ZD_NAMED(add_up)(zd_lanes *self, int i, zd_condition checks, zd_real h, zd_real steps)
 {
-    const zd_real forget = ZD_WHERE(steps > 8.0, steps / 8 * ZD_FORGET, ZD_SPLAT(ZD_FORGET)), unit = REAL(self->inverse_unit)[i];
+    const zd_real decay = ZD_WHERE(steps > 8.0, steps / 8 * ZD_DECAY, ZD_SPLAT(ZD_DECAY)), unit = REAL(self->inverse_unit)[i];
     const zd_condition first = *REAL(self->last_checked) == 0.0;
     const zd_real led = steps * h / 2 * (REAL(self->y0)[self->nq + i] + REAL(self->y)[self->nq + i]) * unit;
     const zd_real at = self->has_A ? REAL(self->place)[i] + led : REAL(self->y)[i] * unit;
     zd_stored *all_errors = REAL(self->error) + i, *all_paths = REAL(self->path) + i;
     zd_stored *lowest = REAL(self->lowest) + i, *highest = REAL(self->highest) + i;
     const zd_real error =
-        *all_errors + (steps * self->weight * ZD_NAMED(size_of)(ZD_NAMED(missed)(self, i, h)) * unit - forget * *all_errors);
-    const zd_real path = *all_paths + (ZD_NAMED(size_of)(led) - forget * *all_paths);
+        *all_errors + (steps * self->weight * ZD_NAMED(size_of)(ZD_NAMED(missed)(self, i, h)) * unit - decay * *all_errors);
+    const zd_real path = *all_paths + (ZD_NAMED(size_of)(led) - decay * *all_paths);
     const zd_real low = ZD_WHERE(first | (at < *lowest), at, *lowest), high = ZD_WHERE(first | (at > *highest), at, *highest);
     *all_errors = ZD_WHERE(checks, error, *all_errors);
     *all_paths = ZD_WHERE(checks, path, *all_paths);

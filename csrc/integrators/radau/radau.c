@@ -76,7 +76,7 @@ static void start(radau *self)
 }
 
 /* The step before is the one last made, where this begins at its end; or still the one before that, where it begins at its beginning anew. */
-static void remember(radau *self, double t, double h, const zd_rate *rate)
+static void save_step(radau *self, double t, double h, const zd_rate *rate)
 {
     zd_radau_newton *it = &self->newton;
     self->filters = !it->rate || t == it->t0;
@@ -147,7 +147,7 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
 {
     radau *self = memory;
     zd_radau_newton *it = &self->newton;
-    remember(self, t, h, rate);
+    save_step(self, t, h, rate);
     it->rate = rate;
     it->y0 = y;
     int status = zd_rate_of_beginning(rate, t, y, self->f0);

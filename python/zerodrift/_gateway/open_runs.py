@@ -164,7 +164,7 @@ class ManyOpenRuns:
         self._runs[i], self._pointers[i], self.status[i] = run, run.c, 0
         if lanes := self._lanes_of(i):
             self._numbers[i] = run.lane_numbers
-            lib.zd_open_lanes_forget(lanes, i)
+            lib.zd_open_lanes_discard(lanes, i)
         lib.zd_open_runs_read(self.c, i, 1)
 
     def advance(self, part: int, steps: int, t: float) -> None:
