@@ -108,8 +108,8 @@ typedef struct zd_path {
     double *dp, *dv;        /* (nq,), (nv,): corrections of one iteration */
     double *corrected;      /* (nq,) or (nv,): p or v after it */
     double *allowed;        /* (mh,): largest |Phi| that meets the projection's tolerance */
-    int lands;              /* true if one function projects and computes the acceleration at the end of a step */
-    int is_short;           /* true if a step needs nothing else, with a state (p, v), pdot = v, that equals the point's at its ends */
+    int finishes;              /* true if one function projects and computes the acceleration at the end of a step */
+    int is_plain;           /* true if a step needs nothing else, with a state (p, v), pdot = v, that equals the point's at its ends */
     int64_t energy_skipped; /* counters at the start of the step, restored if it is repeated on the matrix path */
     int64_t energy_corrections;
     double energy_corrected;

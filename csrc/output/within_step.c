@@ -47,7 +47,7 @@ void zd_output_save_end(zd_output *self)
     copy_end(self);
     zd_checkpoint_set(&self->checkpoint, self->stepper);
     self->is_within = 1;
-    self->is_prepared = self->is_short = 0;
+    self->is_prepared = self->is_plain = 0;
 }
 
 static int return_to_end(zd_output *self)
@@ -62,8 +62,8 @@ static int return_to_end(zd_output *self)
 int zd_output_return_to_end(zd_output *self)
 {
     self->is_within = 0;
-    if (!self->is_short) return return_to_end(self);
-    zd_short_return_to_end(self->stepper, self->after.t, &self->rates);
+    if (!self->is_plain) return return_to_end(self);
+    zd_plain_return_to_end(self->stepper, self->after.t, &self->rates);
     return ZD_DONE;
 }
 
@@ -80,12 +80,12 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
 {
     zd_stepper *stepper = self->stepper;
     self->is_within = 1;
-    self->is_short = may_stay && zd_short_may_stay(stepper);
+    self->is_plain = may_stay && zd_plain_may_stay(stepper);
     self->after.t = stepper->t;
-    if (!self->is_short) copy_end(self);
+    if (!self->is_plain) copy_end(self);
     if (stepper->motion->formulation->update) zd_checkpoint_set_variables(&self->checkpoint, stepper);
     int status = self->is_prepared ? ZD_DONE : zd_dense_output_prepare(stepper);
-    if (self->is_short) zd_short_keep_rates(stepper, &self->rates);     /* dense output reads them in place */
+    if (self->is_plain) zd_plain_save_rates(stepper, &self->rates);     /* dense output reads them in place */
     self->is_prepared = !status;
     return !status || zd_callable_failed(stepper->motion, status) ? status : go_on_with_shorter_steps(self);
 }
@@ -107,7 +107,7 @@ int zd_output_make_shorter(zd_output *self, double t)
 int zd_output_go(zd_output *self, double t)
 {
     if (self->is_prepared) {
-        int status = zd_dense_output_move(self->stepper, t, self->is_short ? self->y : self->stepper->y);
+        int status = zd_dense_output_move(self->stepper, t, self->is_plain ? self->y : self->stepper->y);
         if (!status || zd_callable_failed(self->stepper->motion, status)) return status;
         status = go_on_with_shorter_steps(self);
         if (status) return status;

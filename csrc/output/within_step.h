@@ -24,7 +24,7 @@ typedef struct zd_output {
     int is_open;            /* true while samples within the step remain */
     int is_prepared;          /* true if its dense output is prepared */
     int is_within;            /* true while the motion is not at the end of the step, which is saved */
-    int is_short;           /* true while dense output is evaluated into y, the stepper's state staying that of the end */
+    int is_plain;           /* true while dense output is evaluated into y, the stepper's state staying that of the end */
     double *y;              /* (size,) state from dense output */
 } zd_output;
 

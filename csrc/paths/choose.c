@@ -107,12 +107,12 @@ static void use(zd_motion *motion, const zd_elimination *order)
     motion->path.order = order;
     motion->path.continues = 0;
     if (order) discard_pivots(motion);
-    motion->path.lands = order && order->finish && ends_with_projection(motion);
+    motion->path.finishes = order && order->finish && ends_with_projection(motion);
     for (int k = 0; k < motion->system.mh; k++) motion->path.allowed[k] = motion->target.tolerance * motion->point->size[k];
     motion->equations = order ? motion->path.equations : &zd_equations_by_matrices;
     zd_motion_describe_rate(motion);
     motion->rate.closed_form = motion->is_stabilized || motion->path.embeds || motion->rate.size > motion->formulation_size ? NULL : order;
-    motion->path.is_short = motion->path.lands && motion->target.every == 1 && motion->rate.closed_form && !motion->point->terms.A
+    motion->path.is_plain = motion->path.finishes && motion->target.every == 1 && motion->rate.closed_form && !motion->point->terms.A
         && !motion->system.quaternions;
 }
 

@@ -23,7 +23,7 @@ static inline const zd_evaluation_path *zd_path_of_state(const zd_motion *motion
 /* The path of a step of the run. */
 static inline const zd_evaluation_path *zd_path_of(const zd_motion *motion)
 {
-    return motion->path.is_short ? &zd_closed_form_path : zd_path_of_state(motion);
+    return motion->path.is_plain ? &zd_closed_form_path : zd_path_of_state(motion);
 }
 
 /* Change to the matrix path: for a part of a step; for a step from its start, with the counters of the energy correction restored; for

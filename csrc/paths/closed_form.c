@@ -302,7 +302,7 @@ static void exchange_rates(zd_motion *motion, zd_cached_accelerations *rates)
     zd_exchange(&motion->path.pivots, &rates->pivots);
 }
 
-void zd_short_keep_rates(const zd_stepper *stepper, zd_cached_accelerations *rates)
+void zd_plain_save_rates(const zd_stepper *stepper, zd_cached_accelerations *rates)
 {
     rates->smallest = stepper->motion->path.smallest;
     exchange_rates(stepper->motion, rates);
@@ -314,7 +314,7 @@ ZD_INLINE void return_to_end(const int n, const double *y, const zd_point *point
     zd_copy_pairs(n, y + n, point->v);
 }
 
-void zd_short_return_to_end(zd_stepper *stepper, double t, zd_cached_accelerations *rates)
+void zd_plain_return_to_end(zd_stepper *stepper, double t, zd_cached_accelerations *rates)
 {
     zd_motion *motion = stepper->motion;
     motion->point->t = stepper->t = t;

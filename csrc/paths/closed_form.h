@@ -12,13 +12,13 @@ int zd_closed_form_accelerate(zd_motion *motion, int (*evaluate)(zd_motion *moti
  * caller copies them there. */
 int zd_closed_form_finish(zd_motion *motion, double t, double *p, double *v);
 /* True if the stepper's state can stay at the end of the step while the point is moved within it. */
-static inline int zd_short_may_stay(const zd_stepper *stepper)
+static inline int zd_plain_may_stay(const zd_stepper *stepper)
 {
-    return stepper->motion->path.is_short && (stepper->motion->point->known & ZD_ACCELERATED);
+    return stepper->motion->path.is_plain && (stepper->motion->point->known & ZD_ACCELERATED);
 }
 /* Projects a state y within an accepted step and moves the point there; saves and restores accelerations at the end of the step. */
 int zd_plain_project_within(zd_stepper *stepper, double t, double *y);
-void zd_short_keep_rates(const zd_stepper *stepper, zd_cached_accelerations *rates);
-void zd_short_return_to_end(zd_stepper *stepper, double t, zd_cached_accelerations *rates);
+void zd_plain_save_rates(const zd_stepper *stepper, zd_cached_accelerations *rates);
+void zd_plain_return_to_end(zd_stepper *stepper, double t, zd_cached_accelerations *rates);
 
 #endif

@@ -60,7 +60,7 @@ int zd_project_in_closed_form(zd_motion *motion, int64_t step, int forced)
     if (!target->every || !(forced || zd_is_one_of(target->every, step))) return ZD_DONE;
     if (!target->in_mass_metric) return zd_motion_project(motion, step, forced);
     if (!zd_constraints(&motion->system) || !(positions || velocities)) return ZD_DONE;
-    if (motion->path.lands) return zd_closed_form_finish(motion, point->t, point->p, point->v);
+    if (motion->path.finishes) return zd_closed_form_finish(motion, point->t, point->p, point->v);
     const int status = correct_both(motion, positions, velocities);
     /* The next correction needs the dependent velocities at these positions. */
     return !status && motion->path.embeds && motion->corrections > 1 ? zd_embed_update(motion) : status;

@@ -37,7 +37,7 @@ int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t ne
 /* True if the system has closed-form functions for the formulation; if one of them projects and computes the acceleration at the end of a
  * step. */
 static inline int zd_has_closed_form(const zd_motion *motion) { return motion->path.closed_form != NULL; }
-static inline int zd_finishes_in_closed_form(const zd_motion *motion) { return motion->path.lands; }
+static inline int zd_finishes_in_closed_form(const zd_motion *motion) { return motion->path.finishes; }
 /* True if a function of the system failed for good: a closed-form function that fails is replaced by the matrix path, and terms may be
  * finite at other states. */
 static inline int zd_callable_failed(const zd_motion *motion, int status)

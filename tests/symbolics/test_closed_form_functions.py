@@ -102,7 +102,7 @@ def assert_near(found, expected, size):
     assert np.abs(found - expected).max(initial=0.0) <= size * max(1.0, np.abs(expected).max(initial=0.0))
 
 
-def assert_lands(closed_form, i, t, p, v, corrected):
+def assert_finishes(closed_form, i, t, p, v, corrected):
     """A step ends with a correction, and then the acceleration at the corrected velocities."""
     status, finished, found = closed_form.finish(i, t, p, v, np.inf)
     assert status == 0
@@ -151,7 +151,7 @@ def test_direct_functions_solve_the_equations(seed):
             zero = np.zeros(system.nv)
             assert_near(c["dv"], solved(e, zero, e.C @ v + e.Phi_t)[0], error)
             assert_near(c["dp"], e.A @ solved(e, zero, np.concatenate([e.Phi, np.zeros(system.mn)]))[0], error)
-            assert_lands(closed_form, i, t, p, v, c)
+            assert_finishes(closed_form, i, t, p, v, c)
     assert compared >= 3
 
 

@@ -218,17 +218,17 @@ def _statements(writer: LaneWriter, numbers: list[int]) -> list[str]:
 def _locals(program: _Program, data: str) -> list[str]:
     used = [operation.arguments for number, operation in enumerate(program.lowering.operations)
             if operation.code == "leaf" and program.users[number]]
-    lands, embeds = ("Phi" in program.outputs and name in program.outputs for name in ("vdot", "D"))
+    finishes, embeds = ("Phi" in program.outputs and name in program.outputs for name in ("vdot", "D"))
     inputs = {"k": f"({data})", "input": "at_inputs", "time": "at_time", "p": "at_p"}
-    inputs |= {"allowed": "where_allowed"} if lands else {"v": "at_v"}
-    if "vdot" in program.outputs and (embeds or not lands):
+    inputs |= {"allowed": "where_allowed"} if finishes else {"v": "at_v"}
+    if "vdot" in program.outputs and (embeds or not finishes):
         inputs["added"] = "with_added"
-    outputs = ["v"] * lands + ["Phi", "dp"] * ("Phi" in program.outputs) + ["D"] * embeds + (
+    outputs = ["v"] * finishes + ["Phi", "dp"] * ("Phi" in program.outputs) + ["D"] * embeds + (
         ["pdot", "vdot", "lambda", "power", "pivots"] if "vdot" in program.outputs else ["dv"])
     lines = [f"const zd_stored *restrict const {name} = (const zd_stored *){of};" for name, of in inputs.items()]
     lines += [f"zd_stored *restrict const {name} = (zd_stored *)to_{name};" for name in outputs]
     lines += ["const zd_real t = *time;", f"{', '.join(f'(void){name}' for name in ('t', *inputs, *outputs))};"]
-    for kind, value in (("p", "p[{0}]"), ("before" if lands else "v", "v[{0}]"),
+    for kind, value in (("p", "p[{0}]"), ("before" if finishes else "v", "v[{0}]"),
                         ("added", "added ? (zd_real)added[{0}] : ZD_SPLAT(0.0)")):
         indices = (range(len(program.outputs["dv"])) if kind == "before" else
                    sorted(index for leaf, index in used if leaf == kind))
