@@ -110,7 +110,7 @@ static void go_to_states(zd_lane_group *self, int lane)
 }
 
 /* Number of occurrences of the event that may be located in the step: of the one that ends the run, those before. */
-static int64_t most_of(const zd_lane_group *self, const zd_lane_run *run)
+static int64_t max_samples_of(const zd_lane_group *self, const zd_lane_run *run)
 {
     const zd_lane_search *search = &run->search;
     if (!search->is_cut || search->event != search->cut.event) return ZD_MOST_POINTS;
@@ -125,7 +125,7 @@ static int find_change(const zd_lane_group *self, zd_lane_run *run)
     const int direction = self->batch->settings->events->direction[search->event];
     const double *g = zeros->g;
     while (search->point < zeros->count && !zd_passes_zero(g[search->point - 1], g[search->point], direction)) search->point++;
-    return search->point < zeros->count && search->number < most_of(self, run);
+    return search->point < zeros->count && search->number < max_samples_of(self, run);
 }
 
 /* Proceeds from this event and point to the first that has to be located; if there is none, to the states. */

@@ -23,9 +23,9 @@ static void save_sample(zd_lane_group *self, int lane)
     if (batch->p) store(lanes, lane, lanes->y_sample, lanes->nq, batch->p + row * entries_of_p(self));
     if (batch->v) store(lanes, lane, lanes->y_sample + entries_of_p(self) * lanes->lanes, lanes->nv, batch->v + row * lanes->nv);
     if (batch->input) batch->input[row] = lanes->has_input ? zd_lane_number(lanes, lanes->y_sample, lanes->size - 1, lane) : 0;
-    if (batch->iterations) batch->iterations[row] = (int)lanes->most_iterations[lane];
+    if (batch->iterations) batch->iterations[row] = (int)lanes->peak_iterations[lane];
     if (batch->energy_skipped) batch->energy_skipped[row] = run->of_energy.skipped_since_sample;
-    lanes->most_iterations[lane] = 0;
+    lanes->peak_iterations[lane] = 0;
     run->of_energy.skipped_since_sample = 0;
     if (batch->multipliers) store(lanes, lane, lanes->lambda_sample, lanes->m, batch->multipliers + row * lanes->m);
 }

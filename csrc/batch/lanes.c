@@ -63,7 +63,7 @@ static double *take(zd_lanes *self, zd_arena *arena, int64_t count)
 
 static void take_zeros(zd_lanes *self, zd_arena *arena)
 {
-    double **const ones[] = {&self->number, &self->after_rejection, &self->streak, &self->iterations, &self->rejected, &self->most_iterations,
+    double **const ones[] = {&self->number, &self->after_rejection, &self->streak, &self->iterations, &self->rejected, &self->peak_iterations,
                              &self->leaves, &self->is_long, &self->check_soon, &self->last_checked, &self->at_limit, &self->below_limit,
                              &self->stiff, &self->fastest, &self->has_event, &self->is_wanted, &self->next_number, &self->unresolved,
                              &self->unresolved_time, &self->part_error, &self->part, &self->power};
@@ -156,7 +156,7 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
         .steps = (double)run->loop.steps,
         .rtol = settings->rtol, .atol = settings->atol, .longest = settings->max_step > 0 ? settings->max_step : INFINITY,
         .tiny = 16 * 0x1p-52 * fmax(fabs(settings->t0), fabs(settings->t1)),
-        .most_steps = settings->max_steps ? (double)settings->max_steps : INFINITY, .save_every = (double)settings->save_every,
+        .max_steps = settings->max_steps ? (double)settings->max_steps : INFINITY, .save_every = (double)settings->save_every,
         .decay = run->stepper.integrator->decay,
         .every = run->motion.target.every,
         .astray = guard->astray, .nearby = guard->nearby, .limit = guard->limit,

@@ -299,7 +299,7 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
 int zd_limits_find(zd_point *point)
 {
     zd_selection *self = point->rank->selection;
-    int wanted = self->rank->most_rows - self->independent, found;
+    int wanted = self->rank->max_rank - self->independent, found;
     if (!(point->system->provides & ZD_XI)) return ZD_DONE;
     if (!self->limits) self->limits = zd_store_take(self->rank->store, take, point->system);
     if (!self->limits) return ZD_NO_MEMORY;

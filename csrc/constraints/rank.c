@@ -30,8 +30,8 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large)
         .n = system->nv,
         .m = (int)m,
         .mh = system->mh,
-        .most_rows = (int)m,
-        .most_holonomic = system->mh,
+        .max_rank = (int)m,
+        .max_rank_holonomic = system->mh,
         .is_large = is_large,
         .start_square = zd_take_doubles(arena, m),
         .terms_square = zd_take_doubles(arena, m),
@@ -134,11 +134,11 @@ static int orthogonalize(const zd_point *point, const double *L)
     zd_selection *self = point->rank->selection;
     int rank = 0, chosen;
     set_rows(point, L);
-    while (rank < self->rank->most_rows && rank < self->rank->most_holonomic && (chosen = choose_row(self, 0, self->mh)) >= 0) {
+    while (rank < self->rank->max_rank && rank < self->rank->max_rank_holonomic && (chosen = choose_row(self, 0, self->mh)) >= 0) {
         project_out(self, chosen, rank);
         self->row[rank++] = chosen;
     }
-    while (rank < self->rank->most_rows && (chosen = choose_row(self, self->mh, self->m)) >= 0) {
+    while (rank < self->rank->max_rank && (chosen = choose_row(self, self->mh, self->m)) >= 0) {
         project_out(self, chosen, rank);
         self->row[rank++] = chosen;
     }
@@ -216,8 +216,8 @@ static void set_shares(zd_selection *self, int rank)
 
 void zd_rank_use_all(zd_point *point)
 {
-    point->rows = point->rank->is_large ? point->rank->most_rows : point->rank->m;
-    point->holonomic = point->rank->is_large ? point->rank->most_holonomic : point->rank->mh;
+    point->rows = point->rank->is_large ? point->rank->max_rank : point->rank->m;
+    point->holonomic = point->rank->is_large ? point->rank->max_rank_holonomic : point->rank->mh;
     point->C = point->terms.C;
     point->rank->lost = 0;
 }

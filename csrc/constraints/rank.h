@@ -17,7 +17,7 @@ typedef struct zd_selection zd_selection;
 /* Rank of C: state of one run. */
 struct zd_rank {
     int n, m, mh;
-    int most_rows, most_holonomic;  /* maximum number of independent constraints, all and holonomic; below m, mh if some are redundant */
+    int max_rank, max_rank_holonomic;  /* maximum number of independent constraints, all and holonomic; below m, mh if some are redundant */
     int is_large;           /* 1: the declared structure exceeds ZD_MAX_DENSE_ROWS; dependence is checked at the start only */
     unsigned char *left_out;    /* (m,) if is_large: 1 for constraints found redundant at the start; NULL: none */
     int may_be_deficient;   /* 1: fewer independent constraints are tolerated at a point; 0: they raise ZD_BIFURCATION */

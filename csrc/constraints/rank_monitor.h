@@ -34,7 +34,7 @@ int zd_rank_monitor_is_doubtful(zd_rank_monitor *self, zd_point *point);
 static inline void zd_rank_monitor_compare(zd_point *point)
 {
     const zd_rank *rank = point->rank;
-    if (point->layout && rank->monitor && rank->most_rows == rank->m && rank->m <= rank->n)
+    if (point->layout && rank->monitor && rank->max_rank == rank->m && rank->m <= rank->n)
         (void)zd_rank_monitor_is_doubtful(rank->monitor, point);
 }
 

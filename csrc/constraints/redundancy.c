@@ -133,8 +133,8 @@ static int classify(zd_point *point, double *sample)
     int others = self->m - point->rows, holonomic = self->mh - point->holonomic;     /* these come first */
     int curved = count_curved(point, others, sample), curved_holonomic = curved > 0 ? count_curved(point, holonomic, sample) : 0;
     if (curved < 0 || curved_holonomic < 0) return ZD_CALLBACK;
-    self->rank->most_rows = point->rows + curved;
-    self->rank->most_holonomic = point->holonomic + curved_holonomic;
+    self->rank->max_rank = point->rows + curved;
+    self->rank->max_rank_holonomic = point->holonomic + curved_holonomic;
     if (curved) return ZD_DONE;
     for (int d = point->rows; d < self->m; d++) self->redundant[self->row[d]] = 1;
     return ZD_DONE;
@@ -173,7 +173,7 @@ int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
     if (status || point->rows == self->m) return status;
     status = point->system->provides & ZD_XI ? classify_dependent(point) : ZD_DONE;
     if (status) return status;
-    self->was_deficient = point->rows < self->most_rows;
+    self->was_deficient = point->rows < self->max_rank;
     if (self->was_deficient && !self->may_be_deficient) return ZD_BIFURCATION;
     return self->was_deficient ? zd_rows_find_again(point) : ZD_DONE;
 }

@@ -206,8 +206,8 @@ static int note(search *self, zd_point *point)
     rank->left_out = zd_store_take(rank->store, take_note, point->system);
     if (!rank->left_out) return ZD_NO_MEMORY;
     memcpy(rank->left_out, self->candidate, (size_t)zd_constraints(point->system));
-    rank->most_rows -= count;
-    rank->most_holonomic -= holonomic;
+    rank->max_rank -= count;
+    rank->max_rank_holonomic -= holonomic;
     return classify(self, point);
 }
 
@@ -216,13 +216,13 @@ static int note(search *self, zd_point *point)
 static int find_candidates(search *self, const zd_point *point, double little)
 {
     for (;;) {
-        const int is_whole = self->whole.most_touchers == INT_MAX;
+        const int is_whole = self->whole.max_touchers == INT_MAX;
         if (!self->weighted) self->weighted = zd_weighted_create(&self->store, &self->whole);
         if (!self->weighted) return ZD_NO_MEMORY;
         const int of_welds = zd_weighted_leave_out(self->weighted, point->terms.C, self->U, little, self->candidate);
         if (of_welds < 0) return ZD_NO_MEMORY;
         if (!of_welds || is_whole) return ZD_DONE;
-        self->whole.most_touchers = INT_MAX;
+        self->whole.max_touchers = INT_MAX;
         self->weighted = NULL;
     }
 }

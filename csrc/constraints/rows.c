@@ -20,7 +20,7 @@ static void *take_kept(zd_arena *arena, const void *system)
 static int keep_selection(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;
-    const int is_whole = self->is_started && point->rows == self->most_rows && self->most_rows < self->m && !self->lost && !is_ill;
+    const int is_whole = self->is_started && point->rows == self->max_rank && self->max_rank < self->m && !self->lost && !is_ill;
     if (self->is_auxiliary) return ZD_DONE;
     if (self->kept) self->kept->is_known = 0;
     if (!is_whole) return ZD_DONE;
@@ -43,11 +43,11 @@ static int reduce(zd_point *point)
     const int by_limits = self->is_started && self->may_be_deficient, was_ill_conditioned = self->was_ill_conditioned;
     self->was_ill_conditioned = 0;
     zd_rank_choose(point, by_limits ? region : SQUARED);
-    if (by_limits && point->rows < self->most_rows) {
+    if (by_limits && point->rows < self->max_rank) {
         status = zd_limits_find(point);
         if (!status && !self->lost) zd_rank_choose(point, SQUARED);
     }
-    int is_deficient = self->lost || point->rows < self->most_rows;
+    int is_deficient = self->lost || point->rows < self->max_rank;
     self->was_deficient |= is_deficient;
     if (!status) status = keep_selection(point, self->was_ill_conditioned);
     self->was_ill_conditioned |= was_ill_conditioned;
@@ -139,7 +139,7 @@ static int find_any(zd_point *point)
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
     if (use_kept(point)) return ZD_DONE;
-    if (self->most_rows < self->m || self->m > self->n) return reduce(point);
+    if (self->max_rank < self->m || self->m > self->n) return reduce(point);
     status = need_monitor(self, point->system);
     if (status) return status;
     if (zd_rank_monitor_is_doubtful(self->monitor, point)) return reduce(point);
@@ -151,7 +151,7 @@ int zd_rows_find(zd_point *point)
 {
     zd_rank *self = point->rank;
     if (point->known & ZD_RANKED) return ZD_DONE;
-    const int are_few = self->m <= ZD_FEW_ROWS && self->m == self->most_rows && self->m <= self->n && !point->layout;
+    const int are_few = self->m <= ZD_FEW_ROWS && self->m == self->max_rank && self->m <= self->n && !point->layout;
     if (!are_few) return find_any(point);
     int status = zd_point_need(point, ZD_C);
     if (status) return status;

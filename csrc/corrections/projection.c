@@ -208,7 +208,7 @@ static int correct_positions(projection *self, zd_motion *motion)
     /* Near a bifurcation C is small, so that a violation within the tolerance may belong to a p far from the constraints: one more
      * iteration is made there. */
     const zd_rank *rank = motion->point->rank;
-    if (!status && rank->was_ill_conditioned && rank->most_rows == rank->m) return improve_position(&problem);
+    if (!status && rank->was_ill_conditioned && rank->max_rank == rank->m) return improve_position(&problem);
     if (!status || status == ZD_CALLBACK || status == ZD_NO_MEMORY || !problem.has_moved) return status;
     newton.improve = improve_and_save;
     newton.contraction = 0;

@@ -123,7 +123,7 @@ static int has_metric(const schur *self, const double *M)
 static int factor_large(schur *self, zd_point *point)
 {
     const zd_rank *rank = point->rank;
-    const int may_show_rank = !(point->known & ZD_RANKED) && rank->most_rows == rank->m && rank->m > ZD_FEW_ROWS && rank->m <= self->most
+    const int may_show_rank = !(point->known & ZD_RANKED) && rank->max_rank == rank->m && rank->m > ZD_FEW_ROWS && rank->m <= self->most
                        && !point->layout;
     if (may_show_rank) {
         zd_shares shares = orthogonalize_all(self, point, rank->m, point->terms.C);
@@ -183,8 +183,8 @@ static int factor_coupled(schur *self, zd_point *point)
 {
     const zd_rank *rank = point->rank;
     int status = ZD_DEPENDENT_ROWS;
-    if (rank->most_rows < rank->m) return factor_chosen(self, point);
-    if (self->blocks && rank->most_rows == rank->m && rank->m <= rank->n && !(point->known & ZD_RANKED && !zd_rank_is_full(point)))
+    if (rank->max_rank < rank->m) return factor_chosen(self, point);
+    if (self->blocks && rank->max_rank == rank->m && rank->m <= rank->n && !(point->known & ZD_RANKED && !zd_rank_is_full(point)))
         status = zd_schur_blocks_factor(self->blocks, point);
     if (status && status != ZD_DEPENDENT_ROWS) return status;
     self->is_coupled = !status && self->blocks->share > SMALL_PIVOT;

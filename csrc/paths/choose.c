@@ -183,7 +183,7 @@ static int find_embedding(zd_motion *motion)
 int zd_closed_form_choose(zd_motion *motion)
 {
     const zd_path *path = &motion->path;
-    int all_count = motion->point->rank->most_rows == zd_constraints(&motion->system);
+    int all_count = motion->point->rank->max_rank == zd_constraints(&motion->system);
     /* Usually the order of the previous step, which ended at this point. */
     if (all_count && path->order == path->first && (motion->point->known & ZD_ACCELERATED) && path->smallest >= ZD_LARGE_PIVOT) begin(motion);
     else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, ZD_LARGE_PIVOT) ||

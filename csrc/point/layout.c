@@ -130,7 +130,7 @@ const zd_layout *zd_layout_take(zd_arena *arena, const zd_system *system)
     zd_layout self = {
         .blocks = blocks,
         .groups = groups,
-        .most_touchers = MOST_TOUCHERS,
+        .max_touchers = MOST_TOUCHERS,
         .coordinate_at = take_ints(arena, blocks + 1),
         .velocity_at = take_ints(arena, blocks + 1),
         .A_at = take_ints(arena, blocks + 1),

@@ -17,7 +17,7 @@ typedef struct zd_layout {
     int *touched_at, *touched;  /* (groups + 1,), (touched_at[groups],): the blocks that each group touches, increasing */
     int *toucher_at;        /* (blocks + 1,): offsets of each block in the next two arrays */
     int *toucher, *toucher_offset;      /* the groups that touch a block, increasing, and the offset of its entries in their rows */
-    int most_touchers;      /* largest number of groups on a block that S(W) does not split into welded parts: see weighted.c */
+    int max_touchers;      /* largest number of groups on a block that S(W) does not split into welded parts: see weighted.c */
     int *column_at, *column;    /* (groups + 1,), (column_at[groups],): the velocities of the entries in the rows of each group */
 } zd_layout;
 

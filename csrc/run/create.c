@@ -159,8 +159,8 @@ zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double
         if (!*status) *status = find_rank(&run->motion, settings->on_singular);
         const zd_rank *rank = run->motion.point->rank;
         int laid = rows, laid_holonomic = holonomic;
-        run->motion.statistics.rank = rows = smaller(rank->most_rows, system->nv);
-        holonomic = smaller(rank->most_holonomic, rows);
+        run->motion.statistics.rank = rows = smaller(rank->max_rank, system->nv);
+        holonomic = smaller(rank->max_rank_holonomic, rows);
         if (*status || (rows == laid && holonomic == laid_holonomic)) return run;
         zd_run_free(run);
     }

@@ -62,7 +62,7 @@ zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *
 
 int zd_crossing_is_at_one(const zd_point *point)
 {
-    return point->rank->lost || point->rows < point->rank->most_rows;
+    return point->rank->lost || point->rows < point->rank->max_rank;
 }
 
 ZD_INLINE void keep_rows(const int n, const int m, const zd_point *point, double *C)

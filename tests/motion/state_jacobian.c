@@ -43,8 +43,8 @@ int begin(const zd_system *system, int formulation, double t, const double *p, c
         if (!status && zd_constraints(system)) status = zd_redundancy_find(motion.point, ZD_STOP);
         if (status) return status;
         const zd_rank *rank = motion.point->rank;
-        independent.mh = rank->most_holonomic;
-        independent.mn = rank->most_rows - rank->most_holonomic;
+        independent.mh = rank->max_rank_holonomic;
+        independent.mn = rank->most_rows - rank->max_rank_holonomic;
     }
     zd_motion_attach(&motion, state);
     int status = place(t, p, v);

@@ -32,7 +32,7 @@ static int follow(const zd_system *system, int count, const double *M, double *C
     zd_rank_monitor *monitor = take_monitor(&arena, system);
     schur *solver = take(&arena, system, NULL);
     double start_square[MOST];
-    zd_rank rank = {.n = n, .m = m, .mh = m, .most_rows = m, .most_holonomic = m, .start_square = start_square};
+    zd_rank rank = {.n = n, .m = m, .mh = m, .max_rank = m, .max_rank_holonomic = m, .start_square = start_square};
     zd_point point = {.system = system, .rank = &rank, .terms = {.C = C}};
     if (zd_cholesky(n, M, solver->L) < n) return 1;
     for (int i = 0; i < count && read_doubles(C, (size_t)(m * n)); i++) {

@@ -146,7 +146,7 @@ ZD_KERNEL zd_condition ZD_NAMED(step)(zd_lanes *self)
     failed |= accepted & ~ZD_NAMED(is_accepted)(self, taken, &speed, &continues);
     accepted &= ~failed;
     ZD_NAMED(keep)(self, accepted, t1, speed, continues);
-    if (!self->is_fixed) failed |= active & (~(*REAL(self->h) > self->tiny) | (*REAL(self->number) > self->most_steps));
+    if (!self->is_fixed) failed |= active & (~(*REAL(self->h) > self->tiny) | (*REAL(self->number) > self->max_steps));
     *REAL(self->leaves) = ZD_WHERE(failed, ZD_SPLAT(1.0), *REAL(self->leaves));
     const zd_condition is_due = ZD_NAMED(is_due)(self);
     if (!self->watches) return failed | (accepted & (is_due | HOLDS(self->is_long)));

@@ -37,7 +37,7 @@ typedef struct zd_lanes {
     int is_fixed;
     int rounds_products;                /* true if sums over stages have the bits of a single run, whose products are not fused */
     double t0, end, step, steps;        /* steps: number of fixed steps */
-    double rtol, atol, longest, tiny, most_steps, save_every, decay;
+    double rtol, atol, longest, tiny, max_steps, save_every, decay;
     double every;                       /* number of steps between projections; the last step is projected, too */
     double astray, nearby, limit;       /* limits of safeguards/guard.h */
     double weight;                      /* weight of safeguards/resolution.h for this order of the method */
@@ -71,7 +71,7 @@ typedef struct zd_lanes {
     double *allowed, *inverse_size;         /* (mh,): tolerance, and 1 / size of Phi */
     double *scale;          /* (orders, nv): scales of the pivots */
     double *iterations, *rejected;          /* counts of iterations and of rejected steps */
-    double *most_iterations;                /* largest number of iterations of a step since the last sample */
+    double *peak_iterations;                /* largest number of iterations of a step since the last sample */
     double *leaves;         /* 1: the run cannot be made in lanes and is repeated individually */
     double *is_long;        /* 1: the last step was so long that the row space of C may have reversed */
     double *is_corrected;   /* 1: correct_rest() applies to the lane */

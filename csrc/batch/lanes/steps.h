@@ -37,7 +37,7 @@ ZD_KERNEL zd_condition ZD_NAMED(correct_state)(zd_lanes *self, const double *t, 
     if (self->pins) ZD_NAMED(slow_pins)(self, y, v);
     for (int i = 0; i < self->nv; i++) REAL(v)[i] = ZD_WHERE(wanted, REAL(v)[i] - REAL(self->dv)[i], REAL(v)[i]);
     *REAL(self->iterations) += count;
-    *REAL(self->most_iterations) = LARGER(count, *REAL(self->most_iterations));
+    *REAL(self->peak_iterations) = LARGER(count, *REAL(self->peak_iterations));
     return failed;
 }
 

@@ -86,13 +86,13 @@ static void store_statistics(zd_lanes *lanes, int lane, double steps, zd_run *ru
     statistics->steps += made;
     statistics->closed_form_steps += made;
     statistics->velocity_corrections += lanes->corrects ? made : 0;
-    zd_count_position_iterations(&run->motion, (int)lanes->most_iterations[lane]);
-    statistics->position_iterations += iterations - (int64_t)lanes->most_iterations[lane];
+    zd_count_position_iterations(&run->motion, (int)lanes->peak_iterations[lane]);
+    statistics->position_iterations += iterations - (int64_t)lanes->peak_iterations[lane];
     statistics->unresolved = (int64_t)lanes->unresolved[lane];
     statistics->unresolved_time = lanes->unresolved_time[lane];
     statistics->part_error = lanes->part_error[lane];
     statistics->part = (int)lanes->part[lane];
-    lanes->iterations[lane] = lanes->most_iterations[lane] = 0;
+    lanes->iterations[lane] = lanes->peak_iterations[lane] = 0;
 }
 
 /* Moves the run to the state y of a lane, as the end of a step in closed form does: what the matrix path has kept stays. */

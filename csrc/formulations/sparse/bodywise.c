@@ -60,7 +60,7 @@ static int is_diagonal(const zd_layout *layout)
 zd_bodywise *zd_bodywise_create(zd_store *store, const zd_point *point)
 {
     const zd_rank *rank = point->rank;
-    const int are_determined = rank->most_rows == rank->m && rank->m <= rank->n, has_other = !are_determined && !is_diagonal(point->layout);
+    const int are_determined = rank->max_rank == rank->m && rank->m <= rank->n, has_other = !are_determined && !is_diagonal(point->layout);
     zd_bodies *bodies = zd_bodies_create(store, point->system, point->layout, NULL);
     zd_bodies *other = has_other ? zd_bodies_create(store, point->system, point->layout, NULL) : NULL;
     zd_bodywise *self = bodies && (other || !has_other) ? zd_store_take(store, take, point->system) : NULL;

@@ -17,13 +17,13 @@ static int touchers_of(const zd_layout *layout, int b) { return layout->toucher_
 static int copies_of(const zd_layout *layout, int b)
 {
     const int touchers = touchers_of(layout, b);
-    return touchers <= layout->most_touchers ? 1 : (touchers + TOUCHERS_OF_COPY - 1) / TOUCHERS_OF_COPY;
+    return touchers <= layout->max_touchers ? 1 : (touchers + TOUCHERS_OF_COPY - 1) / TOUCHERS_OF_COPY;
 }
 static int velocities_of(const zd_layout *layout, int b) { return layout->velocity_at[b + 1] - layout->velocity_at[b]; }
 
 /* Sizes of the pattern; a clique is a body or a part of one. */
 typedef struct counts {
-    int rows, cliques, members, most_members, pairs, largest, largest_block;
+    int rows, cliques, members, max_members, pairs, largest, largest_block;
 } counts;
 
 /* Constraints on part i of a body: joints from `first` on, and up to two welds. */
@@ -56,7 +56,7 @@ static counts count_all(const zd_layout *layout)
         for (int i = 0; i < copies; i++) {
             const int members = members_of(part_of(layout, b, i));
             all.members += members;
-            all.most_members = members > all.most_members ? members : all.most_members;
+            all.max_members = members > all.max_members ? members : all.max_members;
             all.pairs += members * (members + 1) / 2;
         }
     }
@@ -169,7 +169,7 @@ static void *take(zd_arena *arena, const void *of)
 {
     const plan *it = of;
     const int joints = it->layout->toucher_at[it->layout->blocks], welds = it->all.rows - it->layout->groups, largest = it->all.largest;
-    int *piece = take_ints(arena, it->all.most_members);
+    int *piece = take_ints(arena, it->all.max_members);
     zd_weighted self = {
         .layout = it->layout,
         .blocks = zd_blocks_take(arena, &it->ordering),

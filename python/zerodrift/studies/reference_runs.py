@@ -92,8 +92,8 @@ class Motion:
                              stabilization=stabilization, closed_form=False, **bounds)
         self.size, self.probe, self.bounds = float(np.abs(probe.p).max()), probe, bounds
         self.speed = float(np.abs(np.diff(probe.p, axis=0) / np.diff(probe.t)[:, None]).max(initial=0.0))
-        most_move = bounds.get("max_move")
-        longest = min(bounds["max_step"] or math.inf, most_move / self.speed if most_move and self.speed else math.inf)
+        max_move = bounds.get("max_move")
+        longest = min(bounds["max_step"] or math.inf, max_move / self.speed if max_move and self.speed else math.inf)
         self.most = math.ceil((span[1] - span[0]) / longest) or 1
         self.steps = UNIT * math.ceil(max(probe.stats["steps"], self.most) / UNIT)
         self.shift = [_shift(probe.t, x) for x in (probe.p, probe.v)]

@@ -36,7 +36,7 @@ static int has_tree(const zd_plane_tables *tables)
 }
 
 /* Maximum number of rows: joints outside the tree, and relations. */
-static size_t most_rows(const zd_plane_tables *tables)
+static size_t max_rank(const zd_plane_tables *tables)
 {
     int joints = tables->joints;
     for (int i = 0; i < tables->bodies; i++) joints -= tables->body[i].inboard >= 0;
@@ -44,7 +44,7 @@ static size_t most_rows(const zd_plane_tables *tables)
 }
 
 /* Maximum number of lines: marker quantities of rows that are not of revolute joints, which have x and y of the same points. */
-static size_t most_lines(const zd_plane_tables *tables)
+static size_t max_lines(const zd_plane_tables *tables)
 {
     size_t lines = (size_t)tables->elements.terms;
     for (int j = 0; j < tables->joints; j++) {
@@ -72,10 +72,10 @@ static void take_parts(const zd_plane_tables *tables, zd_arena *arena, parts *to
 #undef TAKE
     zd_elements_take(&to->elements, arena, &tables->elements, extra, rows);
     zd_packing none = {.weight = NULL};
-    zd_hinged_take(&to->hinged, arena, has_tree(tables) ? bodies : 0, most_rows(tables));
+    zd_hinged_take(&to->hinged, arena, has_tree(tables) ? bodies : 0, max_rank(tables));
     zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->elements.relations,
                     (size_t)tables->elements.terms + extra,
-                    most_lines(tables));
+                    max_lines(tables));
 }
 
 /* ---- the tree ---- */
