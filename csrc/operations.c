@@ -170,7 +170,7 @@ int zd_measure_rates(const zd_system *system, const double *inputs, int count, c
     return status;
 }
 
-enum { MOST_SCALES = 10 };      /* scales tried by a projection of positions */
+enum { MAX_SCALES = 10 };      /* scales tried by a projection of positions */
 
 /* The tolerance is relative to sizes at the guess. If those at the result are so much smaller that no run may start there, one of the scales
  * left is used up, otherwise all. */
@@ -208,7 +208,7 @@ static int project_stage(const zd_system *system, const zd_settings *settings, i
 static int project_positions(const zd_system *system, const zd_settings *settings, double t, double *p, double *v, int *iterations,
                              char *message, int message_size)
 {
-    int status = ZD_DONE, scales_left = MOST_SCALES;
+    int status = ZD_DONE, scales_left = MAX_SCALES;
     while (!status && scales_left)
         status = project_stage(system, settings, ZD_PHI, t, p, v, iterations, &scales_left, message, message_size);
     return status;

@@ -10,7 +10,7 @@ from structured import Bodies
 from support import assert_close, condition, solved
 
 STEPS = {"step": 1e-3}
-MOST_ROUNDINGS = 1e3
+MAX_ROUNDINGS = 1e3
 LARGEST_CONDITION = 1e9     # beyond, too few digits are left to compare
 
 
@@ -127,7 +127,7 @@ def check_acceleration(seed, formulation, **kind):
     """Check that a formulation agrees with dense equations; False if too ill-conditioned for a comparison."""
     off = check_accelerations(seed, [formulation], **kind)
     if off:
-        assert off[formulation] < MOST_ROUNDINGS, f"seed {seed} is off by {off[formulation]:.3g} roundings times the condition"
+        assert off[formulation] < MAX_ROUNDINGS, f"seed {seed} is off by {off[formulation]:.3g} roundings times the condition"
     return off is not None
 
 

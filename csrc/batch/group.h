@@ -24,7 +24,7 @@ typedef struct zd_lane_search {
     double *before, *now;   /* (events,): event functions at the ends of the step */
     double number_of_now;   /* number of the step that ended at `now`; -1: none */
     zd_zeros *zeros;        /* (events,): values within the step */
-    zd_occurrence *occurrence;  /* (events * ZD_MOST_POINTS,): in the step, by event and time */
+    zd_occurrence *occurrence;  /* (events * ZD_MAX_POINTS,): in the step, by event and time */
     int occurrences;        /* their number */
     int last;               /* index of the one that ends the run; -1: none */
     zd_occurrence cut;      /* the same, where the step was repeated up to it */
@@ -57,7 +57,7 @@ typedef struct zd_lane_group {
     zd_run *run;            /* run that evaluates starts and checks */
     void *start;            /* its memory for starts */
     zd_lanes lanes;
-    zd_lane_run run_of[ZD_MOST_LANES];
+    zd_lane_run run_of[ZD_MAX_LANES];
     int64_t next, active;   /* next run to begin; number of runs in lanes */
     double *p, *v, *C;      /* (nq,), (nv,), (m, nv): state and constraint matrix of one lane */
     zd_terms terms;         /* terms of the system, for C alone */

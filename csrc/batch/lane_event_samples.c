@@ -12,7 +12,7 @@ zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes)
         .before = zd_take_doubles(arena, events),
         .now = zd_take_doubles(arena, events),
         .zeros = zd_take(arena, events * sizeof(zd_zeros)),
-        .occurrence = zd_take(arena, events * ZD_MOST_POINTS * sizeof(zd_occurrence)),
+        .occurrence = zd_take(arena, events * ZD_MAX_POINTS * sizeof(zd_occurrence)),
         .early = zd_take_doubles(arena, size),
         .mixed = zd_take_doubles(arena, size),
     };

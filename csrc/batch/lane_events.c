@@ -113,7 +113,7 @@ static void go_to_states(zd_lane_group *self, int lane)
 static int64_t max_samples_of(const zd_lane_group *self, const zd_lane_run *run)
 {
     const zd_lane_search *search = &run->search;
-    if (!search->is_cut || search->event != search->cut.event) return ZD_MOST_POINTS;
+    if (!search->is_cut || search->event != search->cut.event) return ZD_MAX_POINTS;
     return self->batch->settings->events->terminal[search->event] - 1 - *zd_event_samples_count(self->batch, run->number, search->event);
 }
 

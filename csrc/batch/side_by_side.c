@@ -83,7 +83,7 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
     };
     zd_lanes_take(&group.lanes, arena, run, group.functions, closed_form, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
     group.reader = zd_reader_take(arena, batch->settings->events, system, run->motion.point->inputs, NULL);
-    for (int lane = 0; lane < ZD_MOST_LANES; lane++)
+    for (int lane = 0; lane < ZD_MAX_LANES; lane++)
         group.run_of[lane] = (zd_lane_run){
             .number = -1,
             .C = zd_take_doubles(arena, rows),

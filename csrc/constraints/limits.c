@@ -29,7 +29,7 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-enum { MAX_ITERATIONS = 100, MOST_STALLS = 8 };    /* iteration for the acceleration from rest */
+enum { MAX_ITERATIONS = 100, MAX_STALLS = 8 };    /* iteration for the acceleration from rest */
 
 static const double PATH = 0x1p-17;     /* path of differences, characteristic scales: their errors, PATH^2 and rounding / PATH, are equal */
 static const double MIN_RATE = 0x1p-22;    /* rate of a row per unit of path, relative to its size: a smaller one may be rounding */
@@ -274,7 +274,7 @@ static int find_from_rest(zd_point *point, int wanted, int *found)
     for (int a = 0; a < self->independent; a++) rhs[a] = point->terms.xi[self->row[a]];
     if (!solve(point, 0, self->limits->force, rhs, e)) return ZD_DONE;
     double best = INFINITY;
-    for (int i = 0, stalls = 0; i < MAX_ITERATIONS && stalls < MOST_STALLS; i++) {
+    for (int i = 0, stalls = 0; i < MAX_ITERATIONS && stalls < MAX_STALLS; i++) {
         zd_point_rate(point, e, self->limits->pdot);
         status = find_rates(point, wanted, found);
         if (status || !*found) return status;

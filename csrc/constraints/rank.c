@@ -159,7 +159,7 @@ static int has_metric(const zd_point *point)
     int n = self->n;
     if (zd_cholesky(n, zd_dense_M(point, self->L), self->L) < n) return 0;
     for (int i = 0; i < n; i++)
-        if (!(1 > ZD_LEAST_PIVOT * zd_entry_of_M(point, i, i) * self->L[i * n + i])) return 0;
+        if (!(1 > ZD_MIN_PIVOT * zd_entry_of_M(point, i, i) * self->L[i * n + i])) return 0;
     return 1;
 }
 

@@ -86,7 +86,7 @@ static inline int zd_rank_is_of_many(const zd_system *system)
 }
 
 /* Smallest pivot of M relative to its diagonal for which M^-1 serves as a metric. */
-#define ZD_LEAST_PIVOT 0x1p-44
+#define ZD_MIN_PIVOT 0x1p-44
 
 /* `is_large`: no dense matrices are allocated. */
 zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large);

@@ -4,7 +4,7 @@
 #include "../point/row_name.h"
 #include "rank.h"
 
-enum { MOST_NAMED = 8 };       /* constraints named in a message */
+enum { MAX_NAMED = 8 };       /* constraints named in a message */
 
 int zd_rank_redundant(const zd_rank *self, int *rows)
 {
@@ -32,7 +32,7 @@ static int count_others(const zd_rank *self)
 void zd_rank_name_rows(const zd_point *point, char *to, size_t size)
 {
     const zd_rank *self = point->rank;
-    const int count = count_others(self), named = count > MOST_NAMED ? MOST_NAMED : count;
+    const int count = count_others(self), named = count > MAX_NAMED ? MAX_NAMED : count;
     int length = snprintf(to, size, count > 1 ? "rows" : "row");
     for (int i = 0, k = self->selection ? self->selection->independent : 0; i < named && (size_t)length < size; i++, k++) {
         const int row = next_of_others(self, k);

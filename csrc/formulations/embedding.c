@@ -22,7 +22,7 @@
 enum { MAX_ITERATIONS = 40 };     /* near a bifurcation convergence is linear, by halves, rather than quadratic */
 static const double NEARLY = 64;      /* residual, units of rounding, that is accepted if it no longer halves */
 static const double FARTHEST = 0.5;   /* displacement, characteristic scales: a longer prediction is not used as the first iterate */
-static const double MOST_RESPONSE = 16;   /* derivative of p with respect to the system's own q: beyond, q is selected numerically */
+static const double MAX_RESPONSE = 16;   /* derivative of p with respect to the system's own q: beyond, q is selected numerically */
 static const double WORSE = 1.1;      /* growth of the derivative of p with respect to q after which q is selected anew */
 
 zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
@@ -337,7 +337,7 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
     if (has_increments(self)) return review_increments(self, point, changed);
     int status = self->chosen && self->embed && self->mh ? factor(self, point) : ZD_DONE;
     if (status && status != ZD_SINGULAR) return status;
-    if (self->chosen && self->embed && self->mh && (status || point->rank->was_ill_conditioned || !(response(self, point) <= MOST_RESPONSE)))
+    if (self->chosen && self->embed && self->mh && (status || point->rank->was_ill_conditioned || !(response(self, point) <= MAX_RESPONSE)))
         give_up_own(self);
     if (self->chosen && (self->embed || !self->mh || response(self, point) <= WORSE * self->reference)) return ZD_DONE;
     return choose_anew(self, point, changed);
@@ -346,5 +346,5 @@ int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed)
 double zd_embedding_steepest(const zd_embedding *self)
 {
     if (!self->chosen) return 0;
-    return !self->mh ? INFINITY : self->embed ? MOST_RESPONSE : WORSE * self->reference;
+    return !self->mh ? INFINITY : self->embed ? MAX_RESPONSE : WORSE * self->reference;
 }

@@ -116,7 +116,7 @@ static zd_shares orthogonalize_all(schur *self, zd_point *point, int rows, const
 static int has_metric(const schur *self, const double *M)
 {
     int has = 1;
-    for (int i = 0; i < self->n; i++) has &= 1 > ZD_LEAST_PIVOT * M[i * self->n + i] * self->L[i * self->n + i];
+    for (int i = 0; i < self->n; i++) has &= 1 > ZD_MIN_PIVOT * M[i * self->n + i] * self->L[i * self->n + i];
     return has;
 }
 

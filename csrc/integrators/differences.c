@@ -23,7 +23,7 @@ void zd_differences_resize(zd_differences *self, int size)
 /* Increment of y_i for a difference: about the square root of the rounding error of its size, also if y_i is zero. */
 static double increment(const zd_differences *self, int i, double y, double change)
 {
-    double size = fmax(fabs(y), fmax(fabs(change), fmax(self->scale[i], self->least_size)));
+    double size = fmax(fabs(y), fmax(fabs(change), fmax(self->scale[i], self->min_size)));
     return 0x1p-26 * (size > 0 ? size : 1);
 }
 
@@ -39,7 +39,7 @@ void zd_differences_choose_units(zd_differences *self)
 {
     for (int i = 0; i < self->size; i++) {
         int exponent = 0;
-        double size = fmax(self->scale[i], self->least_size);
+        double size = fmax(self->scale[i], self->min_size);
         if (size > 0 && size < INFINITY) (void)frexp(size, &exponent);
         self->unit[i] = ldexp(1, exponent);
     }

@@ -11,7 +11,7 @@ typedef struct zd_differences {
     double *scale;          /* (size,): largest terms so far in each equation, which has a unit of its own */
     double *unit;           /* (size,): unit of each entry of the matrix, a power of two near its scale when the matrix was made */
     double *varied;         /* (size,): f at a varied y; or increments */
-    double least_size;      /* smallest size of y_i assumed for increments: y_i and f_i may be rounding errors only */
+    double min_size;      /* smallest size of y_i assumed for increments: y_i and f_i may be rounding errors only */
 } zd_differences;
 
 zd_differences zd_differences_take(zd_arena *arena, int size);

@@ -37,7 +37,7 @@ typedef struct zd_integrator {
 static inline int zd_evaluates_accelerations(const zd_integrator *self) { return !self->takes_series && !self->step_of_motion; }
 
 /* Implicit methods need dense matrices of the size of the state, so systems with a declared structure may have only this many velocities. */
-enum { ZD_MOST_IMPLICIT = 300 };
-static inline int zd_is_too_large(const zd_system *system) { return system->structure && system->nv > ZD_MOST_IMPLICIT; }
+enum { ZD_MAX_IMPLICIT = 300 };
+static inline int zd_is_too_large(const zd_system *system) { return system->structure && system->nv > ZD_MAX_IMPLICIT; }
 
 #endif

@@ -119,7 +119,7 @@ ZD_INLINE double zd_dense_output_value(int i, const int size, const zd_tableau *
 ZD_INLINE void zd_dense_output_sized(const int size, const zd_tableau *T, const zd_runge_kutta *self, double x, const double *y0, double *y)
 {
     const double z = 1 - x, of_change = x * x * (x + 3 * z);     /* x - x z + 2 x^2 z */
-    double weight[ZD_MOST_STAGES];
+    double weight[ZD_MAX_STAGES];
     zd_weigh_stages(T, self->h, x, weight);
     for (int i = 0; i + 1 < size; i += 2)
         zd_store_pair(zd_dense_output_value(i, size, T, self, of_change, weight, y0),

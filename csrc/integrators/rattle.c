@@ -30,9 +30,9 @@
 #include "../point/matrices.h"
 #include "integrator.h"
 
-enum { MAX_ITERATIONS = 60, MOST_LEARNT = 16 };
+enum { MAX_ITERATIONS = 60, MAX_LEARNT = 16 };
 static const double RESOLUTION = 1.0 / 64;      /* distance of the points for Mdot, relative to the step */
-static const double LEAST_CURVATURE = 0.1;      /* ratio of s^T H y to s^T s: below, the update is skipped */
+static const double MIN_CURVATURE = 0.1;      /* ratio of s^T H y to s^T s: below, the update is skipped */
 static const double CHANGE_ROUNDING = 2 * 0x1p-52; /* change relative to w below which the iteration has converged */
 static const double STALLED_CHANGE = 1e-12;     /* change relative to w + p / h: a smaller one that no longer shrinks is rounding error */
 
@@ -43,7 +43,7 @@ typedef struct rattle {
     double *v0, *w, *x;     /* (n,) */
     double *s, *y;          /* (n,), (n,): last change of w, and by how much it reduced x */
     int learnt;             /* number of factors I + u s^T of H */
-    double *u_of_H, *s_of_H;    /* (MOST_LEARNT, n) each: u and s of these factors */
+    double *u_of_H, *s_of_H;    /* (MAX_LEARNT, n) each: u and s of these factors */
     double *start, *mean;   /* (n,): M0 v0 and N w */
     double *F, *Mdot;       /* (n,), stored as M is */
     int stored;             /* number of stored entries of M */
@@ -79,8 +79,8 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .x = zd_take_doubles(arena, n),
         .s = zd_take_doubles(arena, n),
         .y = zd_take_doubles(arena, n),
-        .u_of_H = zd_take_doubles(arena, MOST_LEARNT * n),
-        .s_of_H = zd_take_doubles(arena, MOST_LEARNT * n),
+        .u_of_H = zd_take_doubles(arena, MAX_LEARNT * n),
+        .s_of_H = zd_take_doubles(arena, MAX_LEARNT * n),
         .start = zd_take_doubles(arena, n),
         .mean = zd_take_doubles(arena, n),
         .F = zd_take_doubles(arena, n),
@@ -175,7 +175,7 @@ static void learn(rattle *self)
     zd_subtract(n, self->y, self->x, y);
     multiply(self, y, Hy);
     const double denominator = zd_dot(n, self->s, Hy);
-    if (self->learnt == MOST_LEARNT || !(fabs(denominator) > LEAST_CURVATURE * zd_dot(n, self->s, self->s))) return;
+    if (self->learnt == MAX_LEARNT || !(fabs(denominator) > MIN_CURVATURE * zd_dot(n, self->s, self->s))) return;
     double *u = self->u_of_H + self->learnt * n;
     for (int i = 0; i < n; i++) u[i] = (self->s[i] - Hy[i]) / denominator;
     zd_copy(n, self->s, self->s_of_H + self->learnt++ * n);

@@ -8,7 +8,7 @@
 #include "../step_limits.h"
 #include "integrator.h"
 
-enum { ZD_MOST_STAGES = 16 };   /* largest number of rates of a method, including those at the end of a step and for dense output */
+enum { ZD_MAX_STAGES = 16 };   /* largest number of rates of a method, including those at the end of a step and for dense output */
 
 /* Butcher's table, a strictly lower triangular (stages, stages):   c | a
  *                                                                    | b

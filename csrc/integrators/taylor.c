@@ -18,7 +18,7 @@
 #include "../linalg/roots.h"
 #include "integrator.h"
 
-enum { LEAST_ORDER = 2 };
+enum { MIN_ORDER = 2 };
 static const double RESIDUAL = 10;      /* bound of h times the difference of rates, in units of the order times the tolerance */
 
 typedef struct given_taylor {
@@ -55,7 +55,7 @@ static int suits(const zd_system *system)
 static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)table;
-    const int order = (int)fmax(((const given_taylor *)given)->order, LEAST_ORDER);
+    const int order = (int)fmax(((const given_taylor *)given)->order, MIN_ORDER);
     const size_t orders = (size_t)order + 1, whole = (size_t)(system->nq + system->nv);
     taylor self = {
         .system = system,
@@ -80,7 +80,7 @@ static void set_tolerance(void *memory, double rtol, double atol)
     taylor *self = memory;
     const double ten = 2.302585092994045684;    /* its logarithm; C libraries' own natural one ties the library to newer ones */
     const double order = ceil(1 - ten * log10(fmax(rtol, atol)) / 2);
-    self->order = (int)fmax(LEAST_ORDER, fmin(order, self->highest));
+    self->order = (int)fmax(MIN_ORDER, fmin(order, self->highest));
     self->rtol = rtol;
     self->atol = atol;
 }

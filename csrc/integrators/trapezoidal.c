@@ -25,7 +25,7 @@ static const double NEVER = 1e-9;               /* residual relative to the larg
 /* ratio to the change by a disturbance of the last bit: a larger residual is not rounding error */
 static const double ROUNDING_RATIO = 16;
 /* relative to the largest terms: smaller terms may themselves be the rounding error of others */
-static const double LEAST_TERMS = 0x1p-12;
+static const double MIN_TERMS = 0x1p-12;
 static const double STALLED = 0.5;              /* contraction of the residual above which the iteration has stalled */
 
 typedef struct trapezoidal {
@@ -104,7 +104,7 @@ static double measure_stalled(const trapezoidal *self, const double *g, double s
 {
     double largest = 0;
     for (int i = 0; i < self->size; i++)
-        largest = fmax(largest, share_of_terms(g[i], fmax(self->differences.scale[i], LEAST_TERMS * scale)));
+        largest = fmax(largest, share_of_terms(g[i], fmax(self->differences.scale[i], MIN_TERMS * scale)));
     return largest;
 }
 
@@ -201,11 +201,11 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     if (status) return status;
     for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
 
-    self->differences.least_size = 0;
+    self->differences.min_size = 0;
     status = solve_step(self, statistics);
     if (status == ZD_NO_CONVERGENCE || status == ZD_NO_STEP) {
         self->factored = 0;
-        self->differences.least_size = 1e-3 * zd_max_abs(self->size, y);
+        self->differences.min_size = 1e-3 * zd_max_abs(self->size, y);
         for (int i = 0; i < self->size; i++) self->y1[i] = y[i] + h * self->f0[i];
         status = solve_step(self, statistics);
     }

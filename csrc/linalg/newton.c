@@ -4,13 +4,13 @@
 
 #include "../zerodrift.h"
 
-enum { MOST_RETREATS = 10 };
+enum { MAX_RETREATS = 10 };
 
 /* Armijo's rule: an iteration that does not reduce the residual is shortened. A residual that is NaN does not reduce it. */
 static int shorten(const zd_newton *newton, void *context, double before)
 {
     double now, share = 1;
-    for (int i = 0; i < MOST_RETREATS; i++, share *= 0.5) {
+    for (int i = 0; i < MAX_RETREATS; i++, share *= 0.5) {
         int status = newton->residual(context, &now);
         if (!status && now <= (1 - 1e-4 * share) * before) return ZD_DONE;
         if (status == ZD_CALLBACK || status == ZD_NO_MEMORY) return status;

@@ -45,7 +45,7 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
         .before = zd_take_doubles(arena, count),
         .now = zd_take_doubles(arena, count),
         .zeros = zd_take(arena, count * sizeof(zd_zeros)),
-        .occurrence = zd_take(arena, count * ZD_MOST_POINTS * sizeof(zd_occurrence)),
+        .occurrence = zd_take(arena, count * ZD_MAX_POINTS * sizeof(zd_occurrence)),
         .at_start = take_rates(arena, output),
         .at_end = take_rates(arena, output),
         .end = zd_state_take(arena, motion),
@@ -113,7 +113,7 @@ static int locate_all(zd_watch *self, double *end)
     int status = ZD_DONE;
     self->occurrences = 0;
     self->last = -1;
-    for (int i = 0; !status && i < self->events->count; i++) status = locate_event(self, i, ZD_MOST_POINTS, end);
+    for (int i = 0; !status && i < self->events->count; i++) status = locate_event(self, i, ZD_MAX_POINTS, end);
     return status;
 }
 
@@ -136,7 +136,7 @@ static int cut(zd_watch *self, double *end)
     *end = -INFINITY;       /* no other event is the last */
     self->occurrences = 0;
     for (int i = 0; !status && i < self->events->count; i++)
-        status = locate_event(self, i, i == last.event ? earlier : ZD_MOST_POINTS, end);
+        status = locate_event(self, i, i == last.event ? earlier : ZD_MAX_POINTS, end);
     *end = last.bracket.b;
     self->last = self->occurrences++;
     self->occurrence[self->last] = last;

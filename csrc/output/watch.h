@@ -24,7 +24,7 @@ typedef struct zd_watch {
     zd_reader reader;       /* evaluates event functions without callbacks */
     double *before, *now;   /* (events,) values at the start and the end of the step */
     zd_zeros *zeros;        /* (events,) values within the step */
-    zd_occurrence *occurrence;  /* (events * ZD_MOST_POINTS,) in the step, by event and time */
+    zd_occurrence *occurrence;  /* (events * ZD_MAX_POINTS,) in the step, by event and time */
     int occurrences;        /* their number */
     int last;               /* index of the one that ends the run */
     zd_end_rates at_start, at_end;  /* rates at the ends of the step */

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-enum { MOST_TRIES = 40 };
+enum { MAX_TRIES = 40 };
 static const double DEPTH = 0.25;       /* least relative decrease from the smallest value for which an extremum is followed */
-static const double LEAST_ROUNDING = 0x1p-40;   /* least rounding of a function, relative to its range in the step */
+static const double MIN_ROUNDING = 0x1p-40;   /* least rounding of a function, relative to its range in the step */
 static const double CERTAIN = 8;        /* least value of a certain sign, in units of the largest known error */
 static const double SHIFT = 0.05;       /* least distance of a new point from m, relative to b - a */
 
@@ -122,7 +122,7 @@ static int continues(zd_zeros *self)
 {
     double f, t = vertex(self, &f);
     const double width = self->b - self->a, middle = self->a + width / 2, least = SHIFT * width;
-    if (self->tries++ == MOST_TRIES || (self->fm > 0 && f > (1 - DEPTH) * self->fm)) return 0;
+    if (self->tries++ == MAX_TRIES || (self->fm > 0 && f > (1 - DEPTH) * self->fm)) return 0;
     if (self->fm <= self->rounding && f >= -self->rounding) return 0;
     if (fabs(t - self->m) < least) t = self->m + copysign(least, middle - self->m);
     self->next = t;
@@ -173,7 +173,7 @@ static void narrow(zd_zeros *self, double t, double f)
 
 void zd_zeros_narrow(zd_zeros *self, double g, double rounding)
 {
-    const double f = self->sign * g, bound = fmax(rounding, LEAST_ROUNDING * self->range);
+    const double f = self->sign * g, bound = fmax(rounding, MIN_ROUNDING * self->range);
     if (self->verifies) {
         if (fabs(g) <= bound) remove_point(self, self->at);
         else self->at++;

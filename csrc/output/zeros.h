@@ -4,12 +4,12 @@
 #ifndef ZD_ZEROS_H
 #define ZD_ZEROS_H
 
-enum { ZD_SAMPLES = 16, ZD_MOST_POINTS = ZD_SAMPLES + 2 + ZD_SAMPLES / 2 };
+enum { ZD_SAMPLES = 16, ZD_MAX_POINTS = ZD_SAMPLES + 2 + ZD_SAMPLES / 2 };
 
 typedef struct zd_zeros {
     int count;              /* number of points */
-    double t[ZD_MOST_POINTS];   /* s: times, increasing */
-    double g[ZD_MOST_POINTS];   /* function values there */
+    double t[ZD_MAX_POINTS];   /* s: times, increasing */
+    double g[ZD_MAX_POINTS];   /* function values there */
     double error;           /* largest known error of predicted values */
     int at;                 /* index of the point that is verified, or from which the function is minimized */
     int verifies;           /* true while superfluous signs are compared with the rounding of the function */

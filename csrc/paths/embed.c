@@ -19,7 +19,7 @@
 
 enum { MAX_ITERATIONS = 8 };
 static const double CONSTRAINT_ROUNDING = 16 * 0x1p-52; /* residual of Phi after convergence, relative to the sizes of Phi and p */
-static const double LEAST_TERMS = 16; /* number of terms of a constraint up to which CONSTRAINT_ROUNDING suffices */
+static const double MIN_TERMS = 16; /* number of terms of a constraint up to which CONSTRAINT_ROUNDING suffices */
 
 void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system)
 {
@@ -62,7 +62,7 @@ void zd_embed_begin(zd_motion *motion)
     const zd_point *point = motion->point;
     if (!motion->path.state.q) return;
     const double of_p = fmax(1, zd_max_scaled(point->system->nq, point->p, point->inverse_unit_p));
-    const double terms = fmax(1, point->system->nv / LEAST_TERMS);
+    const double terms = fmax(1, point->system->nv / MIN_TERMS);
     for (int k = 0; k < point->system->mh; k++) motion->path.allowed[k] = CONSTRAINT_ROUNDING * terms * of_p * point->size[k];
 }
 

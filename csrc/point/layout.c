@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { MOST_TOUCHERS = 12 };
+enum { MAX_TOUCHERS = 12 };
 
 static int size_of_mass(const zd_structure *structure, int b)
 {
@@ -130,7 +130,7 @@ const zd_layout *zd_layout_take(zd_arena *arena, const zd_system *system)
     zd_layout self = {
         .blocks = blocks,
         .groups = groups,
-        .max_touchers = MOST_TOUCHERS,
+        .max_touchers = MAX_TOUCHERS,
         .coordinate_at = take_ints(arena, blocks + 1),
         .velocity_at = take_ints(arena, blocks + 1),
         .A_at = take_ints(arena, blocks + 1),

@@ -155,7 +155,7 @@ static int describe_method(const zd_run *run, int status, char *to, size_t size)
     case ZD_UNSUITED_INTEGRATOR:
         if (zd_is_too_large(system) && !run->stepper.integrator->step_of_motion)
             snprintf(to, size, "'%s' solves its steps with dense matrices: a system that declares its structure must have at most %d "
-                     "velocities, not %d", integrator, ZD_MOST_IMPLICIT, system->nv);
+                     "velocities, not %d", integrator, ZD_MAX_IMPLICIT, system->nv);
         else snprintf(to, size, "'%s' must have a holonomic system whose velocities are the rates of its coordinates; here there %s",
                  integrator, system->mn ? "are nonholonomic constraints" : "is a kinematic matrix");
         break;

@@ -28,7 +28,7 @@
 #include "../point/matrices.h"
 #include "../point/units.h"
 
-enum { MOST_POINTS = 64 };     /* maximum number of points at which C is evaluated along a long displacement */
+enum { MAX_POINTS = 64 };     /* maximum number of points at which C is evaluated along a long displacement */
 static const double LONGEST = 1;    /* displacement in characteristic scales: along a longer one, intermediate points are evaluated */
 static const double NEAR = 0.5;     /* in characteristic scales: distance of these points */
 static const double NEARBY = 1e-3;  /* in characteristic scales: with a larger violation the motion is not held on the constraints */
@@ -221,7 +221,7 @@ static int compare(zd_crossing *self, double h, double moved, int *is_kept)
     const zd_point *point = self->motion->point;
     int status = zd_crossing_need_rows(self);
     if (status) return status;
-    if (moved > LONGEST * LONGEST) return follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MOST_POINTS), is_kept);
+    if (moved > LONGEST * LONGEST) return follow(self, h, (int)fmin(1 + sqrt(moved) / NEAR, MAX_POINTS), is_kept);
     *is_kept = determinant(self, point, self->memory->C) > 0;
     return ZD_DONE;
 }

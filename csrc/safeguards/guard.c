@@ -59,7 +59,7 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
 }
 
 /* Squared distance of p1 - p0 from h (1 - s) pdot0 + h s pdot1, the minimum over 0 <= s <= 1. */
-static double least_detour(const zd_guard *guard, double h)
+static double min_detour(const zd_guard *guard, double h)
 {
     const zd_point *point = guard->motion->point;
     const double *inverse_unit = point->inverse_unit_p;
@@ -194,7 +194,7 @@ int zd_guard_compare(zd_guard *guard, double h, int64_t next_step, zd_detour *fo
     if (!zd_guard_is_calm(guard, &sum)) check_soon(guard, next_step);
     const double allowed = zd_guard_allows(guard, h, &sum);
     if (!guard->checks_branch) return ZD_DONE;
-    if (!(sum.detour <= allowed) && !(least_detour(guard, h) <= allowed)) return ZD_BRANCH;
+    if (!(sum.detour <= allowed) && !(min_detour(guard, h) <= allowed)) return ZD_BRANCH;
     if (sum.moved <= ZD_LONG_PATH * ZD_LONG_PATH || (point->rank->is_large && largest_move(guard) <= ZD_LONG_PATH)) return ZD_DONE;
     int unresolved = is_unresolved(guard, &status);
     return status ? status : unresolved ? ZD_BRANCH : ZD_DONE;

@@ -13,7 +13,7 @@
 #include <string.h>
 
 static const double SPARE = 10;             /* ratio of the steps needed to those that are allowed */
-static const double LEAST_ALLOWED = 1e6;    /* steps that are assumed to be allowed, at least */
+static const double MIN_ALLOWED = 1e6;    /* steps that are assumed to be allowed, at least */
 static const double LITTLE = 16;            /* change of the state in a step, in units of its tolerance */
 
 zd_collapse zd_collapse_take(zd_arena *arena, int nv)
@@ -26,7 +26,7 @@ zd_collapse zd_collapse_take(zd_arena *arena, int nv)
 
 void zd_collapse_begin(zd_collapse *self, int64_t most)
 {
-    self->share = most ? 1 / (SPARE * fmax(LEAST_ALLOWED, (double)most)) : 0;
+    self->share = most ? 1 / (SPARE * fmax(MIN_ALLOWED, (double)most)) : 0;
 }
 
 /* True if the step has changed an entry of the state by more than a few tolerances. */

@@ -4,7 +4,7 @@
 #include "../linalg/small.h"
 #include "step_loop.h"
 
-enum { MOST_PARTS = 8 };    /* largest number of parts of a step that fails */
+enum { MAX_PARTS = 8 };    /* largest number of parts of a step that fails */
 
 static int next_part(zd_step_loop *loop, zd_attempt *attempt, double t1)
 {
@@ -63,7 +63,7 @@ static int divide(zd_step_loop *loop, int *status)
 {
     for (;;) {
         loop->parts *= 2;
-        if (!is_too_far(*status) || loop->parts > MOST_PARTS) return 0;
+        if (!is_too_far(*status) || loop->parts > MAX_PARTS) return 0;
         loop->part = 1;
         *status = zd_stepper_return_to(loop->stepper, loop->undivided);
         if (!*status) *status = zd_safeguards_begin(loop->safeguards, loop->step + 1);

@@ -25,7 +25,7 @@
 #include "../paths/choose.h"
 #include "passage.h"
 
-enum { MOST_HALVINGS = 8 };     /* largest number of halvings of a substep that fails */
+enum { MAX_HALVINGS = 8 };     /* largest number of halvings of a substep that fails */
 
 /* A step by matrices after steps in closed form: their ends were not saved as starts for its checks, so that its start is saved here. */
 static int choose_path(zd_step_loop *loop)
@@ -186,7 +186,7 @@ int zd_substep(zd_step_loop *loop, double t)
     zd_stepper *stepper = loop->stepper;
     double part = t - stepper->t;
     int status = attempt_to(loop, t), halvings = 0;
-    while (status ? is_too_long(status) && halvings < MOST_HALVINGS : stepper->t != t) {
+    while (status ? is_too_long(status) && halvings < MAX_HALVINGS : stepper->t != t) {
         if (status) {
             halvings++;
             part /= 2;

@@ -18,7 +18,7 @@ const TOOLS = {
   spring: ["Spring", "s", "Press its two ends, on links or on the ground."],
   remove: ["Remove", "x", "Press what is to go."],
 };
-const BUDGET = 8, REACH = 16, TOUCH = 26, STEP = 1e-3, MOST_UNDO = 100;       // ms of computation in a picture; points of the screen; s
+const BUDGET = 8, REACH = 16, TOUCH = 26, STEP = 1e-3, MAX_UNDO = 100;       // ms of computation in a picture; points of the screen; s
 const byId = (id) => document.getElementById(id);
 const canvas = byId("board"), painter = painterOf(canvas);
 const board = {model: emptyModel(), core: null, mechanism: null, tool: "link", chosen: null, pending: null, cursor: null, held: null, isPlaying: false,
@@ -75,7 +75,7 @@ function change(edit, {mustClose = false} = {}) {
 
 function remember(before) {
   board.history.push(before);
-  if (board.history.length > MOST_UNDO) board.history.shift();
+  if (board.history.length > MAX_UNDO) board.history.shift();
   history.replaceState(null, "", addressOf(board.model));
 }
 

@@ -1,7 +1,7 @@
 // Mechanisms of the drawing board: the file format of `Mechanism.save`, for links, joints, motors and springs in the plane.
 // What comes from an address or a file is checked here before anything else sees it.
 
-const MOST_ELEMENTS = 200, LARGEST_TEXT = 100000, LARGEST_NUMBER = 1e6;
+const MAX_ELEMENTS = 200, LARGEST_TEXT = 100000, LARGEST_NUMBER = 1e6;
 const NAME = /^[A-Za-z0-9_-]([A-Za-z0-9_ -]{0,38}[A-Za-z0-9_-])?$/;
 export const DRIVES_OF = {revolute: ["speed", "torque"], slot: ["speed", "force"], prismatic: ["speed", "force"]};
 export const UNITS_OF = {speed: {revolute: "rad/s", slot: "m/s", prismatic: "m/s"}, torque: {revolute: "N m"}, force: {slot: "N", prismatic: "N"}};
@@ -112,7 +112,7 @@ export function checkedModel(given) {
   if (given.zerodrift !== "mechanism" || given.version !== 1) refuse("a mechanism must begin with \"zerodrift\": \"mechanism\" and version 1");
   if (given.dimension !== 2) refuse("the drawing board must have a mechanism in the plane");
   for (const key of ["parameters", "start", "wish"]) checkedKeys(`${key} of a mechanism of the drawing board`, given[key], []);
-  if (!Array.isArray(given.elements) || given.elements.length > MOST_ELEMENTS) refuse(`a mechanism must have a list of at most ${MOST_ELEMENTS} elements`);
+  if (!Array.isArray(given.elements) || given.elements.length > MAX_ELEMENTS) refuse(`a mechanism must have a list of at most ${MAX_ELEMENTS} elements`);
   const known = new Map(), model = emptyModel(checkedName("the mechanism", given.name, known));
   model.gravity = checkedPair("gravity", given.gravity);
   for (const element of given.elements) {

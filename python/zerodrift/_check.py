@@ -12,7 +12,7 @@ import numpy as np
 
 from .errors import WrongType, WrongValue
 
-MOST_LISTED = 12     # largest number of allowed words that an error lists in full
+MAX_LISTED = 12     # largest number of allowed words that an error lists in full
 
 
 def shown(value: Any) -> str:
@@ -64,7 +64,7 @@ def choice(name: str, value: Any, allowed: Iterable[str]) -> str:
     words = allowed if isinstance(allowed, tuple | dict) else list(allowed)
     if isinstance(value, str) and value in words:
         return value
-    if len(words) > MOST_LISTED:
+    if len(words) > MAX_LISTED:
         raise WrongValue(f"{name} must be a known name, not {value!r}; {closest(value, words)}", "unknown-choice")
     raise WrongValue(f"{name} must be one of {', '.join(map(repr, words))}, not {value!r}", "unknown-choice")
 

@@ -24,7 +24,7 @@ from measuring import RESULTS, least
 from random_assemblies import Assembly
 from zerodrift.mechanisms.reports import cost
 
-ROUNDS, SECONDS, FEW, MOST_STEPS = 9, 1.5e-3, 4, 100
+ROUNDS, SECONDS, FEW, MAX_STEPS = 9, 1.5e-3, 4, 100
 STEPS = [k * 10.0**-e for e in (3, 4, 5) for k in (5, 2, 1)]
 SIZES = {
     chain: (1, 2, 3, 4, 6, 8, 10, 12, 16, 20, 24, 32, 48, 80), four_bars: (1, 2, 3, 4, 6, 10, 16), star: (4, 8, 16, 32, 64, 128),
@@ -65,7 +65,7 @@ def longest_step(systems, starts):
         return found and not stats["subdivided"] and not stats["damped"] and stats["position_iterations"] <= 1.1 * stats["steps"]
 
     return next((step for step in STEPS
-                 if all(is_whole(run(*each, step, MOST_STEPS + FEW)) for each in zip(systems, starts, strict=True))), None)
+                 if all(is_whole(run(*each, step, MAX_STEPS + FEW)) for each in zip(systems, starts, strict=True))), None)
 
 
 def measured(mechanism):
@@ -81,7 +81,7 @@ def measured(mechanism):
             return lambda: run(system, start, step, steps)[0]
 
         often, few = least(3, seconds(40), seconds(FEW))
-        counts.append(int(np.clip(SECONDS * 36 / max(often - few, 1e-5), 12, MOST_STEPS)))
+        counts.append(int(np.clip(SECONDS * 36 / max(often - few, 1e-5), 12, MAX_STEPS)))
         measures += [seconds(counts[-1] + FEW), seconds(FEW)]
     found = least(ROUNDS, *measures)
     return [(found[2 * i] - found[2 * i + 1]) / count for i, count in enumerate(counts)]

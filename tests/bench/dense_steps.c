@@ -17,7 +17,7 @@
 
 #include "zerodrift.h"
 
-enum { N = 60, M = 50, STEPS = 100, MOST_ROUNDS = 1000, MOST_FORMULATIONS = 16 };
+enum { N = 60, M = 50, STEPS = 100, MAX_ROUNDS = 1000, MAX_FORMULATIONS = 16 };
 static const double STEP = 0.01, TOLERANCE = 1e-10;
 
 typedef struct numbers {
@@ -139,8 +139,8 @@ static double run(const zd_system *system, zd_settings *settings, double *second
 int main(int arguments, char **argument)
 {
     static numbers x;
-    double best[MOST_FORMULATIONS] = {0}, end[MOST_FORMULATIONS];
-    size_t bytes[MOST_FORMULATIONS], peak[MOST_FORMULATIONS];
+    double best[MAX_FORMULATIONS] = {0}, end[MAX_FORMULATIONS];
+    size_t bytes[MAX_FORMULATIONS], peak[MAX_FORMULATIONS];
     int rounds = arguments > 1 ? atoi(argument[1]) : 3, formulations = zd_rows(ZD_FORMULATIONS);
     const char *only = arguments > 2 ? argument[2] : NULL;
     fill(&x);

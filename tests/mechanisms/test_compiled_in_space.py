@@ -134,7 +134,7 @@ def test_callables_are_refused_by_the_name_of_their_element(layout):
 
 
 def test_many_bodies_in_absolute_coordinates_keep_the_road_of_the_tables():
-    m = IN_SPACE["chain"](links=generated_code.MOST_VELOCITIES // 6 + 1)
+    m = IN_SPACE["chain"](links=generated_code.MAX_VELOCITIES // 6 + 1)
     one, other = (zd.simulate(m.system("absolute", compiled=written), 0.002, step=1e-3) for written in (False, True))
     assert closed_form_writer.TOO_LARGE in repr(other)
     assert one.p.tobytes() == other.p.tobytes()

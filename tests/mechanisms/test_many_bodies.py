@@ -23,7 +23,7 @@ def doubled(n):
 @pytest.fixture
 def few(monkeypatch):
     """Takes what is done for many rows from the first one on, once it is called."""
-    return lambda: monkeypatch.setattr(assembly, "MOST_DENSE", 0)
+    return lambda: monkeypatch.setattr(assembly, "MAX_DENSE", 0)
 
 
 @pytest.mark.parametrize(("make", "held"), [

@@ -13,7 +13,7 @@
 #include "formulations/schur.c"
 #include "workspace.h"
 
-enum { MOST = 64, BODY = 3, MOST_BODIES = MOST / BODY };
+enum { MOST = 64, BODY = 3, MAX_BODIES = MOST / BODY };
 
 static int read_doubles(double *to, size_t count) { return fread(to, sizeof *to, count, stdin) == count; }
 
@@ -98,7 +98,7 @@ static int compared;
 
 static int follow_packed(const zd_system *system, int count, double *C)
 {
-    static int sizes[MOST_BODIES], rows[MOST_BODIES], first[MOST_BODIES], block[2 * MOST_BODIES];
+    static int sizes[MAX_BODIES], rows[MAX_BODIES], first[MAX_BODIES], block[2 * MAX_BODIES];
     const int bodies = system->nv / BODY, each = system->mh / (bodies - 1);
     for (int b = 0; b < bodies; b++) sizes[b] = BODY, rows[b] = each, first[b] = 2 * b, block[2 * b] = b, block[2 * b + 1] = b + 1;
     const zd_structure structure = {bodies, sizes, sizes, NULL, bodies - 1, rows, first, block};

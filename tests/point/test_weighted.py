@@ -8,7 +8,7 @@ import pytest
 import tolerances as tol
 import zerodrift as zd
 from native_systems import needs_compiler
-from random_networks import MOST_ROUNDINGS, Network, check_acceleration, check_accelerations, check_motion
+from random_networks import MAX_ROUNDINGS, Network, check_acceleration, check_accelerations, check_motion
 from structured import Rods, chain, four_bars
 from support import FORMULATIONS, assert_close, condition, numbers, refused, solved
 
@@ -25,12 +25,12 @@ def test_networks_accelerate_as_by_dense_matrices(seed, formulation):
 def test_networks_of_redundant_rows_and_singular_mass_accelerate_as_by_dense_matrices(kind):
     """Some of their rows have weights that are far apart: seed 5 has one mass of 1e-6 of the largest."""
     off = check_accelerations(5, [each for each in FORMULATIONS if each != "schur"], bodies=20, **kind)
-    assert max(off.values()) < MOST_ROUNDINGS
+    assert max(off.values()) < MAX_ROUNDINGS
 
 
 def test_multipliers_of_least_effect_are_found_in_as_many_iterations_as_that_takes():
     """Each iteration reduces the residual of this network to two thirds: after 40 of them, to 3e-10 of the reactions."""
-    assert check_accelerations(1362, ["augmented"], bodies=20, redundant=4)["augmented"] < MOST_ROUNDINGS
+    assert check_accelerations(1362, ["augmented"], bodies=20, redundant=4)["augmented"] < MAX_ROUNDINGS
 
 
 @pytest.mark.parametrize("road", ["mixed", "independent"])

@@ -33,7 +33,7 @@ NATIVE = """
 #define WEIGHTS(name)                                                                            \\
     void name##_weights(double *change, double *identity, int all, double x, double *b)          \\
     {                                                                                            \\
-        const double zeros[ZD_MOST_STAGES] = {0};                                                \\
+        const double zeros[ZD_MAX_STAGES] = {0};                                                \\
         const zd_runge_kutta self = {.size = all, .k = identity, .h = 1, .change = change};      \\
         zd_##name.dense_output(&self, x, zeros, b);                                                   \\
     }

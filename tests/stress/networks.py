@@ -12,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import zerodrift as zd
-from random_networks import MOST_ROUNDINGS, check_accelerations, check_motion
+from random_networks import MAX_ROUNDINGS, check_accelerations, check_motion
 from support import FORMULATIONS
 
 KINDS = {"as drawn, up to 13 bodies": {}, "24 bodies": {"bodies": 24},
@@ -40,9 +40,9 @@ class Comparison:
             return
         self.counts[kind, UNTOLD] += off is None
         for each, much in (off or {}).items():
-            self.counts[kind, each] += much < MOST_ROUNDINGS
+            self.counts[kind, each] += much < MAX_ROUNDINGS
             self.largest[each] = max(self.largest.get(each, 0), much)
-            if not much < MOST_ROUNDINGS:
+            if not much < MAX_ROUNDINGS:
                 self.failures.append((seed, kind, f"{each}: off by {much:.3g} roundings times the condition"))
         if seed % EVERY_MOTION == 0:
             self.move(seed)
@@ -60,7 +60,7 @@ class Comparison:
         lines = [f"# {end - first} random networks of bodies against dense equations", "",
                  f"Seeds {first} to {end - 1}, written by `tests/stress/networks.py`, zerodrift {zd.__version__}, "
                  f"{time.perf_counter() - self.began:.0f} s. Accelerations and multipliers, these of least effect",
-                 f"where rows are redundant, agree where they differ by less than {MOST_ROUNDINGS:g} roundings times the "
+                 f"where rows are redundant, agree where they differ by less than {MAX_ROUNDINGS:g} roundings times the "
                  "condition, two steps where they differ by 1e-9.", "",
                  f"| | {' | '.join(columns)} |", "|---|" + "---|" * len(columns)]
         lines += [f"| {kind} | {' | '.join(str(self.counts[kind, each]) for each in columns)} |" for kind in [*KINDS, "motion"]]

@@ -10,10 +10,10 @@
 #include "zerodrift.h"
 
 #define UNTRACED __attribute__((no_instrument_function))
-enum { LARGEST = 64, MOST_CALLS = 1 << 20 };
+enum { LARGEST = 64, MAX_CALLS = 1 << 20 };
 
-static uintptr_t first, called[MOST_CALLS];
-static int depths[MOST_CALLS], calls, depth, number, steps, is_on;
+static uintptr_t first, called[MAX_CALLS];
+static int depths[MAX_CALLS], calls, depth, number, steps, is_on;
 
 void __cyg_profile_func_enter(void *function, void *from) UNTRACED;
 void __cyg_profile_func_exit(void *function, void *from) UNTRACED;
@@ -22,7 +22,7 @@ void __cyg_profile_func_enter(void *function, void *from)
 {
     (void)from;
     if ((uintptr_t)function == first && ++steps == number) is_on = 1, depth = 0;
-    if (!is_on || calls == MOST_CALLS) return;
+    if (!is_on || calls == MAX_CALLS) return;
     called[calls] = (uintptr_t)function;
     depths[calls++] = depth++;
 }

@@ -181,7 +181,7 @@ def test_a_system_without_expressions_has_double_precision_alone():
 def test_a_motion_that_cannot_be_computed_is_refused_where_it_was_asked_for(monkeypatch):
     from zerodrift.studies import precise_motion
 
-    monkeypatch.setattr(precise_motion, "MOST_STEPS", 1)
+    monkeypatch.setattr(precise_motion, "MAX_STEPS", 1)
     with pytest.raises(zd.UnreachableTolerance, match="no reference in double-double arithmetic: step size underflow"):
         zd.reference(BAR, 0.5, t_eval=[0.5], precision="double-double")
     assert zd.reference(BAR, 0.5, t_eval=[0.5]).precision == "double"

@@ -227,5 +227,5 @@ def test_direct_functions_are_written_once(cache_folder, monkeypatch):
     monkeypatch.setattr(closed_form, "write", lambda *given, **options: ("another", 0))
     other = zd.symbolic([Q], **(GIVEN | {"potential": A * sp.sin(Q)}))
     assert other._closed_form.source == "another"
-    monkeypatch.setattr(closed_form_writer, "MOST_STATEMENTS", 900)
+    monkeypatch.setattr(closed_form_writer, "MAX_STATEMENTS", 900)
     assert made()._closed_form.source == "another"

@@ -241,8 +241,8 @@ def assert_says(system, sol, why):
 
 
 @pytest.mark.parametrize(("bound", "why", "scale"), [
-    ("MOST_OPERATIONS", f"they would take more than {closed_form_writer.MOST_OPERATIONS} operations", 1.0),
-    ("MOST_STATEMENTS", "a function would have more than 10 statements", 2.0)])
+    ("MAX_OPERATIONS", f"they would take more than {closed_form_writer.MAX_OPERATIONS} operations", 1.0),
+    ("MAX_STATEMENTS", "a function would have more than 10 statements", 2.0)])
 def test_nothing_is_written_that_is_too_long(bound, why, scale, monkeypatch):
     """A fresh system for each bound, as the code of a system is kept."""
     monkeypatch.setattr(closed_form_writer, bound, 10)
@@ -255,8 +255,8 @@ def test_nothing_is_written_that_is_too_long(bound, why, scale, monkeypatch):
 
 def test_a_system_that_is_too_large_says_so_at_once(monkeypatch):
     """Its program is not kept."""
-    why = f"they would take more than {closed_form_writer.MOST_OPERATIONS} operations"
-    monkeypatch.setattr(closed_form_writer, "MOST_OPERATIONS", 3)
+    why = f"they would take more than {closed_form_writer.MAX_OPERATIONS} operations"
+    monkeypatch.setattr(closed_form_writer, "MAX_OPERATIONS", 3)
     x, vx = sp.symbols("x vx")
     system = zd.symbolic([x], speeds=[vx], kinetic=vx**2 / 2, potential=sp.sin(1.25 * x), parameters={}, p0=[0.0], v0=[1.0])
     assert repr(system).endswith(f"no closed-form functions: {why}>")

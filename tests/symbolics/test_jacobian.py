@@ -115,7 +115,7 @@ def test_functions_without_derivatives_leave_it_to_differences(force, why):
 
 
 def test_what_would_be_too_long_is_not_written(monkeypatch):
-    monkeypatch.setattr(zd.symbolics.emit.jacobian, "MOST_STATEMENTS", 3)
+    monkeypatch.setattr(zd.symbolics.emit.jacobian, "MAX_STATEMENTS", 3)
     assert "more than 3 statements" in swinging()._jacobian.why_none
 
 

@@ -33,7 +33,7 @@ def coupled(n):
 def written_twice(make, monkeypatch):
     """The system in functions as long as they come, and in short ones."""
     one = make()
-    monkeypatch.setattr(splitting, "MOST_STATEMENTS", 0)
+    monkeypatch.setattr(splitting, "MAX_STATEMENTS", 0)
     monkeypatch.setattr(splitting, "PIECE", 5)
     monkeypatch.setattr(splitting, "FEWEST_STATEMENTS", 2)
     monkeypatch.setattr(sys.modules["zerodrift.symbolics.define"], "fingerprint", lambda expressions: None)
@@ -60,7 +60,7 @@ def test_no_function_of_a_long_chain_is_long():
     """Code that differs between links only in its data is emitted once, so that only the tables of the source grow."""
     system = energy_models.closed_pendulum(24)
     counts = [text.count(";\n") for text in re.split(r"^}$", system.c_source, flags=re.MULTILINE)]
-    assert max(counts) <= splitting.MOST_STATEMENTS < len(system._code.python_source.splitlines())
+    assert max(counts) <= splitting.MAX_STATEMENTS < len(system._code.python_source.splitlines())
     assert zd.check(system)
 
 

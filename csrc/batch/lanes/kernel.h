@@ -36,8 +36,8 @@ ZD_KERNEL zd_condition ZD_NAMED(is_multiple)(zd_real number, double of)
 /* Summands of a sum over stages: rates and weights. */
 typedef struct ZD_NAMED(summands) {
     int count;
-    const zd_stored *k[ZD_MOST_STAGES];
-    zd_real factor[ZD_MOST_STAGES];
+    const zd_stored *k[ZD_MAX_STAGES];
+    zd_real factor[ZD_MAX_STAGES];
 } ZD_NAMED(summands);
 
 /* n adjacent sums, of the numbers from i on; with constant n they stay in registers. `fused`: products are not rounded. */

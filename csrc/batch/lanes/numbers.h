@@ -5,20 +5,20 @@
 #include "../../integrators/runge_kutta.h"
 #include "pins_structure.h"
 
-enum { ZD_MOST_LANES = 8 };
+enum { ZD_MAX_LANES = 8 };
 
 /* Weights of a sum over stages, without zeros. */
 typedef struct zd_weights {
-    int count, stage[ZD_MOST_STAGES];
-    double weight[ZD_MOST_STAGES];
+    int count, stage[ZD_MAX_STAGES];
+    double weight[ZD_MAX_STAGES];
 } zd_weights;
 
 /* A Runge-Kutta method: its tableau without zeros. */
 typedef struct zd_method {
     const zd_tableau *tableau;
     int stages, error_order;
-    zd_weights a[ZD_MOST_STAGES], b, e, e3;
-    zd_weights more[ZD_MOST_STAGES], d[ZD_MOST_STAGES];    /* dense output */
+    zd_weights a[ZD_MAX_STAGES], b, e, e3;
+    zd_weights more[ZD_MAX_STAGES], d[ZD_MAX_STAGES];    /* dense output */
 } zd_method;
 
 /* Event that is one entry of y reaching a level. */

@@ -235,7 +235,7 @@ static void advance_run(zd_open_lanes *self, int64_t i, int64_t steps, double t)
 static void advance_group(zd_open_lanes *self, int64_t group, int64_t steps, double t)
 {
     zd_lanes *lanes = &self->lanes;
-    int64_t made[ZD_MOST_LANES];    /* steps of each run before the advance */
+    int64_t made[ZD_MAX_LANES];    /* steps of each run before the advance */
     memcpy(lanes->first, self->image + (size_t)group * self->numbers, self->numbers * sizeof *self->image);
     const int any = enter(self, group);
     for (int lane = 0; lane < lanes->lanes; lane++) {

@@ -94,7 +94,7 @@ static double effect(const zd_bodywise *self, const zd_row_of_C *row, int has_in
 static double mass_along(const zd_point *point, int i, double mass)
 {
     const double own = zd_entry_of_M(point, i, i);
-    return own > ZD_LEAST_PIVOT * mass ? own : mass;
+    return own > ZD_MIN_PIVOT * mass ? own : mass;
 }
 
 /* The same with the diagonal of M: then W is not much smaller than M in any direction. */

@@ -21,7 +21,7 @@
 #include "../../point/matrices.h"
 
 enum { MANY_JOINTS = 12 };      /* joints of a body above which it is eliminated last, as it would couple all its neighbours */
-static const double LARGEST_SHARE = 0x1p-2, LEAST_SHARE = 0x1p-40, SHRINK = 0x1p-2;    /* pivot thresholds relative to a column's square */
+static const double LARGEST_SHARE = 0x1p-2, MIN_SHARE = 0x1p-40, SHRINK = 0x1p-2;    /* pivot thresholds relative to a column's square */
 static const double WORSE = 0x1p-4;             /* ratio of the smallest pivot to its reference below which velocities are selected anew */
 static const double FEW_DIGITS = 0x1p-20;       /* residual relative to these terms beyond which it is not rounding */
 
@@ -148,7 +148,7 @@ static int choose(zd_partition *self, zd_point *point)
 {
     self->C = point->terms.C;
     self->is_chosen = 0;
-    for (double share = LARGEST_SHARE; share >= LEAST_SHARE; share *= SHRINK) {
+    for (double share = LARGEST_SHARE; share >= MIN_SHARE; share *= SHRINK) {
         const zd_pivots pivots = eliminate(self, share);
         const int count = count_independents(self);
         point->failed_index = pivots.failed < 0 ? 0 : zd_bodies_velocity(self->bodies, pivots.failed);

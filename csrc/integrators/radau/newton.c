@@ -9,7 +9,7 @@
 
 enum {
     STAGES = ZD_RADAU_STAGES,
-    MOST_ITERATIONS = 40,   /* iterations to rounding */
+    MAX_ITERATIONS = 40,   /* iterations to rounding */
     WORTHWHILE = 10,        /* iterations to a tolerance: shorter steps are cheaper than more */
 };
 
@@ -146,7 +146,7 @@ static int residual(void *context, double *size)
 
 int zd_radau_newton_iterate(zd_radau_newton *self, zd_statistics *statistics)
 {
-    const zd_newton newton = {residual, add_change, 1, MOST_ITERATIONS, 0, NULL, 0};
+    const zd_newton newton = {residual, add_change, 1, MAX_ITERATIONS, 0, NULL, 0};
     int iterations;
     double left;
     zd_radau_transform(self->size, zd_radau_T_inverse, self->z, self->w);

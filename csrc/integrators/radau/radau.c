@@ -25,7 +25,7 @@ static const double e[STAGES] = {-10.048809399827415562, 1.3821427331607488952, 
 
 static const double SLOW = 0.001;               /* contraction of an iteration above which J is computed anew for the next step */
 static const double CHANGE_ROUNDING = 4 * 0x1p-52; /* change relative to the state below which a fixed step is solved */
-static const double LEAST_INCREMENT = 1e-3;     /* smallest increment of any entry, relative to that of the largest entry of the state */
+static const double MIN_INCREMENT = 1e-3;     /* smallest increment of any entry, relative to that of the largest entry of the state */
 static const double WORTH_STAGES = 2;           /* ratio of the step to the bound above which each stage gets its own J */
 static const double LONGER = 2;                 /* ratio to the previous step up to which its polynomial predicts the stages for J */
 static const double SHORTER = 0.5;              /* ratio of the bound to a step that was too long for the iteration with one J */
@@ -152,7 +152,7 @@ static int step(void *memory, const zd_rate *rate, double t, double h, double *y
     it->y0 = y;
     int status = zd_rate_of_beginning(rate, t, y, self->f0);
     if (status) return status;
-    it->matrices.differences.least_size = LEAST_INCREMENT * zd_max_abs(rate->size, y);
+    it->matrices.differences.min_size = MIN_INCREMENT * zd_max_abs(rate->size, y);
     memcpy(self->seen_before, it->seen, (size_t)rate->size * sizeof *it->seen);
     for (int i = 0; i < rate->size; i++) it->seen[i] = fmax(it->seen[i], fabs(y[i]) + fabs(h * self->f0[i]));
     status = solve_somehow(self, y, statistics);

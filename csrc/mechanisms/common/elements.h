@@ -93,7 +93,7 @@ typedef struct zd_compiled_law {
     const double *numbers;
 } zd_compiled_law;
 
-enum { ZD_MOST_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */
+enum { ZD_MAX_LEAST = 200 };       /* largest number of constraints for which reactions are the least ones: work grows with its cube */
 
 typedef struct zd_elements {
     int terms, relations, forces, measures;

@@ -109,7 +109,7 @@ static int find_least(const zd_measuring *self, const zd_measured_state *at)
     const int m = self->elements->m;
     if (*self->is_least != 0) return ZD_DONE;
     int status = ZD_DONE;
-    if (m <= ZD_MOST_LEAST) status = zd_least_reactions(self, at, self->least);
+    if (m <= ZD_MAX_LEAST) status = zd_least_reactions(self, at, self->least);
     else memcpy(self->least, at->lambda, (size_t)m * sizeof *self->least);
     *self->is_least = !status;
     return status;

@@ -209,7 +209,7 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_takes_many_rows(formulation, system)) {
         snprintf(message, (size_t)size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: such a system "
                  "must have at most %d velocities, not %d; 'schur', 'augmented', 'nullspace' and 'mixed' take them at a cost that "
-                 "follows the bodies", formulation->card.name, ZD_MOST_IMPLICIT, system->nv);
+                 "follows the bodies", formulation->card.name, ZD_MAX_IMPLICIT, system->nv);
         return ZD_UNSUITED;
     }
     return status ? status : refuse(wrong_events(system, settings->events), message, size);

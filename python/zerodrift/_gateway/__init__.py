@@ -39,7 +39,7 @@ from .base import (
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .inputs import Following, Inputs
 from .known_events import KnownEvent
-from .measures import MOST_LEAST, Outputs
+from .measures import MAX_LEAST, Outputs
 from .packed_layout import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbation import PerturbedCore, perturbed
 from .runs import (
@@ -84,8 +84,8 @@ __all__ = [
     "FIXED_STEPS",
     "FULL",
     "INTERRUPTED",
-    "MOST_LEAST",
-    "MOST_STEPS",
+    "MAX_LEAST",
+    "MAX_STEPS",
     "NO_RECORD",
     "PACKED",
     "PAUSED",
@@ -160,7 +160,7 @@ _LATER = {
                 "has_lanes", "run_batch", "tables_of_kind"),
     "compiled.functions": ("Function", "InLibrary", "SET_SINES_OF_LARGE", "address_of", "find", "in_library", "load_data",
                            "numba_signature", "set_sines_of_large"),
-    "open_runs": ("ManyOpenRuns", "OpenRun", "STEP", "Saved", "NO_RECORD", "MOST_STEPS"),
+    "open_runs": ("ManyOpenRuns", "OpenRun", "STEP", "Saved", "NO_RECORD", "MAX_STEPS"),
     "compiled.native": ("VERSION", "NativeCore", "kind_at", "probe", "terms_of"),
 }
 

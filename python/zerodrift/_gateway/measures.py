@@ -12,7 +12,7 @@ from .._core import ffi, lib
 from ..errors import WrongValue
 from .base import doubles, text
 
-MOST_LEAST = lib.ZD_MOST_LEAST     # constraints: with more of them, reactions are not the least ones
+MAX_LEAST = lib.ZD_MAX_LEAST     # constraints: with more of them, reactions are not the least ones
 DEPENDS = {lib.ZD_OF_POSITIONS: "positions", lib.ZD_OF_VELOCITIES: "velocities", lib.ZD_OF_ACCELERATIONS: "accelerations"}
 
 

@@ -13,7 +13,7 @@ from .runs import Run
 
 STEP = lib.zd_run_step      # status of so many steps of a run, with a record or NULL: the call that controllers make
 NO_RECORD = ffi.NULL
-MOST_STEPS = 2**62
+MAX_STEPS = 2**62
 
 
 class OpenRun(Run):

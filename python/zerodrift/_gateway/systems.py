@@ -17,7 +17,7 @@ from .constraint_names import ConstraintNames
 from .measures import Measuring
 from .packed_layout import PACKED, Packing
 
-MOST_ROWS = 1000        # of a matrix that is made dense where it is packed
+MAX_ROWS = 1000        # of a matrix that is made dense where it is packed
 SUSPECT = 1e-6          # rows of larger entries are not compared with their terms, which would have to be a million
 CANCELLED = 2.0**-40    # of the terms of a row of C: smaller entries are their rounding error, as in csrc/point/units.c
 
@@ -235,8 +235,8 @@ class CoreSystem(Measuring):
     def evaluate(self, t: float, p: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
         """All terms of the system at (t, p, v), with dense matrices."""
         largest = max(self.nq, self.nv, self.m)
-        if self.packing and largest > MOST_ROWS:
-            raise WrongValue(f"evaluate() makes dense matrices of up to {MOST_ROWS} rows, and here these would have {largest}: "
+        if self.packing and largest > MAX_ROWS:
+            raise WrongValue(f"evaluate() makes dense matrices of up to {MAX_ROWS} rows, and here these would have {largest}: "
                              "sol[...] has coordinates, velocities and multipliers, and product() multiplies by A, M and C")
         arrays = self.evaluate_stored(t, p, v)
         packed = {name: self.packing.expand(name, arrays[name]) for name in PACKED if name in arrays} if self.packing else {}

@@ -13,7 +13,7 @@ from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium import equilibrium
 from .path import FIRST_STEP, LARGEST_STEP, Curve, Knot
 
-MOST_STEPS = 5000
+MAX_STEPS = 5000
 
 
 class LimitPoint(NamedTuple):
@@ -127,7 +127,7 @@ def _followed(curve: Curve, p: np.ndarray, values: np.ndarray) -> tuple[list[Kno
     sense = 1.0 if values[-1] > values[0] else -1.0
     knot = curve.knot(start, float(values[0]), np.zeros(len(start.V)), sense)
     found, limits, length = [knot], [], FIRST_STEP
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         there, length = curve.advance(knot, length)
         pieces = [(knot, there)]
         if knot.slope * there.slope < 0:
@@ -139,7 +139,7 @@ def _followed(curve: Curve, p: np.ndarray, values: np.ndarray) -> tuple[list[Kno
             return found, limits
         knot, length = there, min(LARGEST_STEP, 1.5 * length)
     raise EquilibriumFailed(f"the path of equilibria of {curve.system.name} must reach {curve.parameter} = {values[-1]:g}, and "
-                            f"is at {knot.value:.6g} after {MOST_STEPS} steps")
+                            f"is at {knot.value:.6g} after {MAX_STEPS} steps")
 
 
 def _passed(values: np.ndarray, first: float, last: float) -> list[float]:

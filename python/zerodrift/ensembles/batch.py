@@ -20,7 +20,7 @@ from .part import BY_CORE, IN_LANES, Part, nothing
 from .plan import OPTIONS, Plan
 
 FEW_EVENTS = 16             # occurrences of each event in a run for which memory is allocated initially
-MOST_NUMBERS = 2**21        # numbers that one call may return, which bounds its memory
+MAX_NUMBERS = 2**21        # numbers that one call may return, which bounds its memory
 
 
 class Batch(NamedTuple):
@@ -48,7 +48,7 @@ class Batch(NamedTuple):
         most = max(self.system.nq, self.system.nv, self.system.m, self.outputs.width if self.outputs else 0)
         of_rows = self.rows * (1 + len(groups) * most)
         of_events = FEW_EVENTS * (len(self.events.events) if self.events else 0)
-        return max(1, MOST_NUMBERS // max(of_rows + of_events, self.numbers))
+        return max(1, MAX_NUMBERS // max(of_rows + of_events, self.numbers))
 
 
 def batch_of(plan: Plan) -> Batch | None:

@@ -23,7 +23,7 @@ from . import parameters as _parameters
 from .grip import Grip
 from .law_programs import Programs
 
-MOST_MEASURES = 8192        # of a system of the core
+MAX_MEASURES = 8192        # of a system of the core
 TABLES = blocks.SECTIONS[:blocks.SECTIONS.index("start")]      # sections whose words parameters may change
 
 
@@ -157,8 +157,8 @@ def _tables(chosen: Chosen, tables: Any, texts: blocks.Texts) -> tuple[dict[str,
         grip = Grip(chosen.system._drawing.dimension, len(quantities), len(tables.forces), len(tables.parts))
         packed = grip.added(packed)._replace(measures=[*observed, grip.measure])
     measures = [row.name for row in packed.measures]
-    if len(measures) > MOST_MEASURES:
-        raise WrongValue(f"outputs must be given for a mechanism with more than {MOST_MEASURES} measures, "
+    if len(measures) > MAX_MEASURES:
+        raise WrongValue(f"outputs must be given for a mechanism with more than {MAX_MEASURES} measures, "
                          f"as {chosen.system.name} has", "missing-argument")
     packed, inputs, programs = _with_inputs(chosen, tables, packed, texts)
     inputs += grip.inputs(texts) if grip else []

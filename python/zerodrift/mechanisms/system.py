@@ -266,7 +266,7 @@ class MechanismSystem(Reported):
     def _check_unique(self, t: float, p: np.ndarray, v: np.ndarray) -> None:
         """Check that redundant constraints leave the reactions unique that user functions read."""
         laws = [law for element in self._drawing.elements.values() for law in [getattr(element, "law", None)] if law is not None]
-        read = [(law, name) for law in laws for name in law.reactions.values()] if 0 < self.m <= _gateway.MOST_LEAST else []
+        read = [(law, name) for law in laws for name in law.reactions.values()] if 0 < self.m <= _gateway.MAX_LEAST else []
         for law, name in read:
             place = self._watching.find(name)
             if place is not None and not self._watching.is_unique_at(place, t, p, v):

@@ -25,7 +25,7 @@ from ..systems.shapes import Shape
 from .rigid import carried
 
 RATE = 60               # samples for each second of the film
-MOST_SAMPLES = 900      # of a film; longer ones are thinned
+MAX_SAMPLES = 900      # of a film; longer ones are thinned
 SHORTEST, LONGEST = 3.0, 15.0   # s: films of shorter and longer motions are slower and faster than these
 RESTS = 1e-9            # of the picture: points that move less rest
 STRAIGHT = 0.01         # of the size of a shape: straight lines between samples that deviate less from the motion are drawn
@@ -39,7 +39,7 @@ NOTHING = 1e-9          # of the largest force or torque: torques of hinges are 
 FAR = 0.4               # of all its motion: what is smaller than that is followed
 FARTHER = 0.1           # of all its motion: what is smaller than that is followed past parts at rest
 FOLLOWED = 1.6          # widths of it are seen then
-MOST_LOADS = 200        # measures of forces that a film contains for clicks; of more, those of arrows alone
+MAX_LOADS = 200        # measures of forces that a film contains for clicks; of more, those of arrows alone
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Wanted:
     graphs: Any = ()
     names: bool = False
     speed: float | None = None
-    samples: int = MOST_SAMPLES
+    samples: int = MAX_SAMPLES
     group: str = ""         # films of one group that replace each other go on at the same time
 
     def __post_init__(self) -> None:
@@ -200,7 +200,7 @@ def _arrows(sol: Solution, times: np.ndarray, forces: Any, scale: float) -> tupl
     """
     if forces is False or forces is None or (isinstance(forces, list | tuple) and not forces):
         return [], []
-    rows = np.unique(np.linspace(0, len(sol.t) - 1, min(len(sol.t), MOST_SAMPLES)).astype(int))
+    rows = np.unique(np.linspace(0, len(sol.t) - 1, min(len(sol.t), MAX_SAMPLES)).astype(int))
     described, found = [], []
     for name, places, vectors in sol.system._forces(forces, sol, rows):
         ways = [np.stack([np.interp(times, sol.t[rows], column) for column in each.T], axis=1) for each in (places, vectors)]
@@ -228,7 +228,7 @@ def _tips(layer: dict[str, Any], arrow: float) -> np.ndarray:
 def _loads(sol: Solution, times: np.ndarray) -> list[dict[str, Any]]:
     """Forces and torques of joints and force elements over time, which a click shows: magnitudes of vectors, signed scalars."""
     names = [name for name in sol.measures if name.endswith((".force", ".torque"))]
-    if len(names) > MOST_LOADS:
+    if len(names) > MAX_LOADS:
         return []
     found = []
     for name in names:

@@ -24,7 +24,7 @@ from .scene import Wanted, scene
 HEIGHT = 460            # of a film in a notebook, in points of the screen
 GRAPH = 110             # more for each graph
 LARGEST = 100_000       # characters of the page that a solution shows of itself
-MOST_COORDINATES = 300  # of systems whose solutions show a film of themselves
+MAX_COORDINATES = 300  # of systems whose solutions show a film of themselves
 PICTURES = (".mp4", ".gif", ".webm", ".mov", ".avi", ".png")   # suffixes of films that `zerodrift.plot.animate` writes
 SHORTER = (900, 300, 100, 40)       # samples of it: the first whose page is not larger
 
@@ -130,7 +130,7 @@ class View:
 def of_solution(solution: Solution, text: str) -> str:
     """The film of a solution above its text, for notebooks; the text alone where the system cannot be drawn."""
     words = f"<pre>{html.escape(text)}</pre>"
-    if solution.system.nq > MOST_COORDINATES:
+    if solution.system.nq > MAX_COORDINATES:
         return f"{words}<small>zd.view(sol) shows the film of so many bodies; it takes a while to make.</small>"
     for samples in SHORTER:
         try:

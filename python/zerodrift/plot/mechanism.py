@@ -21,7 +21,7 @@ from .marks import SMOOTH, Mark, arc, hull
 from .names_apart import keep_apart
 
 PIN_RADIUS = 0.017  # of the picture: the radius of a pin
-LEAST_PIN_RADIUS = 1.7  # points: no pin is smaller, however small the picture
+MIN_PIN_RADIUS = 1.7  # points: no pin is smaller, however small the picture
 SLENDER = 0.13      # of the short bars, the quarter of all: no pin is larger
 OWN = 0.035         # of the mechanism without its path: no pin is larger
 MARGIN = 3.0        # sizes, around all that is drawn
@@ -76,7 +76,7 @@ class Picture:
         bars = [float(np.hypot(*np.ptp(shape.points, axis=0))) for shape in self._moments[0] if shape.kind == "link"]
         own = np.ptp(np.vstack([_extent(shape) for shape in self._moments[0]] or [places]), axis=0).max() or extent
         most = [OWN * float(own), *([SLENDER * float(np.quantile(bars, 0.25))] if bars else [])]
-        self.size = min(max(PIN_RADIUS * extent, LEAST_PIN_RADIUS * per_point), *most)
+        self.size = min(max(PIN_RADIUS * extent, MIN_PIN_RADIUS * per_point), *most)
         self.line = float(np.clip(LINE * self.size / per_point, THIN, THICK))
         return extent, per_point
 

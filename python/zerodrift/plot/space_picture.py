@@ -30,9 +30,9 @@ COILS = 6           # of a spring
 LIGHT = np.array([-0.35, -0.5, 0.8]) / np.linalg.norm([-0.35, -0.5, 0.8])      # direction to the light
 DARKEST, BRIGHTEST = 0.72, 1.08     # shares of a face's colour: edge-on to the light, and towards it
 FACES = np.array([(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)])     # of a box's corners
-MOST_NAMES = 40     # more would hide the picture
+MAX_NAMES = 40     # more would hide the picture
 TICKS = 4           # of each axis, at most
-MOST_PIECES = 240   # of a picture that are ordered by depth individually
+MAX_PIECES = 240   # of a picture that are ordered by depth individually
 PART = 3.0          # longest part of a bar, in sizes
 ROUND = [patheffects.Stroke(linewidth=5.4, foreground="#40505F"), patheffects.Stroke(linewidth=4.0, foreground="#8C9CAD"),
          patheffects.Stroke(linewidth=1.2, foreground="#DCE3EA", offset=(0, 0.8))]     # a rod that is lit from above
@@ -148,7 +148,7 @@ class SpacePicture:
         for i, path in enumerate(paths):
             ax.plot(*path.T, color=COLOURS[(i + 3) % len(COLOURS)], linewidth=1.2)
         named = dict.fromkeys(shape.name for shape in moments[0] if shape.name) if extras.names else {}
-        self._texts = {name: ax.text(0, 0, 0, name, fontsize="small", zorder=ABOVE) for name in named if len(named) <= MOST_NAMES}
+        self._texts = {name: ax.text(0, 0, 0, name, fontsize="small", zorder=ABOVE) for name in named if len(named) <= MAX_NAMES}
 
     def faintly(self, moments: Sequence[int]) -> None:
         """Draw other positions as thin lines, permanently."""
@@ -163,7 +163,7 @@ class SpacePicture:
         for shape in self._moments[moment]:
             drawn = [shape.points] if shape.kind in DOTS else GLYPHS[shape.kind].draw(shape.points, self.size)
             of_kind.setdefault(shape.kind, []).extend(drawn)
-        is_many = sum(map(len, of_kind.values())) > MOST_PIECES
+        is_many = sum(map(len, of_kind.values())) > MAX_PIECES
         for kind, pieces in of_kind.items():
             groups = [pieces] if is_many or kind in DOTS else [[piece] for piece in pieces]
             for artist, those in itertools.zip_longest(self._artists(kind, len(groups)), groups, fillvalue=[]):

@@ -20,7 +20,7 @@ from .threads import processors
 
 SMALLEST_PART = 64      # minimum number of runs in a thread
 FEWEST_IN_LANES = 16    # minimum number of runs for which functions in SIMD lanes are compiled
-MOST_LANES = 8          # of a vector unit: parts begin at multiples
+MAX_LANES = 8          # of a vector unit: parts begin at multiples
 
 
 class ManyRuns:
@@ -118,7 +118,7 @@ class ManyRuns:
 
     def advance_to(self, t: float) -> None:
         """Advance every run that has not failed to a time in s, as `Run.advance_to`; later ones fail."""
-        self._advance(_gateway.MOST_STEPS, _check.number("t", t))
+        self._advance(_gateway.MAX_STEPS, _check.number("t", t))
 
     def _advance(self, steps: int, t: float) -> None:
         core, others = self._core, range(1, len(self._parts))
@@ -260,7 +260,7 @@ class ManyRuns:
 def _parts(count: int, threads: int) -> list[tuple[int, int]]:
     """Runs of each thread: the first one, and their number."""
     parts = max(1, min(threads, count // SMALLEST_PART))
-    ends = [*(count * i // parts // MOST_LANES * MOST_LANES for i in range(parts)), count]
+    ends = [*(count * i // parts // MAX_LANES * MAX_LANES for i in range(parts)), count]
     return [(begin, end - begin) for begin, end in itertools.pairwise(ends)]
 
 

@@ -191,7 +191,7 @@ class Run:
         if sampling is not None:
             sampling.call(self)
             steps, instant = sampling.next(self)
-            core.set_goal(_gateway.MOST_STEPS if steps is None else steps, instant)
+            core.set_goal(_gateway.MAX_STEPS if steps is None else steps, instant)
         if self._history is not None:
             self._history.note(core.t, self.inputs)
 
@@ -269,9 +269,9 @@ class Run:
         t = _check.number("t", t, least=self.t)
         if self._sampling is not None:
             self._require_idle()
-            self._sample(_gateway.MOST_STEPS, t)
+            self._sample(_gateway.MAX_STEPS, t)
         else:
-            self._go(_gateway.MOST_STEPS, t)
+            self._go(_gateway.MAX_STEPS, t)
 
     def _require_idle(self) -> None:
         """Raise an error if a controller of this run is being called."""

@@ -8,7 +8,7 @@ from typing import Any
 from .settings import corrections_of
 from .summary import step_sizes
 
-MOST_VALUES = 6     # coordinates shown
+MAX_VALUES = 6     # coordinates shown
 
 
 def run_summary(run: Any) -> str:
@@ -30,6 +30,6 @@ def run_summary(run: Any) -> str:
 
 def _values(variables: Sequence[Any], values: Sequence[float]) -> str:
     shown = [f"{variable.name} = {value:.6g}{' ' + variable.unit if variable.unit else ''}"
-             for variable, value in zip(variables[:MOST_VALUES], values, strict=False)]
+             for variable, value in zip(variables[:MAX_VALUES], values, strict=False)]
     more = len(variables) - len(shown)
     return ", ".join([*shown, *([f"{more} more"] if more else [])]) or "none"

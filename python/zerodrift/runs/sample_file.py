@@ -30,7 +30,7 @@ from .solution import FIELDS, Solution
 SUFFIX = ".npy"
 EARLIER_SUFFIX = ".zd"  # of files in the format before NPY
 FORMAT = 2
-MOST_ROWS = 2**63 - 1   # the header has room for this number
+MAX_ROWS = 2**63 - 1   # the header has room for this number
 MAGIC = mapped_samples.MAGIC + bytes((1, 0))        # of NPY, version 1.0
 ALIGNED = 64            # bytes: the samples begin at a multiple of this offset
 BLOCK = 2**20           # bytes of samples buffered in memory before they are written; at least one sample
@@ -79,7 +79,7 @@ class SampleFile:
         names = {name: mapped_samples.NAMES.get(name, name) for name in self._record.columns}
         self._type = [*((names[name], "=f8", shape) for name, (_, shape) in self._record.columns.items()),
                       *((name, "=i4") for name in _gateway.COUNTS)]
-        self._begin = len(self._header(MOST_ROWS))
+        self._begin = len(self._header(MAX_ROWS))
         self._begin += -self._begin % ALIGNED
         with _replacing(self._path, json.dumps(layout).encode()) as self._file:
             self._put(self._header(0))

@@ -9,7 +9,7 @@ import numpy as np
 from .._gateway import WARNING_LIMITS
 from .settings import corrections_of
 
-MOST_NAMED = 8              # redundant constraints named in the summary
+MAX_NAMED = 8              # redundant constraints named in the summary
 PART = 2**26        # bytes of a column that are read at once
 
 
@@ -36,7 +36,7 @@ def summary(solution: Any) -> str:
         lines.append(f"  violation   max |Phi| = {_largest(solution.position_violation)}, "
                      f"max |Psi| = {_largest(solution.velocity_violation)}")
     if stats.get("redundant"):
-        names = [solution.system.constraints[row].name for row in stats["redundant"][:MOST_NAMED]]
+        names = [solution.system.constraints[row].name for row in stats["redundant"][:MAX_NAMED]]
         if (more := len(stats["redundant"]) - len(names)) > 0:
             names.append(f"{more} others")
         lines.append(f"  redundant   {', '.join(names)}: rank {stats['rank']} of {solution.system.m}")

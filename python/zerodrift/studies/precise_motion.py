@@ -21,7 +21,7 @@ RANK = 1e-10            # relative singular value below which constraints are re
 CORRECTIONS = 4         # of the start, each of which gains the digits of a double
 RESIDUAL = 10           # bound of h times the difference of rates, in units of the order times the tolerance
 SHORTER = 0.5           # factor of a step that is made again
-MOST_STEPS = 10_000     # attempts, each of which takes about a millisecond
+MAX_STEPS = 10_000     # attempts, each of which takes about a millisecond
 
 
 class Settings(NamedTuple):
@@ -147,7 +147,7 @@ class _Run:
         h = self._step(series)
         while self.done < len(self.times):
             t1, steps = min(t + h, end), steps + 1      # times are doubles, and their differences pairs
-            if t1 <= t or steps > MOST_STEPS:
+            if t1 <= t or steps > MAX_STEPS:
                 raise of_code("step-underflow", StepFailed("step size underflow in double-double arithmetic"))
             by = dd.minus(dd.of(t1), dd.of(t))
             after = self.motion.projected(self.functions, dd.of(t1), *(self.functions.value(x, by) for x in series))

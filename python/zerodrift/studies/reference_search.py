@@ -50,7 +50,7 @@ SAFETY_DENSE = 3    # the smallest, in units of the difference of the run that l
 SAFETY_ROUGH = 10   # the certified error, in units of the largest difference, where terms are not smooth for the steps
 STALL_RATIO = 4     # halving the step has stalled where it divides the difference by less than this, perhaps for rounding
 SMOOTH_RATIO = 8    # where it divides the difference by less than this, far above rounding, terms are not smooth for the steps
-MOST_STALLS = 2     # refinement ends after so many stalls that rounding does not explain, unless a smaller error is wanted
+MAX_STALLS = 2     # refinement ends after so many stalls that rounding does not explain, unless a smaller error is wanted
 EXPLAINED = 30      # a difference of at most so many times what rounding was seen to do is rounding
 RESOLVED = 1e-2     # part of the motion's size; where errors are larger, steps are too long for the order of the method to show
 REFINEMENTS = 14    # the largest number of times that this number of steps is doubled
@@ -206,7 +206,7 @@ class Search:
         """True if shorter steps would not reduce the error, or only slightly and no error was requested."""
         if self._is_missing_something(found):
             return False
-        enough = stalls >= MOST_STALLS and found.error <= RESOLVED * self.motion.size
+        enough = stalls >= MAX_STALLS and found.error <= RESOLVED * self.motion.size
         return self._is_rounding(found) or (enough and not self.wanted)
 
     def _is_missing_something(self, found: Reference) -> bool:

@@ -8,13 +8,13 @@ from sksundae.cvode import CVODE
 from sksundae.ida import IDA
 
 TOLERANCES = 10.0 ** -np.arange(3, 13.5, 0.5)
-LEAST_TOLERANCE = {"CVODE Adams": 9e-14, "CVODE BDF": 9e-13, "IDA": 9e-8}  # below, they hardly get ahead
+MIN_TOLERANCE = {"CVODE Adams": 9e-14, "CVODE BDF": 9e-13, "IDA": 9e-8}  # below, they hardly get ahead
 
 
 def sweeps(chain):
     """The settings of each method."""
-    return {f"SUNDIALS {method}": [(method, tolerance) for tolerance in TOLERANCES if tolerance >= LEAST_TOLERANCE[method]]
-            for method in LEAST_TOLERANCE}
+    return {f"SUNDIALS {method}": [(method, tolerance) for tolerance in TOLERANCES if tolerance >= MIN_TOLERANCE[method]]
+            for method in MIN_TOLERANCE}
 
 
 def solve(chain, setting):

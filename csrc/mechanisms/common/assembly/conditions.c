@@ -9,7 +9,7 @@
 #include "displacement.h"
 #include "target_rows.h"
 
-static const double LEAST_MASS = 1e-6;          /* relative to the largest mass, in the metric: mass of massless directions */
+static const double MIN_MASS = 1e-6;          /* relative to the largest mass, in the metric: mass of massless directions */
 static const double OFTEN = 1e8;                /* operations between checks for an interruption: some 0.1 s */
 static const double OF_DENSE = 10, OF_BLOCKS = 500;     /* operations of a step per product of its sizes */
 
@@ -142,7 +142,7 @@ static void weigh(zd_assembly *self, const double *p)
         self->weight[i] = mass * (self->scale[i] * self->scale[i]);
         largest = fmax(largest, self->weight[i]);
     }
-    const double least = self->layout ? 0 : LEAST_MASS * (largest > 0 ? largest : 1);     /* many bodies have mass */
+    const double least = self->layout ? 0 : MIN_MASS * (largest > 0 ? largest : 1);     /* many bodies have mass */
     for (int i = 0; i < self->n; i++) self->weight[i] = sqrt(fmax(self->weight[i], least));
 }
 

@@ -9,9 +9,9 @@
 static const double TRACKED = 0.1;          /* step of a target, at most, in rad or parts of the mechanism's length */
 static const double LONGEST = 0.4;          /* step of any coordinate, at most, in the same units */
 static const double NUDGE = 1e-3;           /* length of a perturbation, in the same units */
-static const double FIRST_DAMPING = 1e-2, LEAST_DAMPING = 1e-12, MOST_DAMPING = 1e12;
+static const double FIRST_DAMPING = 1e-2, MIN_DAMPING = 1e-12, MAX_DAMPING = 1e12;
 static const double SOLVED = 1e-12;         /* sum of squares below which Newton's method goes on */
-static const double LEAST_GAIN = 1e-14;     /* relative to the sum of squares: gain below which a minimization ends */
+static const double MIN_GAIN = 1e-14;     /* relative to the sum of squares: gain below which a minimization ends */
 enum { ATTEMPTS = 200, HALVINGS = 20, NEARER = 50, ITERATIONS = 40, PARTS = 200 };
 
 int zd_assembly_newton(zd_assembly *self, const zd_conditions *of, double *p)
@@ -35,7 +35,7 @@ int zd_assembly_newton(zd_assembly *self, const zd_conditions *of, double *p)
 static double find_damped(zd_assembly *self, const zd_conditions *of, const double *p, double size, double *damping)
 {
     const double unit = self->solver->prepare(self);
-    for (; *damping < MOST_DAMPING && !self->status; *damping *= 4) {
+    for (; *damping < MAX_DAMPING && !self->status; *damping *= 4) {
         if (!self->solver->damp(self, *damping * unit)) continue;
         zd_assembly_move(self, p, LONGEST, self->step, self->tried);
         zd_assembly_find(self, of, self->tried);
@@ -55,8 +55,8 @@ double zd_assembly_least_squares(zd_assembly *self, const zd_conditions *of, dou
         const double tried = find_damped(self, of, p, size, &damping), gain = size - tried;
         if (!(tried < size)) break;
         zd_copy_all(self->system->nq, self->tried, p);
-        damping = fmax(damping / 5, LEAST_DAMPING);
-        const int is_least = gain < LEAST_GAIN * size;
+        damping = fmax(damping / 5, MIN_DAMPING);
+        const int is_least = gain < MIN_GAIN * size;
         size = tried;
         if (is_least) break;
     }

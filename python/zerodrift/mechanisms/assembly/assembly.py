@@ -17,10 +17,10 @@ from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction, unit_of
 
 NUDGE = 1e-3            # step from a singular pose to nearby ones, in rad or parts of the mechanism's length
-LEAST_RATE = 1e-9       # of the largest: velocity below which others are left as they are
-LEAST_MASS = 1e-6       # of the largest, in the metric of velocities: mass of massless directions
+MIN_RATE = 1e-9       # of the largest: velocity below which others are left as they are
+MIN_MASS = 1e-6       # of the largest, in the metric of velocities: mass of massless directions
 RANK = 1e-9             # of the largest singular value: bound below which rows are redundant
-MOST_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
+MAX_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
 
 
 class Target(NamedTuple):
@@ -42,7 +42,7 @@ class Rates(NamedTuple):
 def is_of_many(core: MechanismCore) -> bool:
     """True if matrices are too large to be dense."""
     has_diagonal_mass = core.packing is not None and core.stored("M") == (core.nv,)
-    return has_diagonal_mass and max(core.nv, core.m) > MOST_DENSE
+    return has_diagonal_mass and max(core.nv, core.m) > MAX_DENSE
 
 
 class Assembly:
@@ -178,12 +178,12 @@ class Assembly:
     def changed(self, v: np.ndarray, change: np.ndarray) -> np.ndarray:
         """Velocities (nv,) and their change, or v itself where that is of rounding."""
         largest, moved = (np.abs(each / self.scale).max() for each in (v, change))
-        return v + change if moved > LEAST_RATE * largest else v
+        return v + change if moved > MIN_RATE * largest else v
 
     def nearest(self, p: np.ndarray, v: np.ndarray, free: np.ndarray, other: np.ndarray) -> np.ndarray:
         """Velocities (nv,) of least kinetic energy relative to others, by changes of v in the basis `free` (nv, k)."""
         masses = np.diag(self._evaluate(p)["M"]) * self.scale**2
-        roots = np.sqrt(np.maximum(masses, LEAST_MASS * (masses.max() or 1.0))) / self.scale
+        roots = np.sqrt(np.maximum(masses, MIN_MASS * (masses.max() or 1.0))) / self.scale
         return self.changed(v, free @ np.linalg.lstsq(roots[:, None] * free, roots * (other - v), rcond=None)[0])
 
     def _rows_of(self, p: np.ndarray, targets: Sequence[Target]) -> np.ndarray:

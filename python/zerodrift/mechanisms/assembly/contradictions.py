@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import InconsistentStart
 
-MOST_LISTED = 8           # largest number of names in a sentence
+MAX_LISTED = 8           # largest number of names in a sentence
 ANGLES = "angle", "angle1", "angle2"
 
 
@@ -45,5 +45,5 @@ def unit_of(name: str) -> str:
 
 def _listed(names: Sequence[str], between: str) -> str:
     """List of names, shortened after the first few."""
-    others = [f"{len(names) - MOST_LISTED} others"] if len(names) > MOST_LISTED else []
-    return between.join([*map(repr, names[:MOST_LISTED]), *others])
+    others = [f"{len(names) - MAX_LISTED} others"] if len(names) > MAX_LISTED else []
+    return between.join([*map(repr, names[:MAX_LISTED]), *others])

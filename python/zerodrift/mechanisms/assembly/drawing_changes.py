@@ -17,8 +17,8 @@ from .sketches import is_sketch, loop_of
 
 NAMED = 1e-3            # of the drawing's extent, or rad: smaller differences come from rounded numbers
 OPEN = 1e-2             # of the same: gaps of joints beyond the precision of a drawing
-MOST_NAMED = 8          # bodies or joints in a line, at most
-MOST_WARNED = 3         # bodies in a warning, at most
+MAX_NAMED = 8          # bodies or joints in a line, at most
+MAX_WARNED = 3         # bodies in a warning, at most
 
 
 class DrawingChanges:
@@ -61,7 +61,7 @@ class DrawingChanges:
                 return None
             if not is_sketch(self._tables, loop_of(self._tables, joint), also_held):
                 return (f"joint {self._tables.joints[joint].name!r} of {self._tables.drawing.name!r} is drawn open by "
-                        f"{self._in_words(gap)}, and to close it the start moves {', '.join(self._moved()[:MOST_WARNED])}: "
+                        f"{self._in_words(gap)}, and to close it the start moves {', '.join(self._moved()[:MAX_WARNED])}: "
                         f"{self._remedy(self._tables.joints[joint])}, or if it is a sketch, give a length= or hold a coordinate "
                         "of its loop by start()")
         return None
@@ -137,5 +137,5 @@ def _largest(amounts: dict[str, float]) -> list[tuple[str, float]]:
 
 
 def _listed(changes: list[str]) -> str:
-    others = [f"{len(changes) - MOST_NAMED} others"] if len(changes) > MOST_NAMED else []
-    return ", ".join([*changes[:MOST_NAMED], *others])
+    others = [f"{len(changes) - MAX_NAMED} others"] if len(changes) > MAX_NAMED else []
+    return ", ".join([*changes[:MAX_NAMED], *others])

@@ -19,7 +19,7 @@ PARALLEL = 1e-4         # degrees, at most, between parallel axes
 MEETS = 1e-6            # of the distance: deviation of an axis from a point that it passes through, at most
 RANK = 1e-9             # of the largest singular value
 LOCKED = "leave no body any motion, and yet rows follow from others"
-MOST_ROWS = 300         # constraints, at most, for a singular value decomposition
+MAX_ROWS = 300         # constraints, at most, for a singular value decomposition
 SHAFTS = "revolute", "cylindrical"
 
 
@@ -128,7 +128,7 @@ def _rotations(core: SpaceCore, p: np.ndarray) -> list[np.ndarray]:
 
 def at_start(tables: SpaceTables, core: SpaceCore, t: float, p: np.ndarray, name: str) -> str | None:
     """Sentence on joints that leave no motion, with the axes that may cause it; None if they leave some."""
-    if core.m > MOST_ROWS:
+    if core.m > MAX_ROWS:
         return None
     C = core.evaluate(t, p, np.zeros(core.nv))["C"]
     s = np.linalg.svd(C / np.maximum(np.linalg.norm(C, axis=1, keepdims=True), 1e-300), compute_uv=False)

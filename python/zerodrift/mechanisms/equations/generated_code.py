@@ -41,7 +41,7 @@ from .measure_tables import read
 from .tables import Tables
 
 DATA = "*(const double *const *)data"       # the doubles that functions receive: csrc/mechanisms/plane/tables.h
-MOST_VELOCITIES = 400   # with six a body, each of which takes more than ten operations: see closed_form_writer.MOST_OPERATIONS
+MAX_VELOCITIES = 400   # with six a body, each of which takes more than ten operations: see closed_form_writer.MAX_OPERATIONS
 FOLLOWED = "coordinates that follow from others have none"
 CLOSED_FORM_DATA = f"(ZD_LANES == 1 ? {DATA} : (const double *)data)"      # in SIMD lanes these alone differ between groups
 
@@ -118,7 +118,7 @@ class Written:
         from ...symbolics.emit import closed_form, closed_form_writer
         from ...symbolics.graph.lowering import Lowering
 
-        if self._sizes[1] > MOST_VELOCITIES:
+        if self._sizes[1] > MAX_VELOCITIES:
             return Code([], False, 0, 0, "", closed_form_writer.TOO_LARGE)
         equations = written()
         lowering = Lowering(equations.graph, equations.values)

@@ -18,7 +18,7 @@ FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh
              "log", "Abs", "sign", "Min", "Max", "floor", "ceiling", "Mod", "Heaviside")
 DEEPEST = 100       # nested operations, at most, for Python's stack
 LARGEST = 10**309       # largest whole number, near the largest double
-MOST_BITS = 3000        # bits, at most, of powers of numbers, which SymPy evaluates exactly while reading
+MAX_BITS = 3000        # bits, at most, of powers of numbers, which SymPy evaluates exactly while reading
 CONSTANTS = {"pi": "pi", "e": "Exp1", "true": "true", "false": "false"}
 
 
@@ -124,6 +124,6 @@ def _check_power(base: Any, exponent: Any, what: str) -> None:
     if not (base.is_Rational and exponent.is_Rational):
         return
     bits = max(int(base.p).bit_length(), int(base.q).bit_length())
-    if abs(exponent) > LARGEST or (bits > 1 and bits * abs(float(exponent)) > MOST_BITS):
+    if abs(exponent) > LARGEST or (bits > 1 and bits * abs(float(exponent)) > MAX_BITS):
         raise WrongValue(f"{what} must not have the power {base}^{exponent}, whose digits would fill the memory",
                          "unreadable-file")

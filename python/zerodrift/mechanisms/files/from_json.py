@@ -22,7 +22,7 @@ from .space_from_json import IN_SPACE, frames_from_json, keep_rotations
 from .to_json import VERSION, WHAT
 from .values_from_json import direction_from_json, law_and_of, place_from_json, point_of_body
 
-MOST_DIGITS = 400       # digits of a whole number in a file, at most: doubles have up to 309
+MAX_DIGITS = 400       # digits of a whole number in a file, at most: doubles have up to 309
 
 
 def parsed(text: str, where: str) -> dict[str, Any] | None:
@@ -38,8 +38,8 @@ def parsed(text: str, where: str) -> dict[str, Any] | None:
 
 
 def _whole(digits: str, where: str) -> int:
-    if len(digits) > MOST_DIGITS:
-        raise WrongValue(f"{where} has a whole number of {len(digits)} digits; there may be {MOST_DIGITS}", "unreadable-file")
+    if len(digits) > MAX_DIGITS:
+        raise WrongValue(f"{where} has a whole number of {len(digits)} digits; there may be {MAX_DIGITS}", "unreadable-file")
     return int(digits)
 
 

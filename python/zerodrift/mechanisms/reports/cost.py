@@ -36,8 +36,8 @@ JOINT = {2: (710.0, 5.0, 3.7, 360.0, 240.0, 44.0, 400.0, 0.0, 960.0),
 ABSOLUTE = {2: (3300.0, 4.7, 29.0, 180.0, 460.0, 250.0, 67.0, 120.0, 840.0),
             3: (3500.0, 4.9, 10.8, 270.0, 730.0, 560.0, 340.0, 55.0, 2150.0)}
 NANOSECONDS = 0.39      # duration of an operation in that measurement
-MOST_HINGED = 200       # bodies, at most, for which the core has terms from sines and cosines alone, if all have hinges
-GOOD, MOST_LOST = 2.0**-3, 20.0     # smallest pivot without extra cost; lost binary digits counted below it
+MAX_HINGED = 200       # bodies, at most, for which the core has terms from sines and cosines alone, if all have hinges
+GOOD, MAX_LOST = 2.0**-3, 20.0     # smallest pivot without extra cost; lost binary digits counted below it
 REDUNDANT = 1e-12       # smallest pivot of redundant constraints, and their factor of the cost, for few and for many constraints
 TIMES_OF_FEW, TIMES_OF_MANY = 4.0, 15.0
 PASSES_FLAT_POSES = 8.0 # ratio of costs up to which absolute coordinates are chosen where flat poses may stop joint ones
@@ -113,7 +113,7 @@ def parts_of_absolute(tables: Tables) -> tuple[tuple[float, ...], float]:
     known, other = (work.products[i] + work.factors[i] + work.solves[i] for i in (0, 1))
     few = 0.0 if work.is_of_many else float(work.rows)
     is_redundant = work.share < REDUNDANT
-    lost = 0.0 if is_redundant else min(math.log2(GOOD / min(work.share, GOOD)), MOST_LOST)
+    lost = 0.0 if is_redundant else min(math.log2(GOOD / min(work.share, GOOD)), MAX_LOST)
     times = 1.0 if not is_redundant else TIMES_OF_MANY if work.is_of_many else TIMES_OF_FEW
     by_products = work.rows * bool(work.has_products)
     return (1.0, known, other, by_products, work.rows - by_products, work.rows * (not work.is_alike), few, few * lost,
@@ -132,7 +132,7 @@ def parts_of_joint(tables: Tables) -> tuple[float, ...]:
 
 def _is_hinged(tables: Tables) -> bool:
     """True if every body of a planar mechanism has a hinge or weld as its inboard joint."""
-    if tables.drawing.dimension == 3 or len(tables.parts) > MOST_HINGED:
+    if tables.drawing.dimension == 3 or len(tables.parts) > MAX_HINGED:
         return False
     return all(inboard >= 0 and tables.joints[inboard].row.inboard in ("turns", "fixed") for inboard in tables.inboard)
 

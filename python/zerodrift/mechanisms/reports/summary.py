@@ -15,7 +15,7 @@ from ..equations.space_tables import tables_of
 from . import cost
 from .counting import Count, count
 
-MOST_NAMED = 40         # constraints or loops in a list, at most
+MAX_NAMED = 40         # constraints or loops in a list, at most
 
 
 def headline(drawing: Drawing) -> str:
@@ -73,9 +73,9 @@ def _rows(counted: Count) -> str:
 
 def _listed(names: Sequence[str]) -> str:
     """List of names, shortened after the first few."""
-    if len(names) <= MOST_NAMED:
+    if len(names) <= MAX_NAMED:
         return ", ".join(names)
-    return f"{', '.join(names[:MOST_NAMED])} and {len(names) - MOST_NAMED} others"
+    return f"{', '.join(names[:MAX_NAMED])} and {len(names) - MAX_NAMED} others"
 
 
 def _several(number: int, word: str, plural: str = "") -> str:

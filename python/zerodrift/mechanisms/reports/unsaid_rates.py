@@ -10,8 +10,8 @@ from ..assembly.start import Starting
 from ..equations.measure_tables import read
 from ..equations.tables import Tables
 
-MOST_NAMED = 8
-LEAST_RATE = 1e-9       # of the largest velocity: rate of a coordinate that rests
+MAX_NAMED = 8
+MIN_RATE = 1e-9       # of the largest velocity: rate of a coordinate that rests
 
 
 def moving_unsaid(start: Starting, tables: Tables, assembly: Assembly, p: np.ndarray) -> list[str]:
@@ -22,14 +22,14 @@ def moving_unsaid(start: Starting, tables: Tables, assembly: Assembly, p: np.nda
     size = np.abs(v / assembly.scale).max()
     bodies = rates_of_tree(start.drawing, tables)
     core = tables.core(*read(tables, list(bodies)))
-    moving = {each.body for each, rate in zip(core.motions, v / assembly.scale, strict=True) if abs(rate) > LEAST_RATE * size}
+    moving = {each.body for each, rate in zip(core.motions, v / assembly.scale, strict=True) if abs(rate) > MIN_RATE * size}
     said, riding = {}, []
     for i, measure in enumerate(core.measures):
         body, unit = bodies.get(measure.name), assembly.length if measure.unit == "m/s" else 1.0
         found = core.measure_at(i, assembly.t, p, v)
-        if body not in moving or np.abs(found["jacobian"] @ free).max() <= LEAST_RATE * unit:
+        if body not in moving or np.abs(found["jacobian"] @ free).max() <= MIN_RATE * unit:
             continue
-        if np.abs(found["value"]).max() > LEAST_RATE * unit * size:
+        if np.abs(found["value"]).max() > MIN_RATE * unit * size:
             said[f"{measure.name} = {_numbers(found['value'])} {measure.unit}"] = body
         else:
             riding.append(body)
@@ -39,10 +39,10 @@ def moving_unsaid(start: Starting, tables: Tables, assembly: Assembly, p: np.nda
 
 
 def _listed(words: list[str]) -> str:
-    others = [f"{len(words) - MOST_NAMED} others"] if len(words) > MOST_NAMED else []
-    return ", ".join([*words[:MOST_NAMED], *others])
+    others = [f"{len(words) - MAX_NAMED} others"] if len(words) > MAX_NAMED else []
+    return ", ".join([*words[:MAX_NAMED], *others])
 
 
 def _numbers(values: np.ndarray) -> str:
-    words = [f"{value if abs(value) > LEAST_RATE * np.abs(values).max() else 0.0:.3g}" for value in values]
+    words = [f"{value if abs(value) > MIN_RATE * np.abs(values).max() else 0.0:.3g}" for value in values]
     return words[0] if len(words) == 1 else f"({', '.join(words)})"

@@ -68,7 +68,7 @@ class ClosedFormFunctions:
 
         program, sizes, values, p0, is_length = self._definition
         calls = {operation[1] for operation in program["operations"] if operation[0] == "call"}
-        limits = closed_form_writer.MOST_OPERATIONS, closed_form_writer.MOST_STATEMENTS
+        limits = closed_form_writer.MAX_OPERATIONS, closed_form_writer.MAX_STATEMENTS
         return kept.digest_of("closed-form functions", _writing_code(calls <= set(NAMED)), limits, program, sizes,
                               values.tolist(),
                               None if p0 is None else p0.tolist(), is_length.tolist(), self._offset, self._data, self._embeds)

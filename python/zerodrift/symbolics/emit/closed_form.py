@@ -26,7 +26,7 @@ def as_json(lowering: Lowering, outputs: dict[str, list[int]]) -> dict[str, Any]
     """Program as JSON; or the reason why it cannot be stored: too large for closed-form functions, or functions other than
     SymPy's.
     """
-    if len(lowering.operations) > closed_form_writer.MOST_OPERATIONS:
+    if len(lowering.operations) > closed_form_writer.MAX_OPERATIONS:
         return closed_form_writer.TOO_LARGE
     operations = []
     for code, arguments, _ in lowering.operations:

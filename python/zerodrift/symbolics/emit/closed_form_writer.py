@@ -10,9 +10,9 @@ from ..graph.lowering import SIMPLE, Lowering
 from .lane_writer import LaneWriter, for_each_set
 from .writers import CWriter, indented
 
-MOST_OPERATIONS = 4000      # of the functions of one order
-TOO_LARGE = f"they would take more than {MOST_OPERATIONS} operations"
-MOST_STATEMENTS = 1000      # of one function
+MAX_OPERATIONS = 4000      # of the functions of one order
+TOO_LARGE = f"they would take more than {MAX_OPERATIONS} operations"
+MAX_STATEMENTS = 1000      # of one function
 AT = ("ZD_ON_UNIT static int ZD_NAMED({name})(const void *data, const double *at_inputs, const double *at_time,"
       " const double *at_p,")
 ACCELERATE = (AT, "    const double *at_v, const double *with_added, double *to_pdot, double *to_vdot, double *to_lambda,",
@@ -30,7 +30,7 @@ FOR_ONE = "finish", "embed"     # of several trajectories, some may have to be i
 class Bounded(Lowering):
     """List of operations of bounded length; raises `Unwritten` beyond."""
 
-    most = 8 * MOST_OPERATIONS      # of all orders together, and of what no function needs
+    most = 8 * MAX_OPERATIONS      # of all orders together, and of what no function needs
 
     def emit(self, code, *arguments):
         if len(self.operations) > self.most:
@@ -105,7 +105,7 @@ def _constants(lowering: Lowering, functions: list[dict[str, dict[str, list[int]
     for outputs in (each for of in functions for each in of.values() if each):
         program = _Program(lowering, outputs, {})
         needed = program.needed(outputs)
-        if len(needed) > MOST_OPERATIONS:
+        if len(needed) > MAX_OPERATIONS:
             raise Unwritten(TOO_LARGE)
         outside = {number for numbers in outputs.values() for number in numbers}
         for number in needed:
@@ -150,8 +150,8 @@ def _function(program: _Program, head: list[str], offset: int, data: str) -> lis
 
 
 def _whole(head: list[str], body: list[str]) -> list[str]:
-    if len(body) > MOST_STATEMENTS:
-        raise Unwritten(f"a function would have more than {MOST_STATEMENTS} statements")
+    if len(body) > MAX_STATEMENTS:
+        raise Unwritten(f"a function would have more than {MAX_STATEMENTS} statements")
     return [*head, "{", *indented([*body, "return ZD_DONE;"]), "}"]
 
 

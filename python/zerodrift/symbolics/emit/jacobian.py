@@ -20,7 +20,7 @@ from .taylor import Jet
 from .writers import indented
 
 JACOBIAN = "zd_symbolic_jacobian"       # what the descriptor is called in its library
-MOST_STATEMENTS = 4000
+MAX_STATEMENTS = 4000
 SIGNATURE = ["static int {0}(const void *data, const double *inputs, double t, const double *restrict p,",
              "    const double *restrict v, double *restrict {1}, double *restrict scratch)", "{{"]
 
@@ -36,8 +36,8 @@ class _Slopes(Writer):
         self.statements: list[str] = []
         for number, jet in enumerate(self.operations):
             self.slopes.append(self._slopes_of(number, jet))
-            if len(self.statements) > MOST_STATEMENTS:
-                raise Unwritten(f"their Jacobian would have more than {MOST_STATEMENTS} statements")
+            if len(self.statements) > MAX_STATEMENTS:
+                raise Unwritten(f"their Jacobian would have more than {MAX_STATEMENTS} statements")
 
     def _slopes_of(self, number: int, jet: Jet) -> dict[Leaf, str]:
         if jet.kind == "leaf":
@@ -161,8 +161,8 @@ def _function(name: str, result: str, body: list[str], data: str) -> list[str]:
 
 
 def _bounded(*parts: list[str]) -> list[str]:
-    if sum(map(len, parts)) > MOST_STATEMENTS:
-        raise Unwritten(f"their Jacobian would have more than {MOST_STATEMENTS} statements")
+    if sum(map(len, parts)) > MAX_STATEMENTS:
+        raise Unwritten(f"their Jacobian would have more than {MAX_STATEMENTS} statements")
     return [line for part in parts for line in part]
 
 

@@ -27,7 +27,7 @@ from .writers import indented
 TERMS = ("A", "M", "d", "f", "C", "xi", "power", "Phi_t")
 SERIES, PRECISE = "zd_symbolic_series", "zd_symbolic_precise"       # names of the descriptors in their libraries
 ROUNDED = ("erf", "erfc", "gamma", "loggamma", "expm1", "log1p", "log2", "log10", "hypot")     # of double precision alone
-MOST_STATEMENTS = 2000              # of one order
+MAX_STATEMENTS = 2000              # of one order
 TURNS = ("sin", "cos")
 HEAD = ["/* Written by zerodrift.symbolic. */", "#include <math.h>", "#include <zerodrift/series.h>",
         "#include <zerodrift/system.h>", "", "const int zd_interface_version = ZD_INTERFACE_VERSION;", ""]
@@ -328,8 +328,8 @@ def functions(program: dict[str, Any], sizes: tuple[int, int, int, int], data: s
     """C function of the coefficients; the header that is included determines its precision."""
     writer = Writer(program, sizes)
     body = _of_one_order(writer)
-    if len(body) > MOST_STATEMENTS:
-        raise Unwritten(f"their series would have more than {MOST_STATEMENTS} statements")
+    if len(body) > MAX_STATEMENTS:
+        raise Unwritten(f"their series would have more than {MAX_STATEMENTS} statements")
     rows = max(TOGETHER, -(-len(writer.sums.pairs) // TOGETHER) * TOGETHER)
     lines = [f"const zd_number *restrict const k = {data};",
              "zd_number *restrict const X = scratch, *restrict const Y = X + (orders + 1) * ROWS;",

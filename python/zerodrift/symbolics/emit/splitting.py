@@ -10,7 +10,7 @@ from ..graph.blocks import Blocks
 from .loops import element, number, plain, rolled
 from .writers import LONGEST, CWriter, indented, turn_of, unwrapped, wanted
 
-MOST_STATEMENTS = 400       # of one function: compilers take the square of it; a run with loops takes 0.96 to 1.06 of one without
+MAX_STATEMENTS = 400       # of one function: compilers take the square of it; a run with loops takes 0.96 to 1.06 of one without
 FEWEST_STATEMENTS = 8       # statements alike that are worth a loop
 PIECE = 250                 # of one function of a large program
 ARGUMENTS = "const double *restrict k, double t, const double *restrict p, const double *restrict v,"
@@ -24,7 +24,7 @@ def source(blocks: Blocks, heading: list[str], parameters: int, data: str = "dat
     `data` is C for the doubles of a system.
     """
     written = CWriter(blocks).source(heading, parameters, data)
-    is_large = written[0].count(";\n") > MOST_STATEMENTS
+    is_large = written[0].count(";\n") > MAX_STATEMENTS
     return LargeWriter(blocks).source(heading, parameters, data) if is_large else written
 
 

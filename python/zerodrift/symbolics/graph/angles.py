@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 Form = tuple[tuple[int, float], ...]    # an angle as a sum of whole multiples: (operation, how many of it), sorted
 Operations = list[list[Any]]            # (code, arguments ...), as `direct.as_json` keeps them
-MOST_PARTS = 8      # of a sum: what has more is one angle
+MAX_PARTS = 8      # of a sum: what has more is one angle
 
 
 class Sum(NamedTuple):
@@ -95,7 +95,7 @@ class _Forms:
         """The form of an operation."""
         if number not in self._forms:
             form = self._sum(*self._operations[number])
-            self._forms[number] = ((number, 1),) if form is None or len(form) > MOST_PARTS else form
+            self._forms[number] = ((number, 1),) if form is None or len(form) > MAX_PARTS else form
         return self._forms[number]
 
     def _sum(self, code: str, *arguments: Any) -> Form | None:
