@@ -30,7 +30,7 @@ static int count_words(const char *text)
     return words;
 }
 
-static int is_whole(double value) { return value == floor(value); }
+static int is_complete(double value) { return value == floor(value); }
 
 /* The requirement that a value violates; NULL: none. */
 static const char *demanded(const zd_parameter *parameter, double value)
@@ -38,9 +38,9 @@ static const char *demanded(const zd_parameter *parameter, double value)
     switch (parameter->rule) {
     case ZD_POSITIVE: return value > 0 && value < INFINITY ? NULL : "finite and greater than 0";
     case ZD_NOT_NEGATIVE: return value >= 0 && value < INFINITY ? NULL : "finite and at least 0";
-    case ZD_COUNT: return value >= 1 && value < 0x1p31 && is_whole(value) ? NULL : "a whole number from 1 on";
+    case ZD_COUNT: return value >= 1 && value < 0x1p31 && is_complete(value) ? NULL : "a whole number from 1 on";
     case ZD_SWITCH: return value == 0 || value == 1 ? NULL : "0 or 1";
-    case ZD_CHOICE: return value >= 0 && value < count_words(parameter->text) && is_whole(value) ? NULL : "the number of a word";
+    case ZD_CHOICE: return value >= 0 && value < count_words(parameter->text) && is_complete(value) ? NULL : "the number of a word";
     case ZD_ANY: break;
     }
     return isfinite(value) ? NULL : "finite";

@@ -12,7 +12,7 @@ import pytest
 import zerodrift as zd
 from support import environment_of_tests, refused
 from zerodrift import _writing
-from zerodrift._writing import write_whole
+from zerodrift._writing import write_atomically
 
 posix = pytest.mark.skipif(os.name == "nt", reason="limits, permissions and signals of POSIX")
 resource = pytest.importorskip("resource") if os.name != "nt" else None
@@ -64,14 +64,14 @@ def test_an_older_file_survives_a_disk_that_is_full(tmp_path, name):
 
 KILLED = """
 import os, signal, sys
-from zerodrift._writing import write_whole
+from zerodrift._writing import write_atomically
 
 def write(file):
     file.write(b"half of it")
     file.flush()
     os.kill(os.getpid(), signal.SIGKILL)
 
-write_whole(sys.argv[1], write)
+write_atomically(sys.argv[1], write)
 """
 
 
@@ -89,7 +89,7 @@ def test_the_file_is_on_the_disk_before_it_has_its_name(tmp_path, monkeypatch):
     seen, real = [], {name: getattr(os, name) for name in ("fsync", "replace")}
     for name in real:
         monkeypatch.setattr(_writing.os, name, lambda *given, name=name: (seen.append(name), real[name](*given)))
-    write_whole(tmp_path / "run", lambda file: file.write(b"new"))
+    write_atomically(tmp_path / "run", lambda file: file.write(b"new"))
     assert seen == ["fsync", "replace"] + (["fsync"] if os.name != "nt" else [])
 
 
@@ -99,14 +99,14 @@ def test_permissions_links_and_devices(tmp_path):
     path.write_bytes(b"old")
     path.chmod(0o640)
     link.symlink_to(path)
-    write_whole(link, lambda file: file.write(b"new"))
+    write_atomically(link, lambda file: file.write(b"new"))
     assert link.is_symlink()
     assert path.read_bytes() == b"new"
     assert stat.S_IMODE(path.stat().st_mode) == 0o640
-    write_whole(tmp_path / "fresh", lambda file: file.write(b""))
+    write_atomically(tmp_path / "fresh", lambda file: file.write(b""))
     (tmp_path / "plain").touch()
     assert (tmp_path / "fresh").stat().st_mode == (tmp_path / "plain").stat().st_mode
-    write_whole("/dev/null", lambda file: file.write(b"new"))
+    write_atomically("/dev/null", lambda file: file.write(b"new"))
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
 
 
@@ -115,7 +115,7 @@ def test_a_protected_file_and_a_folder_that_is_not_there(tmp_path, monkeypatch):
     path.write_bytes(b"old")
     monkeypatch.setattr(_writing.os, "access", lambda path, mode: False)      # as for all users except the superuser
     with pytest.raises(PermissionError) as caught:
-        write_whole(path, lambda file: file.write(b"new"))
+        write_atomically(path, lambda file: file.write(b"new"))
     assert caught.value.filename == str(path)
     assert path.read_bytes() == b"old"
     with pytest.raises(FileNotFoundError) as caught:

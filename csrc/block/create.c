@@ -61,7 +61,7 @@ static int fits(const zd_block *self, zd_complaint to)
     if (start && start != needed) return zd_complain(to, "the start must have %d numbers, p and v, not %d", needed, start);
     for (int i = 0; i < count_of(&self->layout, ZD_BLOCK_OUTPUTS); i++) {
         const double measure = *zd_block_entry(&self->layout, ZD_BLOCK_OUTPUTS, i);
-        if (!zd_block_is_whole(measure, 0, count_of(&self->layout, ZD_BLOCK_MEASURES)))
+        if (!zd_block_is_integer(measure, 0, count_of(&self->layout, ZD_BLOCK_MEASURES)))
             return zd_complain(to, "output %d: its measure must exist, and is %g", i, measure);
         self->output[i] = (int)measure;
     }

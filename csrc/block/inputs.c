@@ -10,7 +10,7 @@ static const double *input_of(const zd_block *block, int input) { return zd_bloc
 static int is_settable(const zd_block *block, const double *input)
 {
     if (zd_block_is(input[2], ZD_INPUT_SPEED)) return input[3] == 0;
-    return zd_block_is(input[2], ZD_INPUT_FORCE) && zd_block_is_whole(input[3], 0, block->layout.part[ZD_BLOCK_FORCES].count) &&
+    return zd_block_is(input[2], ZD_INPUT_FORCE) && zd_block_is_integer(input[3], 0, block->layout.part[ZD_BLOCK_FORCES].count) &&
            block->force[(int)input[3]].kind == ZD_FORCE_CONSTANT;
 }
 
@@ -84,14 +84,14 @@ static int effect_is_right(const zd_block_layout *layout, const double *effect)
     const zd_block_part *last = layout->part + ZD_BLOCK_START;
     const double start = (double)(last->word - layout->part[ZD_BLOCK_GRAVITY].word) + (int)ZD_BLOCK_HEADER;
     const double products = layout->part[ZD_BLOCK_PRODUCTS].count;
-    return zd_block_is_whole(effect[0], ZD_BLOCK_HEADER, start) && zd_block_is_whole(effect[1], 0, products) &&
-           zd_block_is_whole(effect[2], 1, products - effect[1] + 1);
+    return zd_block_is_integer(effect[0], ZD_BLOCK_HEADER, start) && zd_block_is_integer(effect[1], 0, products) &&
+           zd_block_is_integer(effect[2], 1, products - effect[1] + 1);
 }
 
 static int product_is_right(const zd_block_layout *layout, const double *product)
 {
     for (int i = 1; i < 7; i += 2)
-        if (!zd_block_is_whole(product[i], 0, layout->part[ZD_BLOCK_PARAMETERS].count) || !zd_block_is_whole(product[i + 1], 0, MOST))
+        if (!zd_block_is_integer(product[i], 0, layout->part[ZD_BLOCK_PARAMETERS].count) || !zd_block_is_integer(product[i + 1], 0, MOST))
             return 0;
     return 1;
 }

@@ -34,20 +34,20 @@ static int operands_of(enum zd_block_code code)
 /* `number` instructions precede it in its law, which has so many marker quantities and results. */
 static int instruction_is_right(const zd_block_layout *layout, const double *word, int number, double terms, double results)
 {
-    if (!zd_block_is_whole(word[0], 0, ZD_CODES)) return 0;
+    if (!zd_block_is_integer(word[0], 0, ZD_CODES)) return 0;
     const enum zd_block_code code = (enum zd_block_code)(int)word[0];
     switch (code) {
     case ZD_CODE_NUMBER: case ZD_CODE_TIME: return 1;
-    case ZD_CODE_X: case ZD_CODE_XDOT: return zd_block_is_whole(word[1], 0, terms);
-    case ZD_CODE_RESULT: return zd_block_is_whole(word[1], 0, results) && zd_block_is_whole(word[2], 0, number);
-    case ZD_CODE_INPUT: return zd_block_is_whole(word[1], 0, layout->part[ZD_BLOCK_INPUTS].count) && zd_block_is_whole(word[2], 0, 3);
+    case ZD_CODE_X: case ZD_CODE_XDOT: return zd_block_is_integer(word[1], 0, terms);
+    case ZD_CODE_RESULT: return zd_block_is_integer(word[1], 0, results) && zd_block_is_integer(word[2], 0, number);
+    case ZD_CODE_INPUT: return zd_block_is_integer(word[1], 0, layout->part[ZD_BLOCK_INPUTS].count) && zd_block_is_integer(word[2], 0, 3);
     case ZD_CODE_SPLINE:
-        return zd_block_is_whole(word[1], 0, layout->part[ZD_BLOCK_SPLINES].count) && zd_block_is_whole(word[2], 0, number) &&
-               zd_block_is_whole(word[3], 0, 3);
+        return zd_block_is_integer(word[1], 0, layout->part[ZD_BLOCK_SPLINES].count) && zd_block_is_integer(word[2], 0, number) &&
+               zd_block_is_integer(word[3], 0, 3);
     default: break;
     }
     for (int i = 1; i <= operands_of(code); i++)
-        if (!zd_block_is_whole(word[i], 0, number)) return 0;
+        if (!zd_block_is_integer(word[i], 0, number)) return 0;
     return 1;
 }
 
@@ -68,8 +68,8 @@ static int has_results(const zd_block_layout *layout, const double *law)
 static int law_is_right(const zd_block_layout *layout, int law, zd_complaint to)
 {
     const double *word = zd_block_entry(layout, ZD_BLOCK_LAWS, law), instructions = layout->part[ZD_BLOCK_INSTRUCTIONS].count;
-    if (!zd_block_is_whole(word[0], 0, instructions) || !zd_block_is_whole(word[1], 1, instructions - word[0] + 1) ||
-        !zd_block_is_whole(word[2], 0, 0x1p20) || !zd_block_is_whole(word[3], 1, 0x1p20))
+    if (!zd_block_is_integer(word[0], 0, instructions) || !zd_block_is_integer(word[1], 1, instructions - word[0] + 1) ||
+        !zd_block_is_integer(word[2], 0, 0x1p20) || !zd_block_is_integer(word[3], 1, 0x1p20))
         return zd_complain(to, "law %d: its instructions must exist, and its counts be whole numbers", law);
     for (int i = 0; i < (int)word[1]; i++)
         if (!instruction_is_right(layout, zd_block_entry(layout, ZD_BLOCK_INSTRUCTIONS, (int)word[0] + i), i, word[2], word[3]))
@@ -80,7 +80,7 @@ static int law_is_right(const zd_block_layout *layout, int law, zd_complaint to)
 static int spline_is_right(const zd_block_layout *layout, int spline, zd_complaint to)
 {
     const double *word = zd_block_entry(layout, ZD_BLOCK_SPLINES, spline), knots = layout->part[ZD_BLOCK_KNOTS].count;
-    if (!zd_block_is_whole(word[0], 0, knots) || !zd_block_is_whole(word[1], 2, knots - word[0] + 1))
+    if (!zd_block_is_integer(word[0], 0, knots) || !zd_block_is_integer(word[1], 2, knots - word[0] + 1))
         return zd_complain(to, "spline %d: it must have at least 2 knots, which must exist", spline);
     const double *knot = zd_block_entry(layout, ZD_BLOCK_KNOTS, (int)word[0]);
     for (int i = 1; i < (int)word[1]; i++)

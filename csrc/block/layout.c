@@ -10,7 +10,7 @@ static const char *const name_of_section[ZD_BLOCK_SECTIONS] = {
     "gravity", "bodies", "joints", "marker quantities", "terms", "relations", "forces", "measures", "laws", "instructions",
     "splines", "knots", "start", "outputs", "inputs", "settings", "methods", "names", "parameters", "effects", "products", "texts"};
 
-int zd_block_is_whole(double word, double low, double end)
+int zd_block_is_integer(double word, double low, double end)
 {
     return word >= low && word < end && word == floor(word);
 }
@@ -60,7 +60,7 @@ static int place_sections(const double *word, size_t words, zd_block_layout *to,
     for (int section = 0; section < ZD_BLOCK_SECTIONS; section++) {
         const double count = word[4 + section];
         const int width = width_of(to, section);
-        if (!zd_block_is_whole(count, 0, LARGEST) || (size_t)count * (size_t)width > words - at)
+        if (!zd_block_is_integer(count, 0, LARGEST) || (size_t)count * (size_t)width > words - at)
             return zd_complain(complaint, "the number of %s of the block must fit in it, and is %g", name_of_section[section], count);
         to->part[section] = (zd_block_part){(int)count, width, word + at};
         at += (size_t)count * (size_t)width;
@@ -96,7 +96,7 @@ int zd_block_split(const double *word, size_t words, const zd_block_dimension *c
 const char *zd_block_text(const zd_block_layout *layout, double offset)
 {
     const zd_block_part *texts = layout->part + ZD_BLOCK_TEXTS;
-    if (!zd_block_is_whole(offset, 0, 8.0 * texts->count)) return NULL;
+    if (!zd_block_is_integer(offset, 0, 8.0 * texts->count)) return NULL;
     return (const char *)texts->word + (size_t)offset;
 }
 
@@ -110,7 +110,7 @@ static int unpack_field(const zd_block_layout *layout, const zd_block_field *fie
         return text != NULL;
     }
     if (field->member == ZD_MEMBER_INT) {
-        if (!zd_block_is_whole(*word, -1, LARGEST)) return 0;
+        if (!zd_block_is_integer(*word, -1, LARGEST)) return 0;
         const int value = (int)*word;
         memcpy(to, &value, sizeof value);
     }

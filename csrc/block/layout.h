@@ -45,7 +45,7 @@ int zd_block_split(const double *word, size_t words, const zd_block_dimension *c
 /* to (count,) <- entries of a section. Returns 0 if a whole number is not one. */
 int zd_block_unpack(const zd_block_layout *layout, int section, void *to, zd_complaint complaint);
 /* True if the word is a whole number from `low` on and below `end`. */
-int zd_block_is_whole(double word, double low, double end);
+int zd_block_is_integer(double word, double low, double end);
 /* Text at an offset; NULL if there is none. */
 const char *zd_block_text(const zd_block_layout *layout, double offset);
 

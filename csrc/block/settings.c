@@ -14,7 +14,7 @@ static zd_given given_of(const double *method)
 static int take_method(const zd_block *block, const double *method, zd_settings *to, zd_complaint complaint)
 {
     const char *name = zd_block_text(&block->layout, method[1]);
-    if (!zd_block_is_whole(method[0], ZD_FORMULATIONS, ZD_CORRECTIONS + 1) || !name)
+    if (!zd_block_is_integer(method[0], ZD_FORMULATIONS, ZD_CORRECTIONS + 1) || !name)
         return zd_complain(complaint, "methods of a block must be of a table of methods, and have a name");
     const enum zd_table table = (enum zd_table)(int)method[0];
     const int row = zd_row_named(table, name);
@@ -44,7 +44,7 @@ int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int
         if (!take_method(block, zd_block_entry(&block->layout, ZD_BLOCK_METHODS, i), settings, to)) return ZD_BAD_ARGUMENT;
     if (!given->count) return ZD_DONE;
     const double *word = given->word;
-    if (!zd_block_is_whole(word[7], 0, 0x1p53) || !zd_block_is_whole(word[8], 0, 2)) {
+    if (!zd_block_is_integer(word[7], 0, 0x1p53) || !zd_block_is_integer(word[8], 0, 2)) {
         zd_complain(to, "settings of a block must have a whole number of steps, and 0 or 1 for bifurcations");
         return ZD_BAD_ARGUMENT;
     }

@@ -216,12 +216,12 @@ static int note(search *self, zd_point *point)
 static int find_candidates(search *self, const zd_point *point, double little)
 {
     for (;;) {
-        const int is_whole = self->whole.max_touchers == INT_MAX;
+        const int is_complete = self->whole.max_touchers == INT_MAX;
         if (!self->weighted) self->weighted = zd_weighted_create(&self->store, &self->whole);
         if (!self->weighted) return ZD_NO_MEMORY;
         const int of_welds = zd_weighted_leave_out(self->weighted, point->terms.C, self->U, little, self->candidate);
         if (of_welds < 0) return ZD_NO_MEMORY;
-        if (!of_welds || is_whole) return ZD_DONE;
+        if (!of_welds || is_complete) return ZD_DONE;
         self->whole.max_touchers = INT_MAX;
         self->weighted = NULL;
     }

@@ -20,10 +20,10 @@ static void *take_kept(zd_arena *arena, const void *system)
 static int keep_selection(zd_point *point, int is_ill)
 {
     zd_rank *self = point->rank;
-    const int is_whole = self->is_started && point->rows == self->max_rank && self->max_rank < self->m && !self->lost && !is_ill;
+    const int is_complete = self->is_started && point->rows == self->max_rank && self->max_rank < self->m && !self->lost && !is_ill;
     if (self->is_auxiliary) return ZD_DONE;
     if (self->kept) self->kept->is_known = 0;
-    if (!is_whole) return ZD_DONE;
+    if (!is_complete) return ZD_DONE;
     if (!self->kept) self->kept = zd_store_take(self->store, take_kept, point->system);
     if (!self->kept) return ZD_NO_MEMORY;
     zd_rank_monitor_keep_selection(self->kept, point);

@@ -18,7 +18,7 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
     const size_t used = arena->used;
     void *memory = integrator->take(arena, integrator->table, system, (int)size, given);
     const zd_span memory_of_integrator = zd_span_since(arena, used);
-    const int is_whole = !motion->formulation->update;     /* then the state begins with p and v */
+    const int is_complete = !motion->formulation->update;     /* then the state begins with p and v */
     *self = (zd_stepper){
         .motion = motion,
         .chosen = {motion->formulation, motion->solver, own},
@@ -31,8 +31,8 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
         .y = y,
         .last = {
             .y = last,
-            .p = is_whole ? last : zd_take_doubles(arena, (size_t)system->nq),
-            .v = !is_whole ? zd_take_doubles(arena, (size_t)system->nv) : last ? last + system->nq : NULL,
+            .p = is_complete ? last : zd_take_doubles(arena, (size_t)system->nq),
+            .v = !is_complete ? zd_take_doubles(arena, (size_t)system->nv) : last ? last + system->nq : NULL,
         },
     };
     zd_motion_attach(motion, self->y);

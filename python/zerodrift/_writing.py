@@ -1,4 +1,4 @@
-"""`write_whole`: files that are replaced as a whole or not at all."""
+"""`write_atomically`: files that are replaced as a whole or not at all."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PAUSES = 0.01, 0.1, 1.0             # s, before it is tried again
 SUFFIX = ".part"                    # of temporary files
 
 
-def write_whole(path: str | Path, write: Callable[[Any], Any]) -> None:
+def write_atomically(path: str | Path, write: Callable[[Any], Any]) -> None:
     """Write a file beside its place, sync it to the disk, and rename it.
 
     An older file stays as it was if writing fails, and if the process or the machine stops meanwhile. Its permissions are kept.
@@ -83,7 +83,7 @@ def _write_new(temporary: Path, write: Callable[[Any], Any], path: Path) -> None
 
 
 def is_temporary(path: Path) -> bool:
-    """Return whether a file has the name of a temporary file of `write_whole`."""
+    """Return whether a file has the name of a temporary file of `write_atomically`."""
     return re.fullmatch(rf"\.[0-9a-f]{{16}}\{SUFFIX}", path.name) is not None
 
 

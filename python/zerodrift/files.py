@@ -54,7 +54,7 @@ def load(path: str | Path) -> Any:
     read_from = mapped_samples.read if mapped_samples.is_one(path) else read
     values = read_from(path, lambda description: _system(description, str(path)))
     if values is not None:
-        _check_whole(path, values)
+        _check_complete(path, values)
         return Solution(**values)
     content = Path(path).read_bytes()
     if b"zerodrift" in content and content.lstrip()[:1] == b"{":
@@ -70,7 +70,7 @@ def _as_written_now(path: Path) -> Path:
     return path.with_suffix(".npy") if is_renamed else path
 
 
-def _check_whole(path: str | Path, values: dict[str, Any]) -> None:
+def _check_complete(path: str | Path, values: dict[str, Any]) -> None:
     """Check that a file has all fields of a solution."""
     lacking = [each.name for each in fields(Solution)
                if each.name not in values and each.default is MISSING and each.default_factory is MISSING]

@@ -60,12 +60,12 @@ def run(system, start, step, steps):
 
 def longest_step(systems, starts):
     """The longest that both make whole; None where there is none."""
-    def is_whole(found):
+    def is_complete(found):
         stats = found[1] if found else {}
         return found and not stats["subdivided"] and not stats["damped"] and stats["position_iterations"] <= 1.1 * stats["steps"]
 
     return next((step for step in STEPS
-                 if all(is_whole(run(*each, step, MAX_STEPS + FEW)) for each in zip(systems, starts, strict=True))), None)
+                 if all(is_complete(run(*each, step, MAX_STEPS + FEW)) for each in zip(systems, starts, strict=True))), None)
 
 
 def measured(mechanism):

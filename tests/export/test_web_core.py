@@ -136,8 +136,8 @@ def test_a_saved_run_goes_on_with_the_same_bits(web):
           try { zd.restoreRun(mechanism, state); tell(""); } catch (error) { tell(error.message); }
     """, bar=data, other=other)
     assert same == [True, True, 1.05, pytest.approx(0.348)]
-    not_whole = "a saved run must be whole: some of its bytes are missing or changed"
-    assert told == ["a saved run must begin with zdwm and its version", not_whole, not_whole,
+    not_integer = "a saved run must be whole: some of its bytes are missing or changed"
+    assert told == ["a saved run must begin with zdwm and its version", not_integer, not_integer,
                     "a saved run must be of the same block"]
 
 

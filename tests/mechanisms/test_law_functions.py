@@ -47,11 +47,11 @@ def cam(m, guide):
     m.cam("law", hinge, "other.position.y", profile=0.1 * (1 - sp.cos(3.0 * x)) ** 2 + 0.1)
 
 
-def whole_numbers(m, guide):
+def integers(m, guide):
     m.motor("drive", guide, force=-x, of={"x": PLACE})
 
 
-KINDS = [motion, speed, holonomic, nonholonomic, effort, cam, whole_numbers]
+KINDS = [motion, speed, holonomic, nonholonomic, effort, cam, integers]
 
 
 def scene(kind, dimension):
@@ -94,7 +94,7 @@ def test_every_kind_says_what_it_says_in_python(kind, layout, dimension, monkeyp
         assert not asked
         expected = other._core.evaluate(time, p, v)
         assert asked
-        assert terms.keys() == expected.keys() >= ({"power"} if kind in (effort, whole_numbers) else {"C", "xi"})
+        assert terms.keys() == expected.keys() >= ({"power"} if kind in (effort, integers) else {"C", "xi"})
         for name, value in expected.items():
             np.testing.assert_allclose(terms[name], value, rtol=FUNCTION_ROUNDING, atol=FUNCTION_ROUNDING, err_msg=name)
         asked.clear()

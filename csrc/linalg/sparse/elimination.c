@@ -9,7 +9,7 @@
  *     backward    x_k <- x_k - P sum_i B_i^T x_i
  *
  * Arguments of kernels known at compile time: `n` is the size of the pivot's block; `is_same`: all blocks of its column have this size;
- * `is_whole`: all blocks of the matrix have it, so that offsets follow from indices.
+ * `is_complete`: all blocks of the matrix have it, so that offsets follow from indices.
  */
 #include <math.h>
 #include <stddef.h>
@@ -17,29 +17,29 @@
 #include "blocks.h"
 #include "pivot.h"
 
-/* kernel(n, is_same, is_whole, ...), compiled for the common sizes */
-#define FOR_SIZE(kernel, size, is_whole, ...)             \
+/* kernel(n, is_same, is_complete, ...), compiled for the common sizes */
+#define FOR_SIZE(kernel, size, is_complete, ...)             \
     switch (size) {                                       \
-    case 1: kernel(1, 1, is_whole, __VA_ARGS__); break;   \
-    case 2: kernel(2, 1, is_whole, __VA_ARGS__); break;   \
-    case 3: kernel(3, 1, is_whole, __VA_ARGS__); break;   \
-    case 5: kernel(5, 1, is_whole, __VA_ARGS__); break;   \
-    case 6: kernel(6, 1, is_whole, __VA_ARGS__); break;   \
+    case 1: kernel(1, 1, is_complete, __VA_ARGS__); break;   \
+    case 2: kernel(2, 1, is_complete, __VA_ARGS__); break;   \
+    case 3: kernel(3, 1, is_complete, __VA_ARGS__); break;   \
+    case 5: kernel(5, 1, is_complete, __VA_ARGS__); break;   \
+    case 6: kernel(6, 1, is_complete, __VA_ARGS__); break;   \
     default: break;                                       \
     }
 
 static int size_at(const zd_blocks *self, int k) { return self->at[k + 1] - self->at[k]; }
 
-ZD_INLINE int at_of(const int n, const int is_whole, const zd_blocks *self, int k) { return is_whole ? n * k : self->at[k]; }
+ZD_INLINE int at_of(const int n, const int is_complete, const zd_blocks *self, int k) { return is_complete ? n * k : self->at[k]; }
 
-ZD_INLINE double *pivot_of(const int n, const int is_whole, const zd_blocks *self, int k)
+ZD_INLINE double *pivot_of(const int n, const int is_complete, const zd_blocks *self, int k)
 {
-    return self->S + (is_whole ? n * n * k : self->pivot_at[k]);
+    return self->S + (is_complete ? n * n * k : self->pivot_at[k]);
 }
 
-ZD_INLINE double *entry_of(const int n, const int is_whole, const zd_blocks *self, int e)
+ZD_INLINE double *entry_of(const int n, const int is_complete, const zd_blocks *self, int e)
 {
-    return self->S + (is_whole ? n * n * (self->count + e) : self->entry_at[e]);
+    return self->S + (is_complete ? n * n * (self->count + e) : self->entry_at[e]);
 }
 
 /* ---- factors ---- */
@@ -107,32 +107,32 @@ ZD_INLINE void scale(const int n, const int is_same, const zd_blocks *self, cons
     memcpy(own, scaled, (size_t)n * sizeof *own);
 }
 
-ZD_INLINE void eliminate(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, unsigned char *left_out,
+ZD_INLINE void eliminate(const int n, const int is_same, const int is_complete, const zd_blocks *self, int k, unsigned char *left_out,
                          double least, double *restrict x, zd_pivots *pivots)
 {
-    double *P = pivot_of(n, is_whole, self, k), *own = x ? x + at_of(n, is_whole, self, k) : NULL;
+    double *P = pivot_of(n, is_complete, self, k), *own = x ? x + at_of(n, is_complete, self, k) : NULL;
     double here[ZD_UNROLLED * ZD_UNROLLED], *product = is_same ? here : self->product;
     const int *target = self->target + self->target_begin[k], first = self->begin[k];
-    invert(n, self, at_of(n, is_whole, self, k), P, left_out, least, pivots);
+    invert(n, self, at_of(n, is_complete, self, k), P, left_out, least, pivots);
     if (x) scale(n, is_same, self, P, own);
     for (int e = first; e < self->begin[k + 1]; e++) {
         const int row = self->row[e], a = is_same ? n : size_at(self, row);
-        const double *B = entry_of(n, is_whole, self, e);
+        const double *B = entry_of(n, is_complete, self, e);
         multiply(a, n, B, P, product);
         for (int f = first; f < e; f++) {
             const int b = is_same ? n : size_at(self, self->row[f]);
-            subtract_product(a, b, n, product, entry_of(n, is_whole, self, f), self->S + *target++);
+            subtract_product(a, b, n, product, entry_of(n, is_complete, self, f), self->S + *target++);
         }
-        subtract_product(a, a, n, product, B, pivot_of(n, is_whole, self, row));
-        if (x) subtract_times(a, n, B, own, x + at_of(n, is_whole, self, row));
+        subtract_product(a, a, n, product, B, pivot_of(n, is_complete, self, row));
+        if (x) subtract_times(a, n, B, own, x + at_of(n, is_complete, self, row));
     }
 }
 
-ZD_INLINE void eliminate_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *restrict x,
+ZD_INLINE void eliminate_all(const int n, const int is_same, const int is_complete, const zd_blocks *self, double *restrict x,
                              zd_pivots *pivots)
 {
     zd_pivots found = *pivots;              /* in registers */
-    for (int k = 0; k < self->count; k++) eliminate(n, is_same, is_whole, self, k, NULL, 0, x, &found);
+    for (int k = 0; k < self->count; k++) eliminate(n, is_same, is_complete, self, k, NULL, 0, x, &found);
     *pivots = found;
 }
 
@@ -182,11 +182,11 @@ ZD_INLINE void eliminate_twos(const int carries, const zd_blocks *self, double *
     *pivots = found;
 }
 
-ZD_INLINE void keep_diagonals(const int n, const int is_same, const int is_whole, const zd_blocks *self)
+ZD_INLINE void keep_diagonals(const int n, const int is_same, const int is_complete, const zd_blocks *self)
 {
     (void)is_same;
     for (int k = 0; k < self->count; k++)
-        for (int i = 0; i < n; i++) self->diagonal[n * k + i] = pivot_of(n, is_whole, self, k)[i * (n + 1)];
+        for (int i = 0; i < n; i++) self->diagonal[n * k + i] = pivot_of(n, is_complete, self, k)[i * (n + 1)];
 }
 
 static void keep_diagonals_of_any(const zd_blocks *self)
@@ -220,24 +220,24 @@ zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double leas
 
 /* ---- solution ---- */
 
-ZD_INLINE void forward(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, double *x)
+ZD_INLINE void forward(const int n, const int is_same, const int is_complete, const zd_blocks *self, int k, double *x)
 {
-    double *own = x + at_of(n, is_whole, self, k);
-    scale(n, is_same, self, pivot_of(n, is_whole, self, k), own);
+    double *own = x + at_of(n, is_complete, self, k);
+    scale(n, is_same, self, pivot_of(n, is_complete, self, k), own);
     for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
         const int row = self->row[e], a = is_same ? n : size_at(self, row);
-        subtract_times(a, n, entry_of(n, is_whole, self, e), own, x + at_of(n, is_whole, self, row));
+        subtract_times(a, n, entry_of(n, is_complete, self, e), own, x + at_of(n, is_complete, self, row));
     }
 }
 
-ZD_INLINE void backward(const int n, const int is_same, const int is_whole, const zd_blocks *self, int k, double *x)
+ZD_INLINE void backward(const int n, const int is_same, const int is_complete, const zd_blocks *self, int k, double *x)
 {
-    const double *P = pivot_of(n, is_whole, self, k);
-    double *own = x + at_of(n, is_whole, self, k), here[ZD_UNROLLED], *sum = is_same ? here : self->product;
+    const double *P = pivot_of(n, is_complete, self, k);
+    double *own = x + at_of(n, is_complete, self, k), here[ZD_UNROLLED], *sum = is_same ? here : self->product;
     for (int j = 0; j < n; j++) sum[j] = 0;
     for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
         const int row = self->row[e], a = is_same ? n : size_at(self, row);
-        const double *B = entry_of(n, is_whole, self, e), *other = x + at_of(n, is_whole, self, row);
+        const double *B = entry_of(n, is_complete, self, e), *other = x + at_of(n, is_complete, self, row);
         for (int i = 0; i < a; i++)
             for (int j = 0; j < n; j++) sum[j] += B[i * n + j] * other[i];
     }
@@ -278,14 +278,14 @@ static void backward_twos(const zd_blocks *self, double *restrict x)
     }
 }
 
-ZD_INLINE void forward_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *x)
+ZD_INLINE void forward_all(const int n, const int is_same, const int is_complete, const zd_blocks *self, double *x)
 {
-    for (int k = 0; k < self->count; k++) forward(n, is_same, is_whole, self, k, x);
+    for (int k = 0; k < self->count; k++) forward(n, is_same, is_complete, self, k, x);
 }
 
-ZD_INLINE void backward_all(const int n, const int is_same, const int is_whole, const zd_blocks *self, double *x)
+ZD_INLINE void backward_all(const int n, const int is_same, const int is_complete, const zd_blocks *self, double *x)
 {
-    for (int k = self->count - 1; k >= 0; k--) backward(n, is_same, is_whole, self, k, x);
+    for (int k = self->count - 1; k >= 0; k--) backward(n, is_same, is_complete, self, k, x);
 }
 
 void zd_blocks_forward(const zd_blocks *self, double *x)

@@ -154,8 +154,8 @@ static void plan_closures(zd_hinged *self, const zd_plane_tree *tree, const zd_p
 
 void zd_hinged_plan(zd_hinged *self, const zd_plane_tree *tree, const zd_planned_elements *elements, const zd_plane_quantity *quantity)
 {
-    self->is_whole = is_hinged(tree);
-    if (!self->is_whole) return;
+    self->is_complete = is_hinged(tree);
+    if (!self->is_complete) return;
     number_angles(self, tree);
     plan_mass(self, tree);
     plan_closures(self, tree, elements, quantity);

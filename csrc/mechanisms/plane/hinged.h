@@ -29,7 +29,7 @@ typedef struct zd_closure {
 } zd_closure;
 
 typedef struct zd_hinged {
-    int is_whole;               /* 1 if all bodies of the tree turn about revolute joints; otherwise the other members are not set */
+    int is_complete;               /* 1 if all bodies of the tree turn about revolute joints; otherwise the other members are not set */
     int pairs, closures, arms;
     int *angle;                 /* (bodies + 1,) which angle is that of each body, where it has one of its own */
     double *inertia;            /* (angles,) the diagonal of M */

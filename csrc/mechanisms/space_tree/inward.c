@@ -19,7 +19,7 @@ zd_space_wrench zd_space_tree_pass(const zd_space_link *link, const zd_space_pos
 typedef struct carried {
     int body;
     zd_space_wrench what;
-    int start, is_whole;    /* `is_whole`: 1 while no particle on the way to the ground has blocked a torque */
+    int start, is_complete;    /* `is_complete`: 1 while no particle on the way to the ground has blocked a torque */
 } carried;
 
 static void step_inward(const zd_space_tree *tree, const zd_space_frame *frame, double scale, carried *on, double *row)
@@ -27,7 +27,7 @@ static void step_inward(const zd_space_tree *tree, const zd_space_frame *frame, 
     const zd_space_twist *column = zd_space_tree_frame_of(tree, frame).column;
     const zd_space_link *link = tree->link + on->body;
     for (int k = link->v; k < link->v + link->nv; k++) row[k] += scale * work(on->what, column + k);
-    on->is_whole &= link->turns || on->body == on->start;
+    on->is_complete &= link->turns || on->body == on->start;
     on->what = zd_space_tree_pass(link, frame->pose, on->body, on->what);
     on->body = link->inner;
 }
@@ -42,7 +42,7 @@ void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const
     carried one = {first, reading->first, first, 1}, other = {quantity->second, reading->second, quantity->second, 1};
     while (one.body != other.body) step_inward(tree, frame, scale, tree->link[one.body].depth > tree->link[other.body].depth ? &one : &other,
                                                row);
-    if (one.is_whole && other.is_whole) return;
+    if (one.is_complete && other.is_complete) return;
     zd_space_add_wrench(&one.what, 1, other.what);
     while (one.body) step_inward(tree, frame, scale, &one, row);
 }

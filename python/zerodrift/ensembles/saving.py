@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check
-from .._writing import write_whole
+from .._writing import write_atomically
 from ..errors import WrongType, ZerodriftError
 from ..runs import saving
 from ..systems.base import BaseSystem
@@ -195,7 +195,7 @@ def write(path: Path, plan: Plan | Kept, part: Part) -> None:
     """Write an ensemble to an NPZ file."""
     arrays = {f"runs.{name}": array for name, array in packed_part(part).items()}
     arrays |= packed_plan(plan)
-    write_whole(path, lambda file: np.savez_compressed(file, **arrays))
+    write_atomically(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> tuple[Kept, Part] | None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _check, _gateway
 from .._locking import Lock
-from .._writing import is_temporary, sweep, write_whole
+from .._writing import is_temporary, sweep, write_atomically
 from ..errors import WrongValue
 from ..runs.identity import Identity, differences, version
 from ..runs.saving import read_arrays
@@ -105,8 +105,8 @@ class Store:
 
     def _begin(self) -> None:
         """Write the files of a new study, the manifest last: without one, a folder counts as not begun."""
-        write_whole(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(self._plan)))
-        write_whole(self.folder / MANIFEST, lambda file: file.write(json.dumps(self._manifest, indent=1).encode()))
+        write_atomically(self.folder / STUDY, lambda file: np.savez_compressed(file, **saving.packed_plan(self._plan)))
+        write_atomically(self.folder / MANIFEST, lambda file: file.write(json.dumps(self._manifest, indent=1).encode()))
 
     def parts(self) -> dict[int, Part]:
         """Finished parts by their first run, without overlap. Outputs that take much memory remain in the files."""
@@ -128,7 +128,7 @@ class Store:
         count = len(part.rows)
         path = self.folder / f"runs_{first:09}_{first + count:09}.npz"
         if count:
-            write_whole(path, lambda file: np.savez(file, **saving.packed_part(part)))
+            write_atomically(path, lambda file: np.savez(file, **saving.packed_part(part)))
         return path
 
 

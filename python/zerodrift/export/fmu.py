@@ -14,7 +14,7 @@ from xml.sax.saxutils import quoteattr
 
 from .. import _check, _gateway
 from .._gateway.mechanisms import blocks
-from .._writing import write_whole
+from .._writing import write_atomically
 from .block import Chosen, choose, written
 from .c_source import core_of, data
 from .core_files import CoreFiles
@@ -108,7 +108,7 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
     identifier = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
     identifier = identifier if identifier[:1].isalpha() else f"m_{identifier}"
     content = _packed(made, identifier, version, names, watched)
-    write_whole(path, lambda file: file.write(content))
+    write_atomically(path, lambda file: file.write(content))
     return path
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 from pathlib import Path
 
-from .._writing import write_whole
+from .._writing import write_atomically
 from .exhibits import Exhibit, exhibits
 from .films import film
 
@@ -87,7 +87,7 @@ def write(folder: str | Path, *, frames: int | None = None, names: list[str] | N
 
 
 def _write(path: Path, content: bytes) -> None:
-    write_whole(path, lambda file: file.write(content))
+    write_atomically(path, lambda file: file.write(content))
 
 
 def _figure(exhibit: Exhibit) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .._writing import write_whole
+from .._writing import write_atomically
 from ..errors import WrongType, WrongValue
 from ..systems.base import Makes, Terms
 from .building.body_verbs import BodyVerbs
@@ -268,7 +268,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         path = Path(path)
         path = path if path.suffix == ".json" else path.with_name(path.name + ".json")
         content = text(described(self._drawing())).encode()
-        write_whole(path, lambda file: file.write(content))
+        write_atomically(path, lambda file: file.write(content))
         return path
 
     def __repr__(self) -> str:

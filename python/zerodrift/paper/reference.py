@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._writing import write_whole
+from .._writing import write_atomically
 from ..errors import WrongValue
 from . import FOUR_BAR, OSCILLATOR
 
@@ -165,7 +165,7 @@ def write(path: Path = FILE) -> None:
     rows = (f"{t:.3f},{a:.17g},{rate:.17g}\n" for t, (a, rate) in zip(four_bar_times(), four_bar_states(), strict=True))
     head = "# Example 1 by SciPy's DOP853 on the equation in alpha_1; written by python -m zerodrift.paper.reference\n"
     content = (head + "# t [s], alpha_1 [rad], its rate [rad/s]\n" + "".join(rows)).encode("ascii")
-    write_whole(path, lambda file: file.write(content))
+    write_atomically(path, lambda file: file.write(content))
 
 
 if __name__ == "__main__":

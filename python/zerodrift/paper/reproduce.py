@@ -7,7 +7,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from .._writing import write_whole
+from .._writing import write_atomically
 from ..runs.simulate import simulate
 from . import FOUR_BAR, FOUR_BAR_REFERENCE, OSCILLATOR, claims, figures, run
 
@@ -55,9 +55,9 @@ def reproduce(folder: Path) -> str:
     pictures, measured = compute()
     for name, figure in pictures.items():
         for suffix in FORMATS:
-            write_whole(folder / f"{name}.{suffix}", functools.partial(figure.savefig, format=suffix, dpi=DPI))
+            write_atomically(folder / f"{name}.{suffix}", functools.partial(figure.savefig, format=suffix, dpi=DPI))
             figure.set_layout_engine("none")    # the first file laid it out, which takes longer than all else here
     table = claims.as_text(measured)
     for name, content in ("claims.txt", table), ("claims.csv", claims.as_csv(measured)):
-        write_whole(folder / name, lambda file, content=content: file.write(content.encode()))
+        write_atomically(folder / name, lambda file, content=content: file.write(content.encode()))
     return table

@@ -20,7 +20,7 @@ import numpy as np
 
 from .. import _check
 from .._gateway.mechanisms.blocks import BlockCore
-from .._writing import write_whole
+from .._writing import write_atomically
 from ..errors import WrongValue, ZerodriftError
 from ..export import parameters as _parameters
 from ..export import wasm
@@ -88,7 +88,7 @@ class LiveView:
         """Write the page to an HTML file, which needs no other file and no network; the suffix ``.html`` is added."""
         path = Path(path)
         path = path if path.suffix == ".html" else path.with_name(path.name + ".html")
-        write_whole(path, lambda file: file.write(self.page.encode()))
+        write_atomically(path, lambda file: file.write(self.page.encode()))
         return path
 
     def show(self) -> None:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _check
-from .._writing import write_whole
+from .._writing import write_atomically
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.solution import A_SOLUTION, Solution
 from ..systems.base import Makes
@@ -77,7 +77,7 @@ class View:
             raise WrongValue(f"path must end in .html, as a film is a page, not in {path.suffix}: zd.plot.animate(sol).save(...) "
                              "writes such a film")
         path = path if path.suffix == ".html" else path.with_name(path.name + ".html")
-        write_whole(path, lambda file: file.write(self.page.encode()))
+        write_atomically(path, lambda file: file.write(self.page.encode()))
         return path
 
     def show(self) -> None:

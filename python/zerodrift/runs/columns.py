@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .._gateway import Variable
-from .._writing import write_whole
+from .._writing import write_atomically
 from ..errors import MissingPackage
 
 AXES = "xyz"
@@ -65,7 +65,7 @@ def to_csv(solution: Any, path: str | Path, names: Any = None) -> Path:
         file.write((",".join(f'"{each}"' if "," in each else each for each in heading) + "\n").encode())
         file.writelines((",".join(map(repr, row)) + "\n").encode() for row in values.tolist())
 
-    write_whole(path, write)
+    write_atomically(path, write)
     return path
 
 
@@ -74,7 +74,7 @@ def to_excel(solution: Any, path: str | Path, names: Any = None) -> Path:
     pandas, _ = (_imported(name) for name in ("pandas", "openpyxl"))
     path = Path(path)
     heading, values = _table(solution, names)
-    write_whole(path, lambda file: pandas.DataFrame(values, columns=heading).to_excel(file, index=False, engine="openpyxl"))
+    write_atomically(path, lambda file: pandas.DataFrame(values, columns=heading).to_excel(file, index=False, engine="openpyxl"))
     return path
 
 

@@ -22,10 +22,10 @@ EVENTS = ("t_events", "p_events", "v_events")   # of a solution: an array for ea
 
 def write(path: Path, values: Mapping[str, Any]) -> None:
     """Writes the fields of a solution."""
-    from .._writing import write_whole  # pathlib is slow to import
+    from .._writing import write_atomically  # pathlib is slow to import
 
     arrays = packed(values)
-    write_whole(path, lambda file: np.savez_compressed(file, **arrays))
+    write_atomically(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def packed(values: Mapping[str, Any]) -> dict[str, np.ndarray]:

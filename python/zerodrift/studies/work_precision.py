@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .._writing import write_whole
+from .._writing import write_atomically
 from ..errors import Interrupted, MissingPackage, SingularSystem, WrongType, WrongValue
 from ..runs import settings
 from ..runs.operations import acceleration
@@ -96,7 +96,7 @@ class WorkPrecision:
         writer = csv.DictWriter(table, [*Setting._fields, *Row._fields[1:]])
         writer.writeheader()
         writer.writerows(row.flat() for row in self.rows)
-        write_whole(path, lambda file: file.write(table.getvalue().encode()))
+        write_atomically(path, lambda file: file.write(table.getvalue().encode()))
         return Path(path)
 
     def to_dataframe(self) -> Any:

@@ -52,12 +52,12 @@ static void plan_lines(zd_packing *self, const zd_plane *mechanism)
 {
     const zd_packed *packed = &self->packed;
     zd_lines *lines = &self->lines;
-    self->is_whole = 1;
+    self->is_complete = 1;
     for (int row = 0; row < mechanism->elements.m; row++) {
         const zd_relation *one = mechanism->elements.row + row;
         if (self->is_known[row]) continue;
         self->is_known[row] = one->law < 0;
-        self->is_whole &= one->law < 0;
+        self->is_complete &= one->law < 0;
         for (int i = one->first; one->law < 0 && i < one->first + one->terms; i++)
             lines->line[lines->count++] = zd_line_of(mechanism, row, i, packed->at[row], packed->near[i], packed->far[i]);
     }

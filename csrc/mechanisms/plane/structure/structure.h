@@ -14,7 +14,7 @@ typedef struct zd_packing {
     int *at, *pin_first, *pin_second;   /* its arrays */
     double *numbers;
     zd_lines lines;
-    int is_whole;           /* 1 if all rows are lines or revolute joints */
+    int is_complete;           /* 1 if all rows are lines or revolute joints */
     int *is_known;          /* (m,) 1 if the row is a line's or a revolute joint's */
 } zd_packing;
 

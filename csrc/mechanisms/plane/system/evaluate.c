@@ -46,11 +46,11 @@ static void write_packed_mass(const zd_plane_tree *tree, double *M)
 static int terms_of_bodies(const zd_plane *self, int want)
 {
     if (self->packing) {
-        const int known = ZD_M | (self->packing->is_whole ? ROWS : 0) | (self->elements.forces ? 0 : ZD_FORCE);
+        const int known = ZD_M | (self->packing->is_complete ? ROWS : 0) | (self->elements.forces ? 0 : ZD_FORCE);
         return want & ~known & (ROWS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
     }
     int left = want & (ROWS | ZD_M | ZD_BIAS | ZD_FORCE | ZD_POTENTIAL | ZD_POWER);
-    if (!self->hinged.is_whole) return left;
+    if (!self->hinged.is_complete) return left;
     if (2 * self->hinged.closures == self->elements.m) left &= ~ROWS;
     return left & ~(ZD_M | ZD_BIAS | (self->elements.forces ? 0 : ZD_FORCE));
 }
@@ -98,7 +98,7 @@ int zd_plane_evaluate(const void *data, int want, double t, const double *p, con
     }
     if (self->packing) write_packed(self, &frame, want, t, p, v, out);
     if (left) place(self, &frame, left, p, v);
-    if (self->hinged.is_whole) write_hinged(self, &frame, want, v, out);
+    if (self->hinged.is_complete) write_hinged(self, &frame, want, v, out);
     if (left & ZD_M) zd_plane_tree_mass(&self->tree, frame.pose, frame.composite, out->M);
     if (left & ZD_BIAS) write_bias(self, &frame, out->d);
     if (left & ZD_POTENTIAL) *out->V = zd_plane_potential(self, &frame);

@@ -43,7 +43,7 @@ int zd_plane_rows_write(const zd_plane *self, const zd_plane_frame *frame, int w
     const zd_row_numerics numerics = {
         .elements = &self->elements, .nv = self->tree.nv,
         .at = packing ? packing->packed.at : NULL,
-        .is_elsewhere = packing ? packing->is_known : self->hinged.is_whole ? self->hinged.is_closure : NULL,
+        .is_elsewhere = packing ? packing->is_known : self->hinged.is_complete ? self->hinged.is_closure : NULL,
         .read = read, .bias = zd_plane_bias,
     };
     return zd_rows_write(&numerics, &readings, want, t, out);
