@@ -130,13 +130,13 @@ int zd_residuals_along(const zd_system *system, const double *inputs, int parts,
     const int64_t nq = system->nq, nv = system->nv;
     zd_statistics statistics = {0};
     zd_arena counting = {0};
-    zd_residual_state_take(&counting, system, &statistics, accuracy);
-    zd_point_take(&counting, system, &statistics);
+    zd_residual_state_create(&counting, system, &statistics, accuracy);
+    zd_point_create(&counting, system, &statistics);
     zd_memory *memory = zd_memory_create(counting.used);
     if (!memory) return ZD_NO_MEMORY;
     zd_arena arena = zd_arena_in(memory);
-    zd_residual_state state = zd_residual_state_take(&arena, system, &statistics, accuracy);
-    zd_point *point = zd_point_take(&arena, system, &statistics);
+    zd_residual_state state = zd_residual_state_create(&arena, system, &statistics, accuracy);
+    zd_point *point = zd_point_create(&arena, system, &statistics);
     if (system->reading && inputs) memcpy(point->inputs, inputs, (size_t)system->reading->functions * sizeof *inputs);
     zd_point_move(point, t, p, v);
     zd_residual_state_begin(&state, parts, point, vdot, lambda);
@@ -270,7 +270,7 @@ int zd_states_between(const zd_system *system, const zd_settings *settings, cons
     zd_run *run = zd_run_create(system, settings, saved->p, saved->v, &status, message, message_size);
     if (!run) return status;
     zd_resample resample = {.run = run, .saved = saved, .row = -1};
-    status = zd_dense_output_take(&run->stepper);
+    status = zd_dense_output_create(&run->stepper);
     for (int64_t i = 0; i < count && !status; i++) {
         status = zd_resample_move(&resample, t[i]);
         copy_state(system, run->motion.point->p, run->motion.point->v, p + i * system->nq, v + i * system->nv);

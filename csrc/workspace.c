@@ -25,24 +25,24 @@ static size_t round_up(size_t bytes)
     return (bytes + CACHE_LINE - 1) / CACHE_LINE * CACHE_LINE;
 }
 
-void *zd_take(zd_arena *arena, size_t bytes)
+void *zd_arena_bytes(zd_arena *arena, size_t bytes)
 {
     void *here = arena->base ? arena->base + arena->used : NULL;
     arena->used += round_up(bytes);
     return here;
 }
 
-double *zd_take_doubles(zd_arena *arena, size_t count)
+double *zd_arena_doubles(zd_arena *arena, size_t count)
 {
     const size_t from = arena->used / CACHE_LINE;
-    double *here = zd_take(arena, count * sizeof *here);
+    double *here = zd_arena_bytes(arena, count * sizeof *here);
     if (arena->has_numbers) memset(arena->has_numbers + from, 1, arena->used / CACHE_LINE - from);
     return here;
 }
 
-void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes)
+void *zd_arena_copy(zd_arena *arena, const void *filled, size_t bytes)
 {
-    void *here = zd_take(arena, bytes);
+    void *here = zd_arena_bytes(arena, bytes);
     if (here) memcpy(here, filled, bytes);
     return here;
 }
@@ -96,14 +96,14 @@ zd_memory *zd_store_add(zd_store *store, size_t bytes)
     return memory;
 }
 
-void *zd_store_take(zd_store *store, void *(*take)(zd_arena *arena, const void *of), const void *of)
+void *zd_store_create(zd_store *store, void *(*create)(zd_arena *arena, const void *of), const void *of)
 {
     zd_arena counting = {0};
-    take(&counting, of);
+    create(&counting, of);
     zd_memory *memory = zd_store_add(store, counting.used);
     if (!memory) return NULL;
     zd_arena arena = zd_arena_in(memory);
-    return take(&arena, of);
+    return create(&arena, of);
 }
 
 void zd_store_release(zd_store *store)

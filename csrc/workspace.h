@@ -26,10 +26,10 @@ void zd_memory_free(zd_memory *memory);
 int zd_memory_keep(zd_memory *memory);      /* copies the block to its image; nonzero if there is no memory */
 static inline zd_arena zd_arena_in(zd_memory *memory) { return (zd_arena){memory->base, 0, memory->has_numbers}; }
 
-void *zd_take(zd_arena *arena, size_t bytes);
-double *zd_take_doubles(zd_arena *arena, size_t count);
+void *zd_arena_bytes(zd_arena *arena, size_t bytes);
+double *zd_arena_doubles(zd_arena *arena, size_t count);
 /* Allocates a structure in the arena and copies `filled` into it; NULL while counting. */
-void *zd_take_filled(zd_arena *arena, const void *filled, size_t bytes);
+void *zd_arena_copy(zd_arena *arena, const void *filled, size_t bytes);
 
 /* Part of an arena, allocated since `used` bytes. */
 typedef struct zd_span {
@@ -47,8 +47,8 @@ typedef struct zd_store {
     zd_memory *last;
 } zd_store;
 
-/* Adds a block laid out by `take`, which is called twice as for an arena; NULL without memory. */
-void *zd_store_take(zd_store *store, void *(*take)(zd_arena *arena, const void *of), const void *of);
+/* Adds a block laid out by `create`, which is called twice as for an arena; NULL without memory. */
+void *zd_store_create(zd_store *store, void *(*create)(zd_arena *arena, const void *of), const void *of);
 zd_memory *zd_store_add(zd_store *store, size_t bytes);     /* adds a zeroed block; NULL without memory */
 void zd_store_release(zd_store *store);
 

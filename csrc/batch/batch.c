@@ -16,11 +16,11 @@ static void prepare(const zd_batch *batch)
 int zd_batch_run(const zd_batch *batch)
 {
     zd_arena arena = {0};
-    zd_single_run_take(&arena, batch);
+    zd_single_run_create(&arena, batch);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     prepare(batch);
     if (!arena.base) return ZD_NO_MEMORY;
-    const zd_single_run own = zd_single_run_take(&arena, batch);
+    const zd_single_run own = zd_single_run_create(&arena, batch);
     int status = ZD_DONE;
     if (zd_lanes_serve(batch)) status = zd_run_side_by_side(batch, &own);
     else

@@ -66,7 +66,7 @@ typedef struct zd_lane_group {
 
 /* lanes.c: allocates the lanes of a run with closed-form functions or revolute joints, the other being NULL. It is called twice: first
  * with an empty arena, to count the memory. */
-void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions,
+void zd_lanes_create(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions,
                      const zd_closed_form *closed_form, const zd_pins_plan *pins, int64_t doubles);
 const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit);
 /* Functions of the unit, and the system's closed-form functions for it; NULL: there are none. */
@@ -94,7 +94,7 @@ void zd_lane_group_correct_rest(void *group, const double *t, double *y, int for
 /* lane_checks.c: full checks of the last step, in lanes in which they are due: resolution of each velocity, and energy. */
 void zd_lane_group_check_closely(zd_lane_group *self);
 
-zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes);
+zd_lane_search zd_lane_search_create(zd_arena *arena, const zd_lanes *lanes);
 /* lane_event_samples.c: value of an event function at the gathered state; those of all at the state y. */
 double zd_lane_group_evaluate(zd_lane_group *self, int lane, int event, double t);
 void zd_lane_group_evaluate_all(zd_lane_group *self, int lane, double t, const double *y, double *values);

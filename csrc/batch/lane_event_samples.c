@@ -4,17 +4,17 @@
 #include "../step_limits.h"
 #include "group.h"
 
-zd_lane_search zd_lane_search_take(zd_arena *arena, const zd_lanes *lanes)
+zd_lane_search zd_lane_search_create(zd_arena *arena, const zd_lanes *lanes)
 {
     if (!lanes->watches) return (zd_lane_search){.ended = 0};
     const size_t events = (size_t)lanes->events, size = (size_t)lanes->size;
     return (zd_lane_search){
-        .before = zd_take_doubles(arena, events),
-        .now = zd_take_doubles(arena, events),
-        .zeros = zd_take(arena, events * sizeof(zd_zeros)),
-        .occurrence = zd_take(arena, events * ZD_MAX_POINTS * sizeof(zd_occurrence)),
-        .early = zd_take_doubles(arena, size),
-        .mixed = zd_take_doubles(arena, size),
+        .before = zd_arena_doubles(arena, events),
+        .now = zd_arena_doubles(arena, events),
+        .zeros = zd_arena_bytes(arena, events * sizeof(zd_zeros)),
+        .occurrence = zd_arena_bytes(arena, events * ZD_MAX_POINTS * sizeof(zd_occurrence)),
+        .early = zd_arena_doubles(arena, size),
+        .mixed = zd_arena_doubles(arena, size),
     };
 }
 

@@ -54,14 +54,14 @@ const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_u
 }
 
 /* Allocates `count` numbers per lane; all are contiguous, from self->first on. */
-static double *take(zd_lanes *self, zd_arena *arena, int64_t count)
+static double *allocate(zd_lanes *self, zd_arena *arena, int64_t count)
 {
-    double *here = zd_take_doubles(arena, (size_t)(count * self->lanes));
+    double *here = zd_arena_doubles(arena, (size_t)(count * self->lanes));
     if (!self->first) self->first = here;
     return here;
 }
 
-static void take_zeros(zd_lanes *self, zd_arena *arena)
+static void create_zeros(zd_lanes *self, zd_arena *arena)
 {
     double **const ones[] = {&self->number, &self->after_rejection, &self->streak, &self->iterations, &self->rejected, &self->peak_iterations,
                              &self->leaves, &self->is_long, &self->check_soon, &self->last_checked, &self->at_limit, &self->below_limit,
@@ -70,52 +70,52 @@ static void take_zeros(zd_lanes *self, zd_arena *arena)
     double **const parts[] = {&self->error, &self->path, &self->place, &self->lowest, &self->highest};
     const int count = sizeof ones / sizeof ones[0], count_parts = sizeof parts / sizeof parts[0], nv = self->is_fixed ? self->nv : 0;
     self->numbers_from_zero = count + count_parts * nv;
-    self->from_zero = take(self, arena, self->numbers_from_zero);
+    self->from_zero = allocate(self, arena, self->numbers_from_zero);
     if (!self->from_zero) return;
     for (int i = 0; i < count; i++) *ones[i] = self->from_zero + i * self->lanes;
     for (int i = 0; i < count_parts; i++) *parts[i] = self->from_zero + (count + i * nv) * self->lanes;
 }
 
-static void take_states(zd_lanes *self, zd_arena *arena, int64_t doubles, int inputs)
+static void create_states(zd_lanes *self, zd_arena *arena, int64_t doubles, int inputs)
 {
     const int nq = self->nq, nv = self->nv, size = self->size;
     double **const ones[] = {&self->is_active, &self->t, &self->h, &self->next_t, &self->t_before, &self->order, &self->speed,
                              &self->is_corrected, &self->next_check, &self->check_pause, &self->t_sample};
-    self->data = take(self, arena, doubles);
-    self->inputs = inputs ? take(self, arena, 2 * inputs + 1) : NULL;
-    take_zeros(self, arena);
-    for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = take(self, arena, 1);
-    self->y = take(self, arena, size);
-    self->y0 = take(self, arena, size);
-    self->pdot = take(self, arena, nq);
-    self->vdot = take(self, arena, nv);
-    self->pivots = take(self, arena, nv);
-    self->inverse_unit_p = take(self, arena, nq);
-    self->inverse_unit = take(self, arena, nv);
-    self->allowed = take(self, arena, self->mh);
-    self->inverse_size = take(self, arena, self->mh);
-    self->scale = take(self, arena, self->closed_form ? (int64_t)self->closed_form->orders * nv : 0);
+    self->data = allocate(self, arena, doubles);
+    self->inputs = inputs ? allocate(self, arena, 2 * inputs + 1) : NULL;
+    create_zeros(self, arena);
+    for (size_t i = 0; i < sizeof ones / sizeof ones[0]; i++) *ones[i] = allocate(self, arena, 1);
+    self->y = allocate(self, arena, size);
+    self->y0 = allocate(self, arena, size);
+    self->pdot = allocate(self, arena, nq);
+    self->vdot = allocate(self, arena, nv);
+    self->pivots = allocate(self, arena, nv);
+    self->inverse_unit_p = allocate(self, arena, nq);
+    self->inverse_unit = allocate(self, arena, nv);
+    self->allowed = allocate(self, arena, self->mh);
+    self->inverse_size = allocate(self, arena, self->mh);
+    self->scale = allocate(self, arena, self->closed_form ? (int64_t)self->closed_form->orders * nv : 0);
 }
 
-static void take_workspace(zd_lanes *self, zd_arena *arena)
+static void create_workspace(zd_lanes *self, zd_arena *arena)
 {
     const int nq = self->nq, nv = self->nv, m = self->m, size = self->size;
     const zd_tableau *T = self->method.tableau;
-    self->y_sample = take(self, arena, size);
-    self->lambda_sample = take(self, arena, m);
-    self->k = take(self, arena, (int64_t)(T->stages + 1 + T->more) * size);
-    self->stage = take(self, arena, size);
-    self->y1 = take(self, arena, size);
-    self->tolerated = take(self, arena, self->is_fixed ? 0 : size);
-    self->pdot1 = take(self, arena, nq);
-    self->vdot1 = take(self, arena, nv);
-    self->power1 = take(self, arena, 1);
-    self->pivots1 = take(self, arena, nv);
-    self->Phi = take(self, arena, self->mh);
-    self->dp = take(self, arena, nq);
-    self->dv = take(self, arena, nv);
-    self->other = take(self, arena, nq + 2 * nv + m + 1);
-    self->polynomial = take(self, arena, (int64_t)T->coefficients * size);
+    self->y_sample = allocate(self, arena, size);
+    self->lambda_sample = allocate(self, arena, m);
+    self->k = allocate(self, arena, (int64_t)(T->stages + 1 + T->more) * size);
+    self->stage = allocate(self, arena, size);
+    self->y1 = allocate(self, arena, size);
+    self->tolerated = allocate(self, arena, self->is_fixed ? 0 : size);
+    self->pdot1 = allocate(self, arena, nq);
+    self->vdot1 = allocate(self, arena, nv);
+    self->power1 = allocate(self, arena, 1);
+    self->pivots1 = allocate(self, arena, nv);
+    self->Phi = allocate(self, arena, self->mh);
+    self->dp = allocate(self, arena, nq);
+    self->dv = allocate(self, arena, nv);
+    self->other = allocate(self, arena, nq + 2 * nv + m + 1);
+    self->polynomial = allocate(self, arena, (int64_t)T->coefficients * size);
 }
 
 /* Index of the entry of y that the event is, -1 if it is none. */
@@ -126,10 +126,10 @@ static int entry_of(const zd_lanes *self, const zd_events *events, int event)
     return reads->what == ZD_READS_P ? reads->index : reads->what == ZD_READS_V ? self->nq + reads->index : -1;
 }
 
-static void take_events(zd_lanes *self, zd_arena *arena, const zd_events *events)
+static void create_events(zd_lanes *self, zd_arena *arena, const zd_events *events)
 {
     if (!events) return;
-    zd_watched *watched = zd_take(arena, (size_t)events->count * sizeof *watched);
+    zd_watched *watched = zd_arena_bytes(arena, (size_t)events->count * sizeof *watched);
     self->watched = watched;
     self->events = events->count;
     self->watches = ZD_WATCHES_NUMBERS;
@@ -140,7 +140,7 @@ static void take_events(zd_lanes *self, zd_arena *arena, const zd_events *events
     }
 }
 
-void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions,
+void zd_lanes_create(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions,
                      const zd_closed_form *closed_form, const zd_pins_plan *pins, int64_t doubles)
 {
     const zd_settings *settings = &run->settings;
@@ -162,12 +162,12 @@ void zd_lanes_take(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_
         .astray = guard->astray, .nearby = guard->nearby, .limit = guard->limit,
         .weight = run->safeguards.resolution.weight, .order_of_method = run->stepper.integrator->card.order,
     };
-    take_states(self, arena, doubles, system->inputs);
+    create_states(self, arena, doubles, system->inputs);
     self->states = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
-    take_workspace(self, arena);
+    create_workspace(self, arena);
     self->count = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
-    self->pins = pins ? zd_lane_pins_take(arena, pins, self->lanes) : NULL;
-    take_events(self, arena, settings->events);
+    self->pins = pins ? zd_lane_pins_create(arena, pins, self->lanes) : NULL;
+    create_events(self, arena, settings->events);
 }
 
 void zd_lanes_copy(zd_lanes *self, int from, int to)

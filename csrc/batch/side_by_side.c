@@ -28,7 +28,7 @@ int zd_lanes_serve_settings(const zd_system *system, const zd_settings *settings
 {
     return !system->quaternions && !settings->outputs && !settings->given_jacobian && !(settings->max_move > 0)
         && system->mh + system->mn <= system->nv && zd_takes_closed_form(settings) && !zd_takes_embeddings(settings)
-        && zd_integrator_of(settings->integrator)->take == zd_runge_kutta_take;
+        && zd_integrator_of(settings->integrator)->create == zd_runge_kutta_create;
 }
 
 int zd_lanes_serve(const zd_batch *batch)
@@ -75,19 +75,19 @@ static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_si
         .batch = batch, .own = own, .run = run,
         .functions = pins ? zd_lane_functions_for(batch->settings->vector)
                           : zd_lane_functions_of(system, batch->settings->vector, &closed_form),
-        .start = zd_take(arena, zd_run_start_memory(run)),
-        .p = zd_take_doubles(arena, (size_t)system->nq),
-        .v = zd_take_doubles(arena, (size_t)system->nv),
-        .C = zd_take_doubles(arena, rows),
-        .terms = {.scratch = zd_take_doubles(arena, (size_t)system->scratch), .inputs = run->motion.point->inputs},
+        .start = zd_arena_bytes(arena, zd_run_start_memory(run)),
+        .p = zd_arena_doubles(arena, (size_t)system->nq),
+        .v = zd_arena_doubles(arena, (size_t)system->nv),
+        .C = zd_arena_doubles(arena, rows),
+        .terms = {.scratch = zd_arena_doubles(arena, (size_t)system->scratch), .inputs = run->motion.point->inputs},
     };
-    zd_lanes_take(&group.lanes, arena, run, group.functions, closed_form, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
-    group.reader = zd_reader_take(arena, batch->settings->events, system, run->motion.point->inputs, NULL);
+    zd_lanes_create(&group.lanes, arena, run, group.functions, closed_form, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
+    group.reader = zd_reader_create(arena, batch->settings->events, system, run->motion.point->inputs, NULL);
     for (int lane = 0; lane < ZD_MAX_LANES; lane++)
         group.run_of[lane] = (zd_lane_run){
             .number = -1,
-            .C = zd_take_doubles(arena, rows),
-            .search = zd_lane_search_take(arena, &group.lanes),
+            .C = zd_arena_doubles(arena, rows),
+            .search = zd_lane_search_create(arena, &group.lanes),
         };
     return group;
 }

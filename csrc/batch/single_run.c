@@ -20,29 +20,29 @@ static int width_of(const zd_outputs *outputs, const zd_system *system)
     return width;
 }
 
-zd_single_run zd_single_run_take(zd_arena *arena, const zd_batch *batch)
+zd_single_run zd_single_run_create(zd_arena *arena, const zd_batch *batch)
 {
     const zd_system *system = batch->system;
     const zd_outputs *outputs = batch->settings->outputs;
     const size_t rows = (size_t)batch->capacity, nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)count_constraints(system);
     return (zd_single_run){
-        .p = zd_take_doubles(arena, nq),
-        .v = zd_take_doubles(arena, nv),
+        .p = zd_arena_doubles(arena, nq),
+        .v = zd_arena_doubles(arena, nv),
         .record = {
             .capacity = batch->capacity,
-            .t = zd_take_doubles(arena, rows),
-            .p = zd_take_doubles(arena, rows * nq),
-            .v = zd_take_doubles(arena, rows * nv),
-            .multipliers = zd_take_doubles(arena, rows * m),
-            .position_violation = zd_take_doubles(arena, rows * (size_t)system->mh),
-            .velocity_violation = zd_take_doubles(arena, rows * m),
-            .kinetic = zd_take_doubles(arena, rows),
-            .potential = zd_take_doubles(arena, rows),
-            .input = zd_take_doubles(arena, rows),
-            .energy_violation = zd_take_doubles(arena, rows),
-            .iterations = zd_take(arena, rows * sizeof(int)),
-            .energy_skipped = zd_take(arena, rows * sizeof(int)),
-            .outputs = outputs ? zd_take_doubles(arena, rows * (size_t)width_of(outputs, system)) : NULL,
+            .t = zd_arena_doubles(arena, rows),
+            .p = zd_arena_doubles(arena, rows * nq),
+            .v = zd_arena_doubles(arena, rows * nv),
+            .multipliers = zd_arena_doubles(arena, rows * m),
+            .position_violation = zd_arena_doubles(arena, rows * (size_t)system->mh),
+            .velocity_violation = zd_arena_doubles(arena, rows * m),
+            .kinetic = zd_arena_doubles(arena, rows),
+            .potential = zd_arena_doubles(arena, rows),
+            .input = zd_arena_doubles(arena, rows),
+            .energy_violation = zd_arena_doubles(arena, rows),
+            .iterations = zd_arena_bytes(arena, rows * sizeof(int)),
+            .energy_skipped = zd_arena_bytes(arena, rows * sizeof(int)),
+            .outputs = outputs ? zd_arena_doubles(arena, rows * (size_t)width_of(outputs, system)) : NULL,
         },
     };
 }

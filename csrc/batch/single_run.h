@@ -10,7 +10,7 @@ typedef struct zd_single_run {  /* memory of a run, reused by the next */
     zd_record record;       /* columns; those requested are in the batch's own arrays */
 } zd_single_run;
 
-zd_single_run zd_single_run_take(zd_arena *arena, const zd_batch *batch);
+zd_single_run zd_single_run_create(zd_arena *arena, const zd_batch *batch);
 char *zd_message_of(const zd_batch *batch, int64_t run);
 int zd_batch_is_stopped(const zd_batch *batch);
 static inline const void *zd_single_run_data(const zd_batch *batch, int64_t number)

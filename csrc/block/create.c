@@ -19,12 +19,12 @@ typedef struct arrays {
     void *section[ZD_BLOCK_MEASURES + 1];
 } arrays;
 
-static arrays take_tables(const zd_block_layout *layout, zd_arena *arena)
+static arrays create_tables(const zd_block_layout *layout, zd_arena *arena)
 {
     arrays taken = {{NULL}};
     for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++) {
         const size_t size = zd_block_structure_in(layout, section)->size;
-        taken.section[section] = zd_take(arena, (size_t)layout->part[section].count * size);
+        taken.section[section] = zd_arena_bytes(arena, (size_t)layout->part[section].count * size);
     }
     return taken;
 }
@@ -102,19 +102,19 @@ static int make(zd_block *self, const arrays *from, zd_complaint to)
 
 /* ---- memory ---- */
 
-static zd_block *take(zd_arena *arena, size_t size, const zd_block_layout *layout, int longest)
+static zd_block *create(zd_arena *arena, size_t size, const zd_block_layout *layout, int longest)
 {
-    zd_block nowhere = {.size = 0}, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
-    self->word = zd_take(arena, size);
-    self->laws.value = zd_take_doubles(arena, (size_t)longest);
+    zd_block nowhere = {.size = 0}, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
+    self->word = zd_arena_bytes(arena, size);
+    self->laws.value = zd_arena_doubles(arena, (size_t)longest);
     const size_t inputs = (size_t)count_of(layout, ZD_BLOCK_INPUTS);
     zd_block_inputs_memory *memory = &self->inputs_memory;
-    memory->value = zd_take_doubles(arena, inputs);
-    memory->lower = zd_take_doubles(arena, inputs);
-    memory->upper = zd_take_doubles(arena, inputs);
-    self->laws.speed = memory->speed = zd_take_doubles(arena, 3 * inputs);
-    memory->place = zd_take(arena, inputs * sizeof *memory->place);
-    self->output = zd_take(arena, (size_t)count_of(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
+    memory->value = zd_arena_doubles(arena, inputs);
+    memory->lower = zd_arena_doubles(arena, inputs);
+    memory->upper = zd_arena_doubles(arena, inputs);
+    self->laws.speed = memory->speed = zd_arena_doubles(arena, 3 * inputs);
+    memory->place = zd_arena_bytes(arena, inputs * sizeof *memory->place);
+    self->output = zd_arena_bytes(arena, (size_t)count_of(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
     return here;
 }
 
@@ -125,13 +125,13 @@ static zd_block *copy_of(const double *word, size_t size, zd_complaint to)
     const int longest = zd_block_laws_check(&layout, to);
     if (longest < 0) return NULL;
     zd_arena counting = {0};
-    take(&counting, size, &layout, longest);
+    create(&counting, size, &layout, longest);
     zd_arena arena = {.base = zd_allocate(counting.used)};
     if (!arena.base) {
         zd_complain(to, "there is no memory for the mechanism");
         return NULL;
     }
-    zd_block *self = take(&arena, size, &layout, longest);
+    zd_block *self = create(&arena, size, &layout, longest);
     memcpy(self->word, word, size);
     self->size = size;
     zd_block_split(self->word, size / sizeof *word, dimensions, &self->layout, to);
@@ -153,9 +153,9 @@ zd_block *zd_block_create(const void *data, size_t size, char *message, int mess
     zd_release(aligned);
     if (!self) return NULL;
     zd_arena counting = {0};
-    take_tables(&self->layout, &counting);
+    create_tables(&self->layout, &counting);
     zd_arena arena = {.base = zd_allocate(counting.used)};
-    const arrays all = take_tables(&self->layout, &arena);
+    const arrays all = create_tables(&self->layout, &arena);
     const int is_made = arena.base ? make(self, &all, to) : zd_complain(to, "there is no memory for the mechanism");
     zd_release(arena.base);
     if (is_made) return self;

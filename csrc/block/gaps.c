@@ -33,11 +33,11 @@ static gaps take(zd_arena *arena, const zd_block *block)
     const zd_system *system = zd_block_system(block);
     const size_t joints = (size_t)count_of(block, ZD_BLOCK_JOINTS), bodies = (size_t)count_of(block, ZD_BLOCK_BODIES);
     const size_t mh = (size_t)system->mh, nv = (size_t)system->nv;
-    return (gaps){.block = block, .Phi = zd_take_doubles(arena, mh),
-                  .v = zd_take_doubles(arena, nv), .scratch = zd_take_doubles(arena, (size_t)system->scratch),
-                  .open = zd_take_doubles(arena, joints), .p = zd_take_doubles(arena, (size_t)system->nq),
-                  .is_angle = zd_take(arena, nv * sizeof(int)), .row = zd_take(arena, mh * sizeof(int)),
-                  .of_loop = zd_take(arena, (joints + bodies + 1) * sizeof(int))};
+    return (gaps){.block = block, .Phi = zd_arena_doubles(arena, mh),
+                  .v = zd_arena_doubles(arena, nv), .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
+                  .open = zd_arena_doubles(arena, joints), .p = zd_arena_doubles(arena, (size_t)system->nq),
+                  .is_angle = zd_arena_bytes(arena, nv * sizeof(int)), .row = zd_arena_bytes(arena, mh * sizeof(int)),
+                  .of_loop = zd_arena_bytes(arena, (joints + bodies + 1) * sizeof(int))};
 }
 
 /* open <- gaps of all joints at p; returns a status of the core. */

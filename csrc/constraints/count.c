@@ -41,14 +41,14 @@ typedef struct place {      /* M, then its inverse, and C at one position, with 
     double *v, *least, *most;
 } place;
 
-static place take_place(zd_arena *arena, const zd_system *system)
+static place create_place(zd_arena *arena, const zd_system *system)
 {
     const size_t m = (size_t)zd_constraints(system), nv = (size_t)system->nv;
-    place it = {.v = zd_take_doubles(arena, nv), .least = zd_take_doubles(arena, m), .most = zd_take_doubles(arena, m)};
-    it.terms.M = zd_take_doubles(arena, (size_t)zd_size_of_M(system));
-    it.terms.C = zd_take_doubles(arena, (size_t)zd_size_of_C(system));
-    it.terms.scratch = zd_take_doubles(arena, (size_t)system->scratch);
-    it.terms.inputs = zd_take_inputs(arena, system);
+    place it = {.v = zd_arena_doubles(arena, nv), .least = zd_arena_doubles(arena, m), .most = zd_arena_doubles(arena, m)};
+    it.terms.M = zd_arena_doubles(arena, (size_t)zd_size_of_M(system));
+    it.terms.C = zd_arena_doubles(arena, (size_t)zd_size_of_C(system));
+    it.terms.scratch = zd_arena_doubles(arena, (size_t)system->scratch);
+    it.terms.inputs = zd_create_inputs(arena, system);
     return it;
 }
 
@@ -68,8 +68,8 @@ static int measure_pivots(zd_weighted *weighted, const zd_system *system, const 
 
 static int count_and_measure(zd_store *store, zd_arena *arena, const zd_system *system, const double *p, zd_structure_work *work)
 {
-    zd_weighted *weighted = zd_weighted_create(store, zd_layout_take(arena, system));
-    place at = take_place(arena, system);
+    zd_weighted *weighted = zd_weighted_create(store, zd_layout_create(arena, system));
+    place at = create_place(arena, system);
     if (!weighted) return ZD_NO_MEMORY;
     count_products(weighted, work);
     count_factors(weighted->blocks, work);
@@ -83,8 +83,8 @@ int zd_structure_count(const zd_system *system, const double *p, zd_structure_wo
     *work = (zd_structure_work){0};
     if (!system->structure) return ZD_DONE;
     zd_arena counting = {0};
-    zd_layout_take(&counting, system);
-    take_place(&counting, system);
+    zd_layout_create(&counting, system);
+    create_place(&counting, system);
     zd_arena arena = {.base = zd_allocate(counting.used)};
     if (!arena.base) return ZD_NO_MEMORY;
     zd_store store = {NULL};

@@ -37,30 +37,30 @@ static const double SETTLED = 0x1p-36;  /* relative change of an acceleration wi
 static const double FALLING = 0.99;     /* ratio to the smallest change so far: a larger change is a stall */
 static const double PARALLEL = 0x1p-10; /* the largest sine of the angle between w and wdot on a branch */
 
-static void *take(zd_arena *arena, const void *of)
+static void *create(zd_arena *arena, const void *of)
 {
     const zd_system *system = of;
     size_t nq = (size_t)system->nq, n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_limits self = {
-        .distance = zd_take_doubles(arena, m),
-        .p = zd_take_doubles(arena, nq),
-        .v = zd_take_doubles(arena, n),
-        .pdot = zd_take_doubles(arena, nq),
-        .moved = zd_take_doubles(arena, nq),
-        .Cdot = zd_take_doubles(arena, m * n),
-        .xidot = zd_take_doubles(arena, m),
-        .T = zd_take_doubles(arena, m * m),
-        .K_rate = zd_take_doubles(arena, m * m),
-        .w = zd_take_doubles(arena, m * n),
-        .wdot = zd_take_doubles(arena, m * n),
-        .e = zd_take_doubles(arena, n),
-        .x = zd_take_doubles(arena, n),
-        .force = zd_take_doubles(arena, n),
-        .K = zd_take_doubles(arena, (n + m) * (n + m)),
-        .y = zd_take_doubles(arena, n + m),
-        .order = zd_take(arena, (n + m) * sizeof(int)),
+        .distance = zd_arena_doubles(arena, m),
+        .p = zd_arena_doubles(arena, nq),
+        .v = zd_arena_doubles(arena, n),
+        .pdot = zd_arena_doubles(arena, nq),
+        .moved = zd_arena_doubles(arena, nq),
+        .Cdot = zd_arena_doubles(arena, m * n),
+        .xidot = zd_arena_doubles(arena, m),
+        .T = zd_arena_doubles(arena, m * m),
+        .K_rate = zd_arena_doubles(arena, m * m),
+        .w = zd_arena_doubles(arena, m * n),
+        .wdot = zd_arena_doubles(arena, m * n),
+        .e = zd_arena_doubles(arena, n),
+        .x = zd_arena_doubles(arena, n),
+        .force = zd_arena_doubles(arena, n),
+        .K = zd_arena_doubles(arena, (n + m) * (n + m)),
+        .y = zd_arena_doubles(arena, n + m),
+        .order = zd_arena_bytes(arena, (n + m) * sizeof(int)),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* Adds `weight` times C and xi, evaluated `s` further along the motion, to Cdot and xidot. */
@@ -301,7 +301,7 @@ int zd_limits_find(zd_point *point)
     zd_selection *self = point->rank->selection;
     int wanted = self->rank->max_rank - self->independent, found;
     if (!(point->system->provides & ZD_XI)) return ZD_DONE;
-    if (!self->limits) self->limits = zd_store_take(self->rank->store, take, point->system);
+    if (!self->limits) self->limits = zd_store_create(self->rank->store, create, point->system);
     if (!self->limits) return ZD_NO_MEMORY;
     int status = zd_point_need(point, ZD_A);
     if (status) return status;

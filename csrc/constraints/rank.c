@@ -23,7 +23,7 @@
 #include "../linalg/small.h"
 #include "../point/matrices.h"
 
-zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large)
+zd_rank *zd_rank_create(zd_arena *arena, const zd_system *system, int is_large)
 {
     size_t m = (size_t)zd_constraints(system);
     zd_rank self = {
@@ -33,13 +33,13 @@ zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large)
         .max_rank = (int)m,
         .max_rank_holonomic = system->mh,
         .is_large = is_large,
-        .start_square = zd_take_doubles(arena, m),
-        .terms_square = zd_take_doubles(arena, m),
+        .start_square = zd_arena_doubles(arena, m),
+        .terms_square = zd_arena_doubles(arena, m),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
-static void *take_selection(zd_arena *arena, const void *of)
+static void *create_selection(zd_arena *arena, const void *of)
 {
     const zd_system *system = of;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
@@ -47,30 +47,30 @@ static void *take_selection(zd_arena *arena, const void *of)
         .n = (int)n,
         .m = (int)m,
         .mh = system->mh,
-        .redundant = zd_take(arena, m * sizeof(int)),
-        .row = zd_take(arena, m * sizeof(int)),
-        .row_at = zd_take(arena, m * sizeof(int)),
-        .C = zd_take_doubles(arena, m * n),
-        .Q = zd_take_doubles(arena, m * n),
-        .G = zd_take_doubles(arena, m * m),
-        .square = zd_take_doubles(arena, m),
-        .strength = zd_take_doubles(arena, m),
-        .square_left = zd_take_doubles(arena, m),
-        .weight = zd_take_doubles(arena, m),
-        .K = zd_take_doubles(arena, m * m),
-        .L = zd_take_doubles(arena, n * n),
-        .rhs = zd_take_doubles(arena, m),
-        .lambda = zd_take_doubles(arena, m),
-        .lambda_r = zd_take_doubles(arena, m),
-        .R = zd_take_doubles(arena, m * m),
+        .redundant = zd_arena_bytes(arena, m * sizeof(int)),
+        .row = zd_arena_bytes(arena, m * sizeof(int)),
+        .row_at = zd_arena_bytes(arena, m * sizeof(int)),
+        .C = zd_arena_doubles(arena, m * n),
+        .Q = zd_arena_doubles(arena, m * n),
+        .G = zd_arena_doubles(arena, m * m),
+        .square = zd_arena_doubles(arena, m),
+        .strength = zd_arena_doubles(arena, m),
+        .square_left = zd_arena_doubles(arena, m),
+        .weight = zd_arena_doubles(arena, m),
+        .K = zd_arena_doubles(arena, m * m),
+        .L = zd_arena_doubles(arena, n * n),
+        .rhs = zd_arena_doubles(arena, m),
+        .lambda = zd_arena_doubles(arena, m),
+        .lambda_r = zd_arena_doubles(arena, m),
+        .R = zd_arena_doubles(arena, m * m),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 int zd_rank_need_selection(zd_rank *self, const zd_system *system)
 {
     if (self->selection) return ZD_DONE;
-    self->selection = zd_store_take(self->store, take_selection, system);
+    self->selection = zd_store_create(self->store, create_selection, system);
     if (!self->selection) return ZD_NO_MEMORY;
     self->selection->rank = self;
     return ZD_DONE;

@@ -89,7 +89,7 @@ static inline int zd_rank_is_of_many(const zd_system *system)
 #define ZD_MIN_PIVOT 0x1p-44
 
 /* `is_large`: no dense matrices are allocated. */
-zd_rank *zd_rank_take(zd_arena *arena, const zd_system *system, int is_large);
+zd_rank *zd_rank_create(zd_arena *arena, const zd_system *system, int is_large);
 /* Allocates the selection if there is none yet; ZD_NO_MEMORY on failure. */
 int zd_rank_need_selection(zd_rank *self, const zd_system *system);
 /* Selects the independent constraints at the point with the (squared) tolerance; C and M are known there. */

@@ -25,49 +25,49 @@ static const double FAR = 0.9;              /* change: beyond, the row space may
 static const double DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL, ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 static const double AMPLE_RESIDUAL = 16 * ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED; /* squared, relative: rows may change by NEAR */
 
-zd_rank_monitor *zd_rank_monitor_take(zd_arena *arena, const zd_system *system, double *Q, double *G)
+zd_rank_monitor *zd_rank_monitor_create(zd_arena *arena, const zd_system *system, double *Q, double *G)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     const size_t dense = system->structure ? 0 : n;     /* for a declared structure, products of rows are used instead */
     zd_rank_monitor self = {
         .m = (int)m,
-        .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
-        .weight = zd_take_doubles(arena, m),
-        .share = system->structure ? zd_take_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
+        .C = zd_arena_bytes(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
+        .weight = zd_arena_doubles(arena, m),
+        .share = system->structure ? zd_arena_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
         .close = {
             .n = (int)n,
             .m = (int)m,
-            .Q = Q ? Q : zd_take_doubles(arena, m * dense),
-            .G = G ? G : zd_take_doubles(arena, m * (dense ? m : 0)),
-            .square = zd_take_doubles(arena, m),
-            .rows = zd_take_doubles(arena, 4 * dense),
-            .weighted = zd_take_doubles(arena, dense > m ? dense : m),
+            .Q = Q ? Q : zd_arena_doubles(arena, m * dense),
+            .G = G ? G : zd_arena_doubles(arena, m * (dense ? m : 0)),
+            .square = zd_arena_doubles(arena, m),
+            .rows = zd_arena_doubles(arena, 4 * dense),
+            .weighted = zd_arena_doubles(arena, dense > m ? dense : m),
         },
-        .identity = system->structure ? zd_take_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
+        .identity = system->structure ? zd_arena_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* The selected rows are dense, whatever the system declares. */
-zd_rank_monitor *zd_rank_monitor_take_selection(zd_arena *arena, const zd_system *system)
+zd_rank_monitor *zd_rank_monitor_create_selection(zd_arena *arena, const zd_system *system)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_rank_monitor self = {
         .m = (int)m,
-        .row = zd_take(arena, m * sizeof(int)),
-        .C = zd_take(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
-        .weight = zd_take_doubles(arena, m),
-        .share = system->structure ? zd_take_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
+        .row = zd_arena_bytes(arena, m * sizeof(int)),
+        .C = zd_arena_bytes(arena, (size_t)zd_size_of_C(system) * sizeof(float)),
+        .weight = zd_arena_doubles(arena, m),
+        .share = system->structure ? zd_arena_doubles(arena, (size_t)zd_size_of_C(system)) : NULL,
         .close = {
             .n = (int)n,
-            .Q = zd_take_doubles(arena, m * n),
-            .G = zd_take_doubles(arena, m * m),
-            .square = zd_take_doubles(arena, m),
-            .rows = zd_take_doubles(arena, 4 * n),
-            .weighted = zd_take_doubles(arena, n > m ? n : m),
+            .Q = zd_arena_doubles(arena, m * n),
+            .G = zd_arena_doubles(arena, m * m),
+            .square = zd_arena_doubles(arena, m),
+            .rows = zd_arena_doubles(arena, 4 * n),
+            .weighted = zd_arena_doubles(arena, n > m ? n : m),
         },
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int row_of(const zd_rank_monitor *self, int k) { return self->row ? self->row[k] : k; }
@@ -170,9 +170,9 @@ static void store(zd_rank_monitor *self, const zd_point *point)
     for (int b = 0; point->layout && b < point->layout->blocks; b++) find_shares(self, point->layout, b);
 }
 
-static void *take_inverse(zd_arena *arena, const void *blocks)
+static void *create_inverse(zd_arena *arena, const void *blocks)
 {
-    return zd_take_doubles(arena, (size_t)((const zd_blocks *)blocks)->size);
+    return zd_arena_doubles(arena, (size_t)((const zd_blocks *)blocks)->size);
 }
 
 static int need_blocks(zd_rank_monitor *self, const zd_point *point)
@@ -181,7 +181,7 @@ static int need_blocks(zd_rank_monitor *self, const zd_point *point)
     if (self->inverse) return 1;
     zd_set_identity(point->system, self->identity);
     if (!self->weighted) self->weighted = zd_weighted_create(store, point->layout);
-    if (self->weighted) self->inverse = zd_store_take(store, take_inverse, self->weighted->blocks);
+    if (self->weighted) self->inverse = zd_store_create(store, create_inverse, self->weighted->blocks);
     return self->inverse != NULL;
 }
 

@@ -43,19 +43,19 @@ typedef struct search {
     unsigned char *candidate;   /* (m,) */
 } search;
 
-static void *take(zd_arena *arena, const void *of)
+static void *create(zd_arena *arena, const void *of)
 {
     const zd_system *system = of;
     search self = {
-        .unit = zd_take_doubles(arena, (size_t)system->nv),
-        .U = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
-        .x = zd_take_doubles(arena, (size_t)system->nv),
-        .change = zd_take_doubles(arena, (size_t)system->nv),
-        .v0 = zd_take_doubles(arena, (size_t)system->nv),
-        .v = zd_take_doubles(arena, (size_t)system->nv),
-        .candidate = zd_take(arena, (size_t)zd_constraints(system)),
+        .unit = zd_arena_doubles(arena, (size_t)system->nv),
+        .U = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
+        .x = zd_arena_doubles(arena, (size_t)system->nv),
+        .change = zd_arena_doubles(arena, (size_t)system->nv),
+        .v0 = zd_arena_doubles(arena, (size_t)system->nv),
+        .v = zd_arena_doubles(arena, (size_t)system->nv),
+        .candidate = zd_arena_bytes(arena, (size_t)zd_constraints(system)),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int is_length(const zd_system *system, int i) { return system->lengths && system->lengths[system->nq + i]; }
@@ -152,7 +152,7 @@ static int restore_violated(search *self, const zd_point *point, int *holonomic)
     return count;
 }
 
-static void *take_note(zd_arena *arena, const void *system) { return zd_take(arena, (size_t)zd_constraints(system)); }
+static void *create_note(zd_arena *arena, const void *system) { return zd_arena_bytes(arena, (size_t)zd_constraints(system)); }
 
 /* Check that accelerations that satisfy the other rows satisfy those set aside at this velocity; else point->failed_index is the first
  * that is violated. */
@@ -203,7 +203,7 @@ static int note(search *self, zd_point *point)
     zd_rank *rank = point->rank;
     int holonomic, count = restore_violated(self, point, &holonomic);
     if (!count) return ZD_DONE;
-    rank->left_out = zd_store_take(rank->store, take_note, point->system);
+    rank->left_out = zd_store_create(rank->store, create_note, point->system);
     if (!rank->left_out) return ZD_NO_MEMORY;
     memcpy(rank->left_out, self->candidate, (size_t)zd_constraints(point->system));
     rank->max_rank -= count;
@@ -266,7 +266,7 @@ static int find(search *self, zd_point *point)
 int zd_redundancy_sparse_find(zd_point *point)
 {
     zd_store store = {NULL};
-    search *self = zd_store_take(&store, take, point->system);
+    search *self = zd_store_create(&store, create, point->system);
     const int status = self ? find(self, point) : ZD_NO_MEMORY;
     if (self) zd_store_release(&self->store);
     zd_store_release(&store);

@@ -11,9 +11,9 @@
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE, DOUBTFUL = ZD_DOUBTFUL * ZD_DOUBTFUL;
 static const double ILL = ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
 
-static void *take_kept(zd_arena *arena, const void *system)
+static void *create_kept(zd_arena *arena, const void *system)
 {
-    return zd_rank_monitor_take_selection(arena, system);
+    return zd_rank_monitor_create_selection(arena, system);
 }
 
 /* Keeps a selection of the maximum rank for later points if it is well conditioned, in the metric of M^-1 as well (`is_ill`). */
@@ -24,7 +24,7 @@ static int keep_selection(zd_point *point, int is_ill)
     if (self->is_auxiliary) return ZD_DONE;
     if (self->kept) self->kept->is_known = 0;
     if (!is_complete) return ZD_DONE;
-    if (!self->kept) self->kept = zd_store_take(self->store, take_kept, point->system);
+    if (!self->kept) self->kept = zd_store_create(self->store, create_kept, point->system);
     if (!self->kept) return ZD_NO_MEMORY;
     zd_rank_monitor_keep_selection(self->kept, point);
     return ZD_DONE;
@@ -77,16 +77,16 @@ ZD_INLINE int are_few_doubtful(const int n, zd_rank *self, const double *C)
     return self->m == 2 ? are_doubtful(n, 2, self, C) : are_doubtful(n, self->m, self, C);
 }
 
-static void *take_monitor(zd_arena *arena, const void *system)
+static void *create_monitor(zd_arena *arena, const void *system)
 {
-    return zd_rank_monitor_take(arena, system, NULL, NULL);
+    return zd_rank_monitor_create(arena, system, NULL, NULL);
 }
 
 /* Allocates the monitor, if the formulation's factorization was inconclusive. */
 static int need_monitor(zd_rank *self, const zd_system *system)
 {
     if (self->monitor) return ZD_DONE;
-    self->monitor = zd_store_take(self->store, take_monitor, system);
+    self->monitor = zd_store_create(self->store, create_monitor, system);
     return self->monitor ? ZD_DONE : ZD_NO_MEMORY;
 }
 

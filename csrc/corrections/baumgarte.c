@@ -32,11 +32,11 @@ static int clash(const void *given, char *message, size_t size)
     return is_unstable;
 }
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     const gains *gain = given;
-    baumgarte self = {*gain, zd_take_doubles(arena, (size_t)zd_constraints(system))};
-    return zd_take_filled(arena, &self, sizeof self);
+    baumgarte self = {*gain, zd_arena_doubles(arena, (size_t)zd_constraints(system))};
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static void stabilize(void *memory, const zd_point *point, const double *integral, double *rhs)
@@ -78,7 +78,7 @@ const zd_correction zd_baumgarte_row = {
     },
     .clash = clash,
     .needs = ZD_PHI | ZD_C | ZD_PHI_T,
-    .take = take,
+    .create = create,
     .stabilize = stabilize,
     .extra_size = extra_size,
     .extra_rate = extra_rate,

@@ -35,11 +35,11 @@ static int every(const void *given)
     return (int)((const given_energy *)given)->every;
 }
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    energy self = {zd_take_doubles(arena, (size_t)system->nv), zd_take_doubles(arena, (size_t)system->nv)};
-    return zd_take_filled(arena, &self, sizeof self);
+    energy self = {zd_arena_doubles(arena, (size_t)system->nv), zd_arena_doubles(arena, (size_t)system->nv)};
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* vn, and the kinetic energy of v - vn from that of v */
@@ -104,6 +104,6 @@ const zd_correction zd_energy_row = {
     },
     .requires = ZD_POTENTIAL,
     .every = every,
-    .take = take,
+    .create = create,
     .after_step = after_step,
 };

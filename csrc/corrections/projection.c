@@ -71,22 +71,22 @@ static zd_constraint_target target(const void *memory)
                                   (int)given->metric == MASS, given->tol, (int)given->max_iterations};
 }
 
-static void *take(zd_arena *arena, const zd_system *system, const void *memory)
+static void *create(zd_arena *arena, const zd_system *system, const void *memory)
 {
     const given_projection *given = memory;
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
     int identity = (int)given->metric == IDENTITY;
     projection self = {
-        .p = zd_take_doubles(arena, nq),
-        .v = zd_take_doubles(arena, nv),
-        .landed = zd_take_doubles(arena, nq),
-        .rhs = zd_take_doubles(arena, (size_t)zd_constraints(system)),
-        .x = zd_take_doubles(arena, nv),
-        .identity = identity ? zd_take_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
-        .plain = identity ? zd_schur.take(arena, system, NULL) : NULL,
+        .p = zd_arena_doubles(arena, nq),
+        .v = zd_arena_doubles(arena, nv),
+        .landed = zd_arena_doubles(arena, nq),
+        .rhs = zd_arena_doubles(arena, (size_t)zd_constraints(system)),
+        .x = zd_arena_doubles(arena, nv),
+        .identity = identity ? zd_arena_doubles(arena, (size_t)zd_size_of_M(system)) : NULL,
+        .plain = identity ? zd_schur.create(arena, system, NULL) : NULL,
     };
     if (self.identity) zd_set_identity(system, self.identity);
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* M and C are needed at this point in any case, here or for the velocities, so they are evaluated together with Phi. */
@@ -172,10 +172,10 @@ static int retreat(void *context)
     return ZD_DONE;
 }
 
-static void *take_change(zd_arena *arena, const void *of)
+static void *create_change(zd_arena *arena, const void *of)
 {
     const zd_system *system = of;
-    return zd_take_doubles(arena, 2 * (size_t)system->nq);
+    return zd_arena_doubles(arena, 2 * (size_t)system->nq);
 }
 
 /* Again from the start, with iterations that are shortened. */
@@ -183,7 +183,7 @@ static int begin_again(position_problem *problem)
 {
     projection *self = problem->self;
     zd_motion *motion = problem->motion;
-    if (!self->from) self->from = zd_store_take(&motion->store, take_change, &motion->system);
+    if (!self->from) self->from = zd_store_create(&motion->store, create_change, &motion->system);
     if (!self->from) return ZD_NO_MEMORY;
     self->change = self->from + motion->system.nq;
     zd_point_move_position(motion->point, self->landed);
@@ -262,6 +262,6 @@ const zd_correction zd_projection_row = {
     },
     .every = every,
     .target = target,
-    .take = take,
+    .create = create,
     .after_step = after_step,
 };

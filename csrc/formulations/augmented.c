@@ -31,7 +31,7 @@ typedef struct augmented {
     int *order;         /* (n + m,) */
 } augmented;
 
-static void *take_dense(zd_arena *arena, const zd_system *system, const void *given)
+static void *create_dense(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), size = n + m;
@@ -39,22 +39,22 @@ static void *take_dense(zd_arena *arena, const zd_system *system, const void *gi
     augmented self = {
         .n = (int)n,
         .m = (int)m,
-        .M = zd_take_dense(arena, system, n * n),
-        .C = zd_take_dense(arena, system, m * n),
-        .scale = zd_take_doubles(arena, m),
+        .M = zd_create_dense(arena, system, n * n),
+        .C = zd_create_dense(arena, system, m * n),
+        .scale = zd_arena_doubles(arena, m),
         .is_small = is_small,
-        .G = zd_take_doubles(arena, is_small ? size * size : zd_triangle(size)),
-        .b = zd_take_doubles(arena, size),
-        .order = zd_take(arena, size * sizeof(int)),
+        .G = zd_arena_doubles(arena, is_small ? size * size : zd_triangle(size)),
+        .b = zd_arena_doubles(arena, size),
+        .order = zd_arena_bytes(arena, size * sizeof(int)),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
-    if (!zd_rank_is_of_many(system)) return take_dense(arena, system, given);
-    augmented self = {.many = zd_structured_take(arena, system)};
-    return zd_take_filled(arena, &self, sizeof self);
+    if (!zd_rank_is_of_many(system)) return create_dense(arena, system, given);
+    augmented self = {.many = zd_structured_create(arena, system)};
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static void lend_workspace(void *memory, double **Q, double **G)
@@ -156,7 +156,7 @@ const zd_formulation zd_augmented = {
     ZD_DEPENDENT_STATE,
     .takes_many_rows = ZD_MANY_ROWS,
     .has_matrices_evaluated = 1,
-    .take = take,
+    .create = create,
     .lend_workspace = lend_workspace,
     .factor = factor,
     .solve = solve,
@@ -165,7 +165,7 @@ const zd_formulation zd_augmented = {
 /* For motions whose own formulation does not support structures with many constraints. */
 const zd_formulation zd_augmented_dense = {
     ZD_DEPENDENT_STATE,
-    .take = take_dense,
+    .create = create_dense,
     .factor = factor,
     .solve = solve,
 };

@@ -15,7 +15,7 @@
  * alternating. */
 static const double WORSE = 1.1;
 
-zd_complement zd_complement_take(zd_arena *arena, const zd_system *system, double *workspace)
+zd_complement zd_complement_create(zd_arena *arena, const zd_system *system, double *workspace)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), r = n - m;
     int own = (system->provides & ZD_COMPLEMENT) != 0;
@@ -26,13 +26,13 @@ zd_complement zd_complement_take(zd_arena *arena, const zd_system *system, doubl
         .columns = (int)r,
         .is_provided = own,
         .own = own,
-        .order = zd_take(arena, n * sizeof(int)),
-        .pivots = zd_take(arena, n * sizeof(int)),
-        .memory = zd_take_dense(arena, system, m * n),
-        .D = zd_take_doubles(arena, n * r),
-        .K = zd_take_doubles(arena, own ? n * n : m * m),
-        .gram = zd_take_doubles(arena, own ? r * r : 0),
-        .work = zd_take_doubles(arena, 2 * n),
+        .order = zd_arena_bytes(arena, n * sizeof(int)),
+        .pivots = zd_arena_bytes(arena, n * sizeof(int)),
+        .memory = zd_create_dense(arena, system, m * n),
+        .D = zd_arena_doubles(arena, n * r),
+        .K = zd_arena_doubles(arena, own ? n * n : m * m),
+        .gram = zd_arena_doubles(arena, own ? r * r : 0),
+        .work = zd_arena_doubles(arena, 2 * n),
         .choice = workspace,
     };
 }
@@ -125,17 +125,17 @@ static int adopt(zd_complement *self, zd_point *point)
     return zd_cholesky(r, self->gram, self->gram) == r ? ZD_DONE : ZD_DEPENDENT_ROWS;
 }
 
-static void *take_D(zd_arena *arena, const void *of)
+static void *create_D(zd_arena *arena, const void *of)
 {
     const zd_complement *self = of;
-    return zd_take_doubles(arena, (size_t)(self->n * self->n));
+    return zd_arena_doubles(arena, (size_t)(self->n * self->n));
 }
 
 /* Allocates as many columns as there can be, once there are more than nv - m. */
 static int need_columns(zd_complement *self, const zd_point *point)
 {
     if (self->r <= self->columns) return ZD_DONE;
-    double *D = zd_store_take(point->rank->store, take_D, self);
+    double *D = zd_store_create(point->rank->store, create_D, self);
     if (!D) return ZD_NO_MEMORY;
     self->D = D;
     self->columns = self->n;

@@ -31,7 +31,7 @@ typedef struct zd_complement {
 } zd_complement;
 
 /* `workspace` (m, n): used only while D is not known at the point. */
-zd_complement zd_complement_take(zd_arena *arena, const zd_system *system, double *workspace);
+zd_complement zd_complement_create(zd_arena *arena, const zd_system *system, double *workspace);
 /* Work space Q (m, n) and G (m, m), free until the independent constraints are known. */
 void zd_complement_lend(const zd_complement *self, double **Q, double **G);
 /* Computes D and K at the point, once for each (t, p). */

@@ -25,26 +25,26 @@ static const double FARTHEST = 0.5;   /* displacement, characteristic scales: a 
 static const double MAX_RESPONSE = 16;   /* derivative of p with respect to the system's own q: beyond, q is selected numerically */
 static const double WORSE = 1.1;      /* growth of the derivative of p with respect to q after which q is selected anew */
 
-zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system)
+zd_embedding zd_embedding_create(zd_arena *arena, const zd_system *system)
 {
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv, mh = (size_t)system->mh, k = nv - mh;
     /* Entries of p can be selected only if nq is nv. K is formed again after q is selected. */
-    double *choice = zd_take_doubles(arena, nv * (nv + (size_t)zd_constraints(system)));
+    double *choice = zd_arena_doubles(arena, nv * (nv + (size_t)zd_constraints(system)));
     return (zd_embedding){
         .nq = (int)nq,
         .nv = (int)nv,
         .mh = (int)mh,
         .k = (int)k,
         .embed = system->quaternions ? NULL : system->embed,
-        .index = zd_take(arena, k * sizeof(int)),
-        .increments = zd_increments_take(arena, system),
-        .order = zd_take(arena, (mh + nq) * sizeof(int)),
-        .memory = zd_take_dense(arena, system, (size_t)zd_constraints(system) * nv),
+        .index = zd_arena_bytes(arena, k * sizeof(int)),
+        .increments = zd_increments_create(arena, system),
+        .order = zd_arena_bytes(arena, (mh + nq) * sizeof(int)),
+        .memory = zd_create_dense(arena, system, (size_t)zd_constraints(system) * nv),
         .K = choice,
-        .pivots = zd_take(arena, nv * sizeof(int)),
+        .pivots = zd_arena_bytes(arena, nv * sizeof(int)),
         .choice = choice,
-        .delta = zd_take_doubles(arena, nv),
-        .p = zd_take_doubles(arena, nq),
+        .delta = zd_arena_doubles(arena, nv),
+        .p = zd_arena_doubles(arena, nq),
     };
 }
 

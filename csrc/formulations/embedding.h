@@ -22,7 +22,7 @@ typedef struct zd_embedding {
     double *p;              /* (nq,) */
 } zd_embedding;
 
-zd_embedding zd_embedding_take(zd_arena *arena, const zd_system *system);
+zd_embedding zd_embedding_create(zd_arena *arena, const zd_system *system);
 /* Work space (m, nv), free except while q is selected. */
 double *zd_embedding_workspace(const zd_embedding *self);
 /* q (k,) of the point, and qdot (k,) from pdot. */

@@ -26,7 +26,7 @@ typedef struct zd_formulation {
     int (*suits)(const zd_system *system);      /* true if the system is supported; NULL: all are */
     /* The system of both has only the independent constraints. */
     int (*state_size)(const zd_system *system);
-    void *(*take)(zd_arena *arena, const zd_system *system, const void *given);     /* given: values of the card's parameters */
+    void *(*create)(zd_arena *arena, const zd_system *system, const void *given);     /* given: values of the card's parameters */
     /* Factors the leading matrix at the point, from M and the independent rows of C. */
     int (*factor)(void *self, zd_point *point);
     /* True if factor() of this system itself shows the independence of the constraints, as it orthogonalizes them; NULL: it never does. */

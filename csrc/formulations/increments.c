@@ -20,17 +20,17 @@
 static const double INCREMENT_ROUNDING = 4 * 0x1p-52;
 static const double REACH = 0.5;    /* cos(a / 2) of the largest rotation angle a of a step */
 
-zd_increments zd_increments_take(zd_arena *arena, const zd_system *system)
+zd_increments zd_increments_create(zd_arena *arena, const zd_system *system)
 {
     if (!system->quaternions && !system->followers) return (zd_increments){.nq = 0};
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv;
     return (zd_increments){
         .nq = (int)nq,
         .nv = (int)nv,
-        .base = zd_take_doubles(arena, nq),
-        .inverse = zd_take_doubles(arena, nv * nq),
-        .gram = zd_take_doubles(arena, nv * nv),
-        .rounding = zd_take_doubles(arena, nv),
+        .base = zd_arena_doubles(arena, nq),
+        .inverse = zd_arena_doubles(arena, nv * nq),
+        .gram = zd_arena_doubles(arena, nv * nv),
+        .rounding = zd_arena_doubles(arena, nv),
     };
 }
 

@@ -13,7 +13,7 @@ typedef struct zd_increments {
     double *rounding;       /* (nv,): rounding error of each increment, from that of p */
 } zd_increments;
 
-zd_increments zd_increments_take(zd_arena *arena, const zd_system *system);
+zd_increments zd_increments_create(zd_arena *arena, const zd_system *system);
 /* Sets the base to the p of the point. */
 int zd_increments_begin(zd_increments *self, zd_point *point);
 /* True if p is near enough to the base for the increments to determine it. */

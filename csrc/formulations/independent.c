@@ -20,20 +20,20 @@ extern const zd_formulation zd_independent;
 /* True if the relations of surplus coordinates are known: each unit quaternion has one, and each coordinate that follows others is one. */
 static int suits(const zd_system *system) { return system->nq == system->nv + system->quaternions + system->followers; }
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     if (zd_takes_many_rows(&zd_independent, system)) {
-        independent self = {.minimal = zd_minimal_take_many(arena, system)};
-        return zd_take_filled(arena, &self, sizeof self);
+        independent self = {.minimal = zd_minimal_create_many(arena, system)};
+        return zd_arena_copy(arena, &self, sizeof self);
     }
-    zd_embedding embedding = zd_embedding_take(arena, system);
+    zd_embedding embedding = zd_embedding_create(arena, system);
     independent self = {
-        .minimal = zd_minimal_take(arena, system, zd_embedding_workspace(&embedding)),
+        .minimal = zd_minimal_create(arena, system, zd_embedding_workspace(&embedding)),
         .embedding = embedding,
-        .pdot = zd_take_doubles(arena, (size_t)system->nq),
+        .pdot = zd_arena_doubles(arena, (size_t)system->nq),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int state_size(const zd_system *system)
@@ -164,7 +164,7 @@ const zd_formulation zd_independent = {
     .takes_many_rows = ZD_MANY_ROWS_WITHOUT_A,
     .suits = suits,
     .state_size = state_size,
-    .take = take,
+    .create = create,
     .lend_workspace = zd_minimal_lend,
     .factor = zd_minimal_factor,
     .solve = zd_minimal_solve,

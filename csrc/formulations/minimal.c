@@ -19,24 +19,24 @@ enum { MAX_ITERATIONS = 12 };
 static const double SETTLED = 0x1p-46;  /* change relative to the speed with which the velocity has converged */
 static const double NEARLY = 0x1p-30;   /* change relative to the speed that is accepted if it no longer halves */
 
-zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *workspace)
+zd_minimal zd_minimal_create(zd_arena *arena, const zd_system *system, double *workspace)
 {
     size_t n = (size_t)system->nv, r = n - (size_t)zd_constraints(system);
     return (zd_minimal){
-        .complement = zd_complement_take(arena, system, workspace),
-        .memory = zd_take_dense(arena, system, n * n),
-        .Mu = zd_take_doubles(arena, r * r),
+        .complement = zd_complement_create(arena, system, workspace),
+        .memory = zd_create_dense(arena, system, n * n),
+        .Mu = zd_arena_doubles(arena, r * r),
         .columns = (int)r,
         .size = (int)r,
-        .u = zd_take_doubles(arena, n),
-        .b = zd_take_doubles(arena, n),
-        .du = zd_take_doubles(arena, n),
+        .u = zd_arena_doubles(arena, n),
+        .b = zd_arena_doubles(arena, n),
+        .du = zd_arena_doubles(arena, n),
     };
 }
 
-zd_minimal zd_minimal_take_many(zd_arena *arena, const zd_system *system)
+zd_minimal zd_minimal_create_many(zd_arena *arena, const zd_system *system)
 {
-    return (zd_minimal){.many = zd_partition_sparse_take(arena, system)};
+    return (zd_minimal){.many = zd_partition_sparse_create(arena, system)};
 }
 
 void zd_minimal_lend(void *memory, double **Q, double **G)
@@ -45,17 +45,17 @@ void zd_minimal_lend(void *memory, double **Q, double **G)
     zd_complement_lend(&self->complement, Q, G);
 }
 
-static void *take_Mu(zd_arena *arena, const void *of)
+static void *create_Mu(zd_arena *arena, const void *of)
 {
     const zd_minimal *self = of;
-    return zd_take_doubles(arena, (size_t)(self->complement.n * self->complement.n));
+    return zd_arena_doubles(arena, (size_t)(self->complement.n * self->complement.n));
 }
 
 /* Allocates Mu for the columns of the complement. */
 static int need_columns(zd_minimal *self, const zd_point *point)
 {
     if (self->complement.r <= self->columns) return ZD_DONE;
-    double *Mu = zd_store_take(point->rank->store, take_Mu, self);
+    double *Mu = zd_store_create(point->rank->store, create_Mu, self);
     if (!Mu) return ZD_NO_MEMORY;
     self->Mu = Mu;
     self->columns = self->complement.n;

@@ -20,10 +20,10 @@ typedef struct zd_minimal {
     double lead_time;   /* s: time from the point's last acceleration to the present; 0: unknown */
 } zd_minimal;
 
-/* `workspace` (m, n): see zd_complement_take(). */
-zd_minimal zd_minimal_take(zd_arena *arena, const zd_system *system, double *workspace);
+/* `workspace` (m, n): see zd_complement_create(). */
+zd_minimal zd_minimal_create(zd_arena *arena, const zd_system *system, double *workspace);
 /* For a declared structure with many constraints. */
-zd_minimal zd_minimal_take_many(zd_arena *arena, const zd_system *system);
+zd_minimal zd_minimal_create_many(zd_arena *arena, const zd_system *system);
 void zd_minimal_lend(void *self, double **Q, double **G);
 int zd_minimal_factor(void *self, zd_point *point);
 void zd_minimal_solve(void *self, const double *force, const double *rhs, double *x, double *lambda);

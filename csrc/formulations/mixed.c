@@ -6,13 +6,13 @@
 #include "formulation.h"
 #include "minimal.h"
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     const int are_many = zd_rank_is_of_many(system);
-    double *workspace = are_many ? NULL : zd_take_doubles(arena, (size_t)(zd_constraints(system) * system->nv));
-    zd_minimal self = are_many ? zd_minimal_take_many(arena, system) : zd_minimal_take(arena, system, workspace);
-    return zd_take_filled(arena, &self, sizeof self);
+    double *workspace = are_many ? NULL : zd_arena_doubles(arena, (size_t)(zd_constraints(system) * system->nv));
+    zd_minimal self = are_many ? zd_minimal_create_many(arena, system) : zd_minimal_create(arena, system, workspace);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int state_size(const zd_system *system)
@@ -86,7 +86,7 @@ const zd_formulation zd_mixed = {
     .drifts_from = ZD_PHI,
     .takes_many_rows = ZD_MANY_ROWS,
     .state_size = state_size,
-    .take = take,
+    .create = create,
     .lend_workspace = zd_minimal_lend,
     .factor = zd_minimal_factor,
     .solve = zd_minimal_solve,

@@ -27,24 +27,24 @@ typedef struct nullspace {
     double *b;          /* (n,) */
 } nullspace;
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
     if (zd_rank_is_of_many(system)) {
-        nullspace self = {.many = zd_structured_take(arena, system)};
-        return zd_take_filled(arena, &self, sizeof self);
+        nullspace self = {.many = zd_structured_create(arena, system)};
+        return zd_arena_copy(arena, &self, sizeof self);
     }
     size_t n = (size_t)system->nv;
-    double *H = zd_take_doubles(arena, n * n);      /* made once D is known */
+    double *H = zd_arena_doubles(arena, n * n);      /* made once D is known */
     nullspace self = {
-        .complement = zd_complement_take(arena, system, H),
-        .memory = zd_take_dense(arena, system, n * n),
+        .complement = zd_complement_create(arena, system, H),
+        .memory = zd_create_dense(arena, system, n * n),
         .H = H,
-        .scale = zd_take_doubles(arena, n),
-        .order = zd_take(arena, n * sizeof(int)),
-        .b = zd_take_doubles(arena, n),
+        .scale = zd_arena_doubles(arena, n),
+        .order = zd_arena_bytes(arena, n * sizeof(int)),
+        .b = zd_arena_doubles(arena, n),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static void lend_workspace(void *memory, double **Q, double **G)
@@ -126,7 +126,7 @@ const zd_formulation zd_nullspace = {
     ZD_DEPENDENT_STATE,
     .takes_many_rows = ZD_MANY_ROWS,
     .has_matrices_evaluated = 1,
-    .take = take,
+    .create = create,
     .lend_workspace = lend_workspace,
     .factor = factor,
     .solve = solve,

@@ -43,25 +43,25 @@ typedef struct schur {
     double *residual, *correction;  /* (m,), (n,): residual rhs - C x, and its correction */
 } schur;
 
-static void take_matrices(zd_arena *arena, schur *self)
+static void create_matrices(zd_arena *arena, schur *self)
 {
     size_t n = (size_t)self->n, m = (size_t)self->most;
-    self->L = zd_take_doubles(arena, n * n);
-    self->Q = zd_take_doubles(arena, m * n);
-    self->G = zd_take_doubles(arena, m * m);
-    self->b = zd_take_doubles(arena, m);
-    self->rows = n > ZD_UNROLLED ? zd_take_doubles(arena, 4 * n > m ? 4 * n : m) : NULL;
-    self->residual = n > ZD_UNROLLED ? self->rows : zd_take_doubles(arena, m);   /* residual is for solves, rows for factorizations */
-    self->correction = zd_take_doubles(arena, n);
+    self->L = zd_arena_doubles(arena, n * n);
+    self->Q = zd_arena_doubles(arena, m * n);
+    self->G = zd_arena_doubles(arena, m * m);
+    self->b = zd_arena_doubles(arena, m);
+    self->rows = n > ZD_UNROLLED ? zd_arena_doubles(arena, 4 * n > m ? 4 * n : m) : NULL;
+    self->residual = n > ZD_UNROLLED ? self->rows : zd_arena_doubles(arena, m);   /* residual is for solves, rows for factorizations */
+    self->correction = zd_arena_doubles(arena, n);
 }
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    schur self = {.n = system->nv, .m = zd_constraints(system), .most = zd_constraints(system), .many = zd_structured_take(arena, system)};
-    if (!zd_rank_is_of_many(system)) self.blocks = zd_schur_blocks_take(arena, system);
-    if (!system->structure) take_matrices(arena, &self);
-    return zd_take_filled(arena, &self, sizeof self);
+    schur self = {.n = system->nv, .m = zd_constraints(system), .most = zd_constraints(system), .many = zd_structured_create(arena, system)};
+    if (!zd_rank_is_of_many(system)) self.blocks = zd_schur_blocks_create(arena, system);
+    if (!system->structure) create_matrices(arena, &self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* Projects the first k rows of Q out of q; the coefficients are written to g, row k of G, or added if this is repeated. Returns the
@@ -152,12 +152,12 @@ static int factor_dense(schur *self, zd_point *point, const double *M)
 
 /* ---- systems that declare their structure ---- */
 
-static void *take_all(zd_arena *arena, const void *of)
+static void *create_all(zd_arena *arena, const void *of)
 {
     schur self = *(const schur *)of;
-    self.dense_C = zd_take_doubles(arena, (size_t)(self.most * self.n));
-    take_matrices(arena, &self);
-    return zd_take_filled(arena, &self, sizeof self);
+    self.dense_C = zd_arena_doubles(arena, (size_t)(self.most * self.n));
+    create_matrices(arena, &self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* True if its pivots show that all constraints are independent, or that is known. */
@@ -201,7 +201,7 @@ static int factor_packed(schur *self, zd_point *point)
     int status = factor_coupled(self, point);
     if (status || self->is_coupled) return status;
     if (!self->L) {
-        const schur *all = zd_store_take(point->rank->store, take_all, self);
+        const schur *all = zd_store_create(point->rank->store, create_all, self);
         if (!all) return ZD_NO_MEMORY;
         *self = *all;
     }
@@ -304,7 +304,7 @@ const zd_formulation zd_schur = {
     .inverts_mass = 1,
     .takes_many_rows = ZD_MANY_ROWS,
     .has_matrices_evaluated = 1,
-    .take = take,
+    .create = create,
     .finds_rows = finds_rows,
     .factor = factor,
     .solve = solve,

@@ -3,14 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-zd_differences zd_differences_take(zd_arena *arena, int size)
+zd_differences zd_differences_create(zd_arena *arena, int size)
 {
     const size_t n = (size_t)size;
     return (zd_differences){
         .size = size,
-        .scale = zd_take_doubles(arena, n),
-        .unit = zd_take_doubles(arena, n),
-        .varied = zd_take_doubles(arena, n),
+        .scale = zd_arena_doubles(arena, n),
+        .unit = zd_arena_doubles(arena, n),
+        .varied = zd_arena_doubles(arena, n),
     };
 }
 

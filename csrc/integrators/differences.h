@@ -14,7 +14,7 @@ typedef struct zd_differences {
     double min_size;      /* smallest size of y_i assumed for increments: y_i and f_i may be rounding errors only */
 } zd_differences;
 
-zd_differences zd_differences_take(zd_arena *arena, int size);
+zd_differences zd_differences_create(zd_arena *arena, int size);
 /* Adapts to a state of another size. */
 void zd_differences_resize(zd_differences *self, int size);
 void zd_differences_choose_units(zd_differences *self);

@@ -23,20 +23,20 @@ typedef struct extrapolation {
     double *sum;            /* (size,): of the weighted z_n - y0 */
 } extrapolation;
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)given;
     (void)table, (void)system;
     size_t n = (size_t)size;
     extrapolation self = {
         .size = size,
-        .f0 = zd_take_doubles(arena, n),
-        .f = zd_take_doubles(arena, n),
-        .z = zd_take_doubles(arena, n),
-        .change = {zd_take_doubles(arena, n), zd_take_doubles(arena, n)},
-        .sum = zd_take_doubles(arena, n),
+        .f0 = zd_arena_doubles(arena, n),
+        .f = zd_arena_doubles(arena, n),
+        .z = zd_arena_doubles(arena, n),
+        .change = {zd_arena_doubles(arena, n), zd_arena_doubles(arena, n)},
+        .sum = zd_arena_doubles(arena, n),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* change[0] <- z_n - y0 */
@@ -84,6 +84,6 @@ const zd_integrator zd_extrapolation = {
                      "Mathematik 8 (1966) 1-13",
     },
     .decay = 4.31,
-    .take = take,
+    .create = create,
     .step = step,
 };

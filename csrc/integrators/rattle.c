@@ -61,7 +61,7 @@ static int suits(const zd_system *system)
     return !system->mn && !(system->provides & ZD_A);
 }
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)given;
     (void)table;
@@ -70,28 +70,28 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .n = (int)n,
         .m = (int)m,
         .varies = (system->provides & ZD_BIAS) != 0,
-        .probe = zd_point_take(arena, system, NULL),
-        .p0 = zd_take_doubles(arena, n),
-        .p = zd_take_doubles(arena, n),
-        .moved = zd_take_doubles(arena, n),
-        .v0 = zd_take_doubles(arena, n),
-        .w = zd_take_doubles(arena, n),
-        .x = zd_take_doubles(arena, n),
-        .s = zd_take_doubles(arena, n),
-        .y = zd_take_doubles(arena, n),
-        .u_of_H = zd_take_doubles(arena, MAX_LEARNT * n),
-        .s_of_H = zd_take_doubles(arena, MAX_LEARNT * n),
-        .start = zd_take_doubles(arena, n),
-        .mean = zd_take_doubles(arena, n),
-        .F = zd_take_doubles(arena, n),
-        .Mdot = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
+        .probe = zd_point_create(arena, system, NULL),
+        .p0 = zd_arena_doubles(arena, n),
+        .p = zd_arena_doubles(arena, n),
+        .moved = zd_arena_doubles(arena, n),
+        .v0 = zd_arena_doubles(arena, n),
+        .w = zd_arena_doubles(arena, n),
+        .x = zd_arena_doubles(arena, n),
+        .s = zd_arena_doubles(arena, n),
+        .y = zd_arena_doubles(arena, n),
+        .u_of_H = zd_arena_doubles(arena, MAX_LEARNT * n),
+        .s_of_H = zd_arena_doubles(arena, MAX_LEARNT * n),
+        .start = zd_arena_doubles(arena, n),
+        .mean = zd_arena_doubles(arena, n),
+        .F = zd_arena_doubles(arena, n),
+        .Mdot = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
         .stored = zd_size_of_M(system),
-        .product = zd_take_doubles(arena, n),
-        .rhs = zd_take_doubles(arena, m),
-        .rate0 = zd_take_doubles(arena, (size_t)size),
-        .rate1 = zd_take_doubles(arena, (size_t)size),
+        .product = zd_arena_doubles(arena, n),
+        .rhs = zd_arena_doubles(arena, m),
+        .rate0 = zd_arena_doubles(arena, (size_t)size),
+        .rate1 = zd_arena_doubles(arena, (size_t)size),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* to <- H x */
@@ -290,6 +290,6 @@ const zd_integrator zd_rattle = {
                      "mechanics and variational integrators, Acta Numerica 10 (2001) 357-514",
     },
     .suits = suits,
-    .take = take,
+    .create = create,
     .step_of_motion = step_of_motion,
 };

@@ -6,7 +6,7 @@
  */
 #include "runge_kutta.h"
 
-void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+void *zd_runge_kutta_create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)given;
     (void)system;
@@ -14,12 +14,12 @@ void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *s
     const size_t estimates = tableau->e != NULL;
     zd_runge_kutta self = {
         .size = size,
-        .k = zd_take_doubles(arena, ((size_t)(tableau->stages + tableau->more) + estimates) * (size_t)size),
-        .stage = zd_take_doubles(arena, (size_t)size),
-        .change = tableau->coefficients ? zd_take_doubles(arena, (size_t)size) : NULL,
+        .k = zd_arena_doubles(arena, ((size_t)(tableau->stages + tableau->more) + estimates) * (size_t)size),
+        .stage = zd_arena_doubles(arena, (size_t)size),
+        .change = tableau->coefficients ? zd_arena_doubles(arena, (size_t)size) : NULL,
     };
-    self.end = estimates ? zd_take_doubles(arena, (size_t)size) : self.stage;       /* estimates want both */
-    return zd_take_filled(arena, &self, sizeof self);
+    self.end = estimates ? zd_arena_doubles(arena, (size_t)size) : self.stage;       /* estimates want both */
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* The last stage is at t1, too, and not far from y: |f(y) - f(stage)| / |y - stage|, of Hairer, Norsett and Wanner's test for

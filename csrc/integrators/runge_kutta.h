@@ -149,7 +149,7 @@ ZD_INLINE double zd_squares(const int terms, const double *weight, const zd_rung
     return squares;
 }
 
-void *zd_runge_kutta_take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
+void *zd_runge_kutta_create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given);
 /* |lambda h| at the end of a step whose last stage is there, too; 0: not known */
 double zd_runge_kutta_lambda_h(const zd_tableau *T, const zd_runge_kutta *self, double h, const double *y, const double *scale);
 
@@ -179,6 +179,6 @@ ZD_INLINE int zd_runge_kutta_error(const zd_tableau *T, zd_runge_kutta *self, co
     {                                                                                                                       \
         return zd_runge_kutta_error(&tableau, self, rate, t1, h, y, scale, norm, lambda_h);                                 \
     }
-#define ZD_RUNGE_KUTTA .table = &tableau, .take = zd_runge_kutta_take, .step = step
+#define ZD_RUNGE_KUTTA .table = &tableau, .create = zd_runge_kutta_create, .step = step
 
 #endif

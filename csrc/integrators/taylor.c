@@ -52,7 +52,7 @@ static int suits(const zd_system *system)
     return system->series != NULL;
 }
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)table;
     const int order = (int)fmax(((const given_taylor *)given)->order, MIN_ORDER);
@@ -62,17 +62,17 @@ static void *take(zd_arena *arena, const void *table, const zd_system *system, i
         .size = size,
         .order = order,
         .highest = order,
-        .y0 = zd_take_doubles(arena, (size_t)size),
-        .start = zd_take_doubles(arena, whole),
-        .end = zd_take_doubles(arena, whole),
-        .own_scale = zd_take_doubles(arena, whole + 1),
-        .p = zd_take_doubles(arena, orders * (size_t)system->nq),
-        .v = zd_take_doubles(arena, orders * (size_t)system->nv),
-        .work = zd_take_doubles(arena, orders),
-        .rate = zd_take_doubles(arena, 2 * (whole + 1)),
-        .scratch = zd_take_doubles(arena, orders * (size_t)(system->series ? system->series->scratch : 0)),
+        .y0 = zd_arena_doubles(arena, (size_t)size),
+        .start = zd_arena_doubles(arena, whole),
+        .end = zd_arena_doubles(arena, whole),
+        .own_scale = zd_arena_doubles(arena, whole + 1),
+        .p = zd_arena_doubles(arena, orders * (size_t)system->nq),
+        .v = zd_arena_doubles(arena, orders * (size_t)system->nv),
+        .work = zd_arena_doubles(arena, orders),
+        .rate = zd_arena_doubles(arena, 2 * (whole + 1)),
+        .scratch = zd_arena_doubles(arena, orders * (size_t)(system->series ? system->series->scratch : 0)),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static void set_tolerance(void *memory, double rtol, double atol)
@@ -250,7 +250,7 @@ const zd_integrator zd_taylor = {
     .takes_series = 1,
     .decay = 8.8,
     .suits = suits,
-    .take = take,
+    .create = create,
     .step = step,
     .set_tolerance = set_tolerance,
     .predict_step = predict_step,

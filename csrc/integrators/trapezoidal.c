@@ -50,24 +50,24 @@ static int suits(const zd_system *system)
     return !zd_is_too_large(system);
 }
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)given;
     (void)table, (void)system;
     size_t n = (size_t)size;
     trapezoidal self = {
         .size = size,
-        .y0 = zd_take_doubles(arena, n),
-        .f0 = zd_take_doubles(arena, n),
-        .y1 = zd_take_doubles(arena, n),
-        .f1 = zd_take_doubles(arena, n),
-        .disturbed = zd_take_doubles(arena, n),
-        .g = zd_take_doubles(arena, n),
-        .differences = zd_differences_take(arena, size),
-        .J = zd_take_doubles(arena, n * n),
-        .order = zd_take(arena, n * sizeof(int)),
+        .y0 = zd_arena_doubles(arena, n),
+        .f0 = zd_arena_doubles(arena, n),
+        .y1 = zd_arena_doubles(arena, n),
+        .f1 = zd_arena_doubles(arena, n),
+        .disturbed = zd_arena_doubles(arena, n),
+        .g = zd_arena_doubles(arena, n),
+        .differences = zd_differences_create(arena, size),
+        .J = zd_arena_doubles(arena, n * n),
+        .order = zd_arena_bytes(arena, n * sizeof(int)),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int rate_at_end(trapezoidal *self, double *f)
@@ -227,6 +227,6 @@ const zd_integrator zd_trapezoidal = {
                      "Division 85 (1959) 67-94",
     },
     .suits = suits,
-    .take = take,
+    .create = create,
     .step = step,
 };

@@ -17,7 +17,7 @@ typedef struct zd_row_space {
     double *T, *y, *c;      /* (n, most), (n,), (most,) temporary */
 } zd_row_space;
 
-zd_row_space zd_row_space_take(zd_arena *arena, int most, int n);
+zd_row_space zd_row_space_create(zd_arena *arena, int most, int n);
 /* Factors the first `rows` rows of A, n columns each. Rows are redundant if their remaining norm is at most `share` of the longest row, or
  * `least`. */
 void zd_row_space_factor(zd_row_space *self, int rows, double share, double least);

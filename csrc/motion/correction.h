@@ -24,7 +24,7 @@ typedef struct zd_correction {
     int (*clash)(const void *given, char *message, size_t size);
     int (*every)(const void *given);    /* steps between two applications; NULL: in each step */
     zd_constraint_target (*target)(const void *given);     /* NULL: it does not correct the constraints */
-    void *(*take)(zd_arena *arena, const zd_system *system, const void *given);
+    void *(*create)(zd_arena *arena, const zd_system *system, const void *given);
     /* Functions; NULL if the correction has none of this kind. */
     int (*after_step)(void *self, zd_motion *motion);
     /* xi -> xi_stab; `extra`: the correction's own part of the integrated state */

@@ -15,16 +15,16 @@ static const double STEP[STEPS] = {2e-2, 2e-3, 5e-4};      /* characteristic sca
 static const double CENTRAL_STEP = 1e-4;
 static const double AGREE = 1e-10;      /* difference of the orders relative to the derivative that is accepted */
 
-zd_residual_state zd_residual_state_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics, enum zd_accuracy accuracy)
+zd_residual_state zd_residual_state_create(zd_arena *arena, const zd_system *system, zd_statistics *statistics, enum zd_accuracy accuracy)
 {
     const size_t width = (size_t)(system->nq + system->nv + 2 * zd_constraints(system) + 1);
     return (zd_residual_state){
-        .varied = zd_point_take(arena, system, statistics),
-        .here = zd_take_doubles(arena, width),
-        .there = zd_take_doubles(arena, width),
-        .x = zd_take_doubles(arena, (size_t)(system->nq + system->nv)),
-        .sums = accuracy == ZD_ACCURATE ? zd_take_doubles(arena, ORDERS * width) : NULL,
-        .scratch = system->residuals ? zd_take_doubles(arena, (size_t)system->residuals->scratch) : NULL,
+        .varied = zd_point_create(arena, system, statistics),
+        .here = zd_arena_doubles(arena, width),
+        .there = zd_arena_doubles(arena, width),
+        .x = zd_arena_doubles(arena, (size_t)(system->nq + system->nv)),
+        .sums = accuracy == ZD_ACCURATE ? zd_arena_doubles(arena, ORDERS * width) : NULL,
+        .scratch = system->residuals ? zd_arena_doubles(arena, (size_t)system->residuals->scratch) : NULL,
     };
 }
 

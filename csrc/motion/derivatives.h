@@ -34,7 +34,7 @@ typedef struct zd_residual_state {
 } zd_residual_state;
 
 /* Memory for all parts. */
-zd_residual_state zd_residual_state_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics, enum zd_accuracy accuracy);
+zd_residual_state zd_residual_state_create(zd_arena *arena, const zd_system *system, zd_statistics *statistics, enum zd_accuracy accuracy);
 /* The parts to be differentiated at this point, which must remain there, as the arrays. */
 void zd_residual_state_begin(zd_residual_state *self, int parts, zd_point *point, const double *vdot, const double *lambda);
 /* to (width,) <- derivatives along a direction: the system's own where it has them, else by differences. `step`: for iterations, the

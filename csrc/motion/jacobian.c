@@ -22,7 +22,7 @@ static int jacobian(void *context, double t, const double *y, const double *incr
 
 static size_t larger(size_t a, size_t b) { return a > b ? a : b; }
 
-void zd_motion_take_jacobian(zd_motion *motion, zd_arena *arena)
+void zd_motion_create_jacobian(zd_motion *motion, zd_arena *arena)
 {
     const zd_system *system = &motion->system;
     const size_t nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)zd_constraints(system), width = nq + nv;
@@ -30,19 +30,19 @@ void zd_motion_take_jacobian(zd_motion *motion, zd_arena *arena)
     const int has_tangents = motion->formulation->tangents_of_p != NULL;
     const int has_own = has_tangents && system->jacobian && system->jacobian->constraints;
     motion->chain = (zd_chain){
-        .residuals = zd_residual_state_take(arena, system, &motion->statistics, ZD_FOR_ITERATIONS),
-        .lambda = zd_take_doubles(arena, m),
-        .changes = zd_take_doubles(arena, width + m + 1),
-        .right = zd_take_doubles(arena, nv + m),
-        .lambda_along = zd_take_doubles(arena, m),
-        .unit = zd_take_doubles(arena, width),
-        .scratch = system->jacobian ? zd_take_doubles(arena, (size_t)system->jacobian->scratch) : NULL,
-        .J = has_own ? zd_take_doubles(arena, (width + 1) * width) : NULL,
-        .Psi_p = has_own ? zd_take_doubles(arena, m * nq + 1) : NULL,
-        .Psi_along = has_tangents ? zd_take_doubles(arena, size * m) : NULL,
-        .T = has_tangents ? zd_take_doubles(arena, size * width) : NULL,
-        .rates = zd_take_doubles(arena, width + 1),
-        .picked = zd_take_doubles(arena, larger(size, width)),
+        .residuals = zd_residual_state_create(arena, system, &motion->statistics, ZD_FOR_ITERATIONS),
+        .lambda = zd_arena_doubles(arena, m),
+        .changes = zd_arena_doubles(arena, width + m + 1),
+        .right = zd_arena_doubles(arena, nv + m),
+        .lambda_along = zd_arena_doubles(arena, m),
+        .unit = zd_arena_doubles(arena, width),
+        .scratch = system->jacobian ? zd_arena_doubles(arena, (size_t)system->jacobian->scratch) : NULL,
+        .J = has_own ? zd_arena_doubles(arena, (width + 1) * width) : NULL,
+        .Psi_p = has_own ? zd_arena_doubles(arena, m * nq + 1) : NULL,
+        .Psi_along = has_tangents ? zd_arena_doubles(arena, size * m) : NULL,
+        .T = has_tangents ? zd_arena_doubles(arena, size * width) : NULL,
+        .rates = zd_arena_doubles(arena, width + 1),
+        .picked = zd_arena_doubles(arena, larger(size, width)),
     };
     motion->rate.jacobian = jacobian;
 }

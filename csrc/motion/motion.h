@@ -188,8 +188,8 @@ struct zd_motion {
     int in_run;             /* true if steps begin at states that satisfy the constraints */
 };
 
-/* take.c: initializes the motion in place. `independent` has the system's sizes with the number of independent constraints. */
-void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
+/* create.c: initializes the motion in place. `independent` has the system's sizes with the number of independent constraints. */
+void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
                     const zd_formulation *formulation, const void *given);
 /* Adds a correction with its parameters. */
 void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *correction, const void *given);
@@ -241,7 +241,7 @@ int zd_motion_rate(void *motion, double t, const double *y, double *ydot);     /
 void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* rates of the corrections' part of the state */
 
 /* jacobian.c: memory for the derivatives of the rate, which are then available. */
-void zd_motion_take_jacobian(zd_motion *motion, zd_arena *arena);
+void zd_motion_create_jacobian(zd_motion *motion, zd_arena *arena);
 
 static inline void zd_count_position_iterations(zd_motion *motion, int iterations)
 {

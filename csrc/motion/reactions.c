@@ -303,27 +303,27 @@ static int accelerate(zd_motion *motion)
 static const zd_equations equations = {
     accelerate, zd_motion_rate, zd_motion_pack, zd_motion_expand, zd_motion_reduce, ~(ZD_FORCE | ZD_POWER), 1};
 
-static zd_reactions take(zd_arena *arena, const zd_system *system)
+static zd_reactions create(zd_arena *arena, const zd_system *system)
 {
     const size_t n = (size_t)system->reading->count, k = (size_t)system->reading->functions;
     return (zd_reactions){
         .reading = system->reading,
-        .r = zd_take_doubles(arena, n), .r0 = zd_take_doubles(arena, n), .r1 = zd_take_doubles(arena, n),
-        .u = zd_take_doubles(arena, k), .u0 = zd_take_doubles(arena, k), .u1 = zd_take_doubles(arena, k),
-        .u_r = zd_take_doubles(arena, (size_t)system->reading->reads),
-        .G = zd_take_doubles(arena, k * n),
-        .R = zd_take_doubles(arena, n), .change = zd_take_doubles(arena, n), .scale = zd_take_doubles(arena, n),
-        .matrix = zd_take_doubles(arena, n * n), .inverse = zd_take_doubles(arena, n * n),
-        .order = zd_take(arena, n * sizeof(int)),
-        .measured = zd_take_doubles(arena, (size_t)zd_largest_measure(system->measures)),
-        .scratch = zd_take_doubles(arena, (size_t)system->measures->scratch),
+        .r = zd_arena_doubles(arena, n), .r0 = zd_arena_doubles(arena, n), .r1 = zd_arena_doubles(arena, n),
+        .u = zd_arena_doubles(arena, k), .u0 = zd_arena_doubles(arena, k), .u1 = zd_arena_doubles(arena, k),
+        .u_r = zd_arena_doubles(arena, (size_t)system->reading->reads),
+        .G = zd_arena_doubles(arena, k * n),
+        .R = zd_arena_doubles(arena, n), .change = zd_arena_doubles(arena, n), .scale = zd_arena_doubles(arena, n),
+        .matrix = zd_arena_doubles(arena, n * n), .inverse = zd_arena_doubles(arena, n * n),
+        .order = zd_arena_bytes(arena, n * sizeof(int)),
+        .measured = zd_arena_doubles(arena, (size_t)zd_largest_measure(system->measures)),
+        .scratch = zd_arena_doubles(arena, (size_t)system->measures->scratch),
     };
 }
 
-void zd_reactions_take(zd_motion *motion, zd_arena *arena)
+void zd_reactions_create(zd_motion *motion, zd_arena *arena)
 {
     if (!motion->system.reading) return;
-    motion->reactions = take(arena, &motion->system);
+    motion->reactions = create(arena, &motion->system);
     motion->equations = &equations;
 }
 
@@ -333,11 +333,11 @@ int zd_reactions_given(const zd_system *system, double t, const double *p, const
                        double *u)
 {
     zd_arena counting = {0};
-    take(&counting, system);
+    create(&counting, system);
     zd_memory *memory = zd_memory_create(counting.used);
     if (!memory) return ZD_NO_MEMORY;
     zd_arena arena = zd_arena_in(memory);
-    zd_reactions self = take(&arena, system);
+    zd_reactions self = create(&arena, system);
     const zd_state_read at = {system, NULL, t, p, v, vdot, lambda};
     const int status = solve(&self, &at);
     memcpy(u, self.u, (size_t)system->reading->functions * sizeof *u);

@@ -26,14 +26,14 @@
 
 
 /* Rates at one end of a step that is not sampled by dense output or a series. */
-static zd_end_rates take_rates(zd_arena *arena, const zd_output *output)
+static zd_end_rates create_rates(zd_arena *arena, const zd_output *output)
 {
     const zd_system *system = &output->stepper->motion->system;
     if (zd_is_adaptive(output->loop) || output->stepper->integrator->takes_series) return (zd_end_rates){0};
-    return (zd_end_rates){zd_take_doubles(arena, (size_t)system->nq), zd_take_doubles(arena, (size_t)system->nv), 0};
+    return (zd_end_rates){zd_arena_doubles(arena, (size_t)system->nq), zd_arena_doubles(arena, (size_t)system->nv), 0};
 }
 
-zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *output)
+zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *output)
 {
     if (!events) return (zd_watch){.events = NULL};
     size_t count = (size_t)events->count;
@@ -41,18 +41,18 @@ zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *outp
     return (zd_watch){
         .events = events,
         .output = output,
-        .reader = zd_reader_take(arena, events, &motion->system, motion->rate.inputs, motion->point),
-        .before = zd_take_doubles(arena, count),
-        .now = zd_take_doubles(arena, count),
-        .zeros = zd_take(arena, count * sizeof(zd_zeros)),
-        .occurrence = zd_take(arena, count * ZD_MAX_POINTS * sizeof(zd_occurrence)),
-        .at_start = take_rates(arena, output),
-        .at_end = take_rates(arena, output),
-        .end = zd_state_take(arena, motion),
-        .early = zd_state_take(arena, motion),
-        .late = zd_state_take(arena, motion),
-        .mixed = zd_state_take(arena, motion),
-        .found = zd_take(arena, count * sizeof(int)),
+        .reader = zd_reader_create(arena, events, &motion->system, motion->rate.inputs, motion->point),
+        .before = zd_arena_doubles(arena, count),
+        .now = zd_arena_doubles(arena, count),
+        .zeros = zd_arena_bytes(arena, count * sizeof(zd_zeros)),
+        .occurrence = zd_arena_bytes(arena, count * ZD_MAX_POINTS * sizeof(zd_occurrence)),
+        .at_start = create_rates(arena, output),
+        .at_end = create_rates(arena, output),
+        .end = zd_state_create(arena, motion),
+        .early = zd_state_create(arena, motion),
+        .late = zd_state_create(arena, motion),
+        .mixed = zd_state_create(arena, motion),
+        .found = zd_arena_bytes(arena, count * sizeof(int)),
     };
 }
 

@@ -4,7 +4,7 @@
 
 #include "step_samples.h"
 
-zd_watch zd_watch_take(zd_arena *arena, const zd_events *events, zd_output *output);
+zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *output);
 int zd_watch_start(zd_watch *self);
 /* Locates and reports the events of the last step; a terminal event moves the motion, and `end`, to its instant. */
 int zd_watch_after(zd_watch *self, int corrected, double *end);

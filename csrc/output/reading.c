@@ -4,7 +4,7 @@
 
 #include "../constraints/rank.h"
 
-zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point)
+zd_reader zd_reader_create(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point)
 {
     if (!events || !events->known) return (zd_reader){.events = events};
     const zd_system *of = events->of ? events->of : run;
@@ -16,9 +16,9 @@ zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_syst
         .of = of,
         .inputs = inputs,
         .point = point,
-        .x = zd_take_doubles(arena, (size_t)most),
-        .measured = zd_take_doubles(arena, (size_t)zd_largest_measure(of->measures)),
-        .scratch = zd_take_doubles(arena, of->measures ? (size_t)of->measures->scratch : 0),
+        .x = zd_arena_doubles(arena, (size_t)most),
+        .measured = zd_arena_doubles(arena, (size_t)zd_largest_measure(of->measures)),
+        .scratch = zd_arena_doubles(arena, of->measures ? (size_t)of->measures->scratch : 0),
     };
 }
 

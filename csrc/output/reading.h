@@ -16,7 +16,7 @@ typedef struct zd_reader {
     double *scratch;        /* scratch memory of the measures */
 } zd_reader;
 
-zd_reader zd_reader_take(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point);
+zd_reader zd_reader_create(zd_arena *arena, const zd_events *events, const zd_system *run, const double *inputs, const zd_point *point);
 /* The reason, in one sentence, for which the events cannot be evaluated; NULL: they can. */
 const char *zd_wrong_readings(const zd_events *events, const zd_system *run);
 /* True if the core evaluates the event itself, false if it calls the callback. */

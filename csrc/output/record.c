@@ -48,7 +48,7 @@ static int record_energy(zd_motion *motion, zd_record *record, int64_t row)
     return ZD_DONE;
 }
 
-zd_recorder zd_recorder_take(zd_arena *arena, const zd_settings *settings, zd_motion *motion)
+zd_recorder zd_recorder_create(zd_arena *arena, const zd_settings *settings, zd_motion *motion)
 {
     const int terms = ZD_PHI | ZD_PHI_T | ZD_M | ZD_POTENTIAL;
     zd_recorder self = {
@@ -60,7 +60,7 @@ zd_recorder zd_recorder_take(zd_arena *arena, const zd_settings *settings, zd_mo
     self.measured = self.outputs->of ? self.outputs->of : &motion->system;
     const zd_measures *measures = self.measured->measures;
     for (int i = 0; i < self.outputs->count; i++) self.width += measures->measure[self.outputs->measure[i]].size;
-    self.scratch = zd_take_doubles(arena, (size_t)measures->scratch);
+    self.scratch = zd_arena_doubles(arena, (size_t)measures->scratch);
     return self;
 }
 

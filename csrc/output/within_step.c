@@ -6,7 +6,7 @@
  */
 #include "within_step.h"
 
-zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder)
+zd_output zd_output_create(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder)
 {
     zd_stepper *stepper = loop->stepper;
     zd_output self = {
@@ -18,11 +18,11 @@ zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_l
         .has_polynomial = zd_is_adaptive(loop) && stepper->integrator->prepare_dense,
     };
     if (settings->t_eval || settings->events) {
-        self.before = zd_state_take(arena, stepper->motion);
-        self.after = zd_state_take(arena, stepper->motion);
-        self.rates = zd_rates_take(arena, stepper->motion);
-        self.checkpoint = zd_checkpoint_take(arena, stepper);
-        self.y = zd_take_doubles(arena, self.has_polynomial ? (size_t)stepper->capacity : 0);
+        self.before = zd_state_create(arena, stepper->motion);
+        self.after = zd_state_create(arena, stepper->motion);
+        self.rates = zd_rates_create(arena, stepper->motion);
+        self.checkpoint = zd_checkpoint_create(arena, stepper);
+        self.y = zd_arena_doubles(arena, self.has_polynomial ? (size_t)stepper->capacity : 0);
     }
     return self;
 }

@@ -28,7 +28,7 @@ typedef struct zd_output {
     double *y;              /* (size,) state from dense output */
 } zd_output;
 
-zd_output zd_output_take(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder);
+zd_output zd_output_create(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder);
 static inline int zd_output_has_checkpoint(const zd_output *self) { return self->has_polynomial && self->checkpoint.y; }
 void zd_output_save_start(zd_output *self);
 /* True if dense output is available for the last step. */

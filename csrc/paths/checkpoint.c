@@ -10,12 +10,12 @@
 #include "../linalg/small.h"
 #include "variables.h"
 
-zd_checkpoint zd_checkpoint_take(zd_arena *arena, const zd_stepper *stepper)
+zd_checkpoint zd_checkpoint_create(zd_arena *arena, const zd_stepper *stepper)
 {
     return (zd_checkpoint){
-        .of_integrator = zd_take(arena, stepper->memory_of_integrator.bytes),
-        .of_chosen = zd_take(arena, stepper->motion->memory_of_chosen.bytes),
-        .y = zd_take_doubles(arena, (size_t)stepper->capacity),
+        .of_integrator = zd_arena_bytes(arena, stepper->memory_of_integrator.bytes),
+        .of_chosen = zd_arena_bytes(arena, stepper->motion->memory_of_chosen.bytes),
+        .y = zd_arena_doubles(arena, (size_t)stepper->capacity),
     };
 }
 

@@ -13,7 +13,7 @@ typedef struct zd_checkpoint {
     int was_ill_conditioned, was_deficient, was_doubtful;   /* flags of zd_rank */
 } zd_checkpoint;
 
-zd_checkpoint zd_checkpoint_take(zd_arena *arena, const zd_stepper *stepper);
+zd_checkpoint zd_checkpoint_create(zd_arena *arena, const zd_stepper *stepper);
 /* Save, at the end of a step of the run. The second saves the formulation's choice of variables only, which suffices if no steps are made
  * before it is restored. */
 void zd_checkpoint_set(zd_checkpoint *self, const zd_stepper *stepper);

@@ -5,11 +5,11 @@
 #include "path.h"
 #include "variables.h"
 
-/* take.c: closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this
+/* create.c: closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this
  * formulation. */
 const zd_closed_form *zd_closed_form_of(const zd_system *system, const zd_formulation *formulation, enum zd_unit unit);
 /* Initializes the closed-form path, if the system has one for the formulation and this vector unit or a narrower one. */
-void zd_closed_form_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
+void zd_closed_form_create(zd_motion *motion, zd_arena *arena, enum zd_unit unit);
 /* Chooses the evaluation path of a step that begins at the point; true: the closed-form path. */
 int zd_closed_form_choose(zd_motion *motion);
 

@@ -14,14 +14,14 @@
 static void *take_chosen(zd_arena *arena, const void *of)
 {
     const zd_motion *motion = of;
-    return zd_take(arena, motion->memory_of_chosen.bytes);
+    return zd_arena_bytes(arena, motion->memory_of_chosen.bytes);
 }
 
-int zd_dense_output_take(zd_stepper *stepper)
+int zd_dense_output_create(zd_stepper *stepper)
 {
     zd_motion *motion = stepper->motion;
     if (stepper->last.chosen || !stepper->integrator->prepare_dense || !motion->formulation->update) return ZD_DONE;
-    stepper->last.chosen = zd_store_take(&motion->store, take_chosen, motion);
+    stepper->last.chosen = zd_store_create(&motion->store, take_chosen, motion);
     return stepper->last.chosen ? ZD_DONE : ZD_NO_MEMORY;
 }
 

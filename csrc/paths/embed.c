@@ -21,17 +21,17 @@ enum { MAX_ITERATIONS = 8 };
 static const double CONSTRAINT_ROUNDING = 16 * 0x1p-52; /* residual of Phi after convergence, relative to the sizes of Phi and p */
 static const double MIN_TERMS = 16; /* number of terms of a constraint up to which CONSTRAINT_ROUNDING suffices */
 
-void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system)
+void zd_embed_create(zd_path *path, zd_arena *arena, const zd_system *system)
 {
     const size_t nv = (size_t)system->nv, m = (size_t)zd_constraints(system), mh = (size_t)system->mh;
     path->embeds = 1;
-    path->p = zd_take_doubles(arena, (size_t)system->nq);
-    path->v = zd_take_doubles(arena, nv);
-    path->vdot = zd_take_doubles(arena, nv);
-    path->pdot_of_stage = zd_take_doubles(arena, (size_t)system->nq);
-    path->Phi = zd_take_doubles(arena, mh);
-    path->unbounded = zd_take_doubles(arena, mh);
-    path->D = zd_take_doubles(arena, m * (nv - m));
+    path->p = zd_arena_doubles(arena, (size_t)system->nq);
+    path->v = zd_arena_doubles(arena, nv);
+    path->vdot = zd_arena_doubles(arena, nv);
+    path->pdot_of_stage = zd_arena_doubles(arena, (size_t)system->nq);
+    path->Phi = zd_arena_doubles(arena, mh);
+    path->unbounded = zd_arena_doubles(arena, mh);
+    path->D = zd_arena_doubles(arena, m * (nv - m));
     for (size_t k = 0; path->unbounded && k < mh; k++) path->unbounded[k] = INFINITY;
 }
 

@@ -7,7 +7,7 @@
 extern const zd_equations zd_equations_of_independent;      /* embedded_rate.c */
 
 /* Allocates the fields of the path that only these formulations need. */
-void zd_embed_take(zd_path *path, zd_arena *arena, const zd_system *system);
+void zd_embed_create(zd_path *path, zd_arena *arena, const zd_system *system);
 /* The elimination order whose dependent velocities are those not in the state, which it saves in the path; NULL: there is none. */
 const zd_elimination *zd_embed_find(zd_motion *motion);
 /* Sets the tolerance of Phi for a step that begins at the point. */

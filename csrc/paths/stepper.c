@@ -8,15 +8,15 @@
 #include "../point/quaternions.h"
 #include "../point/units.h"
 
-void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
+void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
                      zd_variables dependent, const zd_system *independent)
 {
     const zd_system *system = &motion->system;
     int own = motion->formulation_size, more = dependent.size > own ? dependent.size - own : 0;
     size_t size = (size_t)(motion->rate.size + more);
-    double *y = zd_take_doubles(arena, size), *last = zd_take_doubles(arena, size);
+    double *y = zd_arena_doubles(arena, size), *last = zd_arena_doubles(arena, size);
     const size_t used = arena->used;
-    void *memory = integrator->take(arena, integrator->table, system, (int)size, given);
+    void *memory = integrator->create(arena, integrator->table, system, (int)size, given);
     const zd_span memory_of_integrator = zd_span_since(arena, used);
     const int is_complete = !motion->formulation->update;     /* then the state begins with p and v */
     *self = (zd_stepper){
@@ -31,8 +31,8 @@ void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const
         .y = y,
         .last = {
             .y = last,
-            .p = is_complete ? last : zd_take_doubles(arena, (size_t)system->nq),
-            .v = !is_complete ? zd_take_doubles(arena, (size_t)system->nv) : last ? last + system->nq : NULL,
+            .p = is_complete ? last : zd_arena_doubles(arena, (size_t)system->nq),
+            .v = !is_complete ? zd_arena_doubles(arena, (size_t)system->nv) : last ? last + system->nq : NULL,
         },
     };
     zd_motion_attach(motion, self->y);
@@ -100,12 +100,12 @@ static size_t extras(const zd_motion *motion)
     return (size_t)(motion->rate.size - motion->formulation_size);
 }
 
-zd_state zd_state_take(zd_arena *arena, const zd_motion *motion)
+zd_state zd_state_create(zd_arena *arena, const zd_motion *motion)
 {
     return (zd_state){
-        .p = zd_take_doubles(arena, (size_t)motion->system.nq),
-        .v = zd_take_doubles(arena, (size_t)motion->system.nv),
-        .extra = zd_take_doubles(arena, extras(motion)),
+        .p = zd_arena_doubles(arena, (size_t)motion->system.nq),
+        .v = zd_arena_doubles(arena, (size_t)motion->system.nv),
+        .extra = zd_arena_doubles(arena, extras(motion)),
     };
 }
 
@@ -127,13 +127,13 @@ int zd_stepper_return_to(zd_stepper *self, const zd_state *place)
 
 /* ---- accelerations at a place ---- */
 
-zd_cached_accelerations zd_rates_take(zd_arena *arena, const zd_motion *motion)
+zd_cached_accelerations zd_rates_create(zd_arena *arena, const zd_motion *motion)
 {
     const size_t nv = (size_t)motion->system.nv;
     return (zd_cached_accelerations){
-        .vdot = zd_take_doubles(arena, nv),
-        .lambda = zd_take_doubles(arena, (size_t)zd_constraints(&motion->system)),
-        .pivots = motion->path.closed_form ? zd_take_doubles(arena, nv) : NULL,
+        .vdot = zd_arena_doubles(arena, nv),
+        .lambda = zd_arena_doubles(arena, (size_t)zd_constraints(&motion->system)),
+        .pivots = motion->path.closed_form ? zd_arena_doubles(arena, nv) : NULL,
     };
 }
 

@@ -29,7 +29,7 @@ typedef struct zd_stepper {
 } zd_stepper;
 
 /* Initializes the stepper in place, with the integrator's parameters, and attaches its state to the motion. */
-void zd_stepper_take(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
+void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
                      zd_variables dependent, const zd_system *independent);
 /* Integrates y from t to t + h. */
 int zd_stepper_make(zd_stepper *self, double h);
@@ -42,11 +42,11 @@ int zd_stepper_return(zd_stepper *self);
 
 /* Moves point and y to (t, p, v). */
 int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *v);
-zd_state zd_state_take(zd_arena *arena, const zd_motion *motion);
+zd_state zd_state_create(zd_arena *arena, const zd_motion *motion);
 void zd_stepper_save_state(const zd_stepper *self, zd_state *place);
 int zd_stepper_return_to(zd_stepper *self, const zd_state *place);
 /* Save the acceleration at the point, if it is known and depends on p and v only; restore it there. */
-zd_cached_accelerations zd_rates_take(zd_arena *arena, const zd_motion *motion);
+zd_cached_accelerations zd_rates_create(zd_arena *arena, const zd_motion *motion);
 void zd_stepper_save_rates(const zd_stepper *self, zd_cached_accelerations *rates);
 void zd_stepper_restore_rates(zd_stepper *self, const zd_cached_accelerations *rates);
 

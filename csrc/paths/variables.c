@@ -43,10 +43,10 @@ static void use(zd_stepper *stepper, const zd_variables *variables, const double
     zd_motion_attach(motion, stepper->y);
 }
 
-static void *take_solver(zd_arena *arena, const void *of)
+static void *create_solver(zd_arena *arena, const void *of)
 {
     const zd_stepper *stepper = of;
-    return stepper->dependent.formulation->take(arena, &stepper->independent, NULL);
+    return stepper->dependent.formulation->create(arena, &stepper->independent, NULL);
 }
 
 int zd_variables_use_dependent(zd_stepper *stepper)
@@ -54,7 +54,7 @@ int zd_variables_use_dependent(zd_stepper *stepper)
     zd_motion *motion = stepper->motion;
     const zd_last *last = &stepper->last;
     zd_variables *dependent = &stepper->dependent;
-    if (!dependent->solver) dependent->solver = zd_store_take(&motion->store, take_solver, stepper);
+    if (!dependent->solver) dependent->solver = zd_store_create(&motion->store, create_solver, stepper);
     if (!dependent->solver) return ZD_NO_MEMORY;
     motion->statistics.repartitions++;
     stepper->t = last->t;

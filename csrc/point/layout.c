@@ -47,9 +47,9 @@ int zd_size_of_C(const zd_system *system)
     return system->structure ? zd_packed_size(system, ZD_C) : (system->mh + system->mn) * system->nv;
 }
 
-double *zd_take_dense(zd_arena *arena, const zd_system *system, size_t count)
+double *zd_create_dense(zd_arena *arena, const zd_system *system, size_t count)
 {
-    return zd_take_doubles(arena, system->structure ? count : 0);
+    return zd_arena_doubles(arena, system->structure ? count : 0);
 }
 
 /* to (n, n) <- the identity, or its diagonal alone */
@@ -116,12 +116,12 @@ static void fill_touchers(zd_layout *self, const zd_structure *structure)
     at[0] = 0;
 }
 
-static int *take_ints(zd_arena *arena, int count)
+static int *arena_ints(zd_arena *arena, int count)
 {
-    return zd_take(arena, (size_t)count * sizeof(int));
+    return zd_arena_bytes(arena, (size_t)count * sizeof(int));
 }
 
-const zd_layout *zd_layout_take(zd_arena *arena, const zd_system *system)
+const zd_layout *zd_layout_create(zd_arena *arena, const zd_system *system)
 {
     const zd_structure *structure = system->structure;
     if (!structure) return NULL;
@@ -131,28 +131,28 @@ const zd_layout *zd_layout_take(zd_arena *arena, const zd_system *system)
         .blocks = blocks,
         .groups = groups,
         .max_touchers = MAX_TOUCHERS,
-        .coordinate_at = take_ints(arena, blocks + 1),
-        .velocity_at = take_ints(arena, blocks + 1),
-        .A_at = take_ints(arena, blocks + 1),
-        .M_at = take_ints(arena, blocks + 1),
-        .is_diagonal = take_ints(arena, blocks),
-        .block_of = take_ints(arena, system->nv),
-        .row_at = take_ints(arena, groups + 1),
-        .C_at = take_ints(arena, groups + 1),
-        .width = take_ints(arena, groups),
-        .group_of = take_ints(arena, system->mh + system->mn),
-        .touched_at = take_ints(arena, groups + 1),
-        .touched = take_ints(arena, touched),
-        .toucher_at = take_ints(arena, blocks + 1),
-        .toucher = take_ints(arena, touched),
-        .toucher_offset = take_ints(arena, touched),
-        .column_at = take_ints(arena, groups + 1),
-        .column = take_ints(arena, columns),
+        .coordinate_at = arena_ints(arena, blocks + 1),
+        .velocity_at = arena_ints(arena, blocks + 1),
+        .A_at = arena_ints(arena, blocks + 1),
+        .M_at = arena_ints(arena, blocks + 1),
+        .is_diagonal = arena_ints(arena, blocks),
+        .block_of = arena_ints(arena, system->nv),
+        .row_at = arena_ints(arena, groups + 1),
+        .C_at = arena_ints(arena, groups + 1),
+        .width = arena_ints(arena, groups),
+        .group_of = arena_ints(arena, system->mh + system->mn),
+        .touched_at = arena_ints(arena, groups + 1),
+        .touched = arena_ints(arena, touched),
+        .toucher_at = arena_ints(arena, blocks + 1),
+        .toucher = arena_ints(arena, touched),
+        .toucher_offset = arena_ints(arena, touched),
+        .column_at = arena_ints(arena, groups + 1),
+        .column = arena_ints(arena, columns),
     };
     if (arena->base) {
         fill_blocks(&self, structure);
         fill_groups(&self, structure);
         fill_touchers(&self, structure);
     }
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }

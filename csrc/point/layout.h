@@ -38,7 +38,7 @@ static inline zd_row_of_C zd_packed_row(const zd_layout *layout, const double *C
 }
 
 /* NULL if the system declares no structure, or while the arena only counts. */
-const zd_layout *zd_layout_take(zd_arena *arena, const zd_system *system);
+const zd_layout *zd_layout_create(zd_arena *arena, const zd_system *system);
 /* Number of stored entries of A, M or C of a system that declares its structure. */
 int zd_packed_size(const zd_system *system, int term);
 /* True if all blocks of M are declared to be of this kind. */
@@ -47,7 +47,7 @@ int zd_mass_is(const zd_system *system, enum zd_mass kind);
 int zd_size_of_M(const zd_system *system);
 int zd_size_of_C(const zd_system *system);
 /* Memory for a dense matrix of `count` doubles, if the system's own is packed. */
-double *zd_take_dense(zd_arena *arena, const zd_system *system, size_t count);
+double *zd_create_dense(zd_arena *arena, const zd_system *system, size_t count);
 /* M <- identity, stored as the system's M. */
 void zd_set_identity(const zd_system *system, double *M);
 

@@ -49,15 +49,15 @@ size_t zd_term_size(const zd_system *system, int row)
 
 double **zd_term_in(zd_terms *terms, int row) { return (double **)(void *)((char *)terms + rows[row].offset); }
 
-double *zd_take_inputs(zd_arena *arena, const zd_system *system)
+double *zd_create_inputs(zd_arena *arena, const zd_system *system)
 {
     if (system->reading) {      /* not a number until they are solved for */
-        double *u = zd_take_doubles(arena, (size_t)system->reading->functions);
+        double *u = zd_arena_doubles(arena, (size_t)system->reading->functions);
         for (int i = 0; u && i < system->reading->functions; i++) u[i] = NAN;
         return u;
     }
     if (!system->inputs) return NULL;
-    double *inputs = zd_take_doubles(arena, 2 * (size_t)system->inputs + 1);
+    double *inputs = zd_arena_doubles(arena, 2 * (size_t)system->inputs + 1);
     for (int i = 0; inputs && i < system->inputs; i++) inputs[i] = system->input[i].initial;
     return inputs;
 }
@@ -88,40 +88,40 @@ int zd_first_not_finite(const zd_system *system, int want, const zd_terms *terms
 
 /* ---- a point ---- */
 
-static zd_terms take_terms(zd_arena *arena, const zd_system *system)
+static zd_terms create_terms(zd_arena *arena, const zd_system *system)
 {
     zd_terms terms = {0};
     for (int row = 0; zd_term_at(row); row++)
-        if (system->provides & zd_term_at(row)->term) *zd_term_in(&terms, row) = zd_take_doubles(arena, zd_term_size(system, row));
-    terms.scratch = zd_take_doubles(arena, (size_t)system->scratch);
+        if (system->provides & zd_term_at(row)->term) *zd_term_in(&terms, row) = zd_arena_doubles(arena, zd_term_size(system, row));
+    terms.scratch = zd_arena_doubles(arena, (size_t)system->scratch);
     return terms;
 }
 
-zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
+zd_point *zd_point_create(zd_arena *arena, const zd_system *system, zd_statistics *statistics)
 {
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_point point = {
         .system = system,
         .statistics = statistics,
-        .layout = zd_layout_take(arena, system),
+        .layout = zd_layout_create(arena, system),
         .constant = zd_mass_is(system, ZD_CONSTANT) ? ZD_M : 0,
-        .p = zd_take_doubles(arena, nq),
-        .v = zd_take_doubles(arena, nv),
-        .terms = take_terms(arena, system),
-        .vdot = zd_take_doubles(arena, nv),
-        .lambda = zd_take_doubles(arena, m),
-        .force = zd_take_doubles(arena, nv),
-        .rhs = zd_take_doubles(arena, m),
-        .unit = zd_take_doubles(arena, nv),
-        .inverse_unit = zd_take_doubles(arena, nv),
-        .inverse_unit_p = zd_take_doubles(arena, nq),
-        .size = zd_take_doubles(arena, m),
-        .inverse_size = zd_take_doubles(arena, m),
-        .rounding = zd_take_doubles(arena, m),
-        .inputs = zd_take_inputs(arena, system),
+        .p = zd_arena_doubles(arena, nq),
+        .v = zd_arena_doubles(arena, nv),
+        .terms = create_terms(arena, system),
+        .vdot = zd_arena_doubles(arena, nv),
+        .lambda = zd_arena_doubles(arena, m),
+        .force = zd_arena_doubles(arena, nv),
+        .rhs = zd_arena_doubles(arena, m),
+        .unit = zd_arena_doubles(arena, nv),
+        .inverse_unit = zd_arena_doubles(arena, nv),
+        .inverse_unit_p = zd_arena_doubles(arena, nq),
+        .size = zd_arena_doubles(arena, m),
+        .inverse_size = zd_arena_doubles(arena, m),
+        .rounding = zd_arena_doubles(arena, m),
+        .inputs = zd_create_inputs(arena, system),
     };
     point.terms.inputs = point.inputs;
-    return zd_take_filled(arena, &point, sizeof point);
+    return zd_arena_copy(arena, &point, sizeof point);
 }
 
 /* to <- from; returns true if any bit has changed */

@@ -15,7 +15,7 @@ static inline int zd_needs_no_C(const zd_system *system) { return system->operat
 
 double **zd_term_in(zd_terms *terms, int row);      /* address of the member for an entry of the list of terms */
 const char *zd_term_name(int term);                 /* name of the term with this bit */
-double *zd_take_inputs(zd_arena *arena, const zd_system *system);   /* (2 inputs + 1,): initial values, or those of zd_reading;
+double *zd_create_inputs(zd_arena *arena, const zd_system *system);   /* (2 inputs + 1,): initial values, or those of zd_reading;
                                                                          * NULL without inputs */
 int zd_largest_measure(const zd_measures *measures);    /* number of components of the largest measure; 0 without measures */
 
@@ -64,7 +64,7 @@ typedef struct zd_point {
     int left_domain;        /* true if the last evaluation failed with ZD_NOT_FINITE: at this state only, for all that is known */
 } zd_point;
 
-zd_point *zd_point_take(zd_arena *arena, const zd_system *system, zd_statistics *statistics);
+zd_point *zd_point_create(zd_arena *arena, const zd_system *system, zd_statistics *statistics);
 void zd_point_move(zd_point *point, double t, const double *p, const double *v);
 void zd_point_move_position(zd_point *point, const double *p);
 void zd_point_move_velocity(zd_point *point, const double *v);

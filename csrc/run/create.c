@@ -61,27 +61,27 @@ int zd_closed_form_unit(const zd_system *system, const zd_settings *settings)
 
 /* Allocates and initializes a run; `independent` is the system with its independent constraints only. Called twice, see workspace.h: to
  * count bytes, then to assign addresses. */
-static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
+static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_settings *settings, const zd_system *independent)
 {
-    zd_run nowhere, *here = zd_take(arena, sizeof *here), *run = here ? here : &nowhere;
+    zd_run nowhere, *here = zd_arena_bytes(arena, sizeof *here), *run = here ? here : &nowhere;
     zd_motion *motion = &run->motion;
     const zd_integrator *integrator = zd_integrator_of(settings->integrator);
     const zd_formulation *formulation = zd_formulation_of(settings->formulation);
     run->settings = *settings;
-    zd_motion_take(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card));
-    zd_reactions_take(motion, arena);
+    zd_motion_create(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card));
+    zd_reactions_create(motion, arena);
     for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
-    if (integrator->takes_jacobian) zd_motion_take_jacobian(motion, arena);
-    if (zd_takes_closed_form(settings)) zd_closed_form_take(motion, arena, settings->vector);
+    if (integrator->takes_jacobian) zd_motion_create_jacobian(motion, arena);
+    if (zd_takes_closed_form(settings)) zd_closed_form_create(motion, arena, settings->vector);
     motion->tally = &run->tally;
     zd_variables dependent = zd_variables_of(motion, integrator, independent);
-    zd_stepper_take(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent,
+    zd_stepper_create(&run->stepper, arena, motion, integrator, complete(&run->settings.of_integrator, &integrator->card), dependent,
                     independent);
     /* Also for a repeated step of given size in resampling, whose run had adaptive steps. */
     if (run->stepper.memory && integrator->set_tolerance && settings->atol > 0)
         integrator->set_tolerance(run->stepper.memory, settings->rtol, settings->atol);
-    zd_safeguards_take(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
+    zd_safeguards_create(&run->safeguards, arena, motion, settings, &integrator->card, &run->stepper.last);
     run->loop = (zd_step_loop){
         .settings = &run->settings,
         .motion = motion,
@@ -91,13 +91,13 @@ static zd_run *take_run(zd_arena *arena, const zd_system *system, const zd_setti
         .end = settings->t1,
         .t_begin = settings->t0,
     };
-    if (zd_is_adaptive(&run->loop)) run->loop.control = zd_adaptive_take(arena, &run->stepper, settings->t0);
-    run->recorder = zd_recorder_take(arena, settings, motion);
-    run->output = zd_output_take(arena, settings, &run->loop, &run->recorder);
-    run->watch = zd_watch_take(arena, settings->events, &run->output);
+    if (zd_is_adaptive(&run->loop)) run->loop.control = zd_adaptive_create(arena, &run->stepper, settings->t0);
+    run->recorder = zd_recorder_create(arena, settings, motion);
+    run->output = zd_output_create(arena, settings, &run->loop, &run->recorder);
+    run->watch = zd_watch_create(arena, settings->events, &run->output);
     run->goal.step = INT64_MAX;
-    run->held = zd_inputs_take(arena, settings->inputs, motion);
-    if (settings->is_open) run->goal.good = zd_state_take(arena, motion);
+    run->held = zd_inputs_create(arena, settings->inputs, motion);
+    if (settings->is_open) run->goal.good = zd_state_create(arena, motion);
     return here;
 }
 
@@ -123,14 +123,14 @@ static zd_run *lay_out(const zd_system *system, const zd_settings *settings, int
 {
     zd_system independent = with_rows(system, settings->on_singular, rows, holonomic);
     zd_arena counting = {0};
-    take_run(&counting, system, settings, &independent);
+    create_run(&counting, system, settings, &independent);
     zd_memory *memory = zd_memory_create(counting.used);
     if (!memory) {
         snprintf(message, (size_t)size, "there is no memory for this: %.3g MiB", (double)counting.used / 0x1p20);
         return NULL;
     }
     zd_arena arena = zd_arena_in(memory);
-    zd_run *run = take_run(&arena, system, settings, &independent);
+    zd_run *run = create_run(&arena, system, settings, &independent);
     run->memory = memory;
     return run;
 }
@@ -192,7 +192,7 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     if (!run) return NULL;
     if (settings->steps == ZD_FIXED_STEPS) run->loop.steps = (int64_t)zd_count_steps(settings->t0, settings->t1, settings->step);
     int why = zd_run_start(run, *status, p0, v0);
-    if (!why && zd_output_has_checkpoint(&run->output)) why = zd_dense_output_take(&run->stepper);
+    if (!why && zd_output_has_checkpoint(&run->output)) why = zd_dense_output_create(&run->stepper);
     *status = why;
     if (settings->is_open) zd_run_leave_open(run);
     return why ? refuse(run, why, status, message, message_size) : run;

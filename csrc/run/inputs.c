@@ -22,22 +22,22 @@ static void keep_speeds(const zd_inputs *inputs, double *to)
         if (inputs->place[k].is_speed) memcpy(to, inputs->place[k].place, 3 * sizeof *to), to += 3;
 }
 
-static void take_jump(zd_held_inputs *held, zd_arena *arena, const zd_motion *motion)
+static void create_jump(zd_held_inputs *held, zd_arena *arena, const zd_motion *motion)
 {
     const size_t m = (size_t)zd_constraints(&motion->system);
-    held->jump.impulses = zd_take_doubles(arena, m);
-    held->jump.works = zd_take_doubles(arena, m);
-    held->start = zd_state_take(arena, motion);
-    held->rhs = zd_take_doubles(arena, m);
-    held->x = zd_take_doubles(arena, (size_t)motion->system.nv);
+    held->jump.impulses = zd_arena_doubles(arena, m);
+    held->jump.works = zd_arena_doubles(arena, m);
+    held->start = zd_state_create(arena, motion);
+    held->rhs = zd_arena_doubles(arena, m);
+    held->x = zd_arena_doubles(arena, (size_t)motion->system.nv);
 }
 
-zd_held_inputs zd_inputs_take(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion)
+zd_held_inputs zd_inputs_create(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion)
 {
     const size_t count = inputs ? (size_t)inputs->count : 0;
-    zd_held_inputs held = {.value = zd_take_doubles(arena, count), .has_changed = zd_take(arena, count)};
-    held.before.place = zd_take_doubles(arena, 3 * count_speeds(inputs));
-    if (inputs && inputs->jumps) take_jump(&held, arena, motion);
+    zd_held_inputs held = {.value = zd_arena_doubles(arena, count), .has_changed = zd_arena_bytes(arena, count)};
+    held.before.place = zd_arena_doubles(arena, 3 * count_speeds(inputs));
+    if (inputs && inputs->jumps) create_jump(&held, arena, motion);
     if (held.value && count) memcpy(held.value, inputs->value, count * sizeof(double));
     if (held.before.place) keep_speeds(inputs, held.before.place);
     return held;

@@ -5,7 +5,7 @@
 #include "run.h"
 
 /* Memory for the inputs of a run, which are those of its settings. */
-zd_held_inputs zd_inputs_take(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion);
+zd_held_inputs zd_inputs_create(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion);
 /* True if one of them is a speed; the place is that of a given input. */
 int zd_inputs_have_speeds(const zd_inputs *inputs);
 /* Reads the inputs at the start of an advance; ZD_BAD_INPUT leaves the ones before. */

@@ -260,9 +260,9 @@ static int check(zd_run *run, const workspace *work, const double *p0, const dou
 static workspace lay_out(zd_arena *arena, const zd_motion *motion)
 {
     return (workspace){
-        .Psi = zd_take_doubles(arena, (size_t)zd_constraints(&motion->system)),
-        .factor = zd_take_doubles(arena, (size_t)zd_size_of_M(&motion->system)),
-        .states = zd_take_doubles(arena, 3 * (size_t)motion->rate.size),
+        .Psi = zd_arena_doubles(arena, (size_t)zd_constraints(&motion->system)),
+        .factor = zd_arena_doubles(arena, (size_t)zd_size_of_M(&motion->system)),
+        .states = zd_arena_doubles(arena, 3 * (size_t)motion->rate.size),
     };
 }
 

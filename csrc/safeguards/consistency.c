@@ -48,7 +48,7 @@ int zd_consistency_mass(zd_point *point)
 
 /* ---- C and Phi_t ---- */
 
-zd_consistency zd_consistency_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings)
+zd_consistency zd_consistency_create(zd_arena *arena, zd_motion *motion, const zd_settings *settings)
 {
     const zd_system *system = &motion->system;
     size_t nq = (size_t)system->nq, nv = (size_t)system->nv, mh = (size_t)system->mh;
@@ -57,13 +57,13 @@ zd_consistency zd_consistency_take(zd_arena *arena, zd_motion *motion, const zd_
         .motion = motion,
         .compares = 1,
         .slowest = 1 / (settings->t1 - settings->t0),
-        .direction = zd_take_doubles(arena, nv + 1),
-        .pdot = zd_take_doubles(arena, nq),
-        .p = zd_take_doubles(arena, nq),
-        .Phi = zd_take_doubles(arena, mh),
-        .quotient = zd_take_doubles(arena, mh),
-        .central = zd_take_doubles(arena, mh),
-        .scratch = zd_take_doubles(arena, (size_t)system->scratch),
+        .direction = zd_arena_doubles(arena, nv + 1),
+        .pdot = zd_arena_doubles(arena, nq),
+        .p = zd_arena_doubles(arena, nq),
+        .Phi = zd_arena_doubles(arena, mh),
+        .quotient = zd_arena_doubles(arena, mh),
+        .central = zd_arena_doubles(arena, mh),
+        .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
     };
 }
 

@@ -17,7 +17,7 @@ typedef struct zd_consistency {
     double given, found;    /* its given value, and its value by differences */
 } zd_consistency;
 
-zd_consistency zd_consistency_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings);
+zd_consistency zd_consistency_create(zd_arena *arena, zd_motion *motion, const zd_settings *settings);
 int zd_consistency_mass(zd_point *point);           /* checks that M, already evaluated, is symmetric; else ZD_NOT_SYMMETRIC */
 /* Checks hand-written C and Phi_t against differences of Phi, in a direction that depends on the step; else ZD_NOT_JACOBIAN. */
 int zd_consistency_jacobian(zd_consistency *self, int64_t step);

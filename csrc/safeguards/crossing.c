@@ -33,31 +33,31 @@ static const double LONGEST = 1;    /* displacement in characteristic scales: al
 static const double NEAR = 0.5;     /* in characteristic scales: distance of these points */
 static const double NEARBY = 1e-3;  /* in characteristic scales: with a larger violation the motion is not held on the constraints */
 
-static void *take_memory(zd_arena *arena, const void *of)
+static void *create_memory(zd_arena *arena, const void *of)
 {
     const zd_motion *motion = of;
     const zd_system *system = &motion->system;
     const int has_turn = !zd_takes_many_rows(motion->formulation, system);
     size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
     zd_crossing_memory self = {
-        .C = zd_take_doubles(arena, stored),
-        .previous = zd_take_doubles(arena, stored),
-        .p = zd_take_doubles(arena, (size_t)system->nq),
-        .p1 = zd_take_doubles(arena, (size_t)system->nq),
-        .v1 = zd_take_doubles(arena, n),
-        .turn = zd_take_doubles(arena, has_turn ? m * m : 0),
-        .order = zd_take(arena, m * sizeof(int)),
-        .scratch = zd_take_doubles(arena, (size_t)system->scratch),
+        .C = zd_arena_doubles(arena, stored),
+        .previous = zd_arena_doubles(arena, stored),
+        .p = zd_arena_doubles(arena, (size_t)system->nq),
+        .p1 = zd_arena_doubles(arena, (size_t)system->nq),
+        .v1 = zd_arena_doubles(arena, n),
+        .turn = zd_arena_doubles(arena, has_turn ? m * m : 0),
+        .order = zd_arena_bytes(arena, m * sizeof(int)),
+        .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int are_few(const zd_system *system) { return zd_constraints(system) <= ZD_FEW_ROWS; }
 
-zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last)
+zd_crossing zd_crossing_create(zd_arena *arena, zd_motion *motion, const zd_last *last)
 {
     const zd_system *system = &motion->system;
-    return (zd_crossing){.motion = motion, .last = last, .memory = are_few(system) ? take_memory(arena, motion) : NULL};
+    return (zd_crossing){.motion = motion, .last = last, .memory = are_few(system) ? create_memory(arena, motion) : NULL};
 }
 
 int zd_crossing_is_at_one(const zd_point *point)
@@ -87,7 +87,7 @@ static void store_rows(const zd_point *point, double *C)
 
 static int need_memory(zd_crossing *self)
 {
-    if (!self->memory) self->memory = zd_store_take(&self->motion->store, take_memory, self->motion);
+    if (!self->memory) self->memory = zd_store_create(&self->motion->store, create_memory, self->motion);
     return self->memory ? ZD_DONE : ZD_NO_MEMORY;
 }
 

@@ -26,7 +26,7 @@ typedef struct zd_crossing {
     zd_crossing_memory *memory;     /* NULL until it is needed; with few constraints it is allocated at creation */
 } zd_crossing;
 
-zd_crossing zd_crossing_take(zd_arena *arena, zd_motion *motion, const zd_last *last);
+zd_crossing zd_crossing_create(zd_arena *arena, zd_motion *motion, const zd_last *last);
 int zd_crossing_begin(zd_crossing *self);       /* saves the present point as the start of a step */
 /* Checks a step of size h and saves its end as the start of the next; ZD_BIFURCATION_PASSED if a bifurcation lies inside. `moved` is its
  * squared displacement in characteristic scales. */

@@ -33,7 +33,7 @@ static const double NEARBY = 1e-8;      /* in characteristic scales: smaller det
 static const double RESOLVED = 2;       /* largest omega h that steps resolve: one period is pi steps */
 static const double AT_REST = 1e-24;    /* in characteristic scales, squared: below, the difference of accelerations is rounding */
 
-zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
+zd_guard zd_guard_create(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
                        zd_crossing *crossing)
 {
     const zd_system *system = &motion->system;
@@ -52,9 +52,9 @@ zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *se
         .limit = resolved * resolved * resolved * resolved,
         .pause = ZD_CHECK_EVERY,
         .is_ample = 1,
-        .pdot = own ? zd_take_doubles(arena, (size_t)system->nq) : last->v,
-        .rate = own ? zd_take_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
-        .vdot = zd_take_doubles(arena, (size_t)system->nv),
+        .pdot = own ? zd_arena_doubles(arena, (size_t)system->nq) : last->v,
+        .rate = own ? zd_arena_doubles(arena, (size_t)system->nq) : motion->point ? motion->point->v : NULL,
+        .vdot = zd_arena_doubles(arena, (size_t)system->nv),
     };
 }
 

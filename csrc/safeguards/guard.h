@@ -32,7 +32,7 @@ typedef struct zd_detour {  /* sums of squares, in characteristic scales */
 } zd_detour;
 
 /* `stability`: largest omega h at which the method is stable; 0: unbounded. */
-zd_guard zd_guard_take(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
+zd_guard zd_guard_create(zd_arena *arena, zd_motion *motion, const zd_settings *settings, double stability, const zd_last *last,
                        zd_crossing *crossing);
 /* Saves the present point as the start of the step with this number. */
 int zd_guard_begin(zd_guard *guard, int64_t step);

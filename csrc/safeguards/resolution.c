@@ -35,7 +35,7 @@ static double error_by_rate(int order)
     return order < 2 ? 1.0 / 2 : order < 4 ? 1.0 / 12 : order < 5 ? 1.0 / 20 : 1.0 / 50;
 }
 
-zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0,
+zd_resolution zd_resolution_create(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0,
                                  const double *pdot0, const double *pdot1)
 {
     size_t n = (size_t)motion->system.nv, all = n + (size_t)motion->system.quaternions;
@@ -47,12 +47,12 @@ zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, 
         .by_velocity = by_velocity,
         .order = order,
         .weight = by_velocity ? error_by_rate(order) : error_by_defect(order),
-        .error = zd_take_doubles(arena, all),
-        .path = zd_take_doubles(arena, all),
-        .place = zd_take_doubles(arena, by_velocity ? n : 0),
-        .lowest = zd_take_doubles(arena, n),
-        .highest = zd_take_doubles(arena, n),
-        .turning = zd_turning_take(arena, motion, last, vdot0, pdot0, pdot1),
+        .error = zd_arena_doubles(arena, all),
+        .path = zd_arena_doubles(arena, all),
+        .place = zd_arena_doubles(arena, by_velocity ? n : 0),
+        .lowest = zd_arena_doubles(arena, n),
+        .highest = zd_arena_doubles(arena, n),
+        .turning = zd_turning_create(arena, motion, last, vdot0, pdot0, pdot1),
     };
 }
 

@@ -19,7 +19,7 @@ typedef struct zd_resolution {
 } zd_resolution;
 
 /* vdot0 and pdot0 are the rates at the start of a step, pdot1 those at its end. */
-zd_resolution zd_resolution_take(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0,
+zd_resolution zd_resolution_create(zd_arena *arena, zd_motion *motion, int order, const zd_last *last, const double *vdot0,
                                  const double *pdot0, const double *pdot1);
 int zd_resolution_check(zd_resolution *self, double h, int64_t step);      /* requires the acceleration at both ends of the step */
 /* The same for rotations only, from the first of several equal parts of a step. */

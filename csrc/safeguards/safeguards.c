@@ -1,17 +1,17 @@
 #include "safeguards.h"
 
-void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, const zd_card *method,
+void zd_safeguards_create(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, const zd_card *method,
                         const zd_last *last)
 {
-    self->guard = zd_guard_take(arena, motion, settings, method->stability, last, &self->crossing);
-    self->crossing = zd_crossing_take(arena, motion, last);
+    self->guard = zd_guard_create(arena, motion, settings, method->stability, last, &self->crossing);
+    self->crossing = zd_crossing_create(arena, motion, last);
     self->crossing.rate0 = self->guard.pdot;
     self->crossing.rate1 = self->guard.rate;
     self->crossing.constraints_hold = self->guard.checks_branch;
     const zd_guard *guard = &self->guard;
     if (settings->steps == ZD_FIXED_STEPS)
-        self->resolution = zd_resolution_take(arena, motion, method->order, last, guard->vdot, guard->pdot, guard->rate);
-    self->consistency = zd_consistency_take(arena, motion, settings);
+        self->resolution = zd_resolution_create(arena, motion, method->order, last, guard->vdot, guard->pdot, guard->rate);
+    self->consistency = zd_consistency_create(arena, motion, settings);
 }
 
 int zd_safeguards_begin(zd_safeguards *self, int64_t step)

@@ -14,7 +14,7 @@ typedef struct zd_safeguards {
     zd_consistency consistency;
 } zd_safeguards;
 
-void zd_safeguards_take(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, const zd_card *method,
+void zd_safeguards_create(zd_safeguards *self, zd_arena *arena, zd_motion *motion, const zd_settings *settings, const zd_card *method,
                         const zd_last *last);
 /* Saves the present point as the start of the step with this number. */
 int zd_safeguards_begin(zd_safeguards *self, int64_t step);

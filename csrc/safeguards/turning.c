@@ -21,7 +21,7 @@ static size_t size_of_A(const zd_system *system)
     return system->structure ? (size_t)zd_packed_size(system, ZD_A) : (size_t)system->nq * (size_t)system->nv;
 }
 
-zd_turning zd_turning_take(zd_arena *arena, zd_motion *motion, const zd_last *last, const double *vdot0, const double *pdot0,
+zd_turning zd_turning_create(zd_arena *arena, zd_motion *motion, const zd_last *last, const double *vdot0, const double *pdot0,
                            const double *pdot1)
 {
     const zd_system *system = &motion->system;
@@ -32,10 +32,10 @@ zd_turning zd_turning_take(zd_arena *arena, zd_motion *motion, const zd_last *la
         .vdot0 = vdot0,
         .pdot0 = pdot0,
         .pdot1 = pdot1,
-        .A0 = zd_take_doubles(arena, size_of_A(system)),
-        .scratch = zd_take_doubles(arena, (size_t)system->scratch),
-        .before = zd_take_doubles(arena, (size_t)system->nq),
-        .after = zd_take_doubles(arena, (size_t)system->nq),
+        .A0 = zd_arena_doubles(arena, size_of_A(system)),
+        .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
+        .before = zd_arena_doubles(arena, (size_t)system->nq),
+        .after = zd_arena_doubles(arena, (size_t)system->nq),
     };
 }
 

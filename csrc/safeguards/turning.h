@@ -13,7 +13,7 @@ typedef struct zd_turning {
     double *before, *after;     /* (nq,): A vdot at both ends */
 } zd_turning;
 
-zd_turning zd_turning_take(zd_arena *arena, zd_motion *motion, const zd_last *last, const double *vdot0, const double *pdot0,
+zd_turning zd_turning_create(zd_arena *arena, zd_motion *motion, const zd_last *last, const double *vdot0, const double *pdot0,
                            const double *pdot1);
 /* A at both ends of the step, for all quaternions; the point's vdot is known. */
 int zd_turning_evaluate(zd_turning *self);

@@ -18,12 +18,12 @@
 static const double AFTER_FAILURE = 0.25;   /* ratio of the size after a failed step to that before */
 static const double SHARE_OF_MOVE = 0.9;    /* ratio of the intended change of coordinates to the largest allowed */
 
-zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0)
+zd_control zd_adaptive_create(zd_arena *arena, const zd_stepper *stepper, double t0)
 {
     return (zd_control){
-        .histogram = zd_step_histogram_take(arena, t0),
-        .scale = zd_take_doubles(arena, (size_t)stepper->capacity),
-        .collapse = zd_collapse_take(arena, stepper->motion->system.nv),
+        .histogram = zd_step_histogram_create(arena, t0),
+        .scale = zd_arena_doubles(arena, (size_t)stepper->capacity),
+        .collapse = zd_collapse_create(arena, stepper->motion->system.nv),
     };
 }
 

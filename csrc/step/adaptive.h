@@ -4,7 +4,7 @@
 
 #include "step_loop.h"
 
-zd_control zd_adaptive_take(zd_arena *arena, const zd_stepper *stepper, double t0);
+zd_control zd_adaptive_create(zd_arena *arena, const zd_stepper *stepper, double t0);
 /* Chooses the size of the first step; work (3, size). */
 int zd_adaptive_start(zd_step_loop *loop, double *work);
 /* Passes the approximate error scale of the next step to an integrator that needs it. */

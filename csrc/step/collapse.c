@@ -16,11 +16,11 @@ static const double SPARE = 10;             /* ratio of the steps needed to thos
 static const double MIN_ALLOWED = 1e6;    /* steps that are assumed to be allowed, at least */
 static const double LITTLE = 16;            /* change of the state in a step, in units of its tolerance */
 
-zd_collapse zd_collapse_take(zd_arena *arena, int nv)
+zd_collapse zd_collapse_create(zd_arena *arena, int nv)
 {
     return (zd_collapse){
-        .rate = zd_take_doubles(arena, (size_t)nv),
-        .change = zd_take_doubles(arena, (size_t)nv),
+        .rate = zd_arena_doubles(arena, (size_t)nv),
+        .change = zd_arena_doubles(arena, (size_t)nv),
     };
 }
 

@@ -12,7 +12,7 @@ typedef struct zd_collapse {
     double *change;         /* (nv,): sum of their changes from one to the next, in characteristic scales */
 } zd_collapse;
 
-zd_collapse zd_collapse_take(zd_arena *arena, int nv);
+zd_collapse zd_collapse_create(zd_arena *arena, int nv);
 /* `most`: settings->max_steps */
 void zd_collapse_begin(zd_collapse *self, int64_t most);
 /* Counts the step of size h just made, whose error scale is `scale` (size,); ZD_COLLAPSED at the last that is allowed at one place. */

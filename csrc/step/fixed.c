@@ -32,10 +32,10 @@ static int next(zd_step_loop *loop, zd_attempt *attempt)
     return ZD_DONE;
 }
 
-static void *take_state(zd_arena *arena, const void *of)
+static void *create_state(zd_arena *arena, const void *of)
 {
-    const zd_state state = zd_state_take(arena, of);
-    return zd_take_filled(arena, &state, sizeof state);
+    const zd_state state = zd_state_create(arena, of);
+    return zd_arena_copy(arena, &state, sizeof state);
 }
 
 static int save_undivided(zd_step_loop *loop)
@@ -43,7 +43,7 @@ static int save_undivided(zd_step_loop *loop)
     zd_motion *motion = loop->motion;
     const zd_last *last = &loop->stepper->last;
     const int own = motion->formulation_size;
-    if (!loop->undivided) loop->undivided = zd_store_take(&motion->store, take_state, motion);
+    if (!loop->undivided) loop->undivided = zd_store_create(&motion->store, create_state, motion);
     zd_state *undivided = loop->undivided;
     if (!undivided) return ZD_NO_MEMORY;
     undivided->t = last->t;

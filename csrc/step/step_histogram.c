@@ -1,9 +1,9 @@
 /* Distribution of adaptive steps in time: the end of every stride-th step is saved; when the array is full, the stride doubles. */
 #include "step_histogram.h"
 
-zd_step_histogram zd_step_histogram_take(zd_arena *arena, double t0)
+zd_step_histogram zd_step_histogram_create(zd_arena *arena, double t0)
 {
-    zd_step_histogram histogram = {zd_take_doubles(arena, ZD_STEP_HISTOGRAM), 1, 1, 1};
+    zd_step_histogram histogram = {zd_arena_doubles(arena, ZD_STEP_HISTOGRAM), 1, 1, 1};
     if (histogram.t) histogram.t[0] = t0;
     return histogram;
 }

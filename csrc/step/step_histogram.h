@@ -14,7 +14,7 @@ typedef struct zd_step_histogram {
     int64_t stride, left;   /* steps between two saved times; steps until the next */
 } zd_step_histogram;
 
-zd_step_histogram zd_step_histogram_take(zd_arena *arena, double t0);
+zd_step_histogram zd_step_histogram_create(zd_arena *arena, double t0);
 void zd_step_histogram_save(zd_step_histogram *histogram, double t);
 void zd_step_histogram_half(const zd_step_histogram *histogram, double *from, double *to);   /* shortest interval with half of the steps */
 static inline void zd_step_histogram_step(zd_step_histogram *histogram, double t)

@@ -12,7 +12,7 @@
 #include "../point/layout.h"
 #include "../point/point.h"
 
-typedef struct holding {    /* arguments of take() */
+typedef struct holding {    /* arguments of create() */
     const zd_system *inner;
     const int *hold;
     const double *value;
@@ -74,14 +74,14 @@ static int size_of_groups(const zd_structure *structure, int groups)
 }
 
 /* The groups of the first `rows` constraints of the inner system, then one group for each body with held quantities. */
-static zd_structure take_structure(zd_arena *arena, const holding *it, int rows)
+static zd_structure create_structure(zd_arena *arena, const holding *it, int rows)
 {
     const zd_structure *inner = it->inner->structure;
     const int groups = groups_of(inner, rows), touched = inner->groups ? inner->first[groups] : 0;
     zd_structure structure = *inner;
-    int *rows_of = zd_take(arena, (size_t)(groups + inner->blocks) * sizeof(int));
-    int *first = zd_take(arena, (size_t)(groups + inner->blocks + 1) * sizeof(int));
-    int *block = zd_take(arena, (size_t)(touched + inner->blocks) * sizeof(int));
+    int *rows_of = zd_arena_bytes(arena, (size_t)(groups + inner->blocks) * sizeof(int));
+    int *first = zd_arena_bytes(arena, (size_t)(groups + inner->blocks + 1) * sizeof(int));
+    int *block = zd_arena_bytes(arena, (size_t)(touched + inner->blocks) * sizeof(int));
     if (!arena->base) return structure;
     if (groups) {
         memcpy(rows_of, inner->rows, (size_t)groups * sizeof(int));
@@ -195,12 +195,12 @@ static int magnitudes(const void *data, double t, const double *p, const double 
     return status;
 }
 
-static void *take(zd_arena *arena, const void *of)
+static void *create(zd_arena *arena, const void *of)
 {
     const holding *it = of;
     const zd_system *inner = it->inner;
     const int rows = it->of_positions ? inner->mh : zd_constraints(inner);
-    system_that_holds nowhere, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
+    system_that_holds nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
     self->held = (zd_held){.inner = inner, .hold = it->hold, .value = it->value, .of_positions = it->of_positions,
                            .size_of_C = rows * inner->nv};
     self->system = *inner;
@@ -215,7 +215,7 @@ static void *take(zd_arena *arena, const void *of)
     self->system.closed_forms = 0;
     self->system.residuals = NULL;
     if (!inner->structure) return here;
-    self->held.structure = take_structure(arena, it, rows);
+    self->held.structure = create_structure(arena, it, rows);
     self->held.size_of_C = size_of_groups(inner->structure, groups_of(inner->structure, rows));
     self->system.structure = &self->held.structure;
     return here;
@@ -223,7 +223,7 @@ static void *take(zd_arena *arena, const void *of)
 
 const zd_system *zd_hold_positions(zd_store *store, const zd_system *inner, const int *hold, const double *p)
 {
-    zd_system *system = zd_store_take(store, take, &(holding){inner, hold, p, 1});
+    zd_system *system = zd_store_create(store, create, &(holding){inner, hold, p, 1});
     if (!system) return NULL;
     system->mh += count(hold, inner->nq - inner->followers);
     system->mn = 0;
@@ -235,7 +235,7 @@ const zd_system *zd_hold_positions(zd_store *store, const zd_system *inner, cons
 
 const zd_system *zd_hold_velocities(zd_store *store, const zd_system *inner, const int *hold, const double *v)
 {
-    zd_system *system = zd_store_take(store, take, &(holding){inner, hold, v, 0});
+    zd_system *system = zd_store_create(store, create, &(holding){inner, hold, v, 0});
     if (!system) return NULL;
     const int rows = count(hold, inner->nv);
     system->mn += rows;

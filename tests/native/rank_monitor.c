@@ -17,7 +17,7 @@ enum { MOST = 64, BODY = 3, MAX_BODIES = MOST / BODY };
 
 static int read_doubles(double *to, size_t count) { return fread(to, sizeof *to, count, stdin) == count; }
 
-static void *take_monitor(zd_arena *arena, const void *system) { return zd_rank_monitor_take(arena, system, NULL, NULL); }
+static void *create_monitor(zd_arena *arena, const void *system) { return zd_rank_monitor_create(arena, system, NULL, NULL); }
 
 static void say(const char *which, int is_doubtful, int was_turned) { printf("%s %d %d\n", which, is_doubtful, was_turned); }
 
@@ -25,12 +25,12 @@ static int follow(const zd_system *system, int count, const double *M, double *C
 {
     const int n = system->nv, m = system->mh;
     zd_arena arena = {NULL, 0};
-    take_monitor(&arena, system);
-    take(&arena, system, NULL);
+    create_monitor(&arena, system);
+    create(&arena, system, NULL);
     arena = (zd_arena){zd_allocate(arena.used), 0};
     if (!arena.base) return 1;
-    zd_rank_monitor *monitor = take_monitor(&arena, system);
-    schur *solver = take(&arena, system, NULL);
+    zd_rank_monitor *monitor = create_monitor(&arena, system);
+    schur *solver = create(&arena, system, NULL);
     double start_square[MOST];
     zd_rank rank = {.n = n, .m = m, .mh = m, .max_rank = m, .max_rank_holonomic = m, .start_square = start_square};
     zd_point point = {.system = system, .rank = &rank, .terms = {.C = C}};
@@ -58,13 +58,13 @@ typedef struct packed {
     double *C;
 } packed;
 
-static void *take_packed(zd_arena *arena, const void *of)
+static void *create_packed(zd_arena *arena, const void *of)
 {
     packed self = *(const packed *)of;
-    self.layout = zd_layout_take(arena, &self.system);
-    self.monitor = zd_rank_monitor_take(arena, &self.system, NULL, NULL);
-    self.C = zd_take_doubles(arena, (size_t)zd_size_of_C(&self.system));
-    return zd_take_filled(arena, &self, sizeof self);
+    self.layout = zd_layout_create(arena, &self.system);
+    self.monitor = zd_rank_monitor_create(arena, &self.system, NULL, NULL);
+    self.C = zd_arena_doubles(arena, (size_t)zd_size_of_C(&self.system));
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static void pack(const packed *self, const double *C)
@@ -105,14 +105,14 @@ static int follow_packed(const zd_system *system, int count, double *C)
     packed wanted = {.system = *system};
     wanted.system.structure = &structure;
     zd_store store = {NULL};
-    const packed *self = zd_store_take(&store, take_packed, &wanted);
+    const packed *self = zd_store_create(&store, create_packed, &wanted);
     if (!self) return 1;
     double start_square[MOST];
     zd_rank rank = {.n = system->nv, .m = system->mh, .mh = system->mh, .start_square = start_square, .store = &store};
     zd_point dense = {.system = system, .rank = &rank, .terms = {.C = C}}, point = dense;
     point.system = &self->system, point.layout = self->layout, point.terms.C = self->C;
     zd_store of_dense = {NULL};
-    zd_rank_monitor *monitor = zd_store_take(&of_dense, take_monitor, system);
+    zd_rank_monitor *monitor = zd_store_create(&of_dense, create_monitor, system);
     if (!monitor) return 1;
     for (int i = 0; i < count && read_doubles(C, (size_t)(system->mh * system->nv)); i++) {
         for (int k = 0; k < system->mh && !i; k++) start_square[k] = zd_dot(system->nv, C + k * system->nv, C + k * system->nv);

@@ -7,10 +7,10 @@
 int solve(int rows, int n, const double *A, const double *right, double *x, double *turned)
 {
     zd_arena arena = {0};
-    zd_row_space_take(&arena, rows, n);
+    zd_row_space_create(&arena, rows, n);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return -1;
-    zd_row_space space = zd_row_space_take(&arena, rows, n);
+    zd_row_space space = zd_row_space_create(&arena, rows, n);
     memcpy(space.A, A, (size_t)(rows * n) * sizeof *A);
     zd_row_space_factor(&space, rows, 1e-9, 0);
     zd_row_space_solve(&space, right, x);

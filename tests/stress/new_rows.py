@@ -41,12 +41,13 @@ static const zd_parameter parameters[] = {
     {"theta", "", "Where the second stage is, as a part of the step.", 1, ZD_POSITIVE, (const double[]){2.0 / 3}},
 };
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)table, (void)system;
     size_t n = (size_t)size;
-    staged self = {*(const double *)given, size, zd_take_doubles(arena, n), zd_take_doubles(arena, n), zd_take_doubles(arena, n)};
-    return zd_take_filled(arena, &self, sizeof self);
+    staged self = {*(const double *)given, size, zd_arena_doubles(arena, n), zd_arena_doubles(arena, n),
+                   zd_arena_doubles(arena, n)};
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int step(void *memory, const zd_rate *rate, double t, double h, double *y, zd_statistics *statistics)
@@ -73,7 +74,7 @@ const zd_integrator zd_ralston = {
         .parameters = 1, .parameter = parameters,
     },
     .decay = 2,
-    .take = take,
+    .create = create,
     .step = step,
 };
 """
@@ -98,16 +99,16 @@ static const zd_parameter parameters[] = {
     {"refinements", "", "How often the remainder is solved for.", 1, ZD_COUNT, (const double[]){1}},
 };
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     refined self = {
-        .inner = zd_augmented.take(arena, system, NULL), .n = (int)n, .times = (int)*(const double *)given,
-        .M_memory = zd_take_doubles(arena, n * n), .C_memory = zd_take_doubles(arena, m * n),
-        .force = zd_take_doubles(arena, n), .rhs = zd_take_doubles(arena, m), .dx = zd_take_doubles(arena, n),
-        .lambda = zd_take_doubles(arena, m), .dlambda = zd_take_doubles(arena, m),
+        .inner = zd_augmented.create(arena, system, NULL), .n = (int)n, .times = (int)*(const double *)given,
+        .M_memory = zd_arena_doubles(arena, n * n), .C_memory = zd_arena_doubles(arena, m * n),
+        .force = zd_arena_doubles(arena, n), .rhs = zd_arena_doubles(arena, m), .dx = zd_arena_doubles(arena, n),
+        .lambda = zd_arena_doubles(arena, m), .dlambda = zd_arena_doubles(arena, m),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int factor(void *memory, zd_point *point)
@@ -156,7 +157,7 @@ const zd_formulation zd_refined = {
         .parameters = 1, .parameter = parameters,
     },
     ZD_DEPENDENT_STATE,
-    .take = take,
+    .create = create,
     .factor = factor,
     .solve = solve,
 };
@@ -177,11 +178,11 @@ static const zd_parameter parameters[] = {
     {"share", "", "Of the violation that a step leaves, how much is taken out.", 1, ZD_POSITIVE, (const double[]){0.5}},
 };
 
-static void *take(zd_arena *arena, const zd_system *system, const void *given)
+static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
-    relaxation self = {*(const double *)given, zd_take_doubles(arena, (size_t)zd_constraints(system)),
-                       zd_take_doubles(arena, (size_t)system->nv)};
-    return zd_take_filled(arena, &self, sizeof self);
+    relaxation self = {*(const double *)given, zd_arena_doubles(arena, (size_t)zd_constraints(system)),
+                       zd_arena_doubles(arena, (size_t)system->nv)};
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 static int after_step(void *memory, zd_motion *motion)
@@ -212,7 +213,7 @@ const zd_correction zd_relaxation = {
         .reference = "W. Blajer, 2002, section 3.1",
         .parameters = 1, .parameter = parameters,
     },
-    .take = take,
+    .create = create,
     .after_step = after_step,
 };
 """

@@ -92,22 +92,22 @@ static int list_fill(const zd_blocks *blocks, const unsigned char *has, int *fil
 
 /* ---- memory ---- */
 
-static int *take_ints(zd_arena *arena, int count) { return zd_take(arena, (size_t)count * sizeof(int)); }
+static int *arena_ints(zd_arena *arena, int count) { return zd_arena_bytes(arena, (size_t)count * sizeof(int)); }
 
-static void take_numbers(zd_lane_pins *self, zd_arena *arena, int size_of_S, size_t lanes)
+static void create_numbers(zd_lane_pins *self, zd_arena *arena, int size_of_S, size_t lanes)
 {
     const size_t pins = (size_t)self->count, nv = (size_t)self->of->at[self->of->bodies];
-    self->p = zd_take_doubles(arena, nv * lanes);
-    self->is_small = zd_take_doubles(arena, lanes);
-    self->is_lost = zd_take_doubles(arena, lanes);
-    self->refines = zd_take_doubles(arena, lanes);
-    self->arm = zd_take_doubles(arena, 4 * pins * lanes);
-    self->S = zd_take_doubles(arena, (size_t)size_of_S * lanes);
-    self->diagonal = zd_take_doubles(arena, 2 * pins * lanes);
-    self->y = zd_take_doubles(arena, 2 * pins * lanes);
-    self->lambda = zd_take_doubles(arena, 2 * pins * lanes);
-    self->rest = zd_take_doubles(arena, 2 * pins * lanes);
-    self->step = zd_take_doubles(arena, nv * lanes);
+    self->p = zd_arena_doubles(arena, nv * lanes);
+    self->is_small = zd_arena_doubles(arena, lanes);
+    self->is_lost = zd_arena_doubles(arena, lanes);
+    self->refines = zd_arena_doubles(arena, lanes);
+    self->arm = zd_arena_doubles(arena, 4 * pins * lanes);
+    self->S = zd_arena_doubles(arena, (size_t)size_of_S * lanes);
+    self->diagonal = zd_arena_doubles(arena, 2 * pins * lanes);
+    self->y = zd_arena_doubles(arena, 2 * pins * lanes);
+    self->lambda = zd_arena_doubles(arena, 2 * pins * lanes);
+    self->rest = zd_arena_doubles(arena, 2 * pins * lanes);
+    self->step = zd_arena_doubles(arena, nv * lanes);
 }
 
 static int size_of(const zd_ordering *ordering)
@@ -115,27 +115,27 @@ static int size_of(const zd_ordering *ordering)
     return 4 * (ordering->count + ordering->begin[ordering->count]);    /* all blocks have two rows */
 }
 
-zd_lane_pins *zd_lane_pins_take(zd_arena *arena, const zd_pins_plan *plan, int lanes)
+zd_lane_pins *zd_lane_pins_create(zd_arena *arena, const zd_pins_plan *plan, int lanes)
 {
     const zd_pinned *of = plan->of;
     const int count = of->pins, entries = plan->ordering.begin[count], size = size_of(&plan->ordering);
-    int *row = take_ints(arena, count), *end_at = take_ints(arena, of->bodies + 2), *of_body = take_ints(arena, 2 * count);
-    int *pair_at = take_ints(arena, of->bodies + 1), *fill = take_ints(arena, entries);
-    zd_pin_end *end = zd_take(arena, (size_t)(2 * count) * sizeof *end);
-    zd_pin_pair *pair = zd_take(arena, (size_t)plan->pairs * sizeof *pair);
-    unsigned char *has = zd_take(arena, (size_t)size);
+    int *row = arena_ints(arena, count), *end_at = arena_ints(arena, of->bodies + 2), *of_body = arena_ints(arena, 2 * count);
+    int *pair_at = arena_ints(arena, of->bodies + 1), *fill = arena_ints(arena, entries);
+    zd_pin_end *end = zd_arena_bytes(arena, (size_t)(2 * count) * sizeof *end);
+    zd_pin_pair *pair = zd_arena_bytes(arena, (size_t)plan->pairs * sizeof *pair);
+    unsigned char *has = zd_arena_bytes(arena, (size_t)size);
     zd_lane_pins self = {
-        .of = of, .blocks = zd_blocks_take(arena, &plan->ordering), .count = count, .gravity = zd_lane_pins_numbers(of) - 2, .row = row,
+        .of = of, .blocks = zd_blocks_create(arena, &plan->ordering), .count = count, .gravity = zd_lane_pins_numbers(of) - 2, .row = row,
         .end = end, .end_at = end_at, .of_body = of_body, .pair_at = pair_at, .pair = pair, .fill = fill,
     };
-    take_numbers(&self, arena, size, (size_t)lanes);
+    create_numbers(&self, arena, size, (size_t)lanes);
     if (arena->base) {
         list_ends(of, self.blocks->place, end_at, of_body);
         list_pins(&self, row, end);
         list_pairs(&self, pair_at, pair, has);
         self.fills = list_fill(self.blocks, has, fill);
     }
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* ---- data ---- */

@@ -58,7 +58,7 @@ typedef struct zd_pins_plan {
 int zd_pins_plan_find(zd_pins_plan *self, const zd_pinned *of);
 void zd_pins_plan_free(zd_pins_plan *self);
 /* Allocates; with an empty arena, only counts the memory. */
-zd_lane_pins *zd_lane_pins_take(zd_arena *arena, const zd_pins_plan *plan, int lanes);
+zd_lane_pins *zd_lane_pins_create(zd_arena *arena, const zd_pins_plan *plan, int lanes);
 /* True if bodies contribute unequally to a pin with these data, in any position: see schur_blocks.c. */
 int zd_pins_are_unequal(const zd_pinned *of, const double *numbers);
 

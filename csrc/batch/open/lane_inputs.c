@@ -23,7 +23,7 @@ static zd_lane_input_place place_of(const zd_run *run, const double *data, int64
         .in_inputs = position_in(run->motion.point->inputs, run->motion.system.inputs ? 2 * run->motion.system.inputs + 1 : 0, place->place)};
 }
 
-zd_lane_inputs zd_lane_inputs_take(zd_arena *arena, const zd_open_runs *runs, int64_t first, int64_t count)
+zd_lane_inputs zd_lane_inputs_create(zd_arena *arena, const zd_open_runs *runs, int64_t first, int64_t count)
 {
     const zd_run *run = runs->run[first];
     const zd_inputs *inputs = run->settings.inputs;
@@ -32,13 +32,13 @@ zd_lane_inputs zd_lane_inputs_take(zd_arena *arena, const zd_open_runs *runs, in
     zd_lane_inputs self = {
         .count = inputs->count,
         .places = inputs->places,
-        .place = zd_take(arena, (size_t)inputs->places * sizeof *self.place),
-        .derive = zd_take(arena, (size_t)inputs->derivations * sizeof *self.derive),
-        .value = zd_take(arena, (size_t)count * sizeof *self.value),
-        .held = zd_take_doubles(arena, values),
-        .lower = zd_take_doubles(arena, values),
-        .upper = zd_take_doubles(arena, values),
-        .numbers = zd_take_doubles(arena, (size_t)runs->doubles)};
+        .place = zd_arena_bytes(arena, (size_t)inputs->places * sizeof *self.place),
+        .derive = zd_arena_bytes(arena, (size_t)inputs->derivations * sizeof *self.derive),
+        .value = zd_arena_bytes(arena, (size_t)count * sizeof *self.value),
+        .held = zd_arena_doubles(arena, values),
+        .lower = zd_arena_doubles(arena, values),
+        .upper = zd_arena_doubles(arena, values),
+        .numbers = zd_arena_doubles(arena, (size_t)runs->doubles)};
     for (int i = 0; self.place && i < inputs->places; i++)
         self.place[i] = place_of(run, runs->data[first], runs->doubles, inputs->place + i);
     for (int i = 0; i < inputs->derivations; i++)

@@ -4,7 +4,7 @@
 
 #include "open_lanes_memory.h"
 
-zd_lane_inputs zd_lane_inputs_take(zd_arena *arena, const zd_open_runs *runs, int64_t first, int64_t count);
+zd_lane_inputs zd_lane_inputs_create(zd_arena *arena, const zd_open_runs *runs, int64_t first, int64_t count);
 /* True if run i has the places and functions of the first one. */
 int zd_lane_inputs_fit(const zd_open_lanes *self, int64_t i);
 /* Takes over the inputs of run i, which writes new ones first; returns true if it had new ones. */

@@ -33,20 +33,20 @@ static int are_served(const zd_open_runs *runs, const zd_run *run, const zd_clos
 static zd_open_lanes *lay_out(zd_arena *arena, const zd_open_runs *runs, int64_t first, int64_t count, const zd_closed_form *closed_form)
 {
     const zd_run *run = runs->run[first];
-    zd_open_lanes nowhere, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
+    zd_open_lanes nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
     const zd_lane_functions *functions = zd_lane_functions_for(run->settings.vector);
     const int64_t groups = (count + functions->lanes - 1) / functions->lanes;
     *self = (zd_open_lanes){.runs = runs, .first = first, .count = count, .functions = functions,
                             .order = run->motion.path.closed_form->order};
-    zd_lanes_take(&self->lanes, arena, run, functions, closed_form, NULL, runs->doubles);
+    zd_lanes_create(&self->lanes, arena, run, functions, closed_form, NULL, runs->doubles);
     self->lanes.rounds_products = 1;
     self->lanes.end = INFINITY;
     self->lanes.steps = -1;         /* no step is the last one */
     self->numbers = (size_t)(self->lanes.states * functions->lanes);
-    self->image = zd_take_doubles(arena, (size_t)groups * self->numbers);
-    self->place = zd_take(arena, (size_t)count * sizeof *self->place);
-    self->inputs = zd_lane_inputs_take(arena, runs, first, count);
-    self->goal = zd_take(arena, (size_t)functions->lanes * sizeof *self->goal);
+    self->image = zd_arena_doubles(arena, (size_t)groups * self->numbers);
+    self->place = zd_arena_bytes(arena, (size_t)count * sizeof *self->place);
+    self->inputs = zd_lane_inputs_create(arena, runs, first, count);
+    self->goal = zd_arena_bytes(arena, (size_t)functions->lanes * sizeof *self->goal);
     return here;
 }
 

@@ -15,18 +15,18 @@ static const double SPAN = 1;       /* s: time scale of the checks of the start 
 static zd_opened *take(zd_arena *arena, const zd_block *block)
 {
     const zd_system *system = zd_block_system(block);
-    zd_opened nowhere, *here = zd_take(arena, sizeof *here), *self = here ? here : &nowhere;
-    self->p = zd_take_doubles(arena, (size_t)system->nq);
-    self->v = zd_take_doubles(arena, (size_t)system->nv);
-    self->vdot = zd_take_doubles(arena, (size_t)system->nv);
-    self->lambda = zd_take_doubles(arena, (size_t)(system->mh + system->mn));
-    self->Phi = zd_take_doubles(arena, (size_t)system->mh);
+    zd_opened nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
+    self->p = zd_arena_doubles(arena, (size_t)system->nq);
+    self->v = zd_arena_doubles(arena, (size_t)system->nv);
+    self->vdot = zd_arena_doubles(arena, (size_t)system->nv);
+    self->lambda = zd_arena_doubles(arena, (size_t)(system->mh + system->mn));
+    self->Phi = zd_arena_doubles(arena, (size_t)system->mh);
     const int of_measures = system->measures->scratch;
-    self->scratch = zd_take_doubles(arena, (size_t)(of_measures > system->scratch ? of_measures : system->scratch));
+    self->scratch = zd_arena_doubles(arena, (size_t)(of_measures > system->scratch ? of_measures : system->scratch));
     const size_t inputs = (size_t)zd_block_inputs(block);
-    self->initial = zd_take_doubles(arena, inputs);
-    self->present = zd_take_doubles(arena, inputs);
-    self->places = zd_take_doubles(arena, ZD_OPENED_PLACE * inputs);
+    self->initial = zd_arena_doubles(arena, inputs);
+    self->present = zd_arena_doubles(arena, inputs);
+    self->places = zd_arena_doubles(arena, ZD_OPENED_PLACE * inputs);
     return here;
 }
 

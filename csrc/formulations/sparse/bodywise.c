@@ -33,20 +33,20 @@ static const double CONVERGED = 0x1p-40;
 static const double BALANCED = 0x1p-36;         /* residual relative to the terms of the equations with which the reactions have converged */
 static const double RESIDUAL_ROUNDING = 4 * 0x1p-52;     /* residual relative to these terms that needs no refinement */
 
-static void *take(zd_arena *arena, const void *of)
+static void *create(zd_arena *arena, const void *of)
 {
     const zd_system *system = of;
     const size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     zd_bodywise self = {
-        .weight = zd_take_doubles(arena, m),
-        .least_weight = zd_take_doubles(arena, m),
-        .inverse = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
-        .unbalanced = zd_take_doubles(arena, n),
-        .step = zd_take_doubles(arena, n),
-        .residual = zd_take_doubles(arena, m),
-        .lambda = zd_take_doubles(arena, m),
+        .weight = zd_arena_doubles(arena, m),
+        .least_weight = zd_arena_doubles(arena, m),
+        .inverse = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
+        .unbalanced = zd_arena_doubles(arena, n),
+        .step = zd_arena_doubles(arena, n),
+        .residual = zd_arena_doubles(arena, m),
+        .lambda = zd_arena_doubles(arena, m),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* True if M is diagonal, so that effect() and effect_by_diagonal() agree. */
@@ -63,7 +63,7 @@ zd_bodywise *zd_bodywise_create(zd_store *store, const zd_point *point)
     const int are_determined = rank->max_rank == rank->m && rank->m <= rank->n, has_other = !are_determined && !is_diagonal(point->layout);
     zd_bodies *bodies = zd_bodies_create(store, point->system, point->layout, NULL);
     zd_bodies *other = has_other ? zd_bodies_create(store, point->system, point->layout, NULL) : NULL;
-    zd_bodywise *self = bodies && (other || !has_other) ? zd_store_take(store, take, point->system) : NULL;
+    zd_bodywise *self = bodies && (other || !has_other) ? zd_store_create(store, create, point->system) : NULL;
     if (!self) return NULL;
     self->layout = point->layout;
     self->bodies = bodies;

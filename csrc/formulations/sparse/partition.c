@@ -94,19 +94,19 @@ static zd_bodies *create_bodies(zd_store *store, const zd_point *point)
     return bodies;
 }
 
-zd_partition *zd_partition_take(zd_arena *arena, int nv, int rows, int independents)
+zd_partition *zd_partition_create(zd_arena *arena, int nv, int rows, int independents)
 {
     const size_t n = (size_t)nv, m = (size_t)rows;
     zd_partition self = {
         .independents = independents,
-        .index = zd_take(arena, (size_t)independents * sizeof(int)),
-        .left_out = zd_take(arena, n),
-        .weight = zd_take_doubles(arena, m),
-        .residual = zd_take_doubles(arena, m),
-        .step = zd_take_doubles(arena, n),
-        .b = zd_take_doubles(arena, n),
+        .index = zd_arena_bytes(arena, (size_t)independents * sizeof(int)),
+        .left_out = zd_arena_bytes(arena, n),
+        .weight = zd_arena_doubles(arena, m),
+        .residual = zd_arena_doubles(arena, m),
+        .step = zd_arena_doubles(arena, n),
+        .b = zd_arena_doubles(arena, n),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 int zd_partition_begin(zd_partition *self, zd_store *store, const zd_point *point, int rows)

@@ -21,7 +21,7 @@ typedef struct zd_partition {
 } zd_partition;
 
 /* Allocates a partition of at most `rows` rows of C, which leave `independents` of nv velocities independent. */
-zd_partition *zd_partition_take(zd_arena *arena, int nv, int rows, int independents);
+zd_partition *zd_partition_create(zd_arena *arena, int nv, int rows, int independents);
 /* Begins with the first `rows` rows of C, at a point whose independent constraints are known. ZD_NO_MEMORY */
 int zd_partition_begin(zd_partition *self, zd_store *store, const zd_point *point, int rows);
 /* Factors at the point, with the velocities selected. C is known there. */

@@ -12,24 +12,24 @@ enum { MAX_ITERATIONS = 40 };
 static const double NEARLY = 64;        /* residual, units of rounding, that is accepted if it no longer halves */
 static const double FARTHEST = 0.5;     /* displacement, characteristic scales: a longer prediction is not used as the first iterate */
 
-zd_partition_sparse *zd_partition_sparse_take(zd_arena *arena, const zd_system *system)
+zd_partition_sparse *zd_partition_sparse_create(zd_arena *arena, const zd_system *system)
 {
     if (!zd_rank_is_of_many(system)) return NULL;
     int rows = 0, size = system->nv - zd_constraints(system), k = system->nv - system->mh;
     for (int g = 0; g < system->structure->groups; g++) rows += system->structure->rows[g];
-    zd_partition *of_v = zd_partition_take(arena, system->nv, rows, size);
+    zd_partition *of_v = zd_partition_create(arena, system->nv, rows, size);
     zd_partition_sparse self = {
-        .structured = zd_structured_take(arena, system),
+        .structured = zd_structured_create(arena, system),
         .of_v = of_v,
-        .of_p = system->mn ? zd_partition_take(arena, system->nv, rows, k) : of_v,
+        .of_p = system->mn ? zd_partition_create(arena, system->nv, rows, k) : of_v,
         .size = size,
         .k = k,
-        .u = zd_take_doubles(arena, (size_t)system->nv),
-        .rhs = zd_take_doubles(arena, (size_t)rows),
-        .x = zd_take_doubles(arena, (size_t)system->nv),
-        .p = zd_take_doubles(arena, (size_t)system->nq),
+        .u = zd_arena_doubles(arena, (size_t)system->nv),
+        .rhs = zd_arena_doubles(arena, (size_t)rows),
+        .x = zd_arena_doubles(arena, (size_t)system->nv),
+        .p = zd_arena_doubles(arena, (size_t)system->nq),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* ---- v = D u ---- */

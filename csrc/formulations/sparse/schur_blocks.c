@@ -26,7 +26,7 @@
 enum { LONGEST_WAIT = 251 };  /* largest number of factorizations between verifications: a prime, so that all stages of a step are covered */
 static const double ACCURATE_RESIDUAL = 64 * 0x1p-52;        /* residual relative to the terms of C x of accurate solutions */
 
-zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system)
+zd_schur_blocks *zd_schur_blocks_create(zd_arena *arena, const zd_system *system)
 {
     const zd_structure *structure = system->structure;
     int rows = 0;
@@ -37,19 +37,19 @@ zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system)
     zd_schur_blocks self = {
         .n = (int)n,
         .m = (int)m,
-        .W = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
+        .W = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
         .is_diagonal = zd_mass_is(system, ZD_DIAGONAL),
         .is_constant = zd_mass_is(system, ZD_CONSTANT),
-        .force = zd_take_doubles(arena, n),
-        .lambda = zd_take_doubles(arena, m),
-        .residual = zd_take_doubles(arena, m),
-        .step = zd_take_doubles(arena, n),
-        .least = zd_rank_is_of_many(system) ? NULL : zd_take_doubles(arena, m),
+        .force = zd_arena_doubles(arena, n),
+        .lambda = zd_arena_doubles(arena, m),
+        .residual = zd_arena_doubles(arena, m),
+        .step = zd_arena_doubles(arena, n),
+        .least = zd_rank_is_of_many(system) ? NULL : zd_arena_doubles(arena, m),
         .has_redundant = has_redundant,
-        .rhs_of_all = zd_take_doubles(arena, of_redundant),
-        .lambda_of_all = zd_take_doubles(arena, of_redundant),
+        .rhs_of_all = zd_arena_doubles(arena, of_redundant),
+        .lambda_of_all = zd_arena_doubles(arena, of_redundant),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* ---- right-hand sides ---- */
@@ -136,9 +136,9 @@ static int is_to_be_compared(zd_schur_blocks *self)
     return 1;
 }
 
-static void *take_without(zd_arena *arena, const void *weighted)
+static void *create_without(zd_arena *arena, const void *weighted)
 {
-    return zd_take(arena, (size_t)((const zd_weighted *)weighted)->blocks->rows);
+    return zd_arena_bytes(arena, (size_t)((const zd_weighted *)weighted)->blocks->rows);
 }
 
 /* Allocates the symbolic structure at the first call; returns 0 without memory. */
@@ -146,7 +146,7 @@ static int has_symbolic(zd_schur_blocks *self, const zd_point *point)
 {
     zd_store *store = point->rank->store;
     if (!self->weighted) self->weighted = zd_weighted_create(store, point->layout);
-    if (self->weighted && self->has_redundant && !self->without) self->without = zd_store_take(store, take_without, self->weighted);
+    if (self->weighted && self->has_redundant && !self->without) self->without = zd_store_create(store, create_without, self->weighted);
     return self->weighted && (self->without || !self->has_redundant);
 }
 

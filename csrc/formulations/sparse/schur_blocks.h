@@ -37,7 +37,7 @@ typedef struct zd_schur_blocks {
 } zd_schur_blocks;
 
 /* Returns NULL if the system declares no structure, or has redundant constraints and exceeds ZD_MAX_DENSE_ROWS. */
-zd_schur_blocks *zd_schur_blocks_take(zd_arena *arena, const zd_system *system);
+zd_schur_blocks *zd_schur_blocks_create(zd_arena *arena, const zd_system *system);
 /* Factors S; all constraints are independent at the point, or their selection is known, without limits. ZD_DEPENDENT_ROWS: S is singular
  * to rounding. */
 int zd_schur_blocks_factor(zd_schur_blocks *self, zd_point *point);

@@ -11,14 +11,14 @@ typedef struct plan {
     int rows;               /* number of rows of S */
 } plan;
 
-static void *take(zd_arena *arena, const void *of)
+static void *create(zd_arena *arena, const void *of)
 {
     const plan *it = of;
     zd_singularity_monitor self = {
-        .W = zd_take_doubles(arena, (size_t)zd_size_of_M(it->point->system)),
-        .without = zd_take(arena, (size_t)it->rows),
+        .W = zd_arena_doubles(arena, (size_t)zd_size_of_M(it->point->system)),
+        .without = zd_arena_bytes(arena, (size_t)it->rows),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* Marks the constraints that were redundant at the start, in the order of S. */
@@ -34,7 +34,7 @@ zd_singularity_monitor *zd_singularity_monitor_create(zd_store *store, const zd_
 {
     zd_weighted *weighted = zd_weighted_create(store, point->layout);
     if (!weighted) return NULL;
-    zd_singularity_monitor *self = zd_store_take(store, take, &(plan){point, weighted->blocks->rows});
+    zd_singularity_monitor *self = zd_store_create(store, create, &(plan){point, weighted->blocks->rows});
     if (!self) return NULL;
     self->weighted = weighted;
     leave_out(self, point->rank);

@@ -4,11 +4,11 @@
 
 #include "../../constraints/rows.h"
 
-zd_structured *zd_structured_take(zd_arena *arena, const zd_system *system)
+zd_structured *zd_structured_create(zd_arena *arena, const zd_system *system)
 {
     if (!zd_rank_is_of_many(system)) return NULL;
-    zd_structured self = {.blocks = zd_schur_blocks_take(arena, system)};
-    return zd_take_filled(arena, &self, sizeof self);
+    zd_structured self = {.blocks = zd_schur_blocks_create(arena, system)};
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* Records the smallest pivot for the statistics. It has no further consequence: in a long chain some pivot is small whenever the motion

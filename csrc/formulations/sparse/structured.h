@@ -16,7 +16,7 @@ typedef struct zd_structured {
 } zd_structured;
 
 /* Returns NULL unless the system exceeds ZD_MAX_DENSE_ROWS. */
-zd_structured *zd_structured_take(zd_arena *arena, const zd_system *system);
+zd_structured *zd_structured_create(zd_arena *arena, const zd_system *system);
 /* Factors the leading matrix at the point; `inverts_mass`: M must be positive definite. */
 int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass);
 /* solve() of formulation.h. */

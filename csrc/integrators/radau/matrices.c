@@ -1,22 +1,22 @@
 #include "matrices.h"
 
-zd_radau_matrices zd_radau_matrices_take(zd_arena *arena, int size)
+zd_radau_matrices zd_radau_matrices_create(zd_arena *arena, int size)
 {
     const size_t n = (size_t)size;
     return (zd_radau_matrices){
         .size = size,
-        .differences = zd_differences_take(arena, size),
-        .inverse_unit = zd_take_doubles(arena, n),
-        .inverse_slope = zd_take_doubles(arena, n),
-        .J = zd_take_doubles(arena, n * n),
-        .real = zd_take_doubles(arena, n * n),
-        .re = zd_take_doubles(arena, n * n),
-        .im = zd_take_doubles(arena, n * n),
-        .weight = zd_take_doubles(arena, n),
-        .real_order = zd_take(arena, n * sizeof(int)),
-        .complex_order = zd_take(arena, n * sizeof(int)),
-        .scaled = zd_take_doubles(arena, n),
-        .right = zd_take_doubles(arena, n),
+        .differences = zd_differences_create(arena, size),
+        .inverse_unit = zd_arena_doubles(arena, n),
+        .inverse_slope = zd_arena_doubles(arena, n),
+        .J = zd_arena_doubles(arena, n * n),
+        .real = zd_arena_doubles(arena, n * n),
+        .re = zd_arena_doubles(arena, n * n),
+        .im = zd_arena_doubles(arena, n * n),
+        .weight = zd_arena_doubles(arena, n),
+        .real_order = zd_arena_bytes(arena, n * sizeof(int)),
+        .complex_order = zd_arena_bytes(arena, n * sizeof(int)),
+        .scaled = zd_arena_doubles(arena, n),
+        .right = zd_arena_doubles(arena, n),
     };
 }
 

@@ -19,7 +19,7 @@ typedef struct zd_radau_matrices {
     int has_J;
 } zd_radau_matrices;
 
-zd_radau_matrices zd_radau_matrices_take(zd_arena *arena, int size);
+zd_radau_matrices zd_radau_matrices_create(zd_arena *arena, int size);
 void zd_radau_matrices_resize(zd_radau_matrices *self, int size, int pairs);
 /* J at (t, y): the rate's own, or by differences, where f is known or, with knows_f 0, evaluated; y is as it was afterwards. In the units
  * that were chosen last. */

@@ -20,20 +20,20 @@ static const double NEVER = 1e-9;               /* change relative to the state:
 static const double ROUNDING_RATIO = 16;        /* ratio of the change to that by a disturbance of the last bit: rounding error below */
 static const double STALLED = 0.5;              /* ratio of two successive changes above which the iteration has stalled */
 
-zd_radau_newton zd_radau_newton_take(zd_arena *arena, int size)
+zd_radau_newton zd_radau_newton_create(zd_arena *arena, int size)
 {
     const size_t n = (size_t)size;
     zd_radau_newton self = {
         .size = size,
-        .f = zd_take_doubles(arena, STAGES * n),
-        .z = zd_take_doubles(arena, STAGES * n),
-        .w = zd_take_doubles(arena, STAGES * n),
-        .change = zd_take_doubles(arena, STAGES * n),
-        .other = zd_take_doubles(arena, STAGES * n),
-        .stage = zd_take_doubles(arena, n),
-        .scale = zd_take_doubles(arena, n),
-        .matrices = zd_radau_matrices_take(arena, size),
-        .stages = zd_radau_stages_take(arena, size),
+        .f = zd_arena_doubles(arena, STAGES * n),
+        .z = zd_arena_doubles(arena, STAGES * n),
+        .w = zd_arena_doubles(arena, STAGES * n),
+        .change = zd_arena_doubles(arena, STAGES * n),
+        .other = zd_arena_doubles(arena, STAGES * n),
+        .stage = zd_arena_doubles(arena, n),
+        .scale = zd_arena_doubles(arena, n),
+        .matrices = zd_radau_matrices_create(arena, size),
+        .stages = zd_radau_stages_create(arena, size),
         .contraction = 1,
     };
     self.seen = self.matrices.differences.scale;

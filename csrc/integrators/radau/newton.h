@@ -26,7 +26,7 @@ typedef struct zd_radau_newton {
     int iterations;
 } zd_radau_newton;
 
-zd_radau_newton zd_radau_newton_take(zd_arena *arena, int size);
+zd_radau_newton zd_radau_newton_create(zd_arena *arena, int size);
 /* Solves for z, from its estimate, with matrices factored for this step. ZD_NO_CONVERGENCE, ZD_NOT_FINITE, or the status of the rate */
 int zd_radau_newton_iterate(zd_radau_newton *self, zd_statistics *statistics);
 

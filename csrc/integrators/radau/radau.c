@@ -47,18 +47,18 @@ static int suits(const zd_system *system)
     return !zd_is_too_large(system);
 }
 
-static void *take(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
+static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)
 {
     (void)given;
     (void)table, (void)system;
     const size_t n = (size_t)size;
     radau self = {
-        .newton = zd_radau_newton_take(arena, size),
-        .f0 = zd_take_doubles(arena, n),
-        .before = zd_take_doubles(arena, STAGES * n),
-        .seen_before = zd_take_doubles(arena, n),
+        .newton = zd_radau_newton_create(arena, size),
+        .f0 = zd_arena_doubles(arena, n),
+        .before = zd_arena_doubles(arena, STAGES * n),
+        .seen_before = zd_arena_doubles(arena, n),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* ---- a step ---- */
@@ -253,7 +253,7 @@ const zd_integrator zd_radau = {
     },
     .takes_jacobian = 1,
     .suits = suits,
-    .take = take,
+    .create = create,
     .step = step,
     .set_scale = set_scale,
     .error = error,

@@ -22,16 +22,16 @@ enum {
     LARGEST_STATE = 200,    /* that is not (p, v): its matrix has three times as many rows */
 };
 
-zd_radau_stages zd_radau_stages_take(zd_arena *arena, int size)
+zd_radau_stages zd_radau_stages_create(zd_arena *arena, int size)
 {
     const size_t n = (size_t)size, rows = STAGES * (size <= LARGEST_STATE ? n : n / 2);
     return (zd_radau_stages){
-        .J = zd_take_doubles(arena, STAGES * n * n),
-        .factors = zd_take_doubles(arena, rows * rows),
-        .order = zd_take(arena, rows * sizeof(int)),
-        .weight = zd_take_doubles(arena, rows),
-        .right = zd_take_doubles(arena, rows),
-        .change = zd_take_doubles(arena, STAGES * n),
+        .J = zd_arena_doubles(arena, STAGES * n * n),
+        .factors = zd_arena_doubles(arena, rows * rows),
+        .order = zd_arena_bytes(arena, rows * sizeof(int)),
+        .weight = zd_arena_doubles(arena, rows),
+        .right = zd_arena_doubles(arena, rows),
+        .change = zd_arena_doubles(arena, STAGES * n),
     };
 }
 

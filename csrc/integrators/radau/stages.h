@@ -17,7 +17,7 @@ typedef struct zd_radau_stages {
     double h;
 } zd_radau_stages;
 
-zd_radau_stages zd_radau_stages_take(zd_arena *arena, int size);
+zd_radau_stages zd_radau_stages_create(zd_arena *arena, int size);
 /* True if the state is (p, v), or small enough for one matrix of all stages. */
 int zd_radau_stages_serve(const zd_radau_matrices *matrices);
 /* Evaluates J at y + z (stages, size) in a step from t, and factors; stage and f (size,) are work arrays. */

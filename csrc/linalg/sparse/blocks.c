@@ -7,7 +7,7 @@
 
 /* ---- memory ---- */
 
-static int *take_ints(zd_arena *arena, int count) { return zd_take(arena, (size_t)count * sizeof(int)); }
+static int *arena_ints(zd_arena *arena, int count) { return zd_arena_bytes(arena, (size_t)count * sizeof(int)); }
 
 typedef struct counts {
     int rows, largest;      /* scalar rows; those of the largest block row */
@@ -81,27 +81,27 @@ static void fill_targets(zd_blocks *self)
     self->target_begin[self->count] = next;
 }
 
-zd_blocks *zd_blocks_take(zd_arena *arena, const zd_ordering *ordering)
+zd_blocks *zd_blocks_create(zd_arena *arena, const zd_ordering *ordering)
 {
     const int count = ordering->count, entries = ordering->begin[count];
     const counts all = count_all(ordering);
     zd_blocks self = {
         .count = count,
         .rows = all.rows,
-        .place = take_ints(arena, count),
-        .at = take_ints(arena, count + 1),
-        .pivot_at = take_ints(arena, count + 1),
-        .begin = take_ints(arena, count + 1),
-        .row = take_ints(arena, entries),
-        .entry_at = take_ints(arena, entries + 1),
-        .target_begin = take_ints(arena, count + 1),
-        .target = take_ints(arena, all.targets),
-        .kernel = take_ints(arena, count),
+        .place = arena_ints(arena, count),
+        .at = arena_ints(arena, count + 1),
+        .pivot_at = arena_ints(arena, count + 1),
+        .begin = arena_ints(arena, count + 1),
+        .row = arena_ints(arena, entries),
+        .entry_at = arena_ints(arena, entries + 1),
+        .target_begin = arena_ints(arena, count + 1),
+        .target = arena_ints(arena, all.targets),
+        .kernel = arena_ints(arena, count),
         .size = all.numbers,
-        .S = zd_take_doubles(arena, (size_t)all.numbers),
-        .diagonal = zd_take_doubles(arena, (size_t)all.rows),
-        .product = zd_take_doubles(arena, (size_t)(all.largest * all.largest)),
-        .x = zd_take_doubles(arena, (size_t)all.rows),
+        .S = zd_arena_doubles(arena, (size_t)all.numbers),
+        .diagonal = zd_arena_doubles(arena, (size_t)all.rows),
+        .product = zd_arena_doubles(arena, (size_t)(all.largest * all.largest)),
+        .x = zd_arena_doubles(arena, (size_t)all.rows),
     };
     if (arena->base) {
         memcpy(self.place, ordering->place, (size_t)count * sizeof(int));
@@ -110,7 +110,7 @@ zd_blocks *zd_blocks_take(zd_arena *arena, const zd_ordering *ordering)
         fill_offsets(&self, ordering->size);
         fill_targets(&self);
     }
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 void zd_blocks_clear(zd_blocks *self)

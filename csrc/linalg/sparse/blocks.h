@@ -31,7 +31,7 @@ typedef struct zd_pivots {
 } zd_pivots;
 
 /* The matrix with memory for its factors; NULL while the arena only counts. */
-zd_blocks *zd_blocks_take(zd_arena *arena, const zd_ordering *ordering);
+zd_blocks *zd_blocks_create(zd_arena *arena, const zd_ordering *ordering);
 /* Offset in S of block (i, j) of the pattern: in the row of the later, and the column of the earlier, in the order of elimination. */
 int zd_blocks_find(const zd_blocks *self, int i, int j);
 void zd_blocks_clear(zd_blocks *self);

@@ -135,29 +135,29 @@ static void count_rows(elimination *self, size_t *most)
     }
 }
 
-static void take_matrices(zd_arena *arena, elimination *self, const size_t *most)
+static void create_matrices(zd_arena *arena, elimination *self, const size_t *most)
 {
     int size = 0, columns = 0;
     for (int i = 0; i < self->equations->blocks; i++) {
         block *b = self->block + i;
         for (int kind = 0; kind < KINDS; kind++)
-            b->passed[kind].x = zd_take_doubles(arena, (size_t)b->passed[kind].most * (size_t)b->width);
-        b->of = zd_take_doubles(arena, (size_t)b->size * (size_t)b->width);
+            b->passed[kind].x = zd_arena_doubles(arena, (size_t)b->passed[kind].most * (size_t)b->width);
+        b->of = zd_arena_doubles(arena, (size_t)b->size * (size_t)b->width);
         size = b->size > size ? b->size : size;
         columns = b->size + b->width > columns ? b->size + b->width : columns;
     }
-    for (int kind = 0; kind < KINDS; kind++) self->gathered[kind] = zd_take_doubles(arena, most[kind]);
-    self->V = zd_take_doubles(arena, (size_t)size * (size_t)size);
-    self->sigma = zd_take_doubles(arena, (size_t)size);
-    self->work = zd_take_doubles(arena, (size_t)columns);
+    for (int kind = 0; kind < KINDS; kind++) self->gathered[kind] = zd_arena_doubles(arena, most[kind]);
+    self->V = zd_arena_doubles(arena, (size_t)size * (size_t)size);
+    self->sigma = zd_arena_doubles(arena, (size_t)size);
+    self->work = zd_arena_doubles(arena, (size_t)columns);
 }
 
-static void take_lists(zd_arena *arena, elimination *self)
+static void create_lists(zd_arena *arena, elimination *self)
 {
     const zd_sparse_equations *of = self->equations;
-    self->block = zd_take(arena, (size_t)of->blocks * sizeof *self->block);
-    self->next_row = zd_take(arena, (size_t)of->rows * sizeof(int));
-    self->column = zd_take(arena, (size_t)of->at[of->blocks] * sizeof(int));
+    self->block = zd_arena_bytes(arena, (size_t)of->blocks * sizeof *self->block);
+    self->next_row = zd_arena_bytes(arena, (size_t)of->rows * sizeof(int));
+    self->column = zd_arena_bytes(arena, (size_t)of->at[of->blocks] * sizeof(int));
 }
 
 /* Memory of the lists first, as they tell the sizes of the matrices */
@@ -165,18 +165,18 @@ static int prepare(elimination *self, void **lists)
 {
     size_t most[KINDS] = {0};
     zd_arena arena = {0};
-    take_lists(&arena, self);
+    create_lists(&arena, self);
     arena = (zd_arena){.base = *lists = zd_allocate(arena.used)};
     if (!arena.base || !find_order(self)) return 0;
-    take_lists(&arena, self);
+    create_lists(&arena, self);
     describe_blocks(self);
     assign_rows(self);
     count_rows(self, most);
     arena = (zd_arena){0};
-    take_matrices(&arena, self, most);
+    create_matrices(&arena, self, most);
     arena = (zd_arena){.base = self->memory = zd_allocate(arena.used)};
     if (!arena.base) return 0;
-    take_matrices(&arena, self, most);
+    create_matrices(&arena, self, most);
     return 1;
 }
 

@@ -65,7 +65,7 @@ static void remove(queues *self, int degree, int k)
 
 /* ---- the search ---- */
 
-static int *take_ints(zd_arena *arena, int count) { return zd_take(arena, (size_t)count * sizeof(int)); }
+static int *arena_ints(zd_arena *arena, int count) { return zd_arena_bytes(arena, (size_t)count * sizeof(int)); }
 
 static search lay_out(zd_arena *arena, const zd_pattern *pattern, const int *given)
 {
@@ -73,19 +73,19 @@ static search lay_out(zd_arena *arena, const zd_pattern *pattern, const int *giv
     return (search){
         .pattern = pattern,
         .given = given,
-        .degree = take_ints(arena, count),
-        .in_at = take_ints(arena, count + 1),
-        .in = take_ints(arena, pattern->begin[pattern->cliques]),
-        .in_count = take_ints(arena, count),
-        .marked = take_ints(arena, count),
-        .gone = take_ints(arena, pattern->cliques + count),
+        .degree = arena_ints(arena, count),
+        .in_at = arena_ints(arena, count + 1),
+        .in = arena_ints(arena, pattern->begin[pattern->cliques]),
+        .in_count = arena_ints(arena, count),
+        .marked = arena_ints(arena, count),
+        .gone = arena_ints(arena, pattern->cliques + count),
         .waiting = {
-            .first = take_ints(arena, QUEUES),
-            .last = take_ints(arena, QUEUES),
-            .before = take_ints(arena, count),
-            .after = take_ints(arena, count),
+            .first = arena_ints(arena, QUEUES),
+            .last = arena_ints(arena, QUEUES),
+            .before = arena_ints(arena, count),
+            .after = arena_ints(arena, count),
         },
-        .begin = take_ints(arena, count + 1),
+        .begin = arena_ints(arena, count + 1),
     };
 }
 

@@ -28,15 +28,15 @@ typedef struct least_reactions {
 
 static int rows_of_wrenches(const zd_measuring *self) { return ZD_WRENCH_SIZE * self->joints + 2 * self->elements->relations; }
 
-static void take(least_reactions *to, zd_arena *arena, const zd_measuring *self)
+static void create(least_reactions *to, zd_arena *arena, const zd_measuring *self)
 {
     const int m = self->elements->m, rows = rows_of_wrenches(self);
-    to->C = zd_row_space_take(arena, m, self->nv);
-    to->SN = zd_row_space_take(arena, rows, m);
-    to->N = zd_take_doubles(arena, (size_t)m * (size_t)m);
-    to->wrenches = zd_take_doubles(arena, (size_t)rows);
-    to->z = zd_take_doubles(arena, (size_t)m);
-    to->norm = zd_take_doubles(arena, (size_t)m);
+    to->C = zd_row_space_create(arena, m, self->nv);
+    to->SN = zd_row_space_create(arena, rows, m);
+    to->N = zd_arena_doubles(arena, (size_t)m * (size_t)m);
+    to->wrenches = zd_arena_doubles(arena, (size_t)rows);
+    to->z = zd_arena_doubles(arena, (size_t)m);
+    to->norm = zd_arena_doubles(arena, (size_t)m);
 }
 
 /* Magnitude of the entries that a marker quantity can have in a constraint */
@@ -172,10 +172,10 @@ static int find_redundant(const zd_measuring *self, const zd_measured_state *at,
 static void *allocate(least_reactions *of, const zd_measuring *self)
 {
     zd_arena arena = {NULL, 0, NULL};
-    take(of, &arena, self);
+    create(of, &arena, self);
     void *memory = zd_allocate(arena.used);
     arena = (zd_arena){memory, 0, NULL};
-    if (memory) take(of, &arena, self);
+    if (memory) create(of, &arena, self);
     return memory;
 }
 

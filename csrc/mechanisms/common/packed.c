@@ -1,9 +1,9 @@
 /* Groups follow each other as rows do, and each one's bodies are in order. */
 #include "packed.h"
 
-void zd_packed_take(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms)
+void zd_packed_create(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms)
 {
-#define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
+#define TAKE(member, count) self->member = zd_arena_bytes(arena, (count) * sizeof *self->member)
     TAKE(at, rows);
     TAKE(near, terms);
     TAKE(far, terms);

@@ -17,7 +17,7 @@ typedef struct zd_packed {
 typedef void zd_bodies_of(const void *quantities, int quantity, int body[2]);
 
 /* Memory for so many bodies, rows and terms of rows. */
-void zd_packed_take(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms);
+void zd_packed_create(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms);
 /* Fills in the structure; `coordinates` and `velocities` must be set. Returns -1, or the first row that has no entries, which is an error. */
 int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *quantities);
 

@@ -1,11 +1,11 @@
 /* From tables to rows: holonomic ones first, those of joints before those of relations. */
 #include "planned.h"
 
-void zd_elements_take(zd_element_parts *to, zd_arena *arena, const zd_elements *elements, size_t terms, size_t rows)
+void zd_elements_create(zd_element_parts *to, zd_arena *arena, const zd_elements *elements, size_t terms, size_t rows)
 {
     terms += (size_t)elements->terms;
     rows += (size_t)elements->relations;
-#define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
+#define TAKE(member, count) to->member = zd_arena_bytes(arena, (count) * sizeof *to->member)
     TAKE(term, terms);
     TAKE(coefficient, terms);
     TAKE(row, rows);

@@ -37,7 +37,7 @@ typedef struct zd_element_parts {
 } zd_element_parts;
 
 /* Allocates memory for the given elements, and for the terms and rows of joints in addition. */
-void zd_elements_take(zd_element_parts *to, zd_arena *arena, const zd_elements *elements, size_t terms, size_t rows);
+void zd_elements_create(zd_element_parts *to, zd_arena *arena, const zd_elements *elements, size_t terms, size_t rows);
 /* Copies terms, generalized forces and measures; rows are added individually. */
 void zd_elements_copy(const zd_elements *elements, zd_element_parts *to);
 void zd_elements_add_term(zd_element_parts *to, int quantity, double coefficient);

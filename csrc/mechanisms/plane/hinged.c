@@ -3,10 +3,10 @@
 
 enum { MOST = 200 };            /* bodies: the pairs of more need too much memory */
 
-void zd_hinged_take(zd_hinged *self, zd_arena *arena, size_t bodies, size_t rows)
+void zd_hinged_create(zd_hinged *self, zd_arena *arena, size_t bodies, size_t rows)
 {
     if (bodies > MOST) return;
-#define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
+#define TAKE(member, count) self->member = zd_arena_bytes(arena, (count) * sizeof *self->member)
     TAKE(angle, bodies + 1);
     TAKE(inertia, bodies + 1);
     TAKE(moment, bodies + 1);

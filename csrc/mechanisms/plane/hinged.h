@@ -41,7 +41,7 @@ typedef struct zd_hinged {
 } zd_hinged;
 
 /* Memory for a tree of so many bodies, 0 where there is none, and at most so many rows. */
-void zd_hinged_take(zd_hinged *self, zd_arena *arena, size_t bodies, size_t rows);
+void zd_hinged_create(zd_hinged *self, zd_arena *arena, size_t bodies, size_t rows);
 void zd_hinged_plan(zd_hinged *self, const zd_plane_tree *tree, const zd_planned_elements *elements, const zd_plane_quantity *quantity);
 
 /* M, d, and the force of gravity; the arrays must be zero before. `sines` is from zd_plane_tree_turn(). */

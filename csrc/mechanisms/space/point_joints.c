@@ -6,9 +6,9 @@
  * with omega in global axes. In the axes of a body, (omega x w)_k = omega . (w x e_k), where e_k is the k-th global axis in body axes. */
 #include "point_joints.h"
 
-void zd_point_joints_take(zd_point_joints *self, zd_arena *arena, size_t bodies, size_t joints, size_t rows)
+void zd_point_joints_create(zd_point_joints *self, zd_arena *arena, size_t bodies, size_t joints, size_t rows)
 {
-#define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
+#define TAKE(member, count) self->member = zd_arena_bytes(arena, (count) * sizeof *self->member)
     TAKE(joint, joints);
     TAKE(points, joints);
     TAKE(directions, joints);

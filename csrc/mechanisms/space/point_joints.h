@@ -6,7 +6,7 @@
 #include "plan.h"
 
 /* Allocates memory for the given numbers of bodies, joints and rows. */
-void zd_point_joints_take(zd_point_joints *self, zd_arena *arena, size_t bodies, size_t joints, size_t rows);
+void zd_point_joints_create(zd_point_joints *self, zd_arena *arena, size_t bodies, size_t joints, size_t rows);
 /* Finds the point joints among the rows, after their storage was planned. */
 void zd_point_joints_plan(zd_point_joints *self, const zd_space *space);
 /* Arms, directions and angular entries of all point joints, from placed bodies. */

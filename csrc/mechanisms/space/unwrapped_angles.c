@@ -17,12 +17,12 @@ int zd_unwrapped_angles_of(const zd_space_joint *joint)
     return turns;
 }
 
-void zd_unwrapped_angles_take(zd_unwrapped_angles *self, zd_arena *arena, size_t joints)
+void zd_unwrapped_angles_create(zd_unwrapped_angles *self, zd_arena *arena, size_t joints)
 {
-    self->angle = zd_take(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->angle);
-    self->axis = zd_take(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->axis);
-    self->joint = zd_take(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->joint);
-    self->place = zd_take(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->place);
+    self->angle = zd_arena_bytes(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->angle);
+    self->axis = zd_arena_bytes(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->axis);
+    self->joint = zd_arena_bytes(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->joint);
+    self->place = zd_arena_bytes(arena, ZD_SPACE_COORDINATES * joints * sizeof *self->place);
 }
 
 void zd_unwrapped_angles_plan(zd_unwrapped_angles *self, int joints, const zd_space_joint *joint, int at)

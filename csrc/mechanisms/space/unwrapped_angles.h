@@ -10,7 +10,7 @@
 /* Number of angles among the coordinates of a joint. */
 int zd_unwrapped_angles_of(const zd_space_joint *joint);
 /* Allocates memory for the given number of joints. */
-void zd_unwrapped_angles_take(zd_unwrapped_angles *self, zd_arena *arena, size_t joints);
+void zd_unwrapped_angles_create(zd_unwrapped_angles *self, zd_arena *arena, size_t joints);
 /* Lists all angles of the joints; the coordinates of dependent ones begin at p[at]. */
 void zd_unwrapped_angles_plan(zd_unwrapped_angles *self, int joints, const zd_space_joint *joint, int at);
 /* frame->angle <- all joint angles. */

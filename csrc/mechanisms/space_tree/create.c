@@ -19,10 +19,10 @@ typedef struct parts {
     int quaternions, followers;
 } parts;
 
-static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
+static void create_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
 {
     const size_t bodies = (size_t)tables->bodies;
-#define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
+#define TAKE(member, count) to->member = zd_arena_bytes(arena, (count) * sizeof *to->member)
     TAKE(tree, 1);
     TAKE(link, bodies + 1);
     TAKE(order, bodies);
@@ -197,10 +197,10 @@ zd_space *zd_space_tree_create(const zd_space_tables *tables, char *message, int
     if (!self) return NULL;
     zd_arena arena = {0};
     parts all = {.quaternions = 0};
-    take_parts(tables, &arena, &all);
+    create_parts(tables, &arena, &all);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return refuse(self, NULL, "there is no memory for the mechanism", message, message_size);
-    take_parts(tables, &arena, &all);
+    create_parts(tables, &arena, &all);
     plan_links(tables, &all);
     if (!order_bodies(all.tree, all.link, all.order)) return refuse(self, arena.base, "the tree of inboard joints must have no loop",
                                                                     message, message_size);

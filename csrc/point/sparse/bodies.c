@@ -33,17 +33,17 @@ static void fill(zd_bodies *self)
                 self->pair[next++] = zd_blocks_find(self->blocks, layout->touched[i], layout->touched[j]);
 }
 
-static void *take(zd_arena *arena, const void *of)
+static void *create(zd_arena *arena, const void *of)
 {
     const plan *it = of;
     zd_bodies self = {
         .layout = it->layout,
-        .blocks = zd_blocks_take(arena, &it->ordering),
-        .at = zd_take(arena, (size_t)it->layout->blocks * sizeof(int)),
-        .pair = zd_take(arena, (size_t)count_pairs(it->layout) * sizeof(int)),
+        .blocks = zd_blocks_create(arena, &it->ordering),
+        .at = zd_arena_bytes(arena, (size_t)it->layout->blocks * sizeof(int)),
+        .pair = zd_arena_bytes(arena, (size_t)count_pairs(it->layout) * sizeof(int)),
     };
     if (arena->base) fill(&self);
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_layout *layout, const int *order)
@@ -51,7 +51,7 @@ zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_l
     plan it = {.layout = layout};
     it.pattern = (zd_pattern){layout->blocks, system->structure->velocities, layout->groups, layout->touched_at, layout->touched};
     if (!zd_ordering_find(&it.pattern, order, &it.ordering)) return NULL;
-    zd_bodies *self = zd_store_take(store, take, &it);
+    zd_bodies *self = zd_store_create(store, create, &it);
     zd_ordering_free(&it.ordering);
     return self;
 }

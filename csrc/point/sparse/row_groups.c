@@ -39,15 +39,15 @@ static zd_row_group row_group_of(const zd_layout *layout, int g, int y)
     return group;
 }
 
-zd_row_groups zd_row_groups_take(zd_arena *arena, const zd_layout *layout, const int *y)
+zd_row_groups zd_row_groups_create(zd_arena *arena, const zd_layout *layout, const int *y)
 {
     const int rows = layout->row_at[layout->groups];
     zd_row_groups self = {
         .count = layout->groups,
-        .group = zd_take(arena, (size_t)layout->groups * sizeof(zd_row_group)),
+        .group = zd_arena_bytes(arena, (size_t)layout->groups * sizeof(zd_row_group)),
         .column = layout->column,
         .rows = rows,
-        .place = zd_take(arena, (size_t)rows * sizeof(int)),
+        .place = zd_arena_bytes(arena, (size_t)rows * sizeof(int)),
         .are_pairs = 1,
     };
     for (int g = 0; arena->base && g < layout->groups; g++) {

@@ -21,7 +21,7 @@ typedef struct zd_row_groups {
 } zd_row_groups;
 
 /* `y` (groups,): offset of the rows of each in the order of S. */
-zd_row_groups zd_row_groups_take(zd_arena *arena, const zd_layout *layout, const int *y);
+zd_row_groups zd_row_groups_create(zd_arena *arena, const zd_layout *layout, const int *y);
 /* y <- C x - rhs, in the order of S; x or rhs (m,) NULL: zero. */
 void zd_row_groups_times(const zd_row_groups *self, const double *C, const double *x, const double *rhs, double *y);
 /* x <- x - C^T y */

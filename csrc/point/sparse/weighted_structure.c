@@ -11,7 +11,7 @@
 
 enum { TOUCHERS_OF_COPY = 4 };
 
-static int *take_ints(zd_arena *arena, int count) { return zd_take(arena, (size_t)count * sizeof(int)); }
+static int *arena_ints(zd_arena *arena, int count) { return zd_arena_bytes(arena, (size_t)count * sizeof(int)); }
 
 static int touchers_of(const zd_layout *layout, int b) { return layout->toucher_at[b + 1] - layout->toucher_at[b]; }
 static int copies_of(const zd_layout *layout, int b)
@@ -67,7 +67,7 @@ static counts count_all(const zd_layout *layout)
 /* The pattern of S, on memory of its own: block rows are the groups, then the welds. */
 static zd_pattern lay_out_pattern(zd_arena *arena, const zd_layout *layout, const counts *all)
 {
-    int *size = take_ints(arena, all->rows), *begin = take_ints(arena, all->cliques + 1), *member = take_ints(arena, all->members);
+    int *size = arena_ints(arena, all->rows), *begin = arena_ints(arena, all->cliques + 1), *member = arena_ints(arena, all->members);
     zd_pattern pattern = {all->rows, size, all->cliques, begin, member};
     if (!arena->base) return pattern;
     for (int g = 0; g < layout->groups; g++) size[g] = layout->row_at[g + 1] - layout->row_at[g];
@@ -165,30 +165,30 @@ typedef struct plan {       /* sizes and pattern that determine the memory */
     zd_ordering ordering;
 } plan;
 
-static void *take(zd_arena *arena, const void *of)
+static void *create(zd_arena *arena, const void *of)
 {
     const plan *it = of;
     const int joints = it->layout->toucher_at[it->layout->blocks], welds = it->all.rows - it->layout->groups, largest = it->all.largest;
-    int *piece = take_ints(arena, it->all.max_members);
+    int *piece = arena_ints(arena, it->all.max_members);
     zd_weighted self = {
         .layout = it->layout,
-        .blocks = zd_blocks_take(arena, &it->ordering),
-        .piece = zd_take(arena, (size_t)(joints + 2 * welds) * sizeof(zd_piece)),
-        .pair = zd_take(arena, (size_t)it->all.pairs * sizeof(zd_pair)),
-        .at = take_ints(arena, it->all.pairs),
-        .weld = zd_take_doubles(arena, welds ? 2 * (size_t)(largest * largest) : 0),
+        .blocks = zd_blocks_create(arena, &it->ordering),
+        .piece = zd_arena_bytes(arena, (size_t)(joints + 2 * welds) * sizeof(zd_piece)),
+        .pair = zd_arena_bytes(arena, (size_t)it->all.pairs * sizeof(zd_pair)),
+        .at = arena_ints(arena, it->all.pairs),
+        .weld = zd_arena_doubles(arena, welds ? 2 * (size_t)(largest * largest) : 0),
         .members = it->all.members,
         .largest = largest,
-        .row = take_ints(arena, it->layout->groups),
-        .product = zd_take_doubles(arena, (size_t)(it->all.largest_block * largest)),
+        .row = arena_ints(arena, it->layout->groups),
+        .product = zd_arena_doubles(arena, (size_t)(it->all.largest_block * largest)),
     };
     if (!welds) self.largest = 0;
     if (arena->base) {
         for (int g = 0; g < it->layout->groups; g++) self.row[g] = self.blocks->at[self.blocks->place[g]];
         fill(&self, &it->pattern, piece);
     }
-    self.row_groups = zd_row_groups_take(arena, it->layout, self.row);
-    return zd_take_filled(arena, &self, sizeof self);
+    self.row_groups = zd_row_groups_create(arena, it->layout, self.row);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 zd_weighted *zd_weighted_create(zd_store *store, const zd_layout *layout)
@@ -201,7 +201,7 @@ zd_weighted *zd_weighted_create(zd_store *store, const zd_layout *layout)
     it.pattern = lay_out_pattern(&arena, layout, &it.all);
     zd_weighted *self = NULL;
     if (zd_ordering_find(&it.pattern, NULL, &it.ordering)) {
-        self = zd_store_take(store, take, &it);
+        self = zd_store_create(store, create, &it);
         zd_ordering_free(&it.ordering);
     }
     zd_release(arena.base);

@@ -25,44 +25,44 @@ static int widest_of(const zd_assembly_given *given)
     return widest;
 }
 
-static zd_terms take_terms(zd_arena *arena, const zd_system *system, size_t m)
+static zd_terms create_terms(zd_arena *arena, const zd_system *system, size_t m)
 {
-    return (zd_terms){.M = zd_take_doubles(arena, (size_t)zd_size_of_M(system)),
-                      .C = zd_take_doubles(arena, (size_t)zd_size_of_C(system)), .Phi = zd_take_doubles(arena, m),
-                      .Phi_t = zd_take_doubles(arena, m), .scratch = zd_take_doubles(arena, (size_t)system->scratch)};
+    return (zd_terms){.M = zd_arena_doubles(arena, (size_t)zd_size_of_M(system)),
+                      .C = zd_arena_doubles(arena, (size_t)zd_size_of_C(system)), .Phi = zd_arena_doubles(arena, m),
+                      .Phi_t = zd_arena_doubles(arena, m), .scratch = zd_arena_doubles(arena, (size_t)system->scratch)};
 }
 
-static void take_steps(zd_arena *arena, zd_assembly *self, size_t n, size_t nq, size_t most)
+static void create_steps(zd_arena *arena, zd_assembly *self, size_t n, size_t nq, size_t most)
 {
-    self->right = zd_take_doubles(arena, most);
-    self->x = zd_take_doubles(arena, n);
-    self->step = zd_take_doubles(arena, n);
-    self->moved = zd_take_doubles(arena, n);
+    self->right = zd_arena_doubles(arena, most);
+    self->x = zd_arena_doubles(arena, n);
+    self->step = zd_arena_doubles(arena, n);
+    self->moved = zd_arena_doubles(arena, n);
     double **positions[] = {&self->tried, &self->polished, &self->led, &self->begun, &self->found, &self->as_drawn, &self->drawn};
-    for (size_t i = 0; i < sizeof positions / sizeof *positions; i++) *positions[i] = zd_take_doubles(arena, nq);
+    for (size_t i = 0; i < sizeof positions / sizeof *positions; i++) *positions[i] = zd_arena_doubles(arena, nq);
 }
 
 /* Rows of the conditions, and what targets are read into: dense, or with the entries of their bodies alone */
-static void take_rows(zd_arena *arena, zd_assembly *self, size_t n, size_t m, size_t targets)
+static void create_rows(zd_arena *arena, zd_assembly *self, size_t n, size_t m, size_t targets)
 {
     const zd_many_bodies *many = self->given->many;
     const size_t width = many ? 2 * (size_t)many->width : n, size_of_C = many ? (size_t)zd_size_of_C(self->system) : m * n;
     self->size_of_C = (int)size_of_C;
-    self->layout = many ? zd_layout_take(arena, self->system) : NULL;
-    self->C = many ? self->terms.C : zd_take_doubles(arena, size_of_C);
-    self->J = zd_take(arena, (m + targets) * sizeof *self->J);
-    self->entries = zd_take_doubles(arena, size_of_C + targets * width);
+    self->layout = many ? zd_layout_create(arena, self->system) : NULL;
+    self->C = many ? self->terms.C : zd_arena_doubles(arena, size_of_C);
+    self->J = zd_arena_bytes(arena, (m + targets) * sizeof *self->J);
+    self->entries = zd_arena_doubles(arena, size_of_C + targets * width);
     const size_t values = many ? targets : (size_t)self->widest;
-    self->value = zd_take_doubles(arena, values);
-    self->jacobian = zd_take_doubles(arena, values * width);
-    self->which = zd_take(arena, many ? 2 * targets * sizeof(int) : 0);
-    self->at = zd_take(arena, many ? 2 * targets * sizeof(int) : 0);
-    self->column = zd_take(arena, many ? width * targets * sizeof(int) : 0);
+    self->value = zd_arena_doubles(arena, values);
+    self->jacobian = zd_arena_doubles(arena, values * width);
+    self->which = zd_arena_bytes(arena, many ? 2 * targets * sizeof(int) : 0);
+    self->at = zd_arena_bytes(arena, many ? 2 * targets * sizeof(int) : 0);
+    self->column = zd_arena_bytes(arena, many ? width * targets * sizeof(int) : 0);
 }
 
 static void weigh(zd_assembly *self, const double *p);
 
-static zd_assembly take(zd_arena *arena, const zd_assembly_given *given)
+static zd_assembly create(zd_arena *arena, const zd_assembly_given *given)
 {
     const zd_system *system = given->system;
     const size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), targets = (size_t)given->targets, most = m + targets;
@@ -70,26 +70,26 @@ static zd_assembly take(zd_arena *arena, const zd_assembly_given *given)
     zd_assembly self = {
         .given = given, .system = system, .block = arena->base, .n = system->nv, .m = (int)m, .most = (int)most,
         .widest = widest_of(given), .solver = given->many ? &zd_assembly_sparse : &zd_assembly_dense,
-        .terms = take_terms(arena, system, m), .at_rest = zd_take_doubles(arena, n), .measures = zd_take_doubles(arena, measures),
-        .target = zd_take_doubles(arena, targets), .scale = zd_take_doubles(arena, n), .weight = zd_take_doubles(arena, n),
-        .r = zd_take_doubles(arena, most), .start = zd_take_doubles(arena, most), .of = zd_take(arena, most * sizeof(int)),
+        .terms = create_terms(arena, system, m), .at_rest = zd_arena_doubles(arena, n), .measures = zd_arena_doubles(arena, measures),
+        .target = zd_arena_doubles(arena, targets), .scale = zd_arena_doubles(arena, n), .weight = zd_arena_doubles(arena, n),
+        .r = zd_arena_doubles(arena, most), .start = zd_arena_doubles(arena, most), .of = zd_arena_bytes(arena, most * sizeof(int)),
     };
     self.metric = given->many ? NULL : self.weight;
     self.terms.inputs = given->inputs;
-    for (int i = 0; i < ZD_ROLE_SETS; i++) self.size[i] = zd_take_doubles(arena, most);
-    take_rows(arena, &self, n, m, targets);
-    take_steps(arena, &self, n, (size_t)system->nq, most);
-    self.solver_data = self.solver->take(arena, &self);
+    for (int i = 0; i < ZD_ROLE_SETS; i++) self.size[i] = zd_arena_doubles(arena, most);
+    create_rows(arena, &self, n, m, targets);
+    create_steps(arena, &self, n, (size_t)system->nq, most);
+    self.solver_data = self.solver->create(arena, &self);
     return self;
 }
 
 int zd_assembly_open(zd_assembly *self, const zd_assembly_given *given, const double *p)
 {
     zd_arena arena = {0};
-    take(&arena, given);
+    create(&arena, given);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return ZD_NO_MEMORY;
-    *self = take(&arena, given);
+    *self = create(&arena, given);
     for (int i = 0; i < given->targets; i++) self->target[i] = given->target[i].value;
     weigh(self, p);
     return ZD_DONE;

@@ -14,14 +14,14 @@ typedef struct dense {
     double *square, *factors;                   /* (k, k), (k, k + 2) with the smaller k of rows and velocities */
 } dense;
 
-static void *take(zd_arena *arena, const zd_assembly *of)
+static void *create(zd_arena *arena, const zd_assembly *of)
 {
     const size_t fewer = (size_t)(of->most < of->n ? of->most : of->n);
     const dense self = {
-        .required = zd_row_space_take(arena, of->most, of->n), .wished = zd_row_space_take(arena, of->given->targets, of->n),
-        .square = zd_take_doubles(arena, fewer * fewer), .factors = zd_take_doubles(arena, fewer * fewer + 2 * fewer),
+        .required = zd_row_space_create(arena, of->most, of->n), .wished = zd_row_space_create(arena, of->given->targets, of->n),
+        .square = zd_arena_doubles(arena, fewer * fewer), .factors = zd_arena_doubles(arena, fewer * fewer + 2 * fewer),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* ---- minimum norm ---- */
@@ -117,4 +117,4 @@ static int damped_step(zd_assembly *self, double mu)
     return 1;
 }
 
-const zd_assembly_solver zd_assembly_dense = {take, solve, square_rows, damped_step};
+const zd_assembly_solver zd_assembly_dense = {create, solve, square_rows, damped_step};

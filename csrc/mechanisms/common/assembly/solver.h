@@ -7,7 +7,7 @@
 struct zd_assembly;
 
 typedef struct zd_assembly_solver {
-    void *(*take)(zd_arena *arena, const struct zd_assembly *of);   /* its memory: self->solver_data; may be NULL */
+    void *(*create)(zd_arena *arena, const struct zd_assembly *of);   /* its memory: self->solver_data; may be NULL */
     /* As zd_assembly_solve() */
     void (*solve)(struct zd_assembly *self, int required, const double *right, const double *weight, double *x);
     /* Prepares damped steps; returns the unit of their damping: about the largest eigenvalue of J J^T, at least 1. */

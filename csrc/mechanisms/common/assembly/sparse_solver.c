@@ -12,13 +12,13 @@ typedef struct sparse {
     double *x;                      /* (n,) */
 } sparse;
 
-static void *take(zd_arena *arena, const zd_assembly *of)
+static void *create(zd_arena *arena, const zd_assembly *of)
 {
     const sparse self = {
-        .factor = zd_take_doubles(arena, (size_t)of->most), .right = zd_take_doubles(arena, (size_t)of->most),
-        .is_square = zd_take(arena, (size_t)of->most), .x = zd_take_doubles(arena, (size_t)of->n),
+        .factor = zd_arena_doubles(arena, (size_t)of->most), .right = zd_arena_doubles(arena, (size_t)of->most),
+        .is_square = zd_arena_bytes(arena, (size_t)of->most), .x = zd_arena_doubles(arena, (size_t)of->n),
     };
-    return zd_take_filled(arena, &self, sizeof self);
+    return zd_arena_copy(arena, &self, sizeof self);
 }
 
 /* x <- solution of the first `rows` rows */
@@ -88,4 +88,4 @@ static int damp(zd_assembly *self, double mu)
     return 1;
 }
 
-const zd_assembly_solver zd_assembly_sparse = {take, solve, prepare, damp};
+const zd_assembly_solver zd_assembly_sparse = {create, solve, prepare, damp};

@@ -46,16 +46,16 @@ typedef struct found {      /* start of one mechanism */
     int *is_angle, *row;                /* (nv,) and (mh,), as an assembly requires them */
 } found;
 
-static found take(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
+static found allocate(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
 {
     const zd_system *system = zd_plane_system(drawn);
     const size_t bodies = 3 * (size_t)drawn->tree.bodies;
     return (found){
-        .poses = zd_take_doubles(arena, bodies), .rates = zd_take_doubles(arena, bodies),
-            .places = zd_take_doubles(arena, (size_t)self->drives),
-        .p = zd_take_doubles(arena, (size_t)system->nv), .v = zd_take_doubles(arena, (size_t)system->nv),
-        .scratch = zd_take_doubles(arena, (size_t)system->scratch), .Phi = zd_take_doubles(arena, (size_t)system->mh),
-        .is_angle = zd_take(arena, (size_t)system->nv * sizeof(int)), .row = zd_take(arena, (size_t)system->mh * sizeof(int)),
+        .poses = zd_arena_doubles(arena, bodies), .rates = zd_arena_doubles(arena, bodies),
+            .places = zd_arena_doubles(arena, (size_t)self->drives),
+        .p = zd_arena_doubles(arena, (size_t)system->nv), .v = zd_arena_doubles(arena, (size_t)system->nv),
+        .scratch = zd_arena_doubles(arena, (size_t)system->scratch), .Phi = zd_arena_doubles(arena, (size_t)system->mh),
+        .is_angle = zd_arena_bytes(arena, (size_t)system->nv * sizeof(int)), .row = zd_arena_bytes(arena, (size_t)system->mh * sizeof(int)),
     };
 }
 
@@ -107,10 +107,10 @@ static int assemble(const zd_varied *self, int64_t run, const zd_plane *drawn, c
 static zd_plane *start(const zd_varied *self, int64_t run, const zd_plane *drawn, double *p, double *v)
 {
     zd_arena arena = {0};
-    take(&arena, self, drawn);
+    allocate(&arena, self, drawn);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return NULL;
-    const found at = take(&arena, self, drawn);
+    const found at = allocate(&arena, self, drawn);
     zd_plane *moving = assemble(self, run, drawn, &at) ? create(self, &self->moving, run, at.places) : NULL;
     if (moving) zd_plane_state(moving, at.poses, at.rates, p, v);
     zd_release(arena.base);

@@ -3,10 +3,10 @@
 
 #include <string.h>
 
-void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms, size_t lines)
+void zd_packing_create(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms, size_t lines)
 {
-    zd_packed_take(&self->packed, arena, bodies, rows, terms);
-#define TAKE(member, count) self->member = zd_take(arena, (count) * sizeof *self->member)
+    zd_packed_create(&self->packed, arena, bodies, rows, terms);
+#define TAKE(member, count) self->member = zd_arena_bytes(arena, (count) * sizeof *self->member)
     TAKE(weight, 3 * bodies);
     TAKE(revolutes.between, rows / 2);
     TAKE(revolutes.points, rows / 2);

@@ -19,7 +19,7 @@ typedef struct zd_packing {
 } zd_packing;
 
 /* Memory for the packing of so many bodies, rows, terms of rows, and of lines at most. */
-void zd_packing_take(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms, size_t lines);
+void zd_packing_create(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms, size_t lines);
 /* Fills it in for a mechanism without tree. Returns whether there is one: not where a row touches the ground alone. */
 int zd_packing_plan(zd_packing *self, const zd_plane *mechanism);
 

@@ -55,11 +55,11 @@ static size_t max_lines(const zd_plane_tables *tables)
     return has_tree(tables) ? 0 : lines;
 }
 
-static void take_parts(const zd_plane_tables *tables, zd_arena *arena, parts *to)
+static void create_parts(const zd_plane_tables *tables, zd_arena *arena, parts *to)
 {
     size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints;
     size_t extra = joints * (ZD_JOINT_ROWS + 1), rows = joints * ZD_JOINT_ROWS;
-#define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
+#define TAKE(member, count) to->member = zd_arena_bytes(arena, (count) * sizeof *to->member)
     TAKE(number, bodies + 1);
     TAKE(link, bodies + 1);
     TAKE(angle, bodies);
@@ -70,10 +70,10 @@ static void take_parts(const zd_plane_tables *tables, zd_arena *arena, parts *to
     TAKE(lengths, 6 * bodies);
     TAKE(packing, 1);
 #undef TAKE
-    zd_elements_take(&to->elements, arena, &tables->elements, extra, rows);
+    zd_elements_create(&to->elements, arena, &tables->elements, extra, rows);
     zd_packing none = {.weight = NULL};
-    zd_hinged_take(&to->hinged, arena, has_tree(tables) ? bodies : 0, max_rank(tables));
-    zd_packing_take(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->elements.relations,
+    zd_hinged_create(&to->hinged, arena, has_tree(tables) ? bodies : 0, max_rank(tables));
+    zd_packing_create(to->packing ? to->packing : &none, arena, bodies, rows + (size_t)tables->elements.relations,
                     (size_t)tables->elements.terms + extra,
                     max_lines(tables));
 }
@@ -295,15 +295,15 @@ zd_plane *zd_plane_create(const zd_plane_tables *tables, char *message, int mess
     if (!zd_plane_tables_are_right(tables, message, message_size)) return NULL;
     zd_arena arena = {0};
     parts all = {.quantities = 0};
-    zd_take(&arena, sizeof(zd_plane));
-    take_parts(tables, &arena, &all);
+    zd_arena_bytes(&arena, sizeof(zd_plane));
+    create_parts(tables, &arena, &all);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) {
         snprintf(message, (size_t)message_size, "there is no memory for the mechanism");
         return NULL;
     }
-    zd_plane *self = zd_take(&arena, sizeof *self);
-    take_parts(tables, &arena, &all);
+    zd_plane *self = zd_arena_bytes(&arena, sizeof *self);
+    create_parts(tables, &arena, &all);
     if (!number_bodies(tables, all.number)) {
         snprintf(message, (size_t)message_size, "the tree of inboard joints must have no loop");
         zd_release(self);

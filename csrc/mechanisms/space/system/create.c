@@ -26,11 +26,11 @@ typedef struct parts {
     int quantities, quaternions, nq, nv;       /* so many are there by now */
 } parts;
 
-static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
+static void create_parts(const zd_space_tables *tables, zd_arena *arena, parts *to)
 {
     const size_t bodies = (size_t)tables->bodies, joints = (size_t)tables->joints, extra = joints * (ZD_SPACE_ROWS + 1);
     const size_t rows = joints * ZD_SPACE_ROWS, relations = (size_t)tables->elements.relations, terms = (size_t)tables->elements.terms;
-#define TAKE(member, count) to->member = zd_take(arena, (count) * sizeof *to->member)
+#define TAKE(member, count) to->member = zd_arena_bytes(arena, (count) * sizeof *to->member)
     TAKE(self, 1);
     TAKE(body, bodies + 1);
     TAKE(joint, joints);
@@ -40,10 +40,10 @@ static void take_parts(const zd_space_tables *tables, zd_arena *arena, parts *to
     TAKE(quaternion, bodies);
     TAKE(weight, ZD_BODY_VELOCITIES * bodies);
 #undef TAKE
-    zd_unwrapped_angles_take(&to->unwrapped, arena, joints);
-    zd_point_joints_take(&to->point_joints, arena, bodies, joints, rows + relations);
-    zd_elements_take(&to->elements, arena, &tables->elements, extra, rows);
-    zd_packed_take(&to->packed, arena, bodies, rows + relations, terms + extra);
+    zd_unwrapped_angles_create(&to->unwrapped, arena, joints);
+    zd_point_joints_create(&to->point_joints, arena, bodies, joints, rows + relations);
+    zd_elements_create(&to->elements, arena, &tables->elements, extra, rows);
+    zd_packed_create(&to->packed, arena, bodies, rows + relations, terms + extra);
 }
 
 /* ---- bodies ---- */
@@ -198,13 +198,13 @@ zd_space *zd_space_create(const zd_space_tables *tables, char *message, int mess
     if (!zd_space_tables_are_right(tables, message, message_size)) return NULL;
     zd_arena arena = {0};
     parts all = {.quantities = 0};
-    take_parts(tables, &arena, &all);
+    create_parts(tables, &arena, &all);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) {
         snprintf(message, (size_t)message_size, "there is no memory for the mechanism");
         return NULL;
     }
-    take_parts(tables, &arena, &all);
+    create_parts(tables, &arena, &all);
     const int alone = plan(tables, &all);
     if (alone < 0) return all.self;
     snprintf(message, (size_t)message_size, "row %d: it must depend on a body, not on the ground alone", alone);

@@ -15,7 +15,7 @@ const zd_closed_form *zd_closed_form_of(const zd_system *system, const zd_formul
     return found;
 }
 
-void zd_closed_form_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
+void zd_closed_form_create(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
 {
     const zd_system *system = &motion->system;
     const zd_closed_form *closed_form = zd_closed_form_of(system, motion->formulation, unit);
@@ -26,15 +26,15 @@ void zd_closed_form_take(zd_motion *motion, zd_arena *arena, enum zd_unit unit)
         .equations = embeds ? &zd_equations_of_independent : &zd_equations_in_closed_form,
         .first = embeds ? closed_form->embedding : closed_form->order,
         .orders = orders,
-        .scale = zd_take_doubles(arena, (size_t)(orders * system->nv)),
-        .pivots = zd_take_doubles(arena, (size_t)system->nv),
-        .before = zd_take_doubles(arena, (size_t)system->nv),
-        .pdot = zd_take_doubles(arena, (size_t)system->nq),
-        .range = zd_take(arena, (size_t)system->nv * sizeof(zd_range)),
-        .dp = zd_take_doubles(arena, (size_t)system->nq),
-        .dv = zd_take_doubles(arena, (size_t)system->nv),
-        .corrected = zd_take_doubles(arena, (size_t)(system->nq > system->nv ? system->nq : system->nv)),
-        .allowed = zd_take_doubles(arena, (size_t)system->mh),
+        .scale = zd_arena_doubles(arena, (size_t)(orders * system->nv)),
+        .pivots = zd_arena_doubles(arena, (size_t)system->nv),
+        .before = zd_arena_doubles(arena, (size_t)system->nv),
+        .pdot = zd_arena_doubles(arena, (size_t)system->nq),
+        .range = zd_arena_bytes(arena, (size_t)system->nv * sizeof(zd_range)),
+        .dp = zd_arena_doubles(arena, (size_t)system->nq),
+        .dv = zd_arena_doubles(arena, (size_t)system->nv),
+        .corrected = zd_arena_doubles(arena, (size_t)(system->nq > system->nv ? system->nq : system->nv)),
+        .allowed = zd_arena_doubles(arena, (size_t)system->mh),
     };
-    if (embeds) zd_embed_take(&motion->path, arena, system);
+    if (embeds) zd_embed_create(&motion->path, arena, system);
 }

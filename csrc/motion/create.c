@@ -4,20 +4,20 @@
 #include "../constraints/rows.h"
 
 /* Memory for the selection of independent constraints, with the monitor of full rank where factoring does not determine it. */
-static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *independent)
+static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system *independent)
 {
     const zd_formulation *formulation = motion->formulation;
     const zd_system *system = &motion->system;
-    zd_rank *rank = zd_rank_take(arena, system, zd_takes_many_rows(formulation, system));
+    zd_rank *rank = zd_rank_create(arena, system, zd_takes_many_rows(formulation, system));
     zd_rank_monitor *monitor = NULL;
-    double *rhs = formulation->update ? zd_take_doubles(arena, (size_t)zd_constraints(system)) : NULL;
+    double *rhs = formulation->update ? zd_arena_doubles(arena, (size_t)zd_constraints(system)) : NULL;
     int lends = formulation->lend_workspace && zd_constraints(independent) == zd_constraints(system) && !system->structure;
     double counted, *Q = lends ? &counted : NULL, *G = Q;
     if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
     const int are_many = zd_takes_many_rows(formulation, system), is_dense = !system->structure;
     int has_rank = is_dense ? zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system))
                             : are_many;
-    if (!has_rank) monitor = zd_rank_monitor_take(arena, system, Q, G);
+    if (!has_rank) monitor = zd_rank_monitor_create(arena, system, Q, G);
     if (!rank) return NULL;
     rank->monitor = monitor;
     rank->rhs = rhs;
@@ -25,13 +25,13 @@ static zd_rank *take_rank(zd_motion *motion, zd_arena *arena, const zd_system *i
     return rank;
 }
 
-void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
+void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *system, const zd_system *independent,
                     const zd_formulation *formulation, const void *given)
 {
     const int has_products = system->operations && system->operations->add_weighted;
     const int matrices = has_products && formulation->has_matrices_evaluated && zd_takes_many_rows(formulation, system) ? 0 : ZD_M | ZD_C;
     const size_t used = arena->used;
-    void *solver = formulation->take(arena, independent, given);
+    void *solver = formulation->create(arena, independent, given);
     *motion = (zd_motion){
         .system = *system,
         .formulation = formulation,
@@ -46,8 +46,8 @@ void zd_motion_take(zd_motion *motion, zd_arena *arena, const zd_system *system,
         .equations = &zd_equations_by_matrices,
         .memory_of_chosen = zd_span_since(arena, used),
     };
-    motion->point = zd_point_take(arena, &motion->system, &motion->statistics);
-    zd_rank *rank = take_rank(motion, arena, independent);
+    motion->point = zd_point_create(arena, &motion->system, &motion->statistics);
+    zd_rank *rank = create_rank(motion, arena, independent);
     if (motion->point) motion->point->rank = rank;
     motion->rate = (zd_rate){
         .inputs = motion->point ? motion->point->inputs : NULL,
@@ -71,7 +71,7 @@ void zd_motion_enable(zd_motion *motion, zd_arena *arena, const zd_correction *c
 {
     int every = correction->every ? correction->every(given) : 1;
     int size = correction->extra_size ? correction->extra_size(&motion->system, given) : 0;
-    void *self = correction->take ? correction->take(arena, &motion->system, given) : NULL;
+    void *self = correction->create ? correction->create(arena, &motion->system, given) : NULL;
     if (correction->target) motion->target = correction->target(given);
     motion->active[motion->corrections++] = (zd_active){correction, self, every, motion->corrections_size, size};
     motion->acceleration_needs |= correction->needs;
