@@ -99,3 +99,20 @@ def texts(*places):
         for file in [path] if path.is_file() else sorted(path.rglob("*")):
             if file.suffix in READERS and not MADE.intersection(file.parts):
                 yield from READERS[file.suffix](Path(file))
+
+
+# Comments and strings of C and JavaScript.
+OF_C = re.compile(r"""/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'""", re.DOTALL)
+OUTSIDE_CODE = {".py": COMMENT_OR_STRING, ".c": OF_C, ".h": OF_C, ".js": OF_C}
+
+
+def code_files(place):
+    """Source files in a folder, as paths from the root."""
+    return [file.relative_to(ROOT) for file in sorted((ROOT / place).rglob("*"))
+            if file.suffix in OUTSIDE_CODE and not MADE.intersection(file.parts)]
+
+
+def identifiers(file):
+    """The set of words in the code of a source file."""
+    source = (ROOT / file).read_text(encoding="utf-8")
+    return set(re.findall(r"[A-Za-z_]\w*", OUTSIDE_CODE[file.suffix].sub(" ", source)))

@@ -129,7 +129,7 @@ FLAT = np.pi / 2, -np.pi / 2
 
 @pytest.mark.pairs(forces=MOVES, away=[0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2])
 def test_accelerations_at_and_near_a_bifurcation(away, forces, formulation):
-    """Accelerations of the motion through the bifurcation; near it, to the fourth root of rounding, as branch.c derives."""
+    """Accelerations of the motion through the bifurcation; near it, to the fourth root of rounding, as limits.c derives."""
     gravity, moves = forces
     q, rate = FLAT[0] + away, 5.0
     system = crank(q, -q, [rate, -2 * np.sin(q) * rate, -rate], gravity, moves)

@@ -1,7 +1,7 @@
 /* (13) without dense matrices:
  *
  *     W = M^-1                                block by block
- *     S = C W C^T                             blocks of pairs of groups that touch the same body: point/weighted.c
+ *     S = C W C^T                             blocks of pairs of groups that touch the same body: point/sparse/weighted.c
  *     S lambda = C W (f - d) - xi,   vdot = W (f - d - C^T lambda)
  *
  * S has the squared condition number of the constraints, which the orthogonalization in schur.c avoids; and W amplifies the rounding of

@@ -1,4 +1,4 @@
-/* Newton's matrices of radau_matrices.c where the state is (p, v) with pdot = v, and of its other entries. Of
+/* Newton's matrices of matrices.c where the state is (p, v) with pdot = v, and of its other entries. Of
  *
  *     (mu - J) [x_p; x_v; x_e] = [a; b; c],    J = [[0, 1, 0], [J_p, J_v, 0], [e_p, e_v, 0]]
  *
