@@ -53,7 +53,6 @@ def is_there(name):
     return True
 
 
-@pytest.mark.filterwarnings("ignore:.*is deprecated:DeprecationWarning")    # of names that go on working
 def test_names_in_documentation_exist():
     dotted = re.compile(r"(?<![\w/])(?:zd|zerodrift)(?:\.[a-zA-Z_]\w*)+")
     named = {(where, name) for where, text in texts().items() for name in dotted.findall(text)}

@@ -9,7 +9,7 @@
 import importlib
 from typing import Any
 
-from . import earlier_names, systems
+from . import systems
 from .errors import (
     AccuracyWarning,
     Bifurcation,
@@ -89,7 +89,6 @@ def _shown(solution: Solution) -> str:
     return importlib.import_module(".player.view", __name__).of_solution(solution, repr(solution))
 
 
-earlier_names.register()
 Solution._repr_html_ = _shown       # here, as runs know nothing of films
 
 

@@ -35,15 +35,9 @@ import json, resource, sys, time
 import sympy, sympy.physics.mechanics
 import zerodrift as zd
 from zerodrift.symbolics import define
-try:
-    from zerodrift.symbolics.compile import closed_form_library
-except ImportError:     # versions before sub-packages of symbolics
-    from zerodrift.symbolics import direct_functions as closed_form_library
+from zerodrift.symbolics.compile import closed_form_library
 from zerodrift._gateway import PROCESSOR_UNIT
-try:
-    from zerodrift.models import _energies
-except ImportError:     # versions with a public name for these models
-    _energies = zd.models.symbolic
+from zerodrift.models import _energies
 zd.symbolic
 
 def spent():

@@ -8,7 +8,6 @@ import sys
 import numpy as np
 import pytest
 
-import energy_models
 import zerodrift as zd
 from every_model import MECHANISMS, MODELS, assert_right
 from support import assert_close, refused
@@ -113,22 +112,6 @@ def test_arguments_that_nobody_knows_are_named(name):
         MECHANISMS[name](colour="red")
 
 
-EARLIER_NAMES = {      # of the models from energies, as old scripts write them
-    "attribute": "import zerodrift as zd; slider_crank = zd.models.symbolic.slider_crank",
-    "import of a name": "from zerodrift.models.symbolic import slider_crank",
-    "import of the module": "from zerodrift.models import symbolic; slider_crank = symbolic.slider_crank",
-    "module under another name": "import zerodrift.models.symbolic as models; slider_crank = models.slider_crank"}
-
-
-@pytest.mark.parametrize("way", EARLIER_NAMES)
-def test_the_models_from_energies_work_under_their_earlier_name(way):
-    names = {}
-    with pytest.warns(DeprecationWarning, match=r"your_mechanism_from_sympy' are worked examples of zd\.symbolic") as warned:
-        exec(compile(EARLIER_NAMES[way], "script.py", "exec"), names)
-    assert names["slider_crank"] is energy_models.slider_crank
-    assert {warning.filename for warning in warned} == {"script.py"}       # where Python shows it
-
-
 def test_without_sympy():
     """The error names SymPy, and is raised only where SymPy is needed."""
     code = """if True:
@@ -136,11 +119,11 @@ def test_without_sympy():
         sys.modules["sympy"] = None
         import zerodrift as zd
         print(zd.simulate(zd.models.andrews(), 0.001, step=1e-4).t[-1])
-        for use in (lambda: zd.models.symbolic, zd.models.watt, zd.models.cam_follower, zd.models.pantograph):
+        for use in (zd.models.watt, zd.models.cam_follower, zd.models.pantograph):
             try:
                 use()
             except ImportError as error:
                 print(error)"""
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("0.001\n")
-    assert done.stdout.count("pip install 'zerodrift[symbolic]'") == 4
+    assert done.stdout.count("pip install 'zerodrift[symbolic]'") == 3

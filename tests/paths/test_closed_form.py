@@ -1,8 +1,6 @@
 """Steps on the closed-form path agree with those on the matrix path to rounding, which repeats doubtful ones."""
 
-import dataclasses
 import functools
-import pickle
 
 import numpy as np
 import pytest
@@ -100,16 +98,8 @@ def test_what_it_does_not_serve_takes_the_matrix_path(name, options, tmp_path):
     assert loaded.stats == sol.stats
 
 
-def test_statistics_answer_to_the_keys_of_earlier_versions(tmp_path):
-    """The key is listed under its name of today alone; files of earlier versions have the other."""
-    sol = zd.simulate(system("four_bar"), 0.1, step=0.01, closed_form=False)
-    copies = sol, pickle.loads(pickle.dumps(sol)), zd.load(sol.save(tmp_path / "motion"))
-    older = dataclasses.replace(sol, stats={"general_road": "closed_form=False"})
-    for each in (*copies, older):
-        assert each.stats["general_road"] == each.stats.get("general_road") == "closed_form=False"
-        assert each.stats["matrix_path_reason"] == "closed_form=False"
-        assert "general_road" in each.stats
-        assert "general_road" not in list(each.stats)
+def test_an_unknown_name_of_a_statistic_is_refused():
+    sol = zd.simulate(system("four_bar"), 0.1, step=0.01)
     with refused("wrong-name"):
         sol.stats["road"]
 

@@ -9,11 +9,6 @@ All are mechanisms, from bodies and joints or, linkages, from a sketch: in the p
 True
 """
 
-import importlib
-import warnings
-from typing import Any
-
-from ..earlier_names import DEPRECATED
 from .andrews import andrews
 from .bicycle import bicycle
 from .cam_follower import cam_follower
@@ -59,13 +54,6 @@ __all__ = ["andrews", "bennett", "bicycle", "cam_follower", "chain", "chebyshev_
            "planetary_gear", "quarter_car", "quick_return", "rattleback", "rolling_disc", "scissor_lift",
            "slider_crank", "snakeboard", "spatial_slider_crank", "stephenson", "stewart_platform", "toggle_press",
            "watt", "whipple_bicycle"]
-
-
-def __getattr__(name: str) -> Any:
-    if name == "symbolic":      # SymPy is imported where it is used
-        warnings.warn(DEPRECATED["models.symbolic"], DeprecationWarning, stacklevel=2)
-        return importlib.import_module("._energies", __name__)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
