@@ -23,8 +23,8 @@ HERE = Path(__file__).resolve().parent
 RESULTS = HERE / "results" / "programs.csv"
 SYSTEMS = {
     "four-bar": "four_bar()",
-    **{f"closed chain of {links} links": f"_energies.closed_pendulum({links})" for links in (4, 6, 20, 80)},
-    "Andrews": "_energies.andrews()", "bicycle": "_energies.bicycle()"}
+    **{f"closed chain of {links} links": f"energy_models.closed_pendulum({links})" for links in (4, 6, 20, 80)},
+    "Andrews": "energy_models.andrews()", "bicycle": "energy_models.bicycle()"}
 STAGES = ("energies in SymPy", "deriving", "eliminating common subexpressions", "writing C", "compiling", "start",
           "closed-form functions")
 COLUMNS = ["what", "version", *(f"{stage} [s]" for stage in STAGES), "terms together [s]", "terms by the clock [s]",
@@ -37,7 +37,8 @@ import zerodrift as zd
 from zerodrift.symbolics import define
 from zerodrift.symbolics.compile import closed_form_library
 from zerodrift._gateway import PROCESSOR_UNIT
-from zerodrift.models import _energies
+sys.path.insert(0, sys.argv[3])
+import energy_models
 zd.symbolic
 
 def spent():
@@ -68,9 +69,9 @@ def prepare(functions):
     prepared(functions)
     meanwhile.append(spent() - before)
 
-meanwhile, prepared = [], getattr(closed_form_library.DirectFunctions, "prepare", None)
+meanwhile, prepared = [], getattr(closed_form_library.ClosedFormFunctions, "prepare", None)
 if prepared:
-    closed_form_library.DirectFunctions.prepare = prepare
+    closed_form_library.ClosedFormFunctions.prepare = prepare
 define.Progress, marks = Stages, [("energies in SymPy", spent())]
 began = time.perf_counter()
 system = eval(sys.argv[2])
@@ -90,8 +91,8 @@ print(json.dumps([seconds, clock, time.perf_counter() - began]))
 def costs(expression):
     """Seconds by stage; and by the clock, of terms and of all."""
     with tempfile.TemporaryDirectory() as folder:
-        said = subprocess.run([sys.executable, "-c", MEASURED, str(HERE), expression], check=True, capture_output=True, text=True,
-                              env=os.environ | {"ZERODRIFT_CACHE": folder})
+        said = subprocess.run([sys.executable, "-c", MEASURED, str(HERE), expression, str(HERE.parent)], check=True,
+                              capture_output=True, text=True, env=os.environ | {"ZERODRIFT_CACHE": folder})
     return json.loads(said.stdout)
 
 

@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
-from ...symbolics.define import symbolic
-from ...symbolics.system import SymbolicSystem
-from ..andrews import PARAMETERS, START
+from zerodrift.models.andrews import PARAMETERS, START
+from zerodrift.symbolics.define import symbolic
+from zerodrift.symbolics.system import SymbolicSystem
 
 
 def andrews(**parameters: float) -> SymbolicSystem:
@@ -32,8 +32,8 @@ def andrews(**parameters: float) -> SymbolicSystem:
     Examples
     --------
     >>> import zerodrift as zd
-    >>> from zerodrift.models import _energies
-    >>> sol = zd.simulate(_energies.andrews(), 0.03, step=1e-5)
+    >>> import energy_models
+    >>> sol = zd.simulate(energy_models.andrews(), 0.03, step=1e-5)
     >>> sol.p[-1, :2].round(6)
     array([ 15.810771, -15.756371])
     """

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
-from ...symbolics.define import symbolic
-from ...symbolics.system import SymbolicSystem
+from zerodrift.symbolics.define import symbolic
+from zerodrift.symbolics.system import SymbolicSystem
 
 
 def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, inertia: float = 10.0, fork_mass: float = 5.0,
@@ -39,8 +39,8 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
     Examples
     --------
     >>> import zerodrift as zd
-    >>> from zerodrift.models import _energies
-    >>> sol = zd.simulate(_energies.bicycle(), 10.0, step=0.01)
+    >>> import energy_models
+    >>> sol = zd.simulate(energy_models.bicycle(), 10.0, step=0.01)
     >>> bool(abs(sol.velocity_violation).max() < 1e-12)
     True
     """

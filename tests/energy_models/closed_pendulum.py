@@ -6,12 +6,12 @@ import numpy as np
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
-from ... import _check
-from ...errors import WrongValue
-from ...runs.operations import project
-from ...runs.settings import Projection
-from ...symbolics.define import symbolic
-from ...symbolics.system import SymbolicSystem
+from zerodrift import _check
+from zerodrift.errors import WrongValue
+from zerodrift.runs.operations import project
+from zerodrift.runs.settings import Projection
+from zerodrift.symbolics.define import symbolic
+from zerodrift.symbolics.system import SymbolicSystem
 
 LEAN = np.radians(75.0)     # initial inclination of the first link in rad
 
@@ -41,8 +41,8 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
 
     Examples
     --------
-    >>> from zerodrift.models import _energies
-    >>> _energies.closed_pendulum(links=6)
+    >>> import energy_models
+    >>> energy_models.closed_pendulum(links=6)
     <zd.symbolic closed_pendulum: 6 coordinates, 6 velocities, 2 holonomic and 0 nonholonomic constraints>
     """
     n = _check.count("links", links, least=3)

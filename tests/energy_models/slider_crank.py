@@ -6,10 +6,10 @@ import numpy as np
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
-from ... import _check
-from ...errors import WrongValue
-from ...symbolics.define import symbolic
-from ...symbolics.system import SymbolicSystem
+from zerodrift import _check
+from zerodrift.errors import WrongValue
+from zerodrift.symbolics.define import symbolic
+from zerodrift.symbolics.system import SymbolicSystem
 
 
 def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float = 1.0, slider_mass: float = 1.0,
@@ -36,8 +36,8 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
     Examples
     --------
     >>> import zerodrift as zd
-    >>> from zerodrift.models import _energies
-    >>> sol = zd.simulate(_energies.slider_crank(), 10.0, step=0.01)
+    >>> import energy_models
+    >>> sol = zd.simulate(energy_models.slider_crank(), 10.0, step=0.01)
     >>> bool(sol.energy_input[-1] < 0)      # the damper
     True
     """
