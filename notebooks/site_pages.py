@@ -247,4 +247,4 @@ def reference() -> Iterable[str]:
     yield from ("## Modules", "", "```{eval-rst}")
     for module in (zd.systems, zd.compare, zd.inertia):
         yield from (f".. module:: {module.__name__}", "", f"**{module.__name__}**", "", inspect.cleandoc(module.__doc__ or ""), "")
-    yield from (".. currentmodule:: zerodrift.compare", "", ".. autofunction:: difference", "", ".. autofunction:: signals", "```", "")
+    yield from (".. currentmodule:: zerodrift.studies.compare", "", ".. autofunction:: difference", "", ".. autofunction:: signals", "```", "")

@@ -3,7 +3,7 @@
 import numba
 
 import zerodrift as zd
-from zerodrift.compiled import BIT, SLOT
+from zerodrift.systems.native import BIT, SLOT
 
 
 def pendulum(data, want, t, p, v, out):

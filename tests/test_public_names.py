@@ -15,7 +15,7 @@ PACKAGE = Path(zd.__file__).parent
 
 def public_modules():
     """Modules that `zerodrift` names, and those from which its documentation imports."""
-    named = {f"zerodrift.{name}" for name in zd.__all__ if type(getattr(zd, name)) is type(zd)}
+    named = {getattr(zd, name).__name__ for name in zd.__all__ if type(getattr(zd, name)) is type(zd)}
     written = "".join(path.read_text() for path in [*PACKAGE.rglob("*.py"), PACKAGE.parents[1] / "README.md"] if path.is_file())
     imported = re.findall(r"(?:>>> |^|    )(?:from|import) (zerodrift(?:\.[a-z]\w*)*)", written, flags=re.MULTILINE)
     packages = {f"zerodrift.{path.parent.name}" for path in PACKAGE.glob("[a-z]*/__init__.py") if "__all__" in path.read_text()}

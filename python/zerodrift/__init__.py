@@ -93,8 +93,10 @@ Solution._repr_html_ = _shown       # here, as runs know nothing of films
 
 
 def __getattr__(name: str) -> Any:
-    if name in ("compare", "inertia", "models", "plot"):       # SymPy and matplotlib are imported when they are used
+    if name in ("inertia", "models", "plot"):       # SymPy and matplotlib are imported when they are used
         return importlib.import_module(f".{name}", __name__)
+    if name == "compare":
+        return importlib.import_module(".studies.compare", __name__)
     if name in _LATER:
         return getattr(importlib.import_module(f".{_LATER[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -5,8 +5,8 @@ import pytest
 
 import zerodrift as zd
 from support import refused
-from zerodrift.compare import difference
 from zerodrift.paper import FOUR_BAR, FOUR_BAR_REFERENCE, OSCILLATOR, reference
+from zerodrift.studies.compare import difference
 
 ANGLES = np.linspace(0, 2 * np.pi, 13)
 STORED = 1e-8       # rad, rad/s: DOP853 at its least tolerance has some 2e-10, grown by the motion; libraries differ

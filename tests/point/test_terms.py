@@ -5,7 +5,7 @@ import pytest
 
 from support import consistent_states
 from zerodrift._gateway import TERMS
-from zerodrift.compiled import SLOT
+from zerodrift.systems.native import SLOT
 
 
 @pytest.mark.parametrize("name", [name for name, term in TERMS.items() if not term.depends_on_v])
@@ -19,7 +19,7 @@ def test_each_term_has_a_bit_and_a_pointer_of_its_own():
     bits = [term.bit for term in TERMS.values()]
     assert all(bit.bit_count() == 1 for bit in bits)
     assert len({*bits}) == len({term.symbol for term in TERMS.values()}) == len(TERMS)
-    pointer = np.dtype(np.intp).itemsize        # `zerodrift.compiled.SLOT` counts pointers
+    pointer = np.dtype(np.intp).itemsize        # `zerodrift.systems.native.SLOT` counts pointers
     assert [term.offset for term in TERMS.values()] == [slot * pointer for slot in SLOT]
 
 

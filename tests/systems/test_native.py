@@ -25,7 +25,7 @@ from native_systems import (
 )
 from support import assert_close, assert_same_bits, refused
 from zerodrift._gateway import TERMS
-from zerodrift.compiled import BIT, SLOT
+from zerodrift.systems.native import BIT, SLOT
 
 pytestmark = needs_compiler
 

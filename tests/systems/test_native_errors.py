@@ -10,7 +10,7 @@ import scipy
 import zerodrift as zd
 from native_systems import GIVEN, PENDULUM, TERMS, address, compile_text, motion, needs_compiler, of_ctypes, pendulum
 from support import refused
-from zerodrift.compiled import SLOT
+from zerodrift.systems.native import SLOT
 
 pytestmark = needs_compiler
 

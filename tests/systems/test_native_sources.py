@@ -13,7 +13,7 @@ import scipy
 import zerodrift as zd
 from native_systems import GIVEN, address, built_in, compile_four_bar, motion, needs_compiler, of_ctypes
 from support import assert_close, assert_same_bits, refused
-from zerodrift.compiled import INTERFACE_VERSION
+from zerodrift.systems.native import INTERFACE_VERSION
 
 pytestmark = needs_compiler
 

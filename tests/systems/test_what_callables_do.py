@@ -12,7 +12,7 @@ import zerodrift as zd
 from bead import MASKED, bead
 from support import refused
 from watched import At, throw
-from zerodrift import compare
+from zerodrift.studies import compare
 
 # ---- what is kept ----
 

@@ -13,7 +13,13 @@ from ..errors import WrongType, WrongValue
 from ..runs.solution import A_SOLUTION, Solution
 from .reference import Reference
 
+__all__ = ["difference", "signals"]
+
 SAME_TIME = 1e-9    # relative to max(|t|, 1 s): far above rounding, far below any step
+
+
+def __dir__() -> list[str]:
+    return __all__      # and not what is imported
 
 
 def signals(solution: Solution, names: str | Sequence[str] | None = None) -> tuple[np.ndarray, tuple[Variable, ...]]:
@@ -34,7 +40,7 @@ def signals(solution: Solution, names: str | Sequence[str] | None = None) -> tup
     Examples
     --------
     >>> import zerodrift as zd
-    >>> from zerodrift.compare import signals
+    >>> from zerodrift.studies.compare import signals
     >>> values, variables = signals(zd.simulate(zd.systems.oscillator(), 1.0, step=0.1), "x_dot")
     >>> values.shape, variables[0].unit
     ((11, 1), 'm/s')
@@ -76,7 +82,7 @@ def difference(solution: Solution, reference: Solution | Reference | Callable[[f
     Examples
     --------
     >>> import zerodrift as zd
-    >>> from zerodrift.compare import difference
+    >>> from zerodrift.studies.compare import difference
     >>> bar = zd.systems.four_bar()
     >>> fine, coarse = zd.simulate(bar, 1.0, step=0.001), zd.simulate(bar, 1.0, step=0.01)
     >>> difference(coarse, fine, "alpha1").shape

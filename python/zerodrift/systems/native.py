@@ -1,4 +1,7 @@
-"""Systems with compiled equations of the user: in C, by Numba, or in any language with C calling conventions."""
+"""Systems with compiled equations of the user: in C, by Numba, or in any language with C calling conventions.
+
+`BIT` and `SLOT` name the terms in such a function, and `INTERFACE_VERSION` is what it is to be compiled with.
+"""
 
 from __future__ import annotations
 
@@ -18,12 +21,18 @@ from .builtin import SystemOfKind
 from .structure import Structure, checked
 from .variables import quaternion_places, with_units
 
+__all__ = ["BIT", "INTERFACE_VERSION", "SLOT", "get_include", "native", "numba_signature"]
+
 BIT = namedtuple("Bits", TERMS)(*(term.bit for term in TERMS.values()))
 BIT.__class__.__doc__ = "What ``want`` has set where a term is wanted: ``want & BIT.M``."
 SLOT = namedtuple("Slots", TERMS)(*range(len(TERMS)))
 SLOT.__class__.__doc__ = "Where the pointer to a term is: ``out[SLOT.M]``."
 INTERFACE_VERSION = _gateway.VERSION
 KIND = "zd_kind_"       # what the name of a `zd_kind` begins with in a library
+
+
+def __dir__() -> list[str]:
+    return __all__      # and not what is imported
 
 
 def get_include() -> str:
@@ -114,7 +123,7 @@ def native(
     A mass on a spring, with numba::
 
         import numba
-        from zerodrift.compiled import BIT, SLOT
+        from zerodrift.systems.native import BIT, SLOT
 
         @numba.cfunc(zd.numba_signature())
         def spring(data, want, t, p, v, out):
