@@ -67,7 +67,7 @@ def test_tokens_are_those_of_the_languages():
 
 
 def test_sources_stay_below_their_ceiling():
-    """Where they are less by more than a hundredth, the ceiling comes down, with a line that says what was taken away."""
+    """A sum more than a hundredth below it takes a lower ceiling, with a line that says what was taken away."""
     lines = re.findall(r"^\| ([\d,]+) \|", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
     ceiling = int(lines[-1].replace(",", ""))
     assert 0.99 * ceiling < shipped(sizes()) <= ceiling
