@@ -28,7 +28,7 @@ WORKS = """
 sol = zd.simulate(m, 0.5, step=0.01)
 assert sol.t[-1] == 0.5
 assert not zd.ensemble(m, 0.1, **ONE).failed.any()
-runs = zd.Run(m, step=0.01, runs=64)
+runs = zd.ManyRuns(m, step=0.01, runs=64)
 runs.step(3)
 print("works")
 """

@@ -125,7 +125,7 @@ def test_a_run_reads_reactions_that_no_law_reads(layout):
     m.motor("drive", root, torque=lambda f: -0.1 * f, of={"f": "elbow.force.y"})
     system = m.system(layout)
     names = ["root.force.x", "root.force.y", "elbow.force.y", "drive.torque"]
-    run, runs = zd.Run(system, step=1e-3), zd.Run(system, runs=3, step=1e-3)
+    run, runs = zd.Run(system, step=1e-3), zd.ManyRuns(system, runs=3, step=1e-3)
     run.step(3)
     runs.step(3)
     sol = zd.simulate(system, 3e-3, step=1e-3, outputs=names)

@@ -63,7 +63,7 @@ class Peer:
 
 def ours(step):
     """Open runs at the starts."""
-    return zd.Run(cart_pole().system(compiled=True), STARTS, runs=RUNS, step=step, inputs=["drive.force"])
+    return zd.ManyRuns(cart_pole().system(compiled=True), STARTS, runs=RUNS, step=step, inputs=["drive.force"])
 
 
 def end_of_ours(step):

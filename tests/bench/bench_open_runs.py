@@ -84,7 +84,7 @@ def processor_seconds(call):
 def rates():
     """Rows of the cart-poles."""
     starts = np.random.default_rng(2).uniform(-0.1, 0.1, (RUNS, 2))
-    runs = zd.Run(cart_pole().system(compiled=True), starts, runs=RUNS, step=0.02, inputs=["drive.force"], vector="avx2")
+    runs = zd.ManyRuns(cart_pole().system(compiled=True), starts, runs=RUNS, step=0.02, inputs=["drive.force"], vector="avx2")
     for steps in (1, 10):
         def calls(steps=steps):
             for forces in FORCES:

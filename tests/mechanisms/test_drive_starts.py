@@ -58,7 +58,7 @@ def test_many_runs_start_as_single_ones(dimension, inputs):
     ens = zd.ensemble(m, 2e-3, parameters={"coupler.length": lengths}, step=1e-3, outputs=["A.angle", "D.angle"])
     assert_close(ens["A.angle"][:, 0], np.zeros(4), 1e-13, scale=1.0)
     assert_close(ens["D.angle"][:, 0], [rocker_turn(each) for each in lengths], 1e-12, scale=1.0)
-    runs = zd.Run(m, runs=4, parameters={"coupler.length": lengths}, step=1e-3, inputs=inputs)
+    runs = zd.ManyRuns(m, runs=4, parameters={"coupler.length": lengths}, step=1e-3, inputs=inputs)
     assert_close(runs["A.angle"], np.zeros(4), 1e-13, scale=1.0)
 
 

@@ -201,7 +201,7 @@ def test_all_ways_to_read_a_reaction_give_the_same(coordinates):
     ens = zd.ensemble(system, 0.02, parameters={"crank.mass": [1.0, 1.0]}, step=0.01, outputs=names)
     run = zd.Run(system, step=0.01)
     run.step(2)
-    many = zd.Run(system, runs=2, step=0.01)
+    many = zd.ManyRuns(system, runs=2, step=0.01)
     many.step(2)
     now = zd.Instant(system, sol.t[-1], sol.p[-1], sol.v[-1])
     load = zd.Event("A.force.z", value=float(sol["A.force.z"].mean()), terminal=True)

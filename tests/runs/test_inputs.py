@@ -161,7 +161,7 @@ def test_arrays_among_the_parameters_of_a_system_are_inputs():
     system = zd.System(2, mass=np.eye(2), force=lambda u, K: K @ u, parameters={"u": np.zeros(2), "K": gains}, p0=[0.0, 0.0])
     run = zd.Run(system, step=0.01, inputs={"u": (-5.0, 5.0), "K": None}, record=True)
     entries = zd.Run(system, step=0.01, inputs=["u[0]", "u[1]", "K[0, 0]", "K[0, 1]", "K[1, 0]", "K[1, 1]"])
-    many = zd.Run(system, runs=2, step=0.01, inputs=["u"])
+    many = zd.ManyRuns(system, runs=2, step=0.01, inputs=["u"])
     many["u"] = [[3.0, -1.0], [0.0, 0.0]]
     run["u"] = [3.0, -1.0]
     entries["u[0]"], entries["u[1]"] = 3.0, -1.0
@@ -304,7 +304,7 @@ def test_first_and_restored_inputs_must_be_within_their_limits():
 
 @pytest.mark.parametrize(("count", "compiled"), [(2, False), (16, True)])
 def test_first_inputs_of_many_runs_must_be_within_their_limits(count, compiled):
-    runs = zd.Run(four_bar(torque=0.0).system(compiled=compiled), runs=count, step=0.01, inputs={"drive.torque": (1.0, 2.0)})
+    runs = zd.ManyRuns(four_bar(torque=0.0).system(compiled=compiled), runs=count, step=0.01, inputs={"drive.torque": (1.0, 2.0)})
     runs["drive.torque"] = [0.0, *[1.5] * (count - 1)]
     runs.step(2)
     assert runs.failed.tolist() == [True, *[False] * (count - 1)]

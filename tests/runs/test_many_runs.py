@@ -26,7 +26,7 @@ def test_each_run_has_the_bits_that_it_has_alone(compiled, runs):
     """150 runs are advanced in several parts, by threads."""
     system, force = cart_pole().system(compiled=compiled), np.random.default_rng(1).uniform(-10, 10, (10, runs))
     p0 = np.random.default_rng(2).uniform(-0.1, 0.1, (runs, 2))
-    many = zd.Run(system, p0, runs=runs, step=0.02, inputs=["drive.force"])
+    many = zd.ManyRuns(system, p0, runs=runs, step=0.02, inputs=["drive.force"])
     before = many["hinge.force"]
     for values in force:
         many["drive.force"] = values
@@ -45,7 +45,8 @@ def test_each_run_has_the_bits_that_it_has_alone(compiled, runs):
 
 def test_parameters_differ_between_runs():
     masses = np.array([0.1, 0.2, 0.4])
-    many = zd.Run(cart_pole().system(compiled=True), runs=3, step=0.01, parameters={"pole.mass": masses}, inputs=["drive.force"])
+    many = zd.ManyRuns(cart_pole().system(compiled=True), runs=3, step=0.01, parameters={"pole.mass": masses},
+                       inputs=["drive.force"])
     many["drive.force"] = 1.0
     many.step(50)
     for i, mass in enumerate(masses):
@@ -54,11 +55,11 @@ def test_parameters_differ_between_runs():
         one.step(50)
         assert np.array_equal(many.p[i], one.p)
     with refused("shape", "have 3"):
-        zd.Run(cart_pole(), runs=3, step=0.01, parameters={"pole.mass": [1.0, 2.0]})
+        zd.ManyRuns(cart_pole(), runs=3, step=0.01, parameters={"pole.mass": [1.0, 2.0]})
 
 
 def test_runs_are_reset_by_a_mask():
-    many = zd.Run(cart_pole(), runs=4, step=0.01, inputs=["drive.force"])
+    many = zd.ManyRuns(cart_pole(), runs=4, step=0.01, inputs=["drive.force"])
     many["drive.force"] = [1.0, 2.0, 3.0, 4.0]
     many.step(10)
     p = many.p
@@ -78,7 +79,7 @@ def test_runs_are_reset_by_a_mask():
 
 
 def test_a_run_that_fails_stays_and_the_others_go_on():
-    many = zd.Run(cart_pole(), runs=3, step=0.01, inputs={"drive.force": (-10.0, 10.0)})
+    many = zd.ManyRuns(cart_pole(), runs=3, step=0.01, inputs={"drive.force": (-10.0, 10.0)})
     many["drive.force"] = [1.0, 11.0, np.nan]
     many.step(5)
     assert many.failed.tolist() == [False, True, True]
@@ -94,18 +95,18 @@ def test_a_run_that_fails_stays_and_the_others_go_on():
 
 def test_systems_in_python_can_be_many():
     system = zd.System(["x"], mass=np.eye(1), force=lambda u: u, parameters={"u": np.zeros(1)}, p0=[0.0])
-    many = zd.Run(system, runs=3, step=0.1, inputs=["u[0]"])
+    many = zd.ManyRuns(system, runs=3, step=0.1, inputs=["u[0]"])
     many["u[0]"] = [0.0, 1.0, 2.0]
     many.advance_to(1.0)
     assert np.allclose(many.p[:, 0], [0.0, 0.5, 1.0], rtol=1e-12)
 
 
 def test_wrong_arguments_of_many_runs_are_refused():
-    with refused("conflicting-arguments"):
+    with refused("wrong-name", "no setting 'parameters'"):
         zd.Run(cart_pole(), step=0.01, parameters={"pole.mass": 1.0})
     with refused("out-of-range", "^runs must.*between 1"):
-        zd.Run(cart_pole(), runs=0, step=0.01)
-    many = zd.Run(cart_pole(), runs=2, step=0.01)
+        zd.ManyRuns(cart_pole(), runs=0, step=0.01)
+    many = zd.ManyRuns(cart_pole(), runs=2, step=0.01)
     with refused("wrong-name"):
         many["drive.force"] = 1.0
 
@@ -117,7 +118,7 @@ class Pair:
     """Many runs, and the same ones alone: whatever is done to both, they have the same bits."""
 
     def __init__(self, system, count, **settings):
-        self.many = zd.Run(system, runs=count, **settings)
+        self.many = zd.ManyRuns(system, runs=count, **settings)
         self.alone = [zd.Run(system, **settings) for _ in range(count)]
         self.dead = set()
 
@@ -203,7 +204,7 @@ def test_constants_that_follow_from_inputs_are_computed_for_each_lane():
 
 @pytest.mark.parametrize("how", ["reset", "restore"])
 def test_runs_in_lanes_keep_their_states_while_others_are_put_back(how):
-    many = zd.Run(cart_pole().system(compiled=True), runs=16, step=0.02, inputs=["drive.force"])
+    many = zd.ManyRuns(cart_pole().system(compiled=True), runs=16, step=0.02, inputs=["drive.force"])
     first, where = many.save(), np.arange(16) % 3 == 0
     many["drive.force"] = np.arange(16.0)
     many.step(5)
@@ -216,7 +217,7 @@ def test_runs_in_lanes_keep_their_states_while_others_are_put_back(how):
 
 def test_a_state_from_a_lane_continues_in_one_run():
     system = cart_pole().system(compiled=True)
-    many = zd.Run(system, runs=16, step=0.02, inputs=["drive.force"])
+    many = zd.ManyRuns(system, runs=16, step=0.02, inputs=["drive.force"])
     many["drive.force"] = np.linspace(-1.0, 1.0, 16)
     many.step(7)
     one = zd.Run(system, step=0.02, inputs=["drive.force"])
@@ -241,7 +242,7 @@ def test_lanes_reach_times_between_steps_and_go_on():
 
 
 def test_a_run_in_a_lane_with_a_refused_input_stays_and_the_others_go_on():
-    many = zd.Run(cart_pole().system(compiled=True), runs=16, step=0.01, inputs={"drive.force": (-10.0, 10.0)})
+    many = zd.ManyRuns(cart_pole().system(compiled=True), runs=16, step=0.01, inputs={"drive.force": (-10.0, 10.0)})
     many.step(2)
     many["drive.force"] = [11.0, np.nan, *[1.0] * 14]
     many.step(5)

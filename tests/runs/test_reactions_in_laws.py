@@ -234,7 +234,7 @@ def test_states_between_samples_are_those_that_the_run_requests(form, steps):
 def test_many_runs_read_their_own_reactions():
     system = arm(torque=LAW).system()
     starts = np.array([[0.1 * i] for i in range(20)])
-    runs, speeds = zd.Run(system, runs=20, p0=starts, v0=0 * starts, step=0.01), []
+    runs, speeds = zd.ManyRuns(system, runs=20, p0=starts, v0=0 * starts, step=0.01), []
     runs.step(30)
     for start in starts:
         one = zd.Run(system, start, [0.0], step=0.01)

@@ -274,7 +274,7 @@ def test_what_does_not_pickle_is_left_out():
 def test_a_state_of_one_of_many_runs_is_that_of_a_run_with_its_parameters():
     bar = zd.models.four_bar().system()
     name = next(each for each in bar.parameters if each.endswith(".mass"))
-    many = zd.Run(bar, runs=2, parameters={name: [1.0, 2.0]}, step=0.01)
+    many = zd.ManyRuns(bar, runs=2, parameters={name: [1.0, 2.0]}, step=0.01)
     many.step(5)
     run = zd.Run(bar.with_parameters({name: 2.0}), step=0.01)
     run.restore(many.save()[1])
@@ -284,7 +284,7 @@ def test_a_state_of_one_of_many_runs_is_that_of_a_run_with_its_parameters():
 
 
 def test_many_runs_are_restored_by_a_mask():
-    many = zd.Run(arm(), runs=3, step=0.01, inputs=["drive.torque"])
+    many = zd.ManyRuns(arm(), runs=3, step=0.01, inputs=["drive.torque"])
     many["drive.torque"] = [1.0, 2.0, 3.0]
     many.step(10)
     states = many.save()

@@ -208,7 +208,7 @@ def test_forces_that_change_make_no_jump():
 
 
 def test_many_runs_jump_each_by_itself():
-    runs = zd.Run(wheel(speed=1.0), runs=3, step=0.01, **GIVEN, hold=True)
+    runs = zd.ManyRuns(wheel(speed=1.0), runs=3, step=0.01, **GIVEN, hold=True)
     runs["drive.speed"] = [1.0, 2.0, 3.0]
     runs.step()
     assert np.allclose(runs["hinge.angle"], [0.01, 0.02, 0.03], rtol=1e-12)

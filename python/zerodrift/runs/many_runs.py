@@ -24,7 +24,7 @@ MAX_LANES = 8          # of a vector unit: parts begin at multiples
 
 
 class ManyRuns:
-    """Many open runs of one system, advanced together; ``Run(system, runs=...)`` makes them.
+    """Many open runs of one system, advanced together.
 
     Each has the bits that it has alone. They execute in one thread per available processor if the system does not call Python;
     and in SIMD lanes, as many at once as a vector of the processor has numbers, with fixed steps of a Runge-Kutta method if the
@@ -64,7 +64,7 @@ class ManyRuns:
     >>> m = zd.Mechanism("arm")
     >>> arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
     >>> drive = m.motor("drive", m.revolute("pin", m.ground, arm.start), torque=0.0)
-    >>> runs = zd.Run(m, runs=4, step=0.01, inputs=["drive.torque"])
+    >>> runs = zd.ManyRuns(m, runs=4, step=0.01, inputs=["drive.torque"])
     >>> runs["drive.torque"] = [0.0, 1.0, 2.0, 3.0]
     >>> runs.step(100)
     >>> runs["pin.speed"].round(6)

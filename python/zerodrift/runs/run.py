@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check, _gateway
-from ..errors import InUse, StateWarning, WrongName, WrongState, WrongType, WrongValue
+from ..errors import InUse, StateWarning, WrongName, WrongState, WrongValue
 from ..systems.base import BaseSystem
 from . import diagnosis, recording
 from .control import Sampling, controls
@@ -60,11 +60,6 @@ class Run:
         True: every sample is kept in memory, for `solution`. A run that records nothing needs the same memory however long it is.
     save_to : str or Path, optional
         File to which samples are written, as of `simulate`; includes `record`.
-    runs : int, optional
-        Number of runs: then a `ManyRuns` is made, which takes `p0` (runs, nq), `v0` (runs, nv), `t0`, `step`, `inputs`,
-        `parameters` and settings except `events` and `outputs`, and has arrays (runs, ...) in the place of numbers.
-    parameters : dict of str to array_like (runs,)
-        With `runs`: parameters of the system in each run.
     **settings
         As of `simulate`: `rtol`, `atol`, `first_step`, `max_step`, `max_move`, `max_steps`, `events`, `formulation`,
         `integrator`, `stabilization`, `energy`, `correction`, `save_every`, `outputs`, `on_singular`, `closed_form`, `vector`.
@@ -134,17 +129,6 @@ class Run:
     >>> round(run.jump.impulses["drive"], 9), round(run.jump.work, 9)      # I dw, and I dw (w + dw / 2)
     (3.0, 10.5)
     """
-
-    def __new__(cls, *given: Any, runs: int | None = None, **named: Any) -> Any:
-        """One run, or with `runs` many of them."""
-        if runs is None:
-            if "parameters" in named:
-                raise WrongType("parameters are for Run(..., runs=k); one run takes system.with_parameters(...)",
-                                "conflicting-arguments")
-            return object.__new__(cls)
-        from .many_runs import ManyRuns
-
-        return ManyRuns(*given, runs=runs, **named)
 
     def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = None,
                  inputs: Any = None, hold: bool = False, ramp: float | None = None, control: Any = None, record: bool = False,
