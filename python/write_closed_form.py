@@ -1,4 +1,4 @@
-"""Writer of csrc/systems/direct, the closed-form functions of built-in systems, from their
+"""Writer of csrc/systems/closed_form, the closed-form functions of built-in systems, from their
 derivations in tests/symbolic_counterparts.py:
 ``python python/write_closed_form.py``, after which the core has to be built again.
 """
@@ -40,7 +40,7 @@ def sources():
 
 
 def header(name, size):
-    capitals = f"ZD_{name.upper()}_DIRECT"
+    capitals = f"ZD_{name.upper()}_CLOSED_FORM"
     return f"""{HEADING}
 #ifndef {capitals}_H
 #define {capitals}_H

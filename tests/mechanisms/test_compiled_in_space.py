@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from covering import expand
+from covering import spread
 from every_model import IN_SPACE
 from mechanisms.plain_space import Plain
 from mechanisms.test_compiled import TERM_ROUNDING, differences
@@ -64,7 +64,7 @@ def test_terms_are_those_of_the_tables(name):
     assert_same_terms(MADE[name]())
 
 
-@pytest.mark.parametrize("name", expand(IN_SPACE, 6))
+@pytest.mark.parametrize("name", spread(IN_SPACE, 6))
 def test_terms_of_models_are_those_of_the_tables(name):
     assert_same_terms(IN_SPACE[name](**({"links": 3} if name == "chain" else {})))
 

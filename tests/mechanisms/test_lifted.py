@@ -5,7 +5,7 @@ import pytest
 import sympy as sp
 
 import zerodrift as zd
-from covering import expand
+from covering import spread
 from every_model import MECHANISMS
 from support import assert_close, refused
 from zerodrift.mechanisms.building.plane_to_space import LIFTED
@@ -25,7 +25,7 @@ def both(name):
     return m.system("absolute"), space
 
 
-@pytest.mark.parametrize("name", expand(MECHANISMS, 8))
+@pytest.mark.parametrize("name", spread(MECHANISMS, 8))
 def test_a_model_in_space_is_that_of_the_plane(name):
     step = 1e-4 if name == "andrews" else 2e-3
     plane, space = (zd.simulate(m, 5 * step, step=step, formulation="augmented", integrator="dop853") for m in both(name))

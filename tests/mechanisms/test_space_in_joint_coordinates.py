@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from covering import expand
+from covering import spread
 from mechanisms.plain_space import ON_GROUND, Compared, Plain
 from mechanisms.test_in_space import four_bar
 from support import FORMULATIONS, assert_close, refused
@@ -59,7 +59,7 @@ def test_accelerations_and_reactions(seed, wanted):
     assert max(case.accelerations(wanted)) < NEAR
 
 
-@pytest.mark.parametrize(("seed", "on_ground"), expand([(64, None), (124, None), (844, None), (924, None), (299, "disc")], 2))
+@pytest.mark.parametrize(("seed", "on_ground"), spread([(64, None), (124, None), (844, None), (924, None), (299, "disc")], 2))
 def test_rows_that_follow_from_others_do_not_hold_up_independent_coordinates(seed, on_ground):
     """Redundant constraints have nearly zero gradients here, so that their rounding is large in units of these."""
     case = Compared(seed, on_ground, loops=3, coordinates="joint")

@@ -44,11 +44,11 @@ int begin(const zd_system *system, int formulation, double t, const double *p, c
         if (status) return status;
         const zd_rank *rank = motion.point->rank;
         independent.mh = rank->max_rank_holonomic;
-        independent.mn = rank->most_rows - rank->max_rank_holonomic;
+        independent.mn = rank->max_rank - rank->max_rank_holonomic;
     }
     zd_motion_attach(&motion, state);
     int status = place(t, p, v);
-    return status ? status : motion.formulation->leave(motion.solver, motion.point, state);
+    return status ? status : motion.formulation->pack(motion.solver, motion.point, state);
 }
 
 int size(void) { return motion.rate.size; }

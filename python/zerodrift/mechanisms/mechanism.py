@@ -107,8 +107,8 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
             or profiles of cams: `zerodrift.table` is a function, too. Without a compiler the tables are interpreted, with a
             `NoCompilerWarning`.
             In space it is joint coordinates that are written out whole; of absolute ones closed-form functions alone, up to some
-            four bodies, and all else keeps the tables. Loops with redundant rows, such as those of full hinges, have no direct
-            functions in either.
+            four bodies, and all else keeps the tables. Loops with redundant rows, such as those of full hinges, have no
+            closed-form functions in either.
 
         Returns
         -------
