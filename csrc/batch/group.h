@@ -64,11 +64,9 @@ typedef struct zd_lane_group {
     zd_reader reader;       /* reader of event functions */
 } zd_lane_group;
 
-/* lanes.c: allocates the lanes of a run with closed-form functions or revolute joints, the other being NULL. It is called twice: first
- * with an empty arena, to count the memory. */
+/* lanes.c: allocates the lanes of a run. It is called twice: first with an empty arena, to count the memory. */
 void zd_lanes_create(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions,
-                     const zd_closed_form *closed_form, const zd_pins_plan *pins, int64_t doubles);
-const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit);
+                     const zd_closed_form *closed_form, int64_t doubles);
 /* Functions of the unit, and the system's closed-form functions for it; NULL: there are none. */
 const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_closed_form **closed_form);
 /* Copies all numbers of a lane from another one; or sets them from the run, which is at its start. */

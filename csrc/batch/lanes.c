@@ -38,11 +38,6 @@ int zd_lanes_of_unit(enum zd_unit unit)
     return all[unit]->lanes;
 }
 
-const zd_lane_functions *zd_lane_functions_for(enum zd_unit unit)
-{
-    return all[unit];
-}
-
 const zd_lane_functions *zd_lane_functions_of(const zd_system *system, enum zd_unit unit, const zd_closed_form **closed_form)
 {
     const zd_lane_functions *functions = all[unit];
@@ -94,7 +89,7 @@ static void create_states(zd_lanes *self, zd_arena *arena, int64_t doubles, int 
     self->inverse_unit = allocate(self, arena, nv);
     self->allowed = allocate(self, arena, self->mh);
     self->inverse_size = allocate(self, arena, self->mh);
-    self->scale = allocate(self, arena, self->closed_form ? (int64_t)self->closed_form->orders * nv : 0);
+    self->scale = allocate(self, arena, (int64_t)self->closed_form->orders * nv);
 }
 
 static void create_workspace(zd_lanes *self, zd_arena *arena)
@@ -141,7 +136,7 @@ static void create_events(zd_lanes *self, zd_arena *arena, const zd_events *even
 }
 
 void zd_lanes_create(zd_lanes *self, zd_arena *arena, const zd_run *run, const zd_lane_functions *functions,
-                     const zd_closed_form *closed_form, const zd_pins_plan *pins, int64_t doubles)
+                     const zd_closed_form *closed_form, int64_t doubles)
 {
     const zd_settings *settings = &run->settings;
     const zd_system *system = &run->motion.system;
@@ -166,14 +161,11 @@ void zd_lanes_create(zd_lanes *self, zd_arena *arena, const zd_run *run, const z
     self->states = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
     create_workspace(self, arena);
     self->count = (int64_t)((arena->used - before) / sizeof(double)) / self->lanes;
-    self->pins = pins ? zd_lane_pins_create(arena, pins, self->lanes) : NULL;
     create_events(self, arena, settings->events);
 }
 
 void zd_lanes_copy(zd_lanes *self, int from, int to)
 {
-    if (self->pins) self->pins->is_turned = 0;
-    if (self->pins) self->pins->refines[to] = self->pins->refines[from];
     for (int64_t i = 0; i < self->count; i++) self->first[i * self->lanes + to] = self->first[i * self->lanes + from];
 }
 
@@ -200,18 +192,6 @@ static void load_closed_form(zd_lanes *self, int lane, zd_run *run)
     zd_closed_form_find_scales(&run->motion);
     load(self, lane, (int64_t)self->closed_form->orders * self->nv, run->motion.path.scale, self->scale);
     self->order[lane] = NAN;
-}
-
-static void load_pins(zd_lanes *self, int lane, const zd_run *run, const double *data)
-{
-    const zd_point *point = run->motion.point;
-    double speed = 0;
-    for (int i = 0; i < self->nv; i++) speed += (point->v[i] * point->inverse_unit[i]) * (point->v[i] * point->inverse_unit[i]);
-    load(self, lane, self->nv, point->vdot, self->vdot);
-    self->order[lane] = 0;
-    self->speed[lane] = speed;
-    self->pins->is_turned = 0;
-    self->pins->refines[lane] = zd_pins_are_unequal(self->pins->of, data);
 }
 
 /* Scales that are constant during a run: of p, v, and of Phi. */
@@ -246,8 +226,7 @@ void zd_lanes_load(zd_lanes *self, int lane, zd_run *run, const double *data, in
     if (self->inputs) load(self, lane, 2 * run->motion.system.inputs + 1, run->motion.point->inputs, self->inputs);
     load_state(self, lane, run);
     load_units(self, lane, run);
-    if (self->closed_form) load_closed_form(self, lane, run);
-    else load_pins(self, lane, run, data);
+    load_closed_form(self, lane, run);
     self->is_active[lane] = 1;
     self->t[lane] = self->t_before[lane] = self->t_sample[lane] = self->next_t[lane] = self->t0;
     self->h[lane] = run->loop.control.h;

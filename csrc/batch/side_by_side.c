@@ -10,13 +10,6 @@
 
 /* ---- applicability of lanes ---- */
 
-/* True for bodies joined by so many pins that no dense matrices are formed and bifurcations are not detected. */
-static int are_of_pins(const zd_batch *batch)
-{
-    const zd_formulation *formulation = zd_formulation_of(batch->settings->formulation);
-    return batch->system->pinned && !batch->data && !batch->settings->events && zd_takes_many_rows(formulation, batch->system);
-}
-
 static int are_known(const zd_events *events, const zd_system *system)
 {
     for (int i = 0; events && i < events->count; i++)
@@ -36,11 +29,9 @@ int zd_lanes_serve(const zd_batch *batch)
     const zd_system *system = batch->system;
     const zd_settings *settings = batch->settings;
     const zd_closed_form *closed_form;
-    if (!batch->lanes || batch->settings_differ || batch->family || !are_known(settings->events, system)
-        || !zd_lanes_serve_settings(system, settings))
-        return 0;
-    if (are_of_pins(batch)) return zd_lanes_of_unit(settings->vector) > 0;
-    return batch->doubles && !system->structure && zd_lane_functions_of(system, settings->vector, &closed_form) != NULL;
+    return batch->lanes && !batch->settings_differ && !batch->family && batch->doubles && !system->structure
+        && are_known(settings->events, system) && zd_lanes_serve_settings(system, settings)
+        && zd_lane_functions_of(system, settings->vector, &closed_form) != NULL;
 }
 
 /* True if the corrections after the projection can be made lane by lane. Events require them in each step. */
@@ -56,37 +47,34 @@ int zd_lanes_serve_run(const zd_run *run)
 {
     const zd_motion *motion = &run->motion;
     const zd_constraint_target *target = &motion->target;
-    if (!(zd_has_closed_form(motion) || motion->system.pinned) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
+    if (!zd_has_closed_form(motion) || motion->statistics.rank != zd_constraints(&motion->system)) return 0;
     if (motion->formulation_size != motion->system.nq + motion->system.nv || motion->corrections_size) return 0;
     if (motion->corrections == 0) return 1;
-    return rest_serves(run) && target->positions && target->velocities && target->in_mass_metric
-        && (target->every == 1 || zd_has_closed_form(motion));
+    return rest_serves(run) && target->positions && target->velocities && target->in_mass_metric;
 }
 
 /* ---- memory ---- */
 
-/* `pins` NULL: closed-form functions are used. */
-static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single_run *own, zd_run *run, const zd_pins_plan *pins)
+static zd_lane_group lay_out(zd_arena *arena, const zd_batch *batch, const zd_single_run *own, zd_run *run)
 {
     const zd_system *system = batch->system;
-    const size_t rows = pins ? 0 : (size_t)(zd_constraints(system) * system->nv);      /* pins do not use C */
+    const size_t size_of_C = (size_t)(zd_constraints(system) * system->nv);
     const zd_closed_form *closed_form = NULL;
     zd_lane_group group = {
         .batch = batch, .own = own, .run = run,
-        .functions = pins ? zd_lane_functions_for(batch->settings->vector)
-                          : zd_lane_functions_of(system, batch->settings->vector, &closed_form),
+        .functions = zd_lane_functions_of(system, batch->settings->vector, &closed_form),
         .start = zd_arena_bytes(arena, zd_run_start_memory(run)),
         .p = zd_arena_doubles(arena, (size_t)system->nq),
         .v = zd_arena_doubles(arena, (size_t)system->nv),
-        .C = zd_arena_doubles(arena, rows),
+        .C = zd_arena_doubles(arena, size_of_C),
         .terms = {.scratch = zd_arena_doubles(arena, (size_t)system->scratch), .inputs = run->motion.point->inputs},
     };
-    zd_lanes_create(&group.lanes, arena, run, group.functions, closed_form, pins, pins ? zd_lane_pins_numbers(pins->of) : batch->doubles);
+    zd_lanes_create(&group.lanes, arena, run, group.functions, closed_form, batch->doubles);
     group.reader = zd_reader_create(arena, batch->settings->events, system, run->motion.point->inputs, NULL);
     for (int lane = 0; lane < ZD_MAX_LANES; lane++)
         group.run_of[lane] = (zd_lane_run){
             .number = -1,
-            .C = zd_arena_doubles(arena, rows),
+            .C = zd_arena_doubles(arena, size_of_C),
             .search = zd_lane_search_create(arena, &group.lanes),
         };
     return group;
@@ -119,9 +107,7 @@ static int find_next(zd_lane_group *self)
 static void begin(zd_lane_group *self, int lane)
 {
     const int64_t number = self->next - 1;
-    const zd_pinned *pinned = self->lanes.pins ? self->batch->system->pinned : NULL;
-    const int64_t numbers = pinned ? zd_lane_pins_numbers(pinned) : self->batch->doubles;
-    zd_lanes_load(&self->lanes, lane, self->run, pinned ? pinned->numbers : zd_single_run_data(self->batch, number), numbers);
+    zd_lanes_load(&self->lanes, lane, self->run, zd_single_run_data(self->batch, number), self->batch->doubles);
     self->run_of[lane].number = number;
     self->run_of[lane].rows = self->run_of[lane].next = 0;
     zd_event_samples_clear(self->batch, number);
@@ -174,7 +160,7 @@ static void end(zd_lane_group *self, int lane)
     self->batch->rows[number] = self->run_of[lane].rows;
     self->batch->status[number] = self->run_of[lane].search.ended ? say_event(self, lane) : ZD_DONE;
     self->batch->statistics[number] = (zd_statistics){
-        .steps = steps, .closed_form_steps = lanes->closed_form ? steps : 0, .rejected = (int64_t)lanes->rejected[lane],
+        .steps = steps, .closed_form_steps = steps, .rejected = (int64_t)lanes->rejected[lane],
         .position_iterations = (int64_t)lanes->iterations[lane], .velocity_corrections = lanes->corrects ? count_corrected(lanes, lane) : 0,
         .stiff = (int64_t)lanes->stiff[lane],
         .energy_corrections = run->of_energy.corrections, .energy_skipped = run->of_energy.skipped,
@@ -203,12 +189,6 @@ static int is_over(zd_lane_group *self, int lane)
     return 1;
 }
 
-/* Evaluates the accelerations of runs that have just begun, in all lanes at once. A run without a suitable order of elimination leaves. */
-static void evaluate_rates(zd_lane_group *self)
-{
-    if (self->lanes.closed_form) self->functions->choose(&self->lanes);
-}
-
 /* Replaces runs that have ended; returns 1 if a run has begun, whose first sample may be due. */
 static int replace(zd_lane_group *self)
 {
@@ -220,7 +200,7 @@ static int replace(zd_lane_group *self)
             has_begun |= self->run_of[lane].number >= 0;
         } else if (self->run_of[lane].number >= 0) zd_lane_group_set_next(self, lane);
     }
-    if (has_begun) evaluate_rates(self);
+    if (has_begun) self->functions->choose(&self->lanes);
     return has_begun;
 }
 
@@ -244,7 +224,7 @@ static void run_all(zd_lane_group *self)
     self->lanes.of = self;
     if (self->run->motion.corrections > 1) self->lanes.correct_rest = zd_lane_group_correct_rest;
     for (int lane = 0; lane < self->lanes.lanes; lane++) fill(self, lane);
-    evaluate_rates(self);
+    self->functions->choose(&self->lanes);
     while (self->active && !zd_batch_is_stopped(self->batch)) {
         check(self);
         if (self->active) self->functions->advance(&self->lanes);
@@ -265,13 +245,13 @@ static zd_run *create_first(const zd_batch *batch, const zd_single_run *own, int
     return NULL;
 }
 
-static int run_in_lanes(const zd_batch *batch, const zd_single_run *own, zd_run *run, int64_t first, const zd_pins_plan *pins)
+static int run_in_lanes(const zd_batch *batch, const zd_single_run *own, zd_run *run, int64_t first)
 {
     zd_arena arena = {0};
-    lay_out(&arena, batch, own, run, pins);
+    lay_out(&arena, batch, own, run);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return ZD_NO_MEMORY;
-    zd_lane_group group = lay_out(&arena, batch, own, run, pins);
+    zd_lane_group group = lay_out(&arena, batch, own, run);
     group.next = first;
     run_all(&group);
     zd_release(arena.base);
@@ -283,15 +263,10 @@ int zd_run_side_by_side(const zd_batch *batch, const zd_single_run *own)
     int64_t first;
     zd_run *run = create_first(batch, own, &first);
     if (!run) return ZD_DONE;
-    zd_pins_plan plan, *pins = are_of_pins(batch) ? &plan : NULL;
     int status = ZD_DONE;
-    if (!zd_lanes_serve_run(run))
+    if (zd_lanes_serve_run(run)) status = run_in_lanes(batch, own, run, first);
+    else
         for (int64_t i = first; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run_execute(batch, own, i);
-    else if (!pins) status = run_in_lanes(batch, own, run, first, NULL);
-    else if (zd_pins_plan_find(pins, batch->system->pinned)) {
-        status = run_in_lanes(batch, own, run, first, pins);
-        zd_pins_plan_free(pins);
-    } else status = ZD_NO_MEMORY;
     zd_run_free(run);
     return status;
 }

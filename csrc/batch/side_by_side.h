@@ -4,8 +4,7 @@
 
 #include "single_run.h"
 
-/* True if lanes can make the corrections: none, or projection of positions and velocities in the mass metric with those that follow it;
- * with pins, in each step. */
+/* True if lanes can make the corrections: none, or positions and velocities in the mass metric, and those that follow. */
 int zd_lanes_serve_run(const zd_run *run);
 /* True if the system and the settings of the batch admit runs in lanes. */
 int zd_lanes_serve(const zd_batch *batch);

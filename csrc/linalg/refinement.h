@@ -1,4 +1,4 @@
-/* Limits of iterative refinement, x <- x + solve(rhs - C x): for single runs and lanes alike. */
+/* Limits of iterative refinement, x <- x + solve(rhs - C x). */
 #ifndef ZD_REFINEMENT_H
 #define ZD_REFINEMENT_H
 

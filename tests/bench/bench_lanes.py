@@ -41,7 +41,6 @@ RUNS, STEPS, STEP, END = 1024, 800, 0.01, 8.0
 RTOLS = {1e-6: 10.0 ** -np.arange(7, 8.6, 0.25), 1e-9: 10.0 ** -np.arange(10, 12.6, 0.25)}
 ROUNDS = 20
 FEW_STEPS, MORE_STEPS, IN_A_ROW = (1, 2, 4, 8), 72, 5     # steps of short and longer runs; calls of a round
-FEW, FINE = 32, 1e-3     # runs and steps of many bodies
 BAR = zd.systems.four_bar()
 SPEEDS = np.linspace(0.9, 1.1, RUNS)
 
@@ -186,25 +185,6 @@ def chosen_steps():
         yield f"to {target:g}: ours to theirs (at least 1)", there / here, "", None
 
 
-def many_bodies():
-    """Rows: a step of 40 four-bars in a row, in absolute coordinates, in lanes and one at a time."""
-    system = zd.models.four_bars(40).system("absolute")
-    starts = np.tile(system.p0, (FEW, 1)), np.linspace(0.99, 1.01, FEW)[:, None] * system.v0
-
-    def runs_of(steps):
-        end = steps * FINE
-        plan = checked(Runs(system, None, *starts, None, (), assembles=False), end, {"t_eval": [end], "step": FINE},
-                       [system.coordinates[2].name], None, keeps=False)
-        return functools.partial(batch_range, plan, batch_of(plan), 0, FEW, None)
-
-    short, long = runs_of(20), runs_of(120)
-    times = least(ROUNDS, *map(cpu, (short, long, without_lanes(short), without_lanes(long))))
-    lanes, alone = ((times[i + 1] - times[i]) / 100 / FEW for i in (0, 2))
-    yield "40 four-bars in a row: a step in lanes", 1e6 * lanes, "us", None
-    yield "40 four-bars in a row: a step one at a time", 1e6 * alone, "us", None
-    yield "40 four-bars in a row: one at a time to lanes (at least 3 in 8)", alone / lanes, "", None
-
-
 def both_threads():
     """Row: how much faster two threads make them than one; of wall time, so that other work shows."""
     def by(threads):
@@ -219,7 +199,7 @@ def both_threads():
 
 
 if __name__ == "__main__":
-    rows = [*steps_of_fixed_size(), *many_bodies(), *both_threads()]
+    rows = [*steps_of_fixed_size(), *both_threads()]
     try:
         rows += chosen_steps()
     except ImportError as error:

@@ -2,7 +2,6 @@
  * depend on the other lanes.
  */
 #include "../../include/zerodrift/lanes.h"
-#include "../../linalg/refinement.h"
 #include "../../step_limits.h"
 #include "numbers.h"
 
@@ -72,8 +71,6 @@ ZD_KERNEL void ZD_NAMED(combine)(const zd_lanes *self, int begin, int count, con
     for (; i < begin + count; i++) ZD_NAMED(add)(1, 1, &of, i, REAL(from), REAL(to));
 }
 
-#include "pins.h"
-
 /* ---- closed-form functions ---- */
 
 /* Results of the closed-form functions. */
@@ -106,10 +103,6 @@ ZD_KERNEL int ZD_NAMED(common_order)(const zd_lanes *self)
 
 ZD_KERNEL void ZD_NAMED(accelerate)(const zd_lanes *self, const double *t, const double *p, const double *v, const ZD_NAMED(rates) *to)
 {
-    if (self->pins) {
-        ZD_NAMED(accelerate_pins)(self, p, v, to->vdot, to->lambda);
-        return;
-    }
     const int common = ZD_NAMED(common_order)(self), nq = self->nq, nv = self->nv, m = self->m;
     if (common >= 0) {
         ZD_NAMED(call)(self, self->closed_form->order + common, t, p, v, to);
@@ -131,13 +124,9 @@ ZD_KERNEL void ZD_NAMED(accelerate)(const zd_lanes *self, const double *t, const
     }
 }
 
-/* Phi, dp and dv at (t, p, v), with the order of elimination at the start of the step; for pins, Phi alone. */
+/* Phi, dp and dv at (t, p, v), with the order of elimination at the start of the step. */
 ZD_KERNEL void ZD_NAMED(correct)(const zd_lanes *self, const double *t, const double *p, const double *v)
 {
-    if (self->pins) {
-        ZD_NAMED(close_pins)(self, p);
-        return;
-    }
     const int common = ZD_NAMED(common_order)(self);
     const zd_elimination *order = self->closed_form->order;
     if (common >= 0) {

@@ -3,7 +3,6 @@
 #define ZD_LANE_NUMBERS_H
 
 #include "../../integrators/runge_kutta.h"
-#include "pins_structure.h"
 
 enum { ZD_MAX_LANES = 8 };
 
@@ -29,8 +28,7 @@ typedef struct zd_watched {
 
 /* Numbers common to all lanes, then those of each lane. */
 typedef struct zd_lanes {
-    const zd_closed_form *closed_form;   /* closed-form functions; NULL: revolute joints are used instead */
-    zd_lane_pins *pins;     /* bodies joined by revolute joints; NULL: closed-form functions are used */
+    const zd_closed_form *closed_form;
     zd_method method;
     int lanes, nq, nv, m, mh, size;     /* size: of the state y = p, v and, if required, the energy input */
     int has_A, has_input, max_iterations, corrects;

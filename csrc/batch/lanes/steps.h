@@ -31,10 +31,8 @@ ZD_KERNEL zd_condition ZD_NAMED(correct_state)(zd_lanes *self, const double *t, 
         open &= ~failed;
         if (!ZD_ANY(open)) break;
         count += AS_NUMBER(open);
-        if (self->pins) ZD_NAMED(correct_pins)(self, y);
         for (int i = 0; i < self->nq; i++) REAL(y)[i] = ZD_WHERE(open, REAL(y)[i] - REAL(self->dp)[i], REAL(y)[i]);
     }
-    if (self->pins) ZD_NAMED(slow_pins)(self, y, v);
     for (int i = 0; i < self->nv; i++) REAL(v)[i] = ZD_WHERE(wanted, REAL(v)[i] - REAL(self->dv)[i], REAL(v)[i]);
     *REAL(self->iterations) += count;
     *REAL(self->peak_iterations) = LARGER(count, *REAL(self->peak_iterations));
@@ -103,7 +101,6 @@ ZD_KERNEL zd_condition ZD_NAMED(pivots_are_sound)(const zd_lanes *self, zd_condi
 {
     zd_condition sound = ZD_SPLAT(0.0) != 0.0;
     *continues = sound;
-    if (self->pins) return *continues = ~HOLDS(self->pins->is_lost);
     for (int i = 0; i < self->closed_form->orders; i++) {
         const zd_condition has = *REAL(self->order) == (double)i;
         if (!ZD_ANY(has)) continue;
@@ -131,22 +128,12 @@ ZD_KERNEL void ZD_NAMED(watch_stability)(zd_lanes *self, zd_real h, zd_real move
     *REAL(self->streak) = ZD_WHERE(square * square * changed > self->limit * moved, streak, ZD_SPLAT(0.0));
 }
 
-/* True if no coordinate has moved so far that rows of C may have turned in the step. The norm over all of many coordinates is always
- * large. */
-ZD_KERNEL zd_condition ZD_NAMED(is_short_of_many)(const zd_lanes *self)
-{
-    zd_condition is_short = ZD_SPLAT(0.0) == 0.0;
-    for (int i = 0; i < self->nq; i++)
-        is_short &= ZD_NAMED(size_of)(REAL(self->y1)[i] - REAL(self->y)[i]) * REAL(self->inverse_unit_p)[i] <= ZD_LONG_PATH;
-    return is_short;
-}
-
 /* True if the step to y1 is accepted; else the run has to be made individually. */
 ZD_KERNEL zd_condition ZD_NAMED(is_accepted)(zd_lanes *self, zd_real h, zd_real *speed, zd_condition *continues)
 {
     const ZD_NAMED(path) path = ZD_NAMED(find_path)(self, h);
     *speed = path.speed;
-    const zd_condition is_short = self->pins ? ZD_NAMED(is_short_of_many)(self) : path.moved <= ZD_FAR_PATH * ZD_FAR_PATH;
+    const zd_condition is_short = path.moved <= ZD_FAR_PATH * ZD_FAR_PATH;
     const zd_condition is_calm = (ZD_CALM_DETOUR * ZD_CALM_DETOUR * path.detour <= path.moved + self->nearby)
                                & (path.speed <= ZD_FASTER_SPEED * *REAL(self->fastest) + self->nearby);
     *REAL(self->check_soon) = ZD_WHERE(is_calm, *REAL(self->check_soon), ZD_SPLAT(1.0));
@@ -156,7 +143,7 @@ ZD_KERNEL zd_condition ZD_NAMED(is_accepted)(zd_lanes *self, zd_real h, zd_real 
         zd_condition near = path.detour <= bound;
         if (ZD_ANY(~near)) near |= ZD_NAMED(is_near)(self, h, bound);
         accepted &= near;
-        if (!self->pins) *REAL(self->is_long) = AS_NUMBER(path.moved > ZD_LONG_PATH * ZD_LONG_PATH);
+        *REAL(self->is_long) = AS_NUMBER(path.moved > ZD_LONG_PATH * ZD_LONG_PATH);
     }
     if (self->is_fixed) {
         ZD_NAMED(watch_stability)(self, h, path.moved);

@@ -21,24 +21,26 @@ static int lanes_serve_inputs(const zd_inputs *inputs)
 }
 
 /* True if lanes can make the steps of a run like this one. A speed is followed within a step, which lanes do not do. */
-static int are_served(const zd_open_runs *runs, const zd_run *run, const zd_closed_form **closed_form)
+static int are_served(const zd_open_runs *runs, const zd_run *run)
 {
     const zd_settings *settings = &run->settings;
     const zd_system *system = &run->motion.system;
+    const zd_closed_form *closed_form;
     return runs->data && settings->steps == ZD_FIXED_STEPS && !settings->events && lanes_serve_inputs(settings->inputs)
         && zd_lanes_serve_settings(system, settings) && !system->structure && zd_has_closed_form(&run->motion) && zd_lanes_serve_run(run)
-        && run->motion.corrections < 2 && zd_lane_functions_of(system, settings->vector, closed_form) != NULL;
+        && run->motion.corrections < 2 && zd_lane_functions_of(system, settings->vector, &closed_form) != NULL;
 }
 
-static zd_open_lanes *lay_out(zd_arena *arena, const zd_open_runs *runs, int64_t first, int64_t count, const zd_closed_form *closed_form)
+static zd_open_lanes *lay_out(zd_arena *arena, const zd_open_runs *runs, int64_t first, int64_t count)
 {
     const zd_run *run = runs->run[first];
     zd_open_lanes nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
-    const zd_lane_functions *functions = zd_lane_functions_for(run->settings.vector);
+    const zd_closed_form *closed_form;
+    const zd_lane_functions *functions = zd_lane_functions_of(&run->motion.system, run->settings.vector, &closed_form);
     const int64_t groups = (count + functions->lanes - 1) / functions->lanes;
     *self = (zd_open_lanes){.runs = runs, .first = first, .count = count, .functions = functions,
                             .order = run->motion.path.closed_form->order};
-    zd_lanes_create(&self->lanes, arena, run, functions, closed_form, NULL, runs->doubles);
+    zd_lanes_create(&self->lanes, arena, run, functions, closed_form, runs->doubles);
     self->lanes.rounds_products = 1;
     self->lanes.end = INFINITY;
     self->lanes.steps = -1;         /* no step is the last one */
@@ -52,12 +54,11 @@ static zd_open_lanes *lay_out(zd_arena *arena, const zd_open_runs *runs, int64_t
 
 zd_open_lanes *zd_open_lanes_create(const zd_open_runs *runs, int64_t first, int64_t count)
 {
-    const zd_closed_form *closed_form;
     zd_arena arena = {0};
-    if (!count || !are_served(runs, runs->run[first], &closed_form)) return NULL;
-    lay_out(&arena, runs, first, count, closed_form);
+    if (!count || !are_served(runs, runs->run[first])) return NULL;
+    lay_out(&arena, runs, first, count);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
-    return arena.base ? lay_out(&arena, runs, first, count, closed_form) : NULL;
+    return arena.base ? lay_out(&arena, runs, first, count) : NULL;
 }
 
 void zd_open_lanes_free(zd_open_lanes *self)

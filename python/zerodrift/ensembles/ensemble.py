@@ -42,11 +42,11 @@ def ensemble(system: Any, t_span: Any, *, parameters: Any = None, p0: Any = None
     Runs execute in threads, or in the workers of an executor. Results do not depend on their number or order. Failed runs are
     kept with their message: see `failed` and `messages` of the result.
 
-    The core makes runs without Python where it can. In SIMD lanes, several at once: if the system is evaluated in closed form
-    (or is a mechanism in absolute coordinates with revolute joints only and more than 40 constraints), outputs are coordinates,
-    velocities and multipliers, output times are known in advance, and events are names or expressions. One by one, assembly and
-    measures included: planar mechanisms with varied numbers, without user functions, wishes and drives of constant speed. These
-    results agree with `simulate` to rounding. All other runs are made by `simulate`; `repr` gives the number of each kind.
+    The core makes runs without Python where it can. In SIMD lanes, several at once: if the system is evaluated in closed form,
+    outputs are coordinates, velocities and multipliers, output times are known in advance, and events are names or expressions.
+    One by one, assembly and measures included: planar mechanisms with varied numbers, without user functions, wishes and drives
+    of constant speed. These results agree with `simulate` to rounding. All other runs are made by `simulate`; `repr` gives the
+    number of each kind.
 
     Parameters
     ----------

@@ -1,8 +1,6 @@
 /* Storage of free bodies, and the constraint rows that are revolute joints. */
 #include "structure.h"
 
-#include <string.h>
-
 void zd_packing_create(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms, size_t lines)
 {
     zd_packed_create(&self->packed, arena, bodies, rows, terms);
@@ -15,10 +13,6 @@ void zd_packing_create(zd_packing *self, zd_arena *arena, size_t bodies, size_t 
     TAKE(revolutes.end, rows);
     TAKE(lines.line, lines);
     TAKE(is_known, rows);
-    TAKE(at, bodies + 1);
-    TAKE(pin_first, rows / 2);
-    TAKE(pin_second, rows / 2);
-    TAKE(numbers, 2 * bodies + 3 * rows + 2);
 #undef TAKE
 }
 
@@ -73,39 +67,6 @@ static void plan_weight(zd_packing *self, const zd_plane *mechanism)
     }
 }
 
-static int has_mass(const zd_plane *mechanism, int body)
-{
-    const zd_plane_link *link = mechanism->tree.link + body;
-    return link->mass > 0 && (link->hang != ZD_HANGS_FREE || link->inertia > 0);
-}
-
-/* Fills in the description for SIMD lanes, if revolute joints and weight are all there is and all bodies have mass. */
-static void plan_pinned(zd_packing *self, const zd_plane *mechanism)
-{
-    const zd_revolute_joints *revolutes = &self->revolutes;
-    const int bodies = mechanism->tree.bodies;
-    int is_all = revolutes->are_all && revolutes->count && !mechanism->elements.forces;
-    for (int b = 1; b <= bodies; b++) is_all &= has_mass(mechanism, b);
-    if (!is_all) return;
-    double *numbers = self->numbers;
-    for (int b = 1; b <= bodies; b++) {
-        const zd_plane_link *link = mechanism->tree.link + b;
-        self->at[b] = self->at[b - 1] + self->packed.coordinates[b - 1];
-        *numbers++ = 1 / link->mass;
-        *numbers++ = link->hang == ZD_HANGS_FREE ? 1 / link->inertia : 0;
-    }
-    for (int k = 0; k < revolutes->count; k++, numbers += 6) {
-        const zd_vector a = revolutes->points[k].first, b = revolutes->points[k].second, zero = revolutes->joint[k].zero;
-        self->pin_first[k] = revolutes->between[k].first - 1;
-        self->pin_second[k] = revolutes->between[k].second - 1;
-        const double of_pin[] = {a.x, a.y, b.x, b.y, zero.x, zero.y};
-        memcpy(numbers, of_pin, sizeof of_pin);
-    }
-    numbers[0] = mechanism->gravity.x;
-    numbers[1] = mechanism->gravity.y;
-    self->pinned = (zd_pinned){bodies, revolutes->count, self->at, self->pin_first, self->pin_second, self->numbers};
-}
-
 static void write_bodies_of(const void *quantities, int quantity, int body[2])
 {
     const zd_plane_quantity *of = quantities;
@@ -122,6 +83,5 @@ int zd_packing_plan(zd_packing *self, const zd_plane *mechanism)
     plan_revolute_joints(self, mechanism);
     plan_lines(self, mechanism);
     plan_weight(self, mechanism);
-    plan_pinned(self, mechanism);
     return 1;
 }

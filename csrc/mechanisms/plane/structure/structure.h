@@ -10,9 +10,6 @@ typedef struct zd_packing {
     zd_packed packed;
     double *weight;         /* (nv,) f of (2) due to gravity */
     zd_revolute_joints revolutes;
-    zd_pinned pinned;       /* the same for SIMD lanes; no joints if there are other elements, or bodies without mass */
-    int *at, *pin_first, *pin_second;   /* its arrays */
-    double *numbers;
     zd_lines lines;
     int is_complete;           /* 1 if all rows are lines or revolute joints */
     int *is_known;          /* (m,) 1 if the row is a line's or a revolute joint's */

@@ -255,7 +255,6 @@ static void make_system(const zd_plane_tables *tables, const parts *from, int co
         .measures = &self->measures,
         .structure = self->packing ? &self->packing->packed.structure : NULL,
         .operations = self->packing && self->packing->revolutes.are_all ? &zd_plane_products : NULL,
-        .pinned = self->packing && self->packing->pinned.pins ? &self->packing->pinned : NULL,
         .magnitudes = has_tree(tables) ? zd_plane_magnitudes : NULL,
         .magnitudes_scratch = zd_plane_frame_divide(self, &self->frame_at),
         .force_magnitudes = zd_plane_force_magnitudes,
