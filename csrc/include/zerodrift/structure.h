@@ -41,16 +41,4 @@ typedef struct zd_operations {
     void (*add_weighted)(const void *data, const zd_terms *terms, const double *W, const int *at, double *S);
 } zd_operations;
 
-/* Plane bodies joined by revolute joints (pins), under gravity only: the complete data of such a system, by which the core computes several
- * trajectories at once. Must agree with the structure, in which each body is a block of two coordinates, or three with its angle, and each
- * pin a group of two rows, in the same order. */
-typedef struct zd_pinned {
-    int bodies, pins;
-    const int *at;              /* (bodies + 1,) offset of the coordinates of each body: x and y of its mass centre, and its angle */
-    const int *first, *second;  /* (pins,) bodies; -1: the ground */
-    /* 2 per body: 1 / mass, 1 / inertia (0 without an angle); 6 per pin: vectors from mass centre to pin in the axes of the first and of the
-     * second body (on the ground from its origin), and the value of Phi = x2 + w - x1 - u when the pin is closed; 2 of gravity. */
-    const double *numbers;
-} zd_pinned;
-
 #endif

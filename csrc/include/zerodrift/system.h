@@ -143,7 +143,6 @@ typedef struct zd_system {
     const void *names;
     const zd_structure *structure;  /* NULL: one block, one group, matrices dense */
     const zd_operations *operations;
-    const zd_pinned *pinned;
     const zd_closed_form *closed_form;  /* (closed_forms,) at most one for each unit and number of lanes; those for one lane serve single
                                          * runs */
     int closed_forms;
