@@ -53,7 +53,8 @@ static int read_gaps(const gaps *self, const double *p)
         if (owner->owner != ZD_OF_JOINT) continue;
         double *open = self->open + owner->index;
         if (!self->names_loops) *open = fmax(*open, fabs(self->Phi[row]));
-        else if (!block->layout.of->is_angle_row(&block->layout, owner->index, owner->component)) *open = sqrt(*open * *open + self->Phi[row] * self->Phi[row]);
+        else if (!block->layout.of->is_angle_row(&block->layout, owner->index, owner->component))
+            *open = sqrt(*open * *open + self->Phi[row] * self->Phi[row]);
     }
     return status;
 }
