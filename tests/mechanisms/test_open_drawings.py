@@ -36,7 +36,7 @@ def warned(run, system, *given, **options):
 def test_each_kind_of_run_warns_once_of_a_joint_that_is_drawn_open(dimension, layout):
     system = drawn_linkage(dimension, 0.5).system(layout)
     for run, given in ((zd.simulate, {"t_span": 0.01, "step": 0.01}), (zd.Run, {"step": 0.01}),
-                       (zd.Run, {"runs": 3, "step": 0.01}),
+                       (zd.ManyRuns, {"runs": 3, "step": 0.01}),
                        (zd.ensemble, {"t_span": 0.01, "parameters": {"a.mass": [1.0, 2.0, 3.0]}, "step": 0.01}),
                        (zd.ensemble, {"t_span": 0.01, "start": {"A.speed": [0.1, 0.2]}, "step": 0.01})):
         said = warned(run, system, **given)
