@@ -67,8 +67,8 @@ def reference(
         As in `simulate`: largest change of a coordinate in any step of any run, in m or rad. A force in a narrow region may be
         missed unless `max_move` is at most a third of its width.
     t_eval : array_like (k,), optional
-        Output times in s. By default every step; `zerodrift.plot.error` and `zd.compare.difference` then evaluate the
-        motion at any other time, too, by a shorter step of the same method.
+        Output times in s. By default every step; `zerodrift.plot.error` and `zerodrift.studies.compare.difference` then evaluate
+        the motion at any other time, too, by a shorter step of the same method.
     formulations : (str, str), optional
         Formulations of the solution and of the check; by default the first and the last that suit the system.
     stabilization : None, "projection", "baumgarte", Projection or Baumgarte
