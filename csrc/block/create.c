@@ -24,12 +24,10 @@ static arrays create_tables(const zd_block_layout *layout, zd_arena *arena)
     arrays taken = {{NULL}};
     for (int section = ZD_BLOCK_BODIES; section <= ZD_BLOCK_MEASURES; section++) {
         const size_t size = zd_block_structure_in(layout, section)->size;
-        taken.section[section] = zd_arena_bytes(arena, (size_t)layout->part[section].count * size);
+        taken.section[section] = zd_arena_bytes(arena, (size_t)zd_block_count(layout, section) * size);
     }
     return taken;
 }
-
-static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
 
 /* ---- checks of what the mechanism does not check ---- */
 
@@ -50,18 +48,18 @@ static int laws_suit(const zd_block_layout *layout, const zd_elements *elements,
 
 static int laws_know_time(const zd_block_layout *layout)
 {
-    for (int i = 0; i < count_of(layout, ZD_BLOCK_INSTRUCTIONS); i++)
+    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_INSTRUCTIONS); i++)
         if (zd_block_is(*zd_block_entry(layout, ZD_BLOCK_INSTRUCTIONS, i), ZD_CODE_TIME)) return 1;
     return 0;
 }
 
 static int fits(const zd_block *self, zd_complaint to)
 {
-    const int start = count_of(&self->layout, ZD_BLOCK_START), needed = self->system.nq + self->system.nv;
+    const int start = zd_block_count(&self->layout, ZD_BLOCK_START), needed = self->system.nq + self->system.nv;
     if (start && start != needed) return zd_complain(to, "the start must have %d numbers, p and v, not %d", needed, start);
-    for (int i = 0; i < count_of(&self->layout, ZD_BLOCK_OUTPUTS); i++) {
+    for (int i = 0; i < zd_block_count(&self->layout, ZD_BLOCK_OUTPUTS); i++) {
         const double measure = *zd_block_entry(&self->layout, ZD_BLOCK_OUTPUTS, i);
-        if (!zd_block_is_integer(measure, 0, count_of(&self->layout, ZD_BLOCK_MEASURES)))
+        if (!zd_block_is_integer(measure, 0, zd_block_count(&self->layout, ZD_BLOCK_MEASURES)))
             return zd_complain(to, "output %d: its measure must exist, and is %g", i, measure);
         self->output[i] = (int)measure;
     }
@@ -73,10 +71,10 @@ static int fits(const zd_block *self, zd_complaint to)
 static zd_elements elements_of(zd_block *self, const arrays *from)
 {
     const zd_block_layout *layout = &self->layout;
-    const int laws = count_of(layout, ZD_BLOCK_LAWS);
+    const int laws = zd_block_count(layout, ZD_BLOCK_LAWS);
     return (zd_elements){
-        .terms = count_of(layout, ZD_BLOCK_TERMS), .relations = count_of(layout, ZD_BLOCK_RELATIONS),
-        .forces = count_of(layout, ZD_BLOCK_FORCES), .measures = count_of(layout, ZD_BLOCK_MEASURES),
+        .terms = zd_block_count(layout, ZD_BLOCK_TERMS), .relations = zd_block_count(layout, ZD_BLOCK_RELATIONS),
+        .forces = zd_block_count(layout, ZD_BLOCK_FORCES), .measures = zd_block_count(layout, ZD_BLOCK_MEASURES),
         .term = from->section[ZD_BLOCK_TERMS], .relation = from->section[ZD_BLOCK_RELATIONS],
         .force = from->section[ZD_BLOCK_FORCES], .measure = from->section[ZD_BLOCK_MEASURES],
         .law = laws ? zd_block_law : NULL, .owner = &self->laws, .laws_know_time = laws_know_time(layout),
@@ -92,9 +90,9 @@ static int make(zd_block *self, const arrays *from, zd_complaint to)
     if (!self->layout.of->make(self, from->section, &elements, to)) return 0;
     self->system.name_constraint = zd_block_name_row;
     self->system.names = &self->names;
-    if (count_of(&self->layout, ZD_BLOCK_LAWS)) self->system.failure = "a user function of the mechanism is not defined here, as a table "
-                                                                        "beyond its ends";
-    self->outputs = (zd_outputs){NULL, count_of(&self->layout, ZD_BLOCK_OUTPUTS), self->output};
+    if (zd_block_count(&self->layout, ZD_BLOCK_LAWS))
+        self->system.failure = "a user function of the mechanism is not defined here, as a table beyond its ends";
+    self->outputs = (zd_outputs){NULL, zd_block_count(&self->layout, ZD_BLOCK_OUTPUTS), self->output};
     if (!fits(self, to)) return 0;
     zd_block_inputs_begin(self);
     return 1;
@@ -107,14 +105,14 @@ static zd_block *create(zd_arena *arena, size_t size, const zd_block_layout *lay
     zd_block nowhere = {.size = 0}, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
     self->word = zd_arena_bytes(arena, size);
     self->laws.value = zd_arena_doubles(arena, (size_t)longest);
-    const size_t inputs = (size_t)count_of(layout, ZD_BLOCK_INPUTS);
+    const size_t inputs = (size_t)zd_block_count(layout, ZD_BLOCK_INPUTS);
     zd_block_inputs_memory *memory = &self->inputs_memory;
     memory->value = zd_arena_doubles(arena, inputs);
     memory->lower = zd_arena_doubles(arena, inputs);
     memory->upper = zd_arena_doubles(arena, inputs);
     self->laws.speed = memory->speed = zd_arena_doubles(arena, 3 * inputs);
     memory->place = zd_arena_bytes(arena, inputs * sizeof *memory->place);
-    self->output = zd_arena_bytes(arena, (size_t)count_of(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
+    self->output = zd_arena_bytes(arena, (size_t)zd_block_count(layout, ZD_BLOCK_OUTPUTS) * sizeof *self->output);
     return here;
 }
 
@@ -171,7 +169,7 @@ void zd_block_free(zd_block *block)
 
 const zd_system *zd_block_system(const zd_block *block) { return &block->system; }
 
-int zd_block_bodies(const zd_block *block) { return count_of(&block->layout, ZD_BLOCK_BODIES); }
+int zd_block_bodies(const zd_block *block) { return zd_block_count(&block->layout, ZD_BLOCK_BODIES); }
 
 int zd_block_poses(const zd_block *block, const double *p, double *poses, double *scratch)
 {

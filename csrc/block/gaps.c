@@ -12,9 +12,8 @@
 static const double CLOSED = 1e-6;          /* relative to the mechanism's length: gap of joints that can close */
 static const double EQUAL = 1e-4;           /* relative: difference of gaps below which the first one is named */
 static const char *const HINT = "; look at the lengths, or draw it nearer";
-enum { NAMED = 3, MOST = 1000 };            /* joints in a sentence; constraints or velocities of dense matrices */
+enum { NAMED = 3, MAX_DENSE = 1000 };            /* joints in a sentence; constraints or velocities of dense matrices */
 
-static int count_of(const zd_block *block, int section) { return block->layout.part[section].count; }
 static double length_of(const zd_block *block) { return block->layout.part[ZD_BLOCK_GRAVITY].word[block->layout.of->dimension]; }
 
 /* ---- gaps at a position ---- */
@@ -28,10 +27,10 @@ typedef struct gaps {
     int *is_angle, *row, *of_loop;          /* (nv,) and (mh,) of zd_assembly_given; (bodies + 1 + joints,) */
 } gaps;
 
-static gaps take(zd_arena *arena, const zd_block *block)
+static gaps create(zd_arena *arena, const zd_block *block)
 {
     const zd_system *system = zd_block_system(block);
-    const size_t joints = (size_t)count_of(block, ZD_BLOCK_JOINTS), bodies = (size_t)count_of(block, ZD_BLOCK_BODIES);
+    const size_t joints = (size_t)zd_block_count(&block->layout, ZD_BLOCK_JOINTS), bodies = (size_t)zd_block_bodies(block);
     const size_t mh = (size_t)system->mh, nv = (size_t)system->nv;
     return (gaps){.block = block, .Phi = zd_arena_doubles(arena, mh),
                   .v = zd_arena_doubles(arena, nv), .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
@@ -47,7 +46,7 @@ static int read_gaps(const gaps *self, const double *p)
     const zd_system *system = zd_block_system(block);
     const zd_terms terms = {.Phi = self->Phi, .scratch = self->scratch};
     const int status = system->evaluate(system->data, ZD_PHI | ZD_MOVED, 0, p, self->v, &terms);
-    memset(self->open, 0, (size_t)count_of(block, ZD_BLOCK_JOINTS) * sizeof *self->open);
+    memset(self->open, 0, (size_t)zd_block_count(&block->layout, ZD_BLOCK_JOINTS) * sizeof *self->open);
     for (int row = 0; !status && row < system->mh; row++) {
         const zd_row_owner *owner = block->names.owner + row;
         if (owner->owner != ZD_OF_JOINT) continue;
@@ -62,7 +61,7 @@ static int read_gaps(const gaps *self, const double *p)
 static int most_open(const gaps *self)
 {
     int most = 0;
-    for (int joint = 1; joint < count_of(self->block, ZD_BLOCK_JOINTS); joint++)
+    for (int joint = 1; joint < zd_block_count(&self->block->layout, ZD_BLOCK_JOINTS); joint++)
         if (self->open[joint] > self->open[most] + EQUAL * fabs(self->open[most])) most = joint;
     return most;
 }
@@ -70,7 +69,7 @@ static int most_open(const gaps *self)
 static void name_joints(const gaps *self, zd_complaint to)
 {
     int used = snprintf(to.message, (size_t)to.size, "the joints cannot all close: nearest to it there stay open ");
-    for (int i = 0; i < NAMED && i < count_of(self->block, ZD_BLOCK_JOINTS) && used < to.size; i++) {
+    for (int i = 0; i < NAMED && i < zd_block_count(&self->block->layout, ZD_BLOCK_JOINTS) && used < to.size; i++) {
         const int joint = most_open(self);
         used += snprintf(to.message + used, (size_t)(to.size - used), "%s'%s' by %.3g", i ? ", " : "",
                          zd_block_joint_name(&self->block->layout, joint), self->open[joint]);
@@ -135,12 +134,12 @@ static int explain(const gaps *self, const double *p, int is_smallest, double le
 
 static int find(const zd_block *block, const double *p, int is_smallest, double least, zd_complaint to)
 {
-    if (!count_of(block, ZD_BLOCK_NAMES) || !count_of(block, ZD_BLOCK_JOINTS)) return ZD_BAD_ARGUMENT;
+    if (!zd_block_count(&block->layout, ZD_BLOCK_NAMES) || !zd_block_count(&block->layout, ZD_BLOCK_JOINTS)) return ZD_BAD_ARGUMENT;
     zd_arena arena = {0};
-    take(&arena, block);
+    create(&arena, block);
     arena = (zd_arena){.base = zd_allocate(arena.used)};
     if (!arena.base) return ZD_NO_MEMORY;
-    gaps self = take(&arena, block);
+    gaps self = create(&arena, block);
     self.names_loops = block->layout.of->freedoms && !is_smallest;
     const int status = explain(&self, p, is_smallest, least, to);
     zd_release(arena.base);
@@ -200,7 +199,8 @@ void zd_block_explain_start(const zd_block *block, char *message, int message_si
     zd_block *other = for_gaps(block);
     if (!other) return;
     const zd_system *system = zd_block_system(other);
-    const int poses = zd_block_bodies(block) * zd_block_poses(block, NULL, NULL, NULL), is_few = system->nv <= MOST && system->mh <= MOST;
+    const int poses = zd_block_bodies(block) * zd_block_poses(block, NULL, NULL, NULL);
+    const int is_few = system->nv <= MAX_DENSE && system->mh <= MAX_DENSE;
     double *p = is_few ? zd_allocate((size_t)(system->nq + poses + zd_block_system(block)->scratch) * sizeof *p) : NULL;
     if (p) {
         copy_start(block, other, p, p + system->nq, p + system->nq + poses);

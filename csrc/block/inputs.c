@@ -10,7 +10,7 @@ static const double *input_of(const zd_block *block, int input) { return zd_bloc
 static int is_settable(const zd_block *block, const double *input)
 {
     if (zd_block_is(input[2], ZD_INPUT_SPEED)) return input[3] == 0;
-    return zd_block_is(input[2], ZD_INPUT_FORCE) && zd_block_is_integer(input[3], 0, block->layout.part[ZD_BLOCK_FORCES].count) &&
+    return zd_block_is(input[2], ZD_INPUT_FORCE) && zd_block_is_integer(input[3], 0, zd_block_count(&block->layout, ZD_BLOCK_FORCES)) &&
            block->force[(int)input[3]].kind == ZD_FORCE_CONSTANT;
 }
 
@@ -51,7 +51,7 @@ void zd_block_inputs_write(zd_block *block)
     }
 }
 
-int zd_block_inputs(const zd_block *block) { return block->layout.part[ZD_BLOCK_INPUTS].count; }
+int zd_block_inputs(const zd_block *block) { return zd_block_count(&block->layout, ZD_BLOCK_INPUTS); }
 
 const char *zd_block_input_name(const zd_block *block, int input)
 {
@@ -83,7 +83,7 @@ static int effect_is_right(const zd_block_layout *layout, const double *effect)
 {
     const zd_block_part *last = layout->part + ZD_BLOCK_START;
     const double start = (double)(last->word - layout->part[ZD_BLOCK_GRAVITY].word) + (int)ZD_BLOCK_HEADER;
-    const double products = layout->part[ZD_BLOCK_PRODUCTS].count;
+    const double products = zd_block_count(layout, ZD_BLOCK_PRODUCTS);
     return zd_block_is_integer(effect[0], ZD_BLOCK_HEADER, start) && zd_block_is_integer(effect[1], 0, products) &&
            zd_block_is_integer(effect[2], 1, products - effect[1] + 1);
 }
@@ -91,28 +91,28 @@ static int effect_is_right(const zd_block_layout *layout, const double *effect)
 static int product_is_right(const zd_block_layout *layout, const double *product)
 {
     for (int i = 1; i < 7; i += 2)
-        if (!zd_block_is_integer(product[i], 0, layout->part[ZD_BLOCK_PARAMETERS].count) || !zd_block_is_integer(product[i + 1], 0, MOST))
+        if (!zd_block_is_integer(product[i], 0, zd_block_count(layout, ZD_BLOCK_PARAMETERS)) || !zd_block_is_integer(product[i + 1], 0, MOST))
             return 0;
     return 1;
 }
 
 int zd_block_parameters_check(const zd_block_layout *layout, zd_complaint to)
 {
-    for (int i = 0; i < layout->part[ZD_BLOCK_PARAMETERS].count; i++) {
+    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_PARAMETERS); i++) {
         const double *word = zd_block_entry(layout, ZD_BLOCK_PARAMETERS, i);
         if (!zd_block_text(layout, word[0]) || !zd_block_text(layout, word[1]) || !(word[3] <= word[2] && word[2] <= word[4]))
             return zd_complain(to, "parameter %d: its texts must exist, and its value be in its range", i);
     }
-    for (int i = 0; i < layout->part[ZD_BLOCK_EFFECTS].count; i++)
+    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_EFFECTS); i++)
         if (!effect_is_right(layout, zd_block_entry(layout, ZD_BLOCK_EFFECTS, i)))
             return zd_complain(to, "effect %d: its word must be one of the tables, and its products exist", i);
-    for (int i = 0; i < layout->part[ZD_BLOCK_PRODUCTS].count; i++)
+    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_PRODUCTS); i++)
         if (!product_is_right(layout, zd_block_entry(layout, ZD_BLOCK_PRODUCTS, i)))
             return zd_complain(to, "product %d: its parameters must exist, and exponents be from 0 to 8", i);
     return 1;
 }
 
-int zd_block_parameters(const zd_block *block) { return block->layout.part[ZD_BLOCK_PARAMETERS].count; }
+int zd_block_parameters(const zd_block *block) { return zd_block_count(&block->layout, ZD_BLOCK_PARAMETERS); }
 
 const char *zd_block_parameter_name(const zd_block *block, int parameter)
 {
@@ -151,7 +151,7 @@ int zd_block_set_parameter(zd_block *block, int parameter, double value)
     const double *own = zd_block_entry(layout, ZD_BLOCK_PARAMETERS, parameter);
     if (!(own[3] <= value && value <= own[4])) return ZD_BAD_ARGUMENT;
     block->word[own - block->word + 2] = value;
-    for (int i = 0; i < layout->part[ZD_BLOCK_EFFECTS].count; i++) {
+    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_EFFECTS); i++) {
         const double *effect = zd_block_entry(layout, ZD_BLOCK_EFFECTS, i);
         if (!depends_on(layout, effect, parameter)) continue;
         double sum = 0;

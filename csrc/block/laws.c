@@ -40,9 +40,9 @@ static int instruction_is_right(const zd_block_layout *layout, const double *wor
     case ZD_CODE_NUMBER: case ZD_CODE_TIME: return 1;
     case ZD_CODE_X: case ZD_CODE_XDOT: return zd_block_is_integer(word[1], 0, terms);
     case ZD_CODE_RESULT: return zd_block_is_integer(word[1], 0, results) && zd_block_is_integer(word[2], 0, number);
-    case ZD_CODE_INPUT: return zd_block_is_integer(word[1], 0, layout->part[ZD_BLOCK_INPUTS].count) && zd_block_is_integer(word[2], 0, 3);
+    case ZD_CODE_INPUT: return zd_block_is_integer(word[1], 0, zd_block_count(layout, ZD_BLOCK_INPUTS)) && zd_block_is_integer(word[2], 0, 3);
     case ZD_CODE_SPLINE:
-        return zd_block_is_integer(word[1], 0, layout->part[ZD_BLOCK_SPLINES].count) && zd_block_is_integer(word[2], 0, number) &&
+        return zd_block_is_integer(word[1], 0, zd_block_count(layout, ZD_BLOCK_SPLINES)) && zd_block_is_integer(word[2], 0, number) &&
                zd_block_is_integer(word[3], 0, 3);
     default: break;
     }
@@ -67,7 +67,7 @@ static int has_results(const zd_block_layout *layout, const double *law)
 
 static int law_is_right(const zd_block_layout *layout, int law, zd_complaint to)
 {
-    const double *word = zd_block_entry(layout, ZD_BLOCK_LAWS, law), instructions = layout->part[ZD_BLOCK_INSTRUCTIONS].count;
+    const double *word = zd_block_entry(layout, ZD_BLOCK_LAWS, law), instructions = zd_block_count(layout, ZD_BLOCK_INSTRUCTIONS);
     if (!zd_block_is_integer(word[0], 0, instructions) || !zd_block_is_integer(word[1], 1, instructions - word[0] + 1) ||
         !zd_block_is_integer(word[2], 0, 0x1p20) || !zd_block_is_integer(word[3], 1, 0x1p20))
         return zd_complain(to, "law %d: its instructions must exist, and its counts be whole numbers", law);
@@ -79,7 +79,7 @@ static int law_is_right(const zd_block_layout *layout, int law, zd_complaint to)
 
 static int spline_is_right(const zd_block_layout *layout, int spline, zd_complaint to)
 {
-    const double *word = zd_block_entry(layout, ZD_BLOCK_SPLINES, spline), knots = layout->part[ZD_BLOCK_KNOTS].count;
+    const double *word = zd_block_entry(layout, ZD_BLOCK_SPLINES, spline), knots = zd_block_count(layout, ZD_BLOCK_KNOTS);
     if (!zd_block_is_integer(word[0], 0, knots) || !zd_block_is_integer(word[1], 2, knots - word[0] + 1))
         return zd_complain(to, "spline %d: it must have at least 2 knots, which must exist", spline);
     const double *knot = zd_block_entry(layout, ZD_BLOCK_KNOTS, (int)word[0]);
@@ -91,9 +91,9 @@ static int spline_is_right(const zd_block_layout *layout, int spline, zd_complai
 int zd_block_laws_check(const zd_block_layout *layout, zd_complaint to)
 {
     int longest = 0;
-    for (int i = 0; i < layout->part[ZD_BLOCK_SPLINES].count; i++)
+    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_SPLINES); i++)
         if (!spline_is_right(layout, i, to)) return -1;
-    for (int i = 0; i < layout->part[ZD_BLOCK_LAWS].count; i++) {
+    for (int i = 0; i < zd_block_count(layout, ZD_BLOCK_LAWS); i++) {
         if (!law_is_right(layout, i, to)) return -1;
         const int instructions = (int)zd_block_entry(layout, ZD_BLOCK_LAWS, i)[1];
         if (instructions > longest) longest = instructions;
@@ -103,7 +103,7 @@ int zd_block_laws_check(const zd_block_layout *layout, zd_complaint to)
 
 int zd_block_law_suits(const zd_block_layout *layout, int law, int terms, int results)
 {
-    if (!zd_is_in(law, layout->part[ZD_BLOCK_LAWS].count)) return 0;
+    if (!zd_is_in(law, zd_block_count(layout, ZD_BLOCK_LAWS))) return 0;
     const double *word = zd_block_entry(layout, ZD_BLOCK_LAWS, law);
     return word[2] == terms && word[3] == results;
 }

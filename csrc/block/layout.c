@@ -85,7 +85,7 @@ int zd_block_split(const double *word, size_t words, const zd_block_dimension *c
     if (!header_is_right(word, words, complaint)) return 0;
     to->of = dimension_of(known, word[3], complaint);
     if (!to->of || !place_sections(word, words, to, complaint) || !numbers_are_finite(to, complaint)) return 0;
-    if (to->part[ZD_BLOCK_GRAVITY].count != to->of->dimension + 1)
+    if (zd_block_count(to, ZD_BLOCK_GRAVITY) != to->of->dimension + 1)
         return zd_complain(complaint, "gravity must have %d components, and a length after them", to->of->dimension);
     const zd_block_part *texts = to->part + ZD_BLOCK_TEXTS;
     if (texts->count && ((const char *)(texts->word + texts->count))[-1])

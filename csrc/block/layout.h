@@ -52,6 +52,9 @@ const char *zd_block_text(const zd_block_layout *layout, double offset);
 /* True if a word has this value of an enumeration. */
 static inline int zd_block_is(double word, int value) { return word == value; }
 
+/* Number of entries of a section. */
+static inline int zd_block_count(const zd_block_layout *layout, int section) { return layout->part[section].count; }
+
 static inline const double *zd_block_entry(const zd_block_layout *layout, int section, int entry)
 {
     const zd_block_part *part = layout->part + section;

@@ -3,8 +3,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
-
 /* Members of entries: kind, first and second body begin those of joints, mass those of bodies, and is_particle and inboard end these. */
 static int end_of(const zd_block_layout *layout, int joint, int side)
 {
@@ -22,7 +20,7 @@ static double mass_of(const zd_block_layout *layout, int body) { return *zd_bloc
 
 int zd_block_has_tree(const zd_block_layout *layout)
 {
-    for (int body = 1; body <= count_of(layout, ZD_BLOCK_BODIES); body++)
+    for (int body = 1; body <= zd_block_count(layout, ZD_BLOCK_BODIES); body++)
         if (zd_block_inboard(layout, body) >= 0) return 1;
     return 0;
 }
@@ -33,7 +31,7 @@ int zd_block_has_tree(const zd_block_layout *layout)
 static int next_root(const zd_block_layout *layout, const int *distance)
 {
     int root = 0;
-    for (int body = 1; body <= count_of(layout, ZD_BLOCK_BODIES); body++) {
+    for (int body = 1; body <= zd_block_count(layout, ZD_BLOCK_BODIES); body++) {
         if (distance[body] >= 0) continue;
         const int later = root ? is_particle(layout, body) - is_particle(layout, root) : -1;
         if (later < 0 || (!later && mass_of(layout, body) > mass_of(layout, root))) root = body;
@@ -45,7 +43,7 @@ static int next_root(const zd_block_layout *layout, const int *distance)
 static int next_inboard(const zd_block_layout *layout, const int *distance, int *carried)
 {
     int best = -1, least = 0, nearest = 0;
-    for (int joint = 0; joint < count_of(layout, ZD_BLOCK_JOINTS); joint++) {
+    for (int joint = 0; joint < zd_block_count(layout, ZD_BLOCK_JOINTS); joint++) {
         for (int side = 0; side < 2; side++) {
             const int inner = end_of(layout, joint, 1 - side), outer = end_of(layout, joint, side);
             if (distance[inner] < 0 || distance[outer] >= 0) continue;
@@ -59,7 +57,7 @@ static int next_inboard(const zd_block_layout *layout, const int *distance, int 
 
 void zd_block_grow_tree(const zd_block_layout *layout, int *inboard, int *distance)
 {
-    const int bodies = count_of(layout, ZD_BLOCK_BODIES);
+    const int bodies = zd_block_count(layout, ZD_BLOCK_BODIES);
     for (int body = 0; body <= bodies; body++) distance[body] = body ? -1 : 0;
     for (int reached = 0; reached < bodies; reached++) {
         int body, joint = next_inboard(layout, distance, &body);
@@ -80,7 +78,7 @@ static const char *body_name(const zd_block_layout *layout, int body)
 
 const char *zd_block_joint_name(const zd_block_layout *layout, int joint)
 {
-    return zd_block_text(layout, *zd_block_entry(layout, ZD_BLOCK_NAMES, count_of(layout, ZD_BLOCK_BODIES) + joint));
+    return zd_block_text(layout, *zd_block_entry(layout, ZD_BLOCK_NAMES, zd_block_count(layout, ZD_BLOCK_BODIES) + joint));
 }
 
 /* Body to which a body is connected by its inboard joint; the ground for a free one. */
@@ -112,7 +110,7 @@ static void name_way(const zd_block_layout *layout, int body, int meet, int is_o
 
 int zd_block_name_loop(const zd_block_layout *layout, int joint, int *is_on_way, char *to, int size)
 {
-    const int bodies = count_of(layout, ZD_BLOCK_BODIES), joints = count_of(layout, ZD_BLOCK_JOINTS);
+    const int bodies = zd_block_count(layout, ZD_BLOCK_BODIES), joints = zd_block_count(layout, ZD_BLOCK_JOINTS);
     int *of_loop = is_on_way + bodies + 1, meet = end_of(layout, joint, 1), is_first = 1;
     text words = {to, size, 0};
     memset(is_on_way, 0, (size_t)(bodies + 1 + joints) * sizeof *is_on_way);

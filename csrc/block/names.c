@@ -3,12 +3,11 @@
 
 #include <stdio.h>
 
-static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
-
 int zd_block_names_check(const zd_block_layout *layout, zd_complaint to)
 {
-    const int names = count_of(layout, ZD_BLOCK_NAMES);
-    const int needed = count_of(layout, ZD_BLOCK_BODIES) + count_of(layout, ZD_BLOCK_JOINTS) + count_of(layout, ZD_BLOCK_RELATIONS);
+    const int names = zd_block_count(layout, ZD_BLOCK_NAMES);
+    const int needed = zd_block_count(layout, ZD_BLOCK_BODIES) + zd_block_count(layout, ZD_BLOCK_JOINTS)
+                       + zd_block_count(layout, ZD_BLOCK_RELATIONS);
     if (names && names != needed) return zd_complain(to, "names must be of all bodies, joints and relations, %d, not %d", needed, names);
     for (int i = 0; i < names; i++)
         if (!zd_block_text(layout, *zd_block_entry(layout, ZD_BLOCK_NAMES, i))) return zd_complain(to, "name %d: its text must exist", i);
@@ -21,9 +20,9 @@ void zd_block_name_row(const void *names, int row, char *to, int size)
     const zd_block_layout *layout = self->layout;
     const zd_row_owner *owner = self->owner + row;
     const int is_of_joint = owner->owner == ZD_OF_JOINT;
-    const int before = count_of(layout, ZD_BLOCK_BODIES) + (is_of_joint ? 0 : count_of(layout, ZD_BLOCK_JOINTS));
+    const int before = zd_block_count(layout, ZD_BLOCK_BODIES) + (is_of_joint ? 0 : zd_block_count(layout, ZD_BLOCK_JOINTS));
     to[0] = 0;
-    if (!count_of(layout, ZD_BLOCK_NAMES)) return;
+    if (!zd_block_count(layout, ZD_BLOCK_NAMES)) return;
     const char *name = zd_block_text(layout, *zd_block_entry(layout, ZD_BLOCK_NAMES, before + owner->index));
     if (!is_of_joint) snprintf(to, (size_t)size, "%s", name);
     else layout->of->name_row(layout, owner->index, owner->component, name, to, (size_t)size);

@@ -23,15 +23,14 @@ static const zd_block_structure structure[] = {
         2), QUANTITY(zero, 1)),
 };
 
-static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
-
 static int make(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to)
 {
     const zd_block_layout *layout = &self->layout;
     const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
     const zd_plane_tables tables = {
-        .gravity = {gravity[0], gravity[1]}, .bodies = count_of(layout, ZD_BLOCK_BODIES), .joints = count_of(layout, ZD_BLOCK_JOINTS),
-        .quantities = count_of(layout, ZD_BLOCK_QUANTITIES), .body = section[ZD_BLOCK_BODIES], .joint = section[ZD_BLOCK_JOINTS],
+        .gravity = {gravity[0], gravity[1]}, .bodies = zd_block_count(layout, ZD_BLOCK_BODIES),
+        .joints = zd_block_count(layout, ZD_BLOCK_JOINTS), .quantities = zd_block_count(layout, ZD_BLOCK_QUANTITIES),
+        .body = section[ZD_BLOCK_BODIES], .joint = section[ZD_BLOCK_JOINTS],
         .quantity = section[ZD_BLOCK_QUANTITIES], .elements = *elements};
     zd_plane *plane = zd_plane_create(&tables, to.message, to.size);
     self->mechanism = plane;

@@ -23,15 +23,13 @@ static const zd_block_structure structure[] = {
         QUANTITY(o, 3), QUANTITY(b, 3), QUANTITY(shape, 9), QUANTITY(zero, 1), QUANTITY_INT(counted)),
 };
 
-static int count_of(const zd_block_layout *layout, int section) { return layout->part[section].count; }
-
 static int make(zd_block *self, void *const *section, const zd_elements *elements, zd_complaint to)
 {
     const zd_block_layout *layout = &self->layout;
     const double *gravity = layout->part[ZD_BLOCK_GRAVITY].word;
     const zd_space_tables tables = {
-        .gravity = {gravity[0], gravity[1], gravity[2]}, .bodies = count_of(layout, ZD_BLOCK_BODIES),
-        .joints = count_of(layout, ZD_BLOCK_JOINTS), .quantities = count_of(layout, ZD_BLOCK_QUANTITIES),
+        .gravity = {gravity[0], gravity[1], gravity[2]}, .bodies = zd_block_count(layout, ZD_BLOCK_BODIES),
+        .joints = zd_block_count(layout, ZD_BLOCK_JOINTS), .quantities = zd_block_count(layout, ZD_BLOCK_QUANTITIES),
         .body = section[ZD_BLOCK_BODIES], .joint = section[ZD_BLOCK_JOINTS], .quantity = section[ZD_BLOCK_QUANTITIES],
         .elements = *elements};
     int has_tree = 0;
@@ -72,7 +70,7 @@ static int is_particle(const zd_block *block, int body)
 
 static void state(const zd_block *block, const double *poses, double *p)
 {
-    for (int body = 0; body < count_of(&block->layout, ZD_BLOCK_BODIES); body++, poses += 12) {
+    for (int body = 0; body < zd_block_count(&block->layout, ZD_BLOCK_BODIES); body++, poses += 12) {
         for (int k = 0; k < 3; k++) *p++ = poses[k];
         if (is_particle(block, body)) continue;
         zd_space_tree_quaternion(poses + 3, p);
@@ -82,7 +80,7 @@ static void state(const zd_block *block, const double *poses, double *p)
 
 static void angles(const zd_block *block, int *is_angle)
 {
-    for (int body = 0; body < count_of(&block->layout, ZD_BLOCK_BODIES); body++)
+    for (int body = 0; body < zd_block_count(&block->layout, ZD_BLOCK_BODIES); body++)
         for (int k = 0; k < (is_particle(block, body) ? 3 : 6); k++) *is_angle++ = k >= 3;
 }
 

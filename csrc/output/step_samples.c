@@ -1,7 +1,7 @@
 /* Samples of event functions within a step, between which they pass zero at most once. Values of a polynomial without corrections, which
  * costs little, show the steps in which a function may pass zero and return: dense output with adaptive steps, a cubic Hermite polynomial
- * with fixed steps. In such a step, corrected values replace them: of dense output or shorter steps. All steps have corrected values where
- * there is no such polynomial: for series, states in independent velocities, and accelerations within adaptive steps.
+ * with fixed steps. In such a step, corrected values replace them: of dense output or shorter steps. Series, states in independent
+ * velocities, and accelerations within adaptive steps lack such a polynomial: all their steps have corrected values.
  */
 #include "step_samples.h"
 

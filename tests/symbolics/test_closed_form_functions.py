@@ -232,7 +232,7 @@ def test_nothing_is_written_where_rows_depend_on_each_other_or_nearly(scale):
 
 
 def assert_says(system, sol, why):
-    """The system and its motion say why there are no closed-form functions, and no vector unit was used."""
+    """The texts of system and motion give this reason for the matrix path, and no vector unit was used."""
     assert repr(system).endswith(f" constraints, no closed-form functions: {why}>")
     assert f"\n  evaluation  matrices, no closed form: {why}\n" in repr(sol)
     assert sol.settings["vector"] is None

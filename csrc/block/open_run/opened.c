@@ -12,7 +12,7 @@
 enum { MESSAGE = ZD_OPENED_MESSAGE };
 static const double SPAN = 1;       /* s: time scale of the checks of the start */
 
-static zd_opened *take(zd_arena *arena, const zd_block *block)
+static zd_opened *create(zd_arena *arena, const zd_block *block)
 {
     const zd_system *system = zd_block_system(block);
     zd_opened nowhere, *here = zd_arena_bytes(arena, sizeof *here), *self = here ? here : &nowhere;
@@ -33,9 +33,9 @@ static zd_opened *take(zd_arena *arena, const zd_block *block)
 static zd_opened *allocate(const zd_block *block)
 {
     zd_arena counting = {.used = 0};
-    take(&counting, block);
+    create(&counting, block);
     zd_arena arena = {.base = zd_allocate(counting.used)};
-    return arena.base ? take(&arena, block) : NULL;
+    return arena.base ? create(&arena, block) : NULL;
 }
 
 typedef int zd_opened_first(zd_opened *self, double t, const double *p, const double *v);

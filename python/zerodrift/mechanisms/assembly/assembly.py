@@ -17,10 +17,10 @@ from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction, unit_of
 
 NUDGE = 1e-3            # step from a singular pose to nearby ones, in rad or parts of the mechanism's length
-MIN_RATE = 1e-9       # of the largest: velocity below which others are left as they are
-MIN_MASS = 1e-6       # of the largest, in the metric of velocities: mass of massless directions
+MIN_RATE = 1e-9         # relative to the largest velocity: rounding error of velocities
+MIN_MASS = 1e-6         # of the largest, in the metric of velocities: mass of massless directions
 RANK = 1e-9             # of the largest singular value: bound below which rows are redundant
-MAX_DENSE = 1000       # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
+MAX_DENSE = 1000        # constraints or velocities: larger matrices are not dense where all bodies are free and have mass
 
 
 class Target(NamedTuple):

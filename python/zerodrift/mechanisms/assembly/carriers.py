@@ -1,11 +1,11 @@
-"""Motion of what drives carry: velocities with which start velocities are compared.
+"""Reference motion of start velocities: that of bodies which drives move or carry.
 
 A drive that moves while all others stand still determines the velocities of some bodies. Connected bodies that it leaves
-undetermined, a group, move rigidly with one of these if no constraint hinders them: it carries them. If the drive moves none that
-the group is connected with, the group translates with the point that it moves. Motions of several drives add up.
+undetermined, a group, move rigidly with one of these if no constraint prevents it: that body carries them. If the drive moves no
+body to which the group is connected, the group translates with the driven point. Motions of several drives add up.
 
-Elements between two bodies never hinder a rigid motion of both, nor do guides in the plane of a motion. Constraints that do not
-hinder one by accident do so in a pose nearby, where the same is required.
+Elements between two bodies never prevent a rigid motion of both, nor do guides in the plane of a motion. A constraint may allow a
+motion in one pose by accident; therefore it must allow it in a nearby pose, too.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Pose(NamedTuple):
         return self._rigid(self.rigid[body], self.x[body], turns=turns)
 
     def translation(self, group: np.ndarray) -> np.ndarray:
-        """Least translation (nv,) of all bodies that the constraints of a group ask for."""
+        """Translation (nv,) of all bodies that meets the constraints of a group, by least squares."""
         rows = self.rows[:, group]
         return self._rigid(rows @ self.rigid[group], rows @ self.x[group], turns=False)
 

@@ -98,7 +98,7 @@ def _notes(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray, sing
 
 
 def _unsaid(start: Starting, tables: Any, assembly: Assembly, p: np.ndarray) -> list[str]:
-    """Sentences on what starts moving unsaid; none where start velocities contradict each other."""
+    """Sentences on undetermined start velocities; none if start velocities contradict each other."""
     try:
         return moving_unsaid(start, tables, assembly, p)
     except InconsistentStart:

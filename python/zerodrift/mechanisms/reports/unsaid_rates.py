@@ -1,21 +1,20 @@
-"""Coordinates that start moving though neither drives nor values of the start determine their rates, in words."""
+"""Start velocities that are not zero though neither drives nor given values determine them, in words."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from ..assembly.assembly import Assembly
+from ..assembly.assembly import MIN_RATE, Assembly
 from ..assembly.free_coordinates import rates_of_tree
 from ..assembly.start import Starting
 from ..equations.measure_tables import read
 from ..equations.tables import Tables
 
 MAX_NAMED = 8
-MIN_RATE = 1e-9       # of the largest velocity: rate of a coordinate that rests
 
 
 def moving_unsaid(start: Starting, tables: Tables, assembly: Assembly, p: np.ndarray) -> list[str]:
-    """Sentences on joint coordinates that start moving unsaid, and on bodies that start moving at rest in such coordinates."""
+    """Sentences on undetermined rates of joint coordinates that are not zero, and on bodies carried without such a rate."""
     v = start.velocities(assembly, p).v
     if not v.any() or not (free := start.undetermined(assembly, p)).shape[1]:
         return []
