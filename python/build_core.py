@@ -36,8 +36,8 @@ def fingerprint() -> str:
 def declarations() -> str:
     """The headers as the compiler's preprocessor leaves them; functions written in Python are marked as CFFI wants it."""
     of_mechanisms = ("common/elements.h", "common/assembly/given.h", "common/assembly/assembly.h",
-                     "common/assembly/displacement.h", "plane/joints/joint.h", "plane/forces/element.h", "plane/link.h",
-                     "plane/tables.h", "plane/assembly/varied.h", "space/joints/joint.h", "space/forces/element.h",
+                     "common/assembly/displacement.h", "plane/elements.h", "plane/link.h",
+                     "plane/tables.h", "plane/assembly/varied.h", "space/elements.h",
                      "space/tables.h", "space_tree/tree.h")
     of_systems = ("terms.h", "structure.h", "closed_form.h", "derivatives.h", "system.h")
     of_core = ("tables.h", "settings.h", "run.h", "many_runs.h", "states.h")

@@ -4,7 +4,7 @@ import re
 import shutil
 import subprocess
 import sys
-from collections import Counter, defaultdict
+from collections import defaultdict
 
 import pytest
 
@@ -13,7 +13,6 @@ from room_order import ORDER, height
 from support import ROOT
 
 LONGEST = 40        # lines of a function
-LARGEST = 20        # files of a room
 TALLEST = 350       # lines of a file
 WIDEST = 142        # columns of a line
 
@@ -127,12 +126,6 @@ def functions():
             continue
         for match in re.finditer(r"^[A-Za-z][^;={}/]*?(\w+)\([^;{}]*\)\n\{\n.*?^\}$", path.read_text(), re.MULTILINE | re.DOTALL):
             yield f"{unit_of(path)}: {match[1]}", match[0].count("\n") + 1
-
-
-def test_rooms_are_small():
-    rooms = Counter(folder_of(path.relative_to(CSRC).as_posix()) for path in CSRC.rglob("*.[ch]"))
-    assert len(rooms) > 30
-    assert {room: files for room, files in rooms.items() if files > LARGEST} == {}
 
 
 def test_files_are_short():

@@ -2,8 +2,8 @@
 
     python tests/stress/new_rows.py [FOLDER]        prints a table; some minutes
 
-A new entry is a new file and one word in `methods.h`, a new kind of joint or force element a file and one word in the
-`table.c` of its room, and a new term one line in `terms.h`. The tests that run were not written for them: they are
+A new entry is a new file and one word in `methods.h`, a new kind of joint or force element one entry in the `elements.c` of
+its dimension, and a new term one line in `terms.h`. The tests that run were not written for them: they are
 parametrized over the core's tables, and selected by the new names. The entries are small, but each one that can have
 parameters has one. The joints and force elements, of the plane and of space, are then used from Python, and compared with
 closed forms of simple motions and with the same mechanism made of existing joints and constraints. The declarations of
@@ -21,11 +21,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = shutil.ignore_patterns(".git", "build", "*.egg-info", "__pycache__", "*.so", ".pytest_cache", ".hypothesis", ".venv")
-PLANE = "csrc/mechanisms/plane/joints"
-SPACE = "csrc/mechanisms/space/joints"
-FORCES, SPACE_FORCES = "csrc/mechanisms/plane/forces", "csrc/mechanisms/space/forces"
+PLANE, SPACE = "csrc/mechanisms/plane/elements.c", "csrc/mechanisms/space/elements.c"
 WIDEST = 142        # columns of a line of C
-REGISTRY, INTERFACE, JOINTS = "csrc/methods.h", "csrc/include/zerodrift/terms.h", f"{PLANE}/table.c"
+REGISTRY, INTERFACE = "csrc/methods.h", "csrc/include/zerodrift/terms.h"
 
 INTEGRATOR = r"""
 /* Explicit Runge-Kutta methods with two stages, of which the second is a part theta of the step away. */
@@ -295,97 +293,74 @@ const zd_kind zd_spherical_pendulum = {
 };
 """
 
-PARALLEL = r"""
-/* The second body keeps its angle from the first, and its point moves freely: one row. */
-#include "joint.h"
-
-const zd_plane_joint_kind zd_parallel = {
-    .card = {"parallel", "Keeps the angle between two bodies, and lets them move apart.", "(3), (5)", 0, 0, 0},
-    .rows = 1,
-    .row = {{.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
-};
-"""
-
-OFFSET_SLIDER = r"""
-/* A slider whose axis runs beside the first body's point, at a distance that is given. */
-#include "joint.h"
-
-const zd_plane_joint_kind zd_offset_slider = {
-    .card = {"offset_slider", "Slides a body along an axis that runs beside a point of the other.", "(3), (5)", 0, 0, 0},
-    .rows = 2,
-    .row = {{.quantity = ZD_PLANE_ACROSS, .zero = ZD_ZERO_LENGTH}, {.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
-    .coordinate = "displacement", .quantity = ZD_PLANE_ALONG, .zero = ZD_ZERO_ALONG,
-    .takes_axis = 1, .takes_length = 1,
-};
-"""
-
-SOFT_GUIDE = r"""
-/* A point is pulled back to a line of the first body, and moves along it freely. */
-#include "element.h"
-
-const zd_plane_element_kind zd_soft_guide = {
-    .card = {"soft_guide", "Spring with a damper across a line of the first body.", "(2), (28)", 0, 0, 0},
-    .quantities = 1,
-    .quantity = {ZD_PLANE_ACROSS}, .zero = {ZD_ZERO_ACROSS},
-    .is_spring = 1, .axes = 1,
-    .measure = "force", .sign = 1,
-};
-"""
-
-SOFT_PLANE = r"""
-/* A point is pulled back along an axis of the first body, and moves across it freely. */
-#include "element.h"
-
-const zd_plane_element_kind zd_soft_plane = {
-    .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
-    .quantities = 1,
-    .quantity = {ZD_PLANE_ALONG}, .zero = {ZD_ZERO_ALONG},
-    .is_spring = 1, .axes = 1,
-    .measure = "force", .sign = 1,
-};
-"""
-
-SPACE_SOFT_PLANE = r"""
-/* A point is pulled back along an axis of the first body, and moves across it freely. */
-#include "../joints/primitives.h"
-#include "element.h"
-
-const zd_space_element_kind zd_space_soft_plane = {
-    .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
-    .quantities = 1,
-    .pick = {{.quantity = ZD_SPACE_ALONG, .of_first = A, .zero = ZD_SPACE_ZERO_ALONG}},
-    .is_spring = 1, .axes = 1,
-    .measure = "force", .sign = 1,
-};
-"""
-
-SWIVEL = r"""
-/* A body is turned back about an axis of the first body. */
-#include "../joints/primitives.h"
-#include "element.h"
-
-const zd_space_element_kind zd_swivel = {
-    .card = {"swivel", "Spring with a damper about an axis of the first body.", "(2), (28)", 0, 0, 0},
-    .quantities = 1,
-    .pick = {{.quantity = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}},
-    .is_spring = 1, .axes = 1,
-    .measure = "torque", .sign = 1,
-};
-"""
-
-POINT_ON_PLANE = r"""
-/* A point on a plane: the second body's point stays in a plane of the first, whose normal is the axis. */
-#include "primitives.h"
-
-const zd_space_joint_kind zd_point_on_plane = {
-    .card = {
-        .name = "point_on_plane", .summary = "Keeps a point in a plane of the first body.", .equations = "(3), (5)",
-        .description = "The body may turn about the point, and the point may slide. It is for this count of files alone.",
+PARALLEL = r"""    /* The second body keeps its angle from the first, and its point moves freely: one row. */
+    {
+        .card = {"parallel", "Keeps the angle between two bodies, and lets them move apart.", "(3), (5)", 0, 0, 0},
+        .rows = 1,
+        .row = {{.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
     },
-    .rows = 1,
-    .row = {POINT_IN_PLANE(A)},
-    .axes = 1,
-};
+"""
+
+OFFSET_SLIDER = r"""    /* A slider whose axis runs beside the first body's point, at a distance that is given. */
+    {
+        .card = {"offset_slider", "Slides a body along an axis that runs beside a point of the other.", "(3), (5)", 0, 0, 0},
+        .rows = 2,
+        .row = {{.quantity = ZD_PLANE_ACROSS, .zero = ZD_ZERO_LENGTH}, {.quantity = ZD_PLANE_ANGLE, .zero = ZD_ZERO_ANGLE}},
+        .coordinate = "displacement", .quantity = ZD_PLANE_ALONG, .zero = ZD_ZERO_ALONG,
+        .takes_axis = 1, .takes_length = 1,
+    },
+"""
+
+SOFT_GUIDE = r"""    /* A point is pulled back to a line of the first body, and moves along it freely. */
+    {
+        .card = {"soft_guide", "Spring with a damper across a line of the first body.", "(2), (28)", 0, 0, 0},
+        .quantities = 1,
+        .quantity = {ZD_PLANE_ACROSS}, .zero = {ZD_ZERO_ACROSS},
+        .is_spring = 1, .axes = 1,
+        .measure = "force", .sign = 1,
+    },
+"""
+
+SOFT_PLANE = r"""    /* A point is pulled back along an axis of the first body, and moves across it freely. */
+    {
+        .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
+        .quantities = 1,
+        .quantity = {ZD_PLANE_ALONG}, .zero = {ZD_ZERO_ALONG},
+        .is_spring = 1, .axes = 1,
+        .measure = "force", .sign = 1,
+    },
+"""
+
+SPACE_SOFT_PLANE = r"""    /* A point is pulled back along an axis of the first body, and moves across it freely. */
+    {
+        .card = {"soft_plane", "Spring with a damper along an axis of the first body.", "(2), (28)", 0, 0, 0},
+        .quantities = 1,
+        .pick = {{.quantity = ZD_SPACE_ALONG, .of_first = A, .zero = ZD_SPACE_ZERO_ALONG}},
+        .is_spring = 1, .axes = 1,
+        .measure = "force", .sign = 1,
+    },
+"""
+
+SWIVEL = r"""    /* A body is turned back about an axis of the first body. */
+    {
+        .card = {"swivel", "Spring with a damper about an axis of the first body.", "(2), (28)", 0, 0, 0},
+        .quantities = 1,
+        .pick = {{.quantity = ZD_SPACE_ANGLE, .of_first = N, .of_second = N}},
+        .is_spring = 1, .axes = 1,
+        .measure = "torque", .sign = 1,
+    },
+"""
+
+POINT_ON_PLANE = r"""    /* A point on a plane: the second body's point stays in a plane of the first, whose normal is the axis. */
+    {
+        .card = {
+            .name = "point_on_plane", .summary = "Keeps a point in a plane of the first body.", .equations = "(3), (5)",
+            .description = "The body may turn about the point, and the point may slide. It is for this count of files alone.",
+        },
+        .rows = 1,
+        .row = {POINT_IN_PLANE(A)},
+        .axes = 1,
+    },
 """
 
 # A plate on a swinging arm, by a new kind of joint and by what there was; it prints how far motions and reactions are apart.
@@ -603,6 +578,12 @@ for make in (swivel, alike, sliding, slope):
 
 LINE_OF_TERM = '    TERM(ZD_HEAT, 0x1000, heat, ZD_VECTOR(nv), ZD_OF_VELOCITIES, "what friction turns into heat, in W") \\\n'
 
+
+def entry(table, text):
+    """Place at the end of a table of joints or force elements, and its replacement with one more entry."""
+    return rf"(\}};\n\nenum \{{ {table}_COUNT)", lambda match: text + match[1]
+
+
 # What is added: the file that it is in, its text, the file that is changed, where, and by what.
 ADDED = {
     "an integrator": ("csrc/integrators/ralston.c", INTEGRATOR, REGISTRY, r"(X\(zd_rattle\))", r"\1 X(zd_ralston)"),
@@ -611,19 +592,13 @@ ADDED = {
                                     r"\1 X(zd_relaxation)"),
     "a system": ("csrc/systems/spherical_pendulum.c", SYSTEM, REGISTRY, r"(X\(zd_driven_four_bar\))",
                  r"\1 X(zd_spherical_pendulum)"),
-    "a joint of the plane": (f"{PLANE}/parallel.c", PARALLEL, JOINTS, r"(X\(zd_plane_knife_edge\))", r"\1 X(zd_parallel)"),
-    "a joint that takes something": (f"{PLANE}/offset_slider.c", OFFSET_SLIDER, JOINTS, r"(X\(zd_parallel\))",
-                                     r"\1 X(zd_offset_slider)"),
-    "a joint of space": (f"{SPACE}/point_on_plane.c", POINT_ON_PLANE, f"{SPACE}/table.c", r"(X\(zd_space_knife_edge\))",
-                         r"\1 X(zd_point_on_plane)"),
-    "a force element of the plane": (f"{FORCES}/soft_guide.c", SOFT_GUIDE, f"{FORCES}/table.c", r"(X\(zd_plane_torque\))",
-                                     r"\1 X(zd_soft_guide)"),
-    "another force element": (f"{FORCES}/soft_plane.c", SOFT_PLANE, f"{FORCES}/table.c",
-                              r"(X\(zd_soft_guide\))", r"\1 X(zd_soft_plane)"),
-    "the same in space": (f"{SPACE_FORCES}/soft_plane.c", SPACE_SOFT_PLANE, f"{SPACE_FORCES}/table.c", r"(X\(zd_space_torque\))",
-                          r"\1 X(zd_space_soft_plane)"),
-    "a force element of space": (f"{SPACE_FORCES}/swivel.c", SWIVEL, f"{SPACE_FORCES}/table.c", r"(X\(zd_space_soft_plane\))",
-                                 r"\1 X(zd_swivel)"),
+    "a joint of the plane": (None, "", PLANE, *entry("JOINT", PARALLEL)),
+    "a joint that takes something": (None, "", PLANE, *entry("JOINT", OFFSET_SLIDER)),
+    "a joint of space": (None, "", SPACE, *entry("JOINT", POINT_ON_PLANE)),
+    "a force element of the plane": (None, "", PLANE, *entry("ELEMENT", SOFT_GUIDE)),
+    "another force element": (None, "", PLANE, *entry("ELEMENT", SOFT_PLANE)),
+    "the same in space": (None, "", SPACE, *entry("ELEMENT", SPACE_SOFT_PLANE)),
+    "a force element of space": (None, "", SPACE, *entry("ELEMENT", SWIVEL)),
     "a term": (None, "", INTERFACE, r"(    TERM\(ZD_GAMMA)", lambda match: LINE_OF_TERM + match[1]),
 }
 # Without the tests near bifurcations, where the example of a formulation does not find which constraints are redundant.

@@ -11,8 +11,7 @@
 #define ZD_PLANE_TABLES_H
 
 #include "../common/elements.h"
-#include "forces/element.h"
-#include "joints/joint.h"
+#include "elements.h"
 #include "link.h"
 
 typedef struct zd_plane_body {

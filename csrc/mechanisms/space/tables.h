@@ -14,8 +14,7 @@
 #define ZD_SPACE_TABLES_H
 
 #include "../common/elements.h"
-#include "forces/element.h"
-#include "joints/joint.h"
+#include "elements.h"
 
 typedef struct zd_space_body {
     double mass;                /* kg */

@@ -1,6 +1,6 @@
 /* Joint coordinates in space: trees of bodies and inboard joints, whose roots are the ground or free bodies.
  *
- * The freedoms of a joint are listed in its table (../space/joints/joint.h). In that order a frame that starts as the inner body's slides
+ * The freedoms of a joint are listed in its table (../space/elements.h). In that order a frame that starts as the inner body's slides
  * and rotates until it is that of the outer one, which is the joint's second body, or its first if the joint is used in reverse, with the
  * same coordinates. Each freedom has a distance, an angle or a unit quaternion as coordinates. Velocities are their rates; for a quaternion,
  * the angular velocity of the outer frame relative to the inner one, in the outer axes. Angles count turns; those of joints outside the

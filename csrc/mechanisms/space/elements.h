@@ -1,16 +1,16 @@
 /* Kinds of joints of spatial mechanisms: each is a short table of primitive marker quantities.
  *
- * A marker quantity belongs to one or two bodies, as in the plane (../../plane/joints/joint.h): a row sets a sum of marker quantities to
+ * A marker quantity belongs to one or two bodies, as in the plane (../plane/elements.h): a row sets a sum of marker quantities to
  * zero, a force acts along one. Its rate is linear in the twists of its bodies; the coefficients for a body are also the force and the torque
- * of a unit force along the marker quantity. So value, row and bias of each primitive are derived once, in ../marker_quantity.c, and a joint
+ * of a unit force along the marker quantity. So value, row and bias of each primitive are derived once, in marker_quantity.c, and a joint
  * is data.
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_SPACE_JOINTS_JOINT_H
-#define ZD_SPACE_JOINTS_JOINT_H
+#ifndef ZD_SPACE_ELEMENTS_H
+#define ZD_SPACE_ELEMENTS_H
 
-#include "../../../include/zerodrift/system.h"
+#include "../../include/zerodrift/system.h"
 
 /* With P the marker quantity's point on the first body, Q that on the second, a a direction that turns with the first, and b one that turns
  * with the second. Speeds have no value, only a rate. */
@@ -91,5 +91,22 @@ typedef struct zd_space_joint_kind {
 
 int zd_space_joint_kinds(void);
 const zd_space_joint_kind *zd_space_joint_kind_of(int row);     /* NULL: out of range */
+
+/* A kind of force element: one generalized force along each of its marker quantities. */
+enum { ZD_SPACE_ELEMENT_QUANTITIES = 6 };
+
+typedef struct zd_space_element_kind {
+    zd_card card;
+    int quantities;             /* their number; lengths stand before angles */
+    zd_space_pick pick[ZD_SPACE_ELEMENT_QUANTITIES];
+    int is_spring;              /* 1: -stiffness value - damping rate; 0: a given force */
+    int axes;                   /* 0; 1: the user gives the axis; 3: an axis and a normal are optional, by default those of the first body */
+    int at_joint;               /* 1 if it acts along the angle of a joint that the user gives, from an angle where it is slack */
+    const char *measure;        /* name of its scalar measure, "force" or "torque"; NULL: it has both as vectors */
+    int sign;                   /* sign of that measure: -1 if it is positive in tension, otherwise 1 */
+} zd_space_element_kind;
+
+int zd_space_element_kinds(void);
+const zd_space_element_kind *zd_space_element_kind_of(int row); /* NULL: out of range */
 
 #endif
