@@ -1,17 +1,21 @@
-"""Systems of compiled functions for several tests: the pendulum of native/pendulum.c, and how to compile and describe it."""
+"""Systems of compiled functions for several tests: those of native/systems.c and native/pendulum.c, compiled and described."""
 
+import atexit
 import ctypes
 import os
 import shutil
 import subprocess
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import ROOT
 
+ROOT = Path(__file__).resolve().parent.parent
 PENDULUM = ROOT / "tests" / "native" / "pendulum.c"
+OWN = ["arm", "top", "skate"]       # in native/systems.c: rheonomic; with a quaternion; holonomic with nonholonomic
 COMPILER = shutil.which(os.environ.get("CC", "gcc" if os.name == "nt" else "cc"))
 needs_compiler = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler")
 
@@ -33,6 +37,18 @@ def compile_text(text, library, *options):
     source = library.with_suffix(".c")
     source.write_text(text)
     return compile_library(source, library, *options)
+
+
+def own_systems():
+    """Systems of native/systems.c by their names, compiled once for this process and those it starts; none without a compiler."""
+    if COMPILER is None:
+        return {}
+    if "ZERODRIFT_OWN_SYSTEMS" not in os.environ:
+        folder = tempfile.mkdtemp(prefix="zerodrift-systems-")
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        library = compile_library(ROOT / "tests" / "native" / "systems.c", Path(folder) / "systems.so")
+        os.environ["ZERODRIFT_OWN_SYSTEMS"] = str(library)
+    return {name: zd.native(os.environ["ZERODRIFT_OWN_SYSTEMS"], symbol=name) for name in OWN}
 
 
 def compile_four_bar(library):

@@ -1,21 +1,20 @@
-"""Shared helpers of the tests: the built-in systems, consistent states, the paper's equations in NumPy, and comparisons."""
+"""Shared helpers of the tests: built-in systems and own ones in C, consistent states, the paper's equations, and comparisons."""
 
 import contextlib
 import os
 import sys
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import tolerances as tol
 import zerodrift as zd
+from native_systems import ROOT, own_systems  # noqa: F401  (ROOT: of tests)
 from zerodrift import _gateway
 from zerodrift.explanations import codes
 from zerodrift.runs.methods import evaluating_integrators
 
-ROOT = Path(__file__).resolve().parent.parent
 FORMULATIONS = list(zd.formulations())
 INTEGRATORS = list(evaluating_integrators(zd.systems.four_bar()))   # and not those that need series, which few systems have
 
@@ -34,7 +33,8 @@ def _instances():
                 yield f"{name}-{word}", getattr(zd.systems, name)(**{parameter.name: word})
 
 
-SYSTEMS = dict(_instances())
+BUILT_IN, OWN = dict(_instances()), own_systems()
+SYSTEMS = BUILT_IN | {name: system for name, system in OWN.items() if not system.quaternions}     # which steps normalize
 
 
 @contextlib.contextmanager

@@ -9,7 +9,7 @@ import zerodrift as zd
 from covering import draws
 from every_model import MODELS
 from native_systems import compile_text, needs_compiler
-from support import SYSTEMS, motion, refused
+from support import BUILT_IN, motion, refused
 
 WAYS = {"fixed": {"step": 0.01}, "chosen": {"rtol": 1e-8, "atol": 1e-8, "integrator": "dop853"}}
 WRONG_ROW = r"row 0 of the Jacobian, for velocity 1, must be the derivative of the constraint"
@@ -124,10 +124,10 @@ def test_random_jacobians(seed):
         zd.simulate(system, 1.0, step=0.01)
 
 
-@pytest.mark.parametrize("name", [*SYSTEMS, *MODELS])
+@pytest.mark.parametrize("name", [*BUILT_IN, *MODELS])
 def test_what_is_derived_would_pass(name):
     """Built-in and symbolic systems are not looked at; looked at they show no contradiction."""
-    system, h = (SYSTEMS[name], 1e-3) if name in SYSTEMS else (MODELS[name](), 2e-5)
+    system, h = (BUILT_IN[name], 1e-3) if name in BUILT_IN else (MODELS[name](), 2e-5)
     assert not system._core.given_jacobian
     system._core.given_jacobian = True
     try:

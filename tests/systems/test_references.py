@@ -13,7 +13,7 @@ from native_systems import needs_compiler
 from reference_files import ROUND_OFF, definition, end, falls_at_order_four, number, table
 from rotating_bodies import about_a_point, held_at_a_point, rolling_disc
 from structured import four_bars as rods_of_four_bars
-from support import assert_close
+from support import OWN, assert_close
 
 # ---- knife edge ----
 
@@ -229,13 +229,12 @@ def test_a_row_of_forty_four_bars_among_bodies(road):
 # ---- heavy top ----
 
 
-@pytest.mark.parametrize("coordinates", ["held by constraints", "about its fixed point"])
-def test_heavy_top_with_unit_quaternions(coordinates, formulation):
+@pytest.mark.parametrize("top", [pytest.param("top", marks=needs_compiler), held_at_a_point, about_a_point])
+def test_heavy_top_with_unit_quaternions(top, formulation):
+    """In C, and symbolically: held by constraints, or by coordinates about its fixed point."""
     given, reference = definition("heavy_top"), table("heavy_top")
-    held = coordinates == "held by constraints"
-    make = held_at_a_point if held else about_a_point
-    inertia, arm = (0.234375, 0.46875, 0.234375), given["params"]["X"]
-    top = make(given["params"]["m"], inertia, tuple(arm), tuple(given["initial"]["omega_body"]))
+    held, inertia, arm = top != about_a_point, (0.234375, 0.46875, 0.234375), given["params"]["X"]
+    top = OWN[top] if top == "top" else top(given["params"]["m"], inertia, tuple(arm), tuple(given["initial"]["omega_body"]))
     sol = zd.simulate(top, 2.0, step=1e-3, save_every=10, formulation=formulation, integrator="dop853")
     places = np.stack([reference[name] for name in ("x", "y", "z", "e0", "e1", "e2", "e3")], axis=1)
     rates = np.stack([reference[name] for name in ("vx", "vy", "vz", "w1", "w2", "w3")], axis=1)

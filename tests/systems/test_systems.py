@@ -5,7 +5,7 @@ import pytest
 
 import tolerances as tol
 import zerodrift as zd
-from support import along, assert_close, consistent_states, difference, flowed, numbers, refused, solved
+from support import BUILT_IN, along, assert_close, consistent_states, difference, flowed, numbers, refused, solved
 from zerodrift import _gateway
 
 
@@ -103,9 +103,10 @@ def test_names_are_unique_and_complete(system):
     assert len(names) == system.nq + system.nv      # `hold` of assemble tells them apart by name
 
 
-def test_a_system_documents_its_parameters(system):
-    make = getattr(zd.systems, system.name)
-    for name in system.parameters:
+@pytest.mark.parametrize("built_in", BUILT_IN.values(), ids=BUILT_IN)
+def test_a_system_documents_its_parameters(built_in):
+    make = getattr(zd.systems, built_in.name)
+    for name in built_in.parameters:
         assert f"{name} : " in make.__doc__
     assert "Source: " in make.__doc__
 
@@ -120,12 +121,13 @@ def test_a_system_is_drawn_where_it_is(system):
     assert not np.array_equal(points, moved, equal_nan=True)
 
 
-def test_a_system_repeats_itself(system):
+@pytest.mark.parametrize("built_in", BUILT_IN.values(), ids=BUILT_IN)
+def test_a_system_repeats_itself(built_in):
     """From its repr, and from the parameters it says it has."""
-    for again in (eval(repr(system), {"zd": zd}), getattr(zd.systems, system.name)(**system.parameters)):
-        assert again.parameters == system.parameters
-        assert np.array_equal(again.p0, system.p0)
-        assert np.array_equal(again.evaluate().M, system.evaluate().M)
+    for again in (eval(repr(built_in), {"zd": zd}), getattr(zd.systems, built_in.name)(**built_in.parameters)):
+        assert again.parameters == built_in.parameters
+        assert np.array_equal(again.p0, built_in.p0)
+        assert np.array_equal(again.evaluate().M, built_in.evaluate().M)
 
 
 def test_parameters_may_be_changed(system):
