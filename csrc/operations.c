@@ -3,19 +3,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "linalg/norms.h"
+#include "linalg/small.h"
 #include "motion/derivatives.h"
-#include "motion/reactions.h"
-#include "paths/dense_output.h"
+#include "motion/motion.h"
+#include "paths/stepper.h"
 #include "point/point.h"
-#include "point/quaternions.h"
 #include "registry.h"
-#include "run/arguments/arguments.h"
-#include "run/create.h"
-#include "run/explain.h"
-#include "run/resample.h"
-#include "run/start.h"
-#include "run/status.h"
+#include "run/arguments/checks.h"
+#include "run/run.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)

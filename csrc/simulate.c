@@ -1,12 +1,8 @@
 /* The outer loop of a run: one step, events within it, samples that are due; again until the end. */
 #include <math.h>
 
-#include "run/explain.h"
-#include "run/goal.h"
-#include "run/inputs.h"
 #include "run/run.h"
-#include "step/clock.h"
-#include "step/step.h"
+#include "step/step_loop.h"
 
 enum { CLOCK_EVERY = 16 };      /* steps between readings of the clock */
 static const double SLICE = 0.03;   /* s: time slice of zd_run_step() */

@@ -35,14 +35,12 @@ def fingerprint() -> str:
 
 def declarations() -> str:
     """The headers as the compiler's preprocessor leaves them; functions written in Python are marked as CFFI wants it."""
-    of_mechanisms = ("common/elements.h", "common/assembly/given.h", "common/assembly/assembly.h",
-                     "common/assembly/displacement.h", "plane/elements.h", "plane/link.h",
-                     "plane/tables.h", "plane/assembly/varied.h", "space/elements.h",
-                     "space/tables.h", "space_tree/tree.h")
+    of_mechanisms = ("common/elements.h", "common/assembly/given.h", "plane/elements.h", "plane/tables.h",
+                     "plane/assembly/varied.h", "space/elements.h", "space/tables.h", "space_tree/tree.h")
     of_systems = ("terms.h", "structure.h", "closed_form.h", "derivatives.h", "system.h")
     of_core = ("tables.h", "settings.h", "run.h", "many_runs.h", "states.h")
     names = (*(f"include/zerodrift/{name}" for name in of_systems), *(f"mechanisms/{name}" for name in of_mechanisms),
-             *(f"zerodrift/{name}" for name in of_core), "block/block.h", "block/gaps.h", "python/interface.h")
+             *(f"zerodrift/{name}" for name in of_core), "block/block.h", "python/interface.h")
     headers = "".join((ROOT / "csrc" / name).read_text(encoding="utf-8") for name in names)
     return preprocessed(re.sub(r"^#(include|define ZD_WRITTEN).*$", "", headers, flags=re.MULTILINE)).replace(
         "ZD_WRITTEN_IN_PYTHON", 'extern "Python"')

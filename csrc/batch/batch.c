@@ -1,5 +1,5 @@
 /* Many runs in one call: each begins at its entry of the arrays and ends independently of the others. */
-#include "side_by_side.h"
+#include "batch.h"
 
 static void prepare(const zd_batch *batch)
 {

@@ -1,4 +1,4 @@
-#include "event_samples.h"
+#include "batch.h"
 
 #include <string.h>
 

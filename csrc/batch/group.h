@@ -2,10 +2,10 @@
 #ifndef ZD_BATCH_GROUP_H
 #define ZD_BATCH_GROUP_H
 
-#include "../output/step_samples.h"
+#include "../output/watch.h"
 #include "../run/run.h"
+#include "batch.h"
 #include "lanes/numbers.h"
-#include "single_run.h"
 
 /* Statistics of a lane's energy corrections. */
 typedef struct zd_lane_energy {

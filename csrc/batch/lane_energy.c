@@ -1,7 +1,7 @@
 /* Corrections after the projection, (29), lane by lane, as in motion/correct.c. */
 #include <math.h>
 
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "group.h"
 
 /* Corrects one lane; returns 0 on failure. */

@@ -5,9 +5,8 @@
 #include <math.h>
 
 #include "../step_limits.h"
-#include "event_samples.h"
+#include "batch.h"
 #include "group.h"
-
 
 /* ---- samples and pairs ---- */
 

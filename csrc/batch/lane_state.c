@@ -1,7 +1,7 @@
 /* State of one lane in the checking run: rotation of C in long steps, and energy. */
 #include <math.h>
 
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "../step_limits.h"
 #include "group.h"
 

@@ -1,5 +1,4 @@
 /* Columns of a record that runs in lanes do not compute, from the saved states, by the matrix path. */
-#include "../run/explain.h"
 #include "../run/run.h"
 
 static int record_sample(zd_run *run, double t, const double *p, const double *v, double input, zd_record *record)

@@ -1,11 +1,8 @@
 /* Runs of a batch in SIMD lanes: a lane whose run has ended gets the next one; runs that lanes cannot make are made individually. */
-#include "side_by_side.h"
+#include "batch.h"
 
 #include "../registry.h"
-#include "../run/create.h"
-#include "../run/explain.h"
-#include "../run/start.h"
-#include "event_samples.h"
+#include "../run/run.h"
 #include "group.h"
 
 /* ---- applicability of lanes ---- */

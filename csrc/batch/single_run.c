@@ -1,12 +1,11 @@
 /* Individual execution of a run of a batch: created, advanced and freed as any other run. */
-#include "single_run.h"
+#include "batch.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../step/clock.h"
-#include "event_samples.h"
+#include "../step/step_loop.h"
 
 static const double SLICE = 0.02;       /* s: interval at which a stop request is checked */
 

@@ -38,8 +38,8 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_BLOCK_H
-#define ZD_BLOCK_H
+#ifndef ZD_BLOCK_BLOCK_H
+#define ZD_BLOCK_BLOCK_H
 
 #include <stddef.h>
 
@@ -113,5 +113,14 @@ double zd_block_parameter(const zd_block *block, int parameter);
  * ZD_DONE, or ZD_BAD_ARGUMENT for a value outside the parameter's range. */
 int zd_block_set_parameter(zd_block *block, int parameter, double value);
 const double *zd_block_words(const zd_block *block, size_t *size);
+
+/* Joints of a mechanism that cannot close, in one sentence, for Python and for pages. Plain declarations only: CFFI parses this text. */
+
+/* message <- sentence on the gaps of the joints: at p (nq,) if `is_smallest`, otherwise in positions near p in which their sum of squares is
+ * smallest. In the plane the sentence then names the loop with the largest gap of those that cannot close alone. If each can, and in space,
+ * it names the three joints with the largest gaps. Returns ZD_DONE, a status of the core, or ZD_BAD_ARGUMENT for a block without names. */
+int zd_block_explain_gaps(const zd_block *block, const double *p, int is_smallest, char *message, int message_size);
+/* The same near the start of a block in any coordinates; `message` is unchanged if all joints can close. */
+void zd_block_explain_start(const zd_block *block, char *message, int message_size);
 
 #endif

@@ -1,12 +1,11 @@
-#include "gaps.h"
+#include "block.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../mechanisms/common/assembly/assembly.h"
+#include "../mechanisms/common/assembly/given.h"
 #include "../workspace.h"
-#include "loops.h"
 #include "made.h"
 
 static const double CLOSED = 1e-6;          /* relative to the mechanism's length: gap of joints that can close */

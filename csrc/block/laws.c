@@ -1,6 +1,6 @@
 /* A law is a straight-line program: each instruction computes one value from earlier ones, with the operations, and hence the bits, of
  * the compiled function of the same expression. */
-#include "laws.h"
+#include "made.h"
 
 #include <math.h>
 

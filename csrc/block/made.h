@@ -2,8 +2,35 @@
 #ifndef ZD_BLOCK_MADE_H
 #define ZD_BLOCK_MADE_H
 
-#include "laws.h"
-#include "names.h"
+#include "layout.h"
+
+/* User functions of a block: checks, and evaluation. */
+
+typedef struct zd_block_laws {
+    const zd_block_layout *layout;
+    const double *speed;        /* (inputs, 3) */
+    double *value;              /* values of instructions, as many as the longest law has */
+} zd_block_laws;
+
+/* Number of instructions of the longest law, or -1 with the reason if an entry is wrong. */
+int zd_block_laws_check(const zd_block_layout *layout, zd_complaint to);
+/* True if a law has these numbers of marker quantities and results. */
+int zd_block_law_suits(const zd_block_layout *layout, int law, int terms, int results);
+/* A zd_law; its owner is a zd_block_laws. */
+int zd_block_law(void *owner, int law, double t, const double *x, const double *xdot, double *out);
+
+/* Names of the rows of C of a mechanism, from the names of its joints and relations. */
+
+/* Parts of the name of a row. */
+typedef struct zd_block_names {
+    const zd_block_layout *layout;
+    const zd_row_owner *owner;      /* (m,) */
+} zd_block_names;
+
+/* 1 without names, or if there is one of each body, joint and relation. */
+int zd_block_names_check(const zd_block_layout *layout, zd_complaint to);
+/* zd_system.name_constraint; `names` is a zd_block_names. */
+void zd_block_name_row(const void *names, int row, char *to, int size);
 
 /* Memory of inputs, (inputs,) each; `speed` has three numbers for each. */
 typedef struct zd_block_inputs_memory {
@@ -32,5 +59,20 @@ void zd_block_inputs_write(zd_block *block);
 /* Checks of inputs and parameters; 1, or 0 with the reason. */
 int zd_block_inputs_check(const zd_block *block, zd_complaint to);
 int zd_block_parameters_check(const zd_block_layout *layout, zd_complaint to);
+
+/* Tree of inboard joints of a block in the plane, and the loops that its other joints close. */
+
+/* Inboard joint of a body, numbered from 1; -1: it is free. */
+int zd_block_inboard(const zd_block_layout *layout, int body);
+/* True if a body of the block has an inboard joint. */
+int zd_block_has_tree(const zd_block_layout *layout);
+/* inboard (bodies,) <- inboard joints, -1 for free bodies, of the tree that grows from the ground by the joint of fewest coordinates, and
+ * among these by the one nearest to the ground; `distance` (bodies + 1,) is scratch. */
+void zd_block_grow_tree(const zd_block_layout *layout, int *inboard, int *distance);
+/* Writes the bodies and joints of the loop that a joint closes, "the loop of ground, crank, through A, B". Returns the length of the text.
+ * `is_on_way` (bodies + joints + 1,) is scratch. */
+int zd_block_name_loop(const zd_block_layout *layout, int joint, int *is_on_way, char *to, int size);
+
+const char *zd_block_joint_name(const zd_block_layout *layout, int joint);
 
 #endif

@@ -1,5 +1,5 @@
 /* A row is named after its joint, with the marker quantity that it sets to zero if the joint has several rows: "pin.x". */
-#include "names.h"
+#include "made.h"
 
 #include <stdio.h>
 

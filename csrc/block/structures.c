@@ -1,5 +1,5 @@
 /* Members of the structures of elements, in the order of a block's words. */
-#include "structures.h"
+#include "layout.h"
 
 #include "../mechanisms/common/elements.h"
 

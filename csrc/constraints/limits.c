@@ -24,10 +24,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../linalg/lu.h"
-#include "../linalg/norms.h"
+#include "../linalg/dense.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 enum { MAX_ITERATIONS = 100, MAX_STALLS = 8 };    /* iteration for the acceleration from rest */
 

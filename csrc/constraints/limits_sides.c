@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "limits.h"
 
 static const double NEAREST = 0x1p-18;  /* distance, characteristic scales: nearer to the bifurcation c(v) is more accurate than w v */

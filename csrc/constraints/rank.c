@@ -19,9 +19,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 zd_rank *zd_rank_create(zd_arena *arena, const zd_system *system, int is_large)
 {

@@ -3,8 +3,8 @@
  * constraints afterwards. At a bifurcation, constraints become dependent that are independent elsewhere; there their limits along the
  * motion (limits.h) replace them.
  */
-#ifndef ZD_RANK_H
-#define ZD_RANK_H
+#ifndef ZD_CONSTRAINTS_RANK_H
+#define ZD_CONSTRAINTS_RANK_H
 
 #include <string.h>
 
@@ -140,5 +140,39 @@ static inline void zd_rank_discard_awaited(const zd_point *point)
 int zd_rank_redundant(const zd_rank *self, int *rows);
 /* Text such as "row 2 follows" or "rows 0 'A.x' and 2 'B.x' follow": the dependent constraints at the point. */
 void zd_rank_name_rows(const zd_point *point, char *to, size_t size);
+
+/* Selection of the independent constraints at a point: all of them, an independent subset, or one in which limits replace constraints
+ * that are lost at a bifurcation.
+ *
+ * At an ordinary point a quick check shows that all are independent: the products of two rows; the pivots that a formulation computes
+ * anyway; or the change since the last full check. Memory for more is allocated only if this is inconclusive. */
+
+enum { ZD_FEW_ROWS = 2 };       /* largest number of constraints checked by their products */
+
+/* Finds the independent constraints at the point; sets point->rows, point->C. */
+int zd_rows_find(zd_point *point);
+/* Discards a selection kept from an earlier point, so that the next zd_rows_find() selects anew; returns 0 if there was none. */
+int zd_rows_give_up_kept(zd_point *point);
+/* Selects again after a change of the velocity, along which limits are taken. */
+int zd_rows_find_again(zd_point *point);
+
+/* For formulations that check independence themselves: true if no row has shrunk to nearly zero at the point; selection of all
+ * constraints. */
+int zd_rows_are_long(const zd_point *point);
+void zd_rows_use_all(zd_point *point);
+
+/* Classification of dependent constraints at the start. */
+
+/* Measures the constraints; must precede the first selection. */
+int zd_redundancy_prepare(zd_point *point);
+/* Finds the rank at the start, and from (6) whether dependent constraints contradict the others, are redundant (dependent everywhere),
+ * or are dependent only here (a bifurcation). If the system does not provide xi of (6), they are not classified. */
+int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular);
+
+/* Redundant constraints of a declared structure with many constraints. */
+
+/* Records them in point->rank; C is known there. ZD_CONTRADICTION: no acceleration satisfies them together with the others;
+ * ZD_BIFURCATION: one of them is dependent in this position only. */
+int zd_redundancy_sparse_find(zd_point *point);
 
 #endif

@@ -18,7 +18,7 @@
 #include <string.h>
 
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 static const double NEAR = 0.4;             /* change (the sum above): smaller changes need no full check */
 static const double FAR = 0.9;              /* change: beyond, the row space may have reversed */

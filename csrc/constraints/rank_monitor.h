@@ -2,7 +2,7 @@
 #ifndef ZD_RANK_MONITOR_H
 #define ZD_RANK_MONITOR_H
 
-#include "../linalg/orthogonal.h"
+#include "../linalg/dense.h"
 #include "../point/sparse/weighted.h"
 #include "rank.h"
 

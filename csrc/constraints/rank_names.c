@@ -1,7 +1,7 @@
 /* Indices of the redundant constraints, and the dependent ones in words. */
 #include <stdio.h>
 
-#include "../point/row_name.h"
+#include "../point/point.h"
 #include "rank.h"
 
 enum { MAX_NAMED = 8 };       /* constraints named in a message */

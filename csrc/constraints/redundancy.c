@@ -1,16 +1,12 @@
 /* Classification of dependent constraints at the start: redundant, dependent only there, or contradicting the others. Then rows.c
  * selects among those that are independent anywhere.
  */
-#include "redundancy.h"
+#include "rank.h"
 
 #include <math.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
-#include "../point/units.h"
-#include "redundancy_sparse.h"
-#include "rows.h"
+#include "../point/point.h"
 
 static const double SQUARED = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
 static const double CURVED = 16 * ZD_RANK_TOLERANCE;    /* residual of (6) relative to its terms: beyond, independent elsewhere */

@@ -13,14 +13,14 @@
  * A row that is dependent here is redundant if it is so in all positions: then accelerations that satisfy the others satisfy it at any
  * velocity, (6), and so at this random one. Otherwise it is dependent in this position only, a bifurcation.
  */
-#include "redundancy_sparse.h"
+#include "rank.h"
 
 #include <limits.h>
 #include <math.h>
 #include <string.h>
 
-#include "../linalg/norms.h"
-#include "../point/matrices.h"
+#include "../linalg/small.h"
+#include "../point/point.h"
 #include "../point/sparse/weighted.h"
 
 enum { PROJECTIONS = 6 };

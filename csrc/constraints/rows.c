@@ -1,10 +1,9 @@
-#include "rows.h"
+#include "rank.h"
 
 #include <math.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "limits.h"
 #include "rank_monitor.h"
 

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "../motion/motion.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 typedef struct gains {
     double alpha, beta, integral;

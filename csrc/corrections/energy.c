@@ -12,7 +12,7 @@
 
 #include "../constraints/limits.h"
 #include "../motion/motion.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 static const double LARGEST_SHARE = 0.5;    /* largest correction relative to T: the factor is then between 0.7 and 1.3 */
 static const double ENERGY_ROUNDING = 8 * 0x1p-52; /* violation relative to the energies below which it is rounding error */

@@ -12,13 +12,11 @@
 #include <string.h>
 
 #include "../constraints/limits.h"
-#include "../constraints/rows.h"
-#include "../linalg/newton.h"
+#include "../constraints/rank.h"
+#include "../linalg/iteration.h"
 #include "../linalg/small.h"
 #include "../motion/motion.h"
-#include "../point/matrices.h"
-#include "../point/quaternions.h"
-#include "../point/units.h"
+#include "../point/point.h"
 
 typedef struct given_projection {
     double tol, max_iterations, every, metric, positions, velocities;

@@ -7,17 +7,15 @@
  * in half the memory. Both require only that G is regular. M and the rows of C have different units; each row is first scaled to the
  * size of M, and its multiplier back afterwards, so that pivots are comparable.
  */
-#include "dependent.h"
+#include "formulation.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../constraints/rows.h"
-#include "../linalg/lu.h"
-#include "../linalg/norms.h"
+#include "../constraints/rank.h"
+#include "../linalg/dense.h"
 #include "../linalg/small.h"
-#include "../linalg/symmetric.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "sparse/structured.h"
 
 typedef struct augmented {

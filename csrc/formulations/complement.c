@@ -5,10 +5,10 @@
 #include <string.h>
 
 #include "../constraints/limits.h"
-#include "../constraints/rows.h"
-#include "../linalg/lu.h"
+#include "../constraints/rank.h"
+#include "../linalg/dense.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 /* Factor by which the entries of W^-1 U may grow before u is selected anew. Complete pivoting keeps them near one; the motion is the
  * harder to integrate the larger they are, as w then depends steeply on u. The margin prevents two equally good selections from

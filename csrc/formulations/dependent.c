@@ -1,8 +1,8 @@
 /* State (p, v) of the dependent formulations, and its rate: (1), and the acceleration. */
-#include "dependent.h"
+#include "formulation.h"
 
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 int zd_dependent_state_size(const zd_system *system)
 {

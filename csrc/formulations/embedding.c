@@ -11,13 +11,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../constraints/rows.h"
-#include "../linalg/lu.h"
-#include "../linalg/newton.h"
-#include "../linalg/norms.h"
-#include "../point/matrices.h"
-#include "../point/quaternions.h"
-#include "../point/units.h"
+#include "../constraints/rank.h"
+#include "../linalg/dense.h"
+#include "../linalg/iteration.h"
+#include "../linalg/small.h"
+#include "../point/point.h"
 
 enum { MAX_ITERATIONS = 40 };     /* near a bifurcation convergence is linear, by halves, rather than quadratic */
 static const double NEARLY = 64;      /* residual, units of rounding, that is accepted if it no longer halves */

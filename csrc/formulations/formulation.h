@@ -1,6 +1,6 @@
 /* Entry of the table of formulations: a leading matrix and its solve, and the state that is integrated. */
-#ifndef ZD_FORMULATION_H
-#define ZD_FORMULATION_H
+#ifndef ZD_FORMULATIONS_FORMULATION_H
+#define ZD_FORMULATIONS_FORMULATION_H
 
 #include "../constraints/rank.h"
 
@@ -63,5 +63,19 @@ static inline int zd_takes_many_rows(const zd_formulation *self, const zd_system
                    || (self->takes_many_rows == ZD_MANY_ROWS_WITHOUT_A && !(system->provides & ZD_A));
     return takes && zd_rank_is_of_many(system);
 }
+
+/* State (p, v) of the dependent formulations (8), (9), (13), which drifts from (3) and (5). */
+
+int zd_dependent_state_size(const zd_system *system);
+int zd_dependent_unpack(void *self, zd_point *point, double t, const double *y);
+int zd_dependent_pack(void *self, zd_point *point, double *y);
+int zd_dependent_rate(void *self, zd_point *point, double *ydot);
+
+#define ZD_DEPENDENT_STATE                         \
+    .drifts_from = ZD_PHI | ZD_C,                     \
+    .state_size = zd_dependent_state_size,         \
+    .unpack = zd_dependent_unpack,                   \
+    .pack = zd_dependent_pack,                   \
+    .rate = zd_dependent_rate
 
 #endif

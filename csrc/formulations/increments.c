@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 static const double INCREMENT_ROUNDING = 4 * 0x1p-52;
 static const double REACH = 0.5;    /* cos(a / 2) of the largest rotation angle a of a step */

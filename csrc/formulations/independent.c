@@ -4,7 +4,7 @@
  * Where all constraints are holonomic and pdot = v, the velocities are qdot and this is (19); otherwise they are the u' of (22). With unit
  * quaternions, q are increments about where the step begins, and the velocities are their rates there.
  */
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "embedding.h"
 #include "formulation.h"
 #include "minimal.h"

@@ -10,10 +10,9 @@
 #include <string.h>
 
 #include "../constraints/limits.h"
-#include "../constraints/rows.h"
-#include "../linalg/norms.h"
+#include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 enum { MAX_ITERATIONS = 12 };
 static const double SETTLED = 0x1p-46;  /* change relative to the speed with which the velocity has converged */

@@ -4,7 +4,7 @@
 
 #include "complement.h"
 #include "formulation.h"
-#include "sparse/partition_sparse.h"
+#include "sparse/partition.h"
 
 typedef struct zd_minimal {
     zd_partition_sparse *many;       /* replaces all that follows for a declared structure with many constraints */

@@ -2,7 +2,7 @@
  * Near a bifurcation, where D loses digits, a run integrates (p, v) instead: paths/variables.c. */
 #include <string.h>
 
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "formulation.h"
 #include "minimal.h"
 

@@ -9,11 +9,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "../linalg/lu.h"
-#include "../linalg/norms.h"
-#include "../point/matrices.h"
+#include "../linalg/dense.h"
+#include "../linalg/small.h"
+#include "../point/point.h"
 #include "complement.h"
-#include "dependent.h"
+#include "formulation.h"
 #include "sparse/structured.h"
 
 typedef struct nullspace {

@@ -14,13 +14,13 @@
  * M^-1 amplifies the rounding of large reactions on a light body. But C vdot = xi shows that error, and a correction by its residual,
  * (27b) again, removes it: so the accuracy does not depend on mass ratios.
  */
-#include "dependent.h"
+#include "formulation.h"
 
-#include "../constraints/rows.h"
-#include "../linalg/orthogonal.h"
-#include "../linalg/refinement.h"
+#include "../constraints/rank.h"
+#include "../linalg/dense.h"
+#include "../linalg/iteration.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "sparse/structured.h"
 
 static const double MIN_REMAINDER = 1024 * 0x1p-53;     /* relative residual norm of a row that is rounding */
@@ -39,7 +39,7 @@ typedef struct schur {
     double *G;      /* (m, m), with E in reciprocals on the diagonal */
     const double *C;    /* (m, n): independent rows of C of the point */
     double *b;      /* (m,) */
-    double *rows;   /* (4, n), for large systems: see orthogonal.h */
+    double *rows;   /* (4, n), for large systems: see linalg/dense.h */
     double *residual, *correction;  /* (m,), (n,): residual rhs - C x, and its correction */
 } schur;
 

@@ -24,10 +24,9 @@
 #include <string.h>
 
 #include "../constraints/limits.h"
-#include "../linalg/newton.h"
-#include "../linalg/norms.h"
+#include "../linalg/iteration.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "integrator.h"
 
 enum { MAX_ITERATIONS = 60, MAX_LEARNT = 16 };

@@ -9,9 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../linalg/lu.h"
-#include "../linalg/newton.h"
-#include "../linalg/norms.h"
+#include "../linalg/dense.h"
+#include "../linalg/iteration.h"
+#include "../linalg/small.h"
 #include "differences.h"
 
 enum {

@@ -1,4 +1,4 @@
-#include "complex_lu.h"
+#include "dense.h"
 
 #include <math.h>
 

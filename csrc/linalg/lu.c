@@ -1,5 +1,5 @@
 /* Gaussian elimination with partial pivoting. Row scaling is the caller's business: it knows the units. */
-#include "lu.h"
+#include "dense.h"
 
 #include "small.h"
 

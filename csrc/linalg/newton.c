@@ -1,4 +1,4 @@
-#include "newton.h"
+#include "iteration.h"
 
 #include <math.h>
 

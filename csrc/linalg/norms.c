@@ -1,4 +1,3 @@
-#include "norms.h"
 
 #include "small.h"
 

@@ -5,7 +5,7 @@
  * give G E G^T = C M^-1 C^T, see formulations/schur.c. Each row of Q is compared with that of the previous call: its direction changes
  * abruptly when a constraint passes through dependence on earlier ones, and slowly otherwise.
  */
-#include "orthogonal.h"
+#include "dense.h"
 
 #include "small.h"
 

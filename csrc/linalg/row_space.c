@@ -1,4 +1,4 @@
-#include "row_space.h"
+#include "dense.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
  * Rows are swapped in what is left to be factored only, so that the solves swap as they go. Diagonal blocks are stored inverted; `order`
  * has the complement of a row, which is negative, where it belongs to a block of two.
  */
-#include "symmetric.h"
+#include "dense.h"
 
 #include "small.h"
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "../constraints/limits.h"
-#include "../constraints/rows.h"
+#include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "motion.h"
 

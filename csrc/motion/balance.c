@@ -1,7 +1,7 @@
 /* The energy balance, (28). */
 #include <math.h>
 
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "motion.h"
 
 int zd_has_energy(const zd_system *system)

@@ -1,7 +1,7 @@
 #include "motion.h"
 
+#include "../constraints/rank.h"
 #include "../constraints/rank_monitor.h"
-#include "../constraints/rows.h"
 
 /* Memory for the selection of independent constraints, with the monitor of full rank where factoring does not determine it. */
 static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system *independent)

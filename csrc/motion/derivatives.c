@@ -3,9 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 enum { POINTS = 4, ORDERS = 3, STEPS = 3 };
 /* Weights of f(k h) - f(-k h), k = 1 ... 4, over h: of eighth, sixth and fourth order */

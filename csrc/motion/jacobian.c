@@ -14,7 +14,6 @@
  */
 #include <string.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
 #include "motion.h"
 

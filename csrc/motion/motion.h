@@ -1,13 +1,36 @@
 /* The motion of a system: its equations in one formulation, with the enabled corrections. Integrators and corrections use nothing else, and
  * the evaluation paths what they need besides: paths/path.h.
  */
-#ifndef ZD_MOTION_H
-#define ZD_MOTION_H
+#ifndef ZD_MOTION_MOTION_H
+#define ZD_MOTION_MOTION_H
 
 #include "../formulations/formulation.h"
 #include "../step_limits.h"
 #include "correction.h"
 #include "derivatives.h"
+
+/* States of a motion that can be restored. */
+
+typedef struct zd_state {
+    double t;
+    double *p, *v;          /* (nq,), (nv,) */
+    double *extra;          /* entries of the integrated state that follow the formulation's */
+} zd_state;
+
+/* Acceleration at a zd_state, restored with it so that a step from there needs no evaluation. */
+typedef struct zd_cached_accelerations {
+    double *vdot, *lambda;  /* (nv,), (m,) */
+    double *pivots;         /* (nv,): of the closed-form path; NULL if the system has no closed form */
+    const void *order;      /* elimination order of these pivots; NULL: none */
+    double smallest;        /* smallest of them, as zd_path has it */
+    int are_known;          /* true if the fields above are set */
+} zd_cached_accelerations;
+
+typedef struct zd_last {    /* the current step: its size, and the state at its start */
+    double t, h;
+    double *y, *p, *v;      /* (size,), (nq,), (nv,) */
+    void *chosen;           /* copy of the formulation's choice of variables at the start; NULL: no copy is made */
+} zd_last;
 
 /* An enabled correction. */
 typedef struct zd_active {
@@ -268,5 +291,14 @@ static inline double zd_motion_input(const zd_motion *motion) { return motion->b
 double zd_motion_power(const zd_motion *motion);    /* W: at the point, whose acceleration must be known */
 int zd_motion_energy_violation(zd_motion *motion, double *violation, double *kinetic);     /* (28) */
 int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the point */
+
+/* User functions of forces that read reactions and accelerations, which are solved together with the accelerations. */
+
+/* Solves for what user functions of the system read, if any do so, at each evaluation of the accelerations. */
+void zd_reactions_create(zd_motion *motion, zd_arena *arena);
+/* u (functions,) <- values of the user functions at a state where vdot and lambda are given. Returns ZD_DONE, ZD_SEVERAL_MOTIONS,
+ * ZD_NO_MEMORY, or what a user function returns that failed. */
+int zd_reactions_given(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
+                       double *u);
 
 #endif

@@ -10,14 +10,13 @@
  *
  * The motion is unique if det(I - G du/dr) > 0 from r0 to r. Beyond that (Painleve) there are several accelerations, or none.
  */
-#include "reactions.h"
+#include "motion.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../constraints/rank.h"
-#include "../linalg/lu.h"
-#include "../linalg/norms.h"
+#include "../linalg/dense.h"
 #include "../linalg/small.h"
 
 static const double INCREMENT = 1e-6;       /* difference, in scales of a reaction */

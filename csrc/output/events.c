@@ -16,14 +16,13 @@
  * Reactions and accelerations that an event reads are those of the state at which it is evaluated, with the inputs of its step. They are not
  * interpolated: the state after the event is reported as it is.
  */
-#include "events.h"
+#include "watch.h"
 
 #include <math.h>
 
 #include "../paths/choose.h"
-#include "../point/quaternions.h"
+#include "../point/point.h"
 #include "../step_limits.h"
-
 
 /* Rates at one end of a step that is not sampled by dense output or a series. */
 static zd_end_rates create_rates(zd_arena *arena, const zd_output *output)

@@ -1,7 +1,8 @@
 /* Quantities that event functions read: time, coordinates, velocities and measures; and the functions that need no callback. */
-#ifndef ZD_READING_H
-#define ZD_READING_H
+#ifndef ZD_OUTPUT_READING_H
+#define ZD_OUTPUT_READING_H
 
+#include "../motion/motion.h"
 #include "../point/point.h"
 #include "../workspace.h"
 #include "../zerodrift.h"
@@ -29,5 +30,21 @@ int zd_reads_accelerations(const zd_events *events, const zd_system *run, int ev
 /* *value <- that of an event, for a system with this data; ZD_CALLBACK if it is not finite, or a measure or the callback fails. Requires the
  * accelerations and multipliers at this state if it reads them. */
 int zd_read_event(const zd_reader *self, const void *data, int event, double t, const double *p, const double *v, double *value);
+
+/* Recorder: writes one sample into the caller's arrays for each saved instant. */
+
+typedef struct zd_recorder {
+    zd_motion *motion;
+    const zd_outputs *outputs;      /* measures recorded in every sample; NULL: none */
+    const zd_system *measured;      /* system of these measures */
+    int width;                      /* number of components of all of them */
+    double *scratch;                /* scratch memory of the measures */
+    int needs;                      /* bits of the terms needed for a sample, evaluated in one call */
+} zd_recorder;
+
+zd_recorder zd_recorder_create(zd_arena *arena, const zd_settings *settings, zd_motion *motion);
+static inline int zd_record_has_room(const zd_record *record) { return record->rows < record->capacity; }
+/* Adds a sample of the present point; ZD_FULL if there is no space, and nothing is changed. */
+int zd_recorder_add(zd_recorder *self, zd_record *record);
 
 #endif

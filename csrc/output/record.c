@@ -1,10 +1,10 @@
-#include "record.h"
+#include "reading.h"
 
 #include <math.h>
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 static void copy_row(double *table, int64_t row, int width, const double *values)
 {

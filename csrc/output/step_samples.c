@@ -3,11 +3,10 @@
  * with fixed steps. In such a step, corrected values replace them: of dense output or shorter steps. Series, states in independent
  * velocities, and accelerations within adaptive steps lack such a polynomial: all their steps have corrected values.
  */
-#include "step_samples.h"
+#include "watch.h"
 
 #include "../paths/choose.h"
-#include "../point/matrices.h"
-#include "../point/quaternions.h"
+#include "../point/point.h"
 
 static int is_fixed(const zd_watch *self)
 {

@@ -1,10 +1,10 @@
 /* Event functions of a run: their values, and what their location needs. */
-#ifndef ZD_WATCH_H
-#define ZD_WATCH_H
+#ifndef ZD_OUTPUT_WATCH_H
+#define ZD_OUTPUT_WATCH_H
 
 #include "../linalg/bracket.h"
-#include "within_step.h"
 #include "reading.h"
+#include "within_step.h"
 #include "zeros.h"
 
 typedef struct zd_occurrence {
@@ -45,5 +45,32 @@ int zd_watch_reads_accelerations(const zd_watch *self, int event);
 void zd_perturb(int n, const double *x, unsigned seed, double *perturbed);
 /* Change of an event function when the state at the point changes by its rounding. */
 int zd_watch_rounding(zd_watch *self, int event, double value, double *rounding);
+
+/* Samples of event functions within a step. */
+
+/* y (n,) <- the cubic Hermite polynomial of a step of size h, at a fraction x of it */
+void zd_interpolate_cubic(int n, double x, double h, const double *y0, const double *rate0, const double *y1, const double *rate1,
+                          double *y);
+/* Evaluates the rates at the start of a fixed step; without them, events are sought by the ends of the step alone. */
+void zd_watch_before(zd_watch *self);
+/* Applies all corrections at the point. */
+int zd_watch_correct(zd_stepper *stepper);
+/* Moves to a time within the step or at its ends, corrected. */
+int zd_watch_move(zd_watch *self, double t);
+/* Leaves the end of the step for values within it. Dense output belongs to the step before the corrections at the point. */
+int zd_watch_leave(zd_watch *self);
+/* *occurs <- true if any event may occur in the step to the point, by both ends and by values between them. */
+int zd_watch_predict(zd_watch *self, int *occurs);
+/* Sets the ends of the step in the points of all events, and the number of samples between them. */
+void zd_watch_span(zd_watch *self);
+/* Points of all events between which they pass zero at most once; the end of the step has been saved. */
+int zd_watch_sample(zd_watch *self);
+
+/* Events: instants at which a function of the motion passes through zero. */
+
+zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *output);
+int zd_watch_start(zd_watch *self);
+/* Locates and reports the events of the last step; a terminal event moves the motion, and `end`, to its instant. */
+int zd_watch_after(zd_watch *self, int corrected, double *end);
 
 #endif

@@ -2,11 +2,10 @@
 #ifndef ZD_WITHIN_STEP_H
 #define ZD_WITHIN_STEP_H
 
-#include "../paths/checkpoint.h"
-#include "../paths/closed_form.h"
-#include "../paths/dense_output.h"
-#include "../step/step.h"
-#include "record.h"
+#include "../paths/path.h"
+#include "../paths/stepper.h"
+#include "../step/step_loop.h"
+#include "reading.h"
 
 typedef struct zd_output {
     zd_step_loop *loop;

@@ -2,13 +2,12 @@
  * memory, which is copied whole, without knowledge of its contents. Its size is about that of the data a step writes. Memory that was
  * allocated on demand is not copied.
  */
-#include "checkpoint.h"
+#include "stepper.h"
 
 #include <string.h>
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "variables.h"
 
 zd_checkpoint zd_checkpoint_create(zd_arena *arena, const zd_stepper *stepper)
 {

@@ -15,7 +15,7 @@
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "../step_limits.h"
-#include "embed.h"
+#include "path.h"
 
 static double *scale_of(const zd_motion *motion, const zd_elimination *order)
 {

@@ -3,7 +3,7 @@
 #define ZD_CHOOSE_H
 
 #include "path.h"
-#include "variables.h"
+#include "stepper.h"
 
 /* create.c: closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this
  * formulation. */

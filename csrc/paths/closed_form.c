@@ -1,12 +1,12 @@
 /* Steps on the closed-form path that end with the projection and, optionally, the energy correction; equations of motion in closed form. */
-#include "closed_form.h"
+#include "path.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../point/quaternions.h"
+#include "../point/point.h"
 #include "choose.h"
 
 /* ---- equations of motion ---- */

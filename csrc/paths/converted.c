@@ -1,12 +1,10 @@
 /* Parts of a step in closed form whose state the formulation converts, as by matrices, and its projection: one call of correct() has the
  * corrections of positions and of velocities, the latter being of use after the last.
  */
-#include "../linalg/newton.h"
+#include "../linalg/iteration.h"
 #include "../linalg/small.h"
-#include "../point/quaternions.h"
-#include "../point/units.h"
-#include "closed_form.h"
-#include "embed.h"
+#include "../point/point.h"
+#include "path.h"
 
 static int residual(void *context, double *size)
 {

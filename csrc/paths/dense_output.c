@@ -4,12 +4,12 @@
  * formulation's choice at the start of the step is copied, and restored while values within the step are computed. On the closed-form path
  * the variables do not change within a step.
  */
-#include "dense_output.h"
+#include "stepper.h"
 
 #include <string.h>
 
 #include "choose.h"
-#include "closed_form.h"
+#include "path.h"
 
 static void *take_chosen(zd_arena *arena, const void *of)
 {

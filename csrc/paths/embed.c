@@ -7,15 +7,13 @@
  * The formulation chooses the independent entries, on the matrix path: a step at whose end a dependent velocity depends more steeply on
  * the independent ones than the formulation allows is repeated there.
  */
-#include "embed.h"
+#include "path.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
-#include "../point/quaternions.h"
-#include "../point/units.h"
+#include "../point/point.h"
 
 enum { MAX_ITERATIONS = 8 };
 static const double CONSTRAINT_ROUNDING = 16 * 0x1p-52; /* residual of Phi after convergence, relative to the sizes of Phi and p */

@@ -2,8 +2,7 @@
 #include <string.h>
 
 #include "../linalg/small.h"
-#include "closed_form.h"
-#include "embed.h"
+#include "path.h"
 
 static void write_rates(const zd_motion *motion, const double *v, const double *pdot, const double *vdot, double power, double *ydot)
 {

@@ -1,5 +1,4 @@
 /* Parts of a step in independent velocities on the closed-form path: embed() computes the dependent ones. */
-#include "embed.h"
 #include "path.h"
 
 static int project(zd_stepper *self, double t1, int64_t step, int forced)

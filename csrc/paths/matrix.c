@@ -1,6 +1,6 @@
 /* Parts of a step by matrices: the formulation converts the state to the point and back. */
-#include "../linalg/norms.h"
-#include "../point/quaternions.h"
+#include "../linalg/small.h"
+#include "../point/point.h"
 #include "path.h"
 
 int zd_path_integrate(zd_stepper *self, double h)

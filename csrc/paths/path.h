@@ -1,9 +1,10 @@
 /* Evaluation paths: the parts of a step, by the functions that suit its state. Integrators and corrections do not know which path they are
  * on. A new path is a new file and one line in zd_path_of(), choose.h.
  */
-#ifndef ZD_PATH_H
-#define ZD_PATH_H
+#ifndef ZD_PATHS_PATH_H
+#define ZD_PATHS_PATH_H
 
+#include "../motion/motion.h"
 #include "../safeguards/safeguards.h"
 #include "stepper.h"
 
@@ -52,5 +53,53 @@ static inline int zd_path_end(const zd_evaluation_path *path, zd_stepper *self, 
     if (!status && self->motion->others_after_step) status = path->correct(self, step, forced);
     return !status && path->finish ? path->finish(self, within) : status;
 }
+
+/* Steps on the closed-form path that end with the projection and, optionally, the energy correction: they work on the state alone. */
+
+extern const zd_equations zd_equations_in_closed_form;      /* rates of states (p, v) */
+
+/* vdot and lambda at the point from `evaluate`, with the terms that corrections add to the right side of (6); NULL: none. */
+int zd_closed_form_accelerate(zd_motion *motion, int (*evaluate)(zd_motion *motion, const double *added));
+/* Projects p and v at the end t of a step, and computes the point's acceleration there, if path.lands. p and v are the point's own, or the
+ * caller copies them there. */
+int zd_closed_form_finish(zd_motion *motion, double t, double *p, double *v);
+/* True if the stepper's state can stay at the end of the step while the point is moved within it. */
+static inline int zd_plain_may_stay(const zd_stepper *stepper)
+{
+    return stepper->motion->path.is_plain && (stepper->motion->point->known & ZD_ACCELERATED);
+}
+/* Projects a state y within an accepted step and moves the point there; saves and restores accelerations at the end of the step. */
+int zd_plain_project_within(zd_stepper *stepper, double t, double *y);
+void zd_plain_save_rates(const zd_stepper *stepper, zd_cached_accelerations *rates);
+void zd_plain_return_to_end(zd_stepper *stepper, double t, zd_cached_accelerations *rates);
+
+/* Closed-form path of formulations in independent velocities: embed.c */
+
+extern const zd_equations zd_equations_of_independent;      /* embedded_rate.c */
+
+/* Allocates the fields of the path that only these formulations need. */
+void zd_embed_create(zd_path *path, zd_arena *arena, const zd_system *system);
+/* The elimination order whose dependent velocities are those not in the state, which it saves in the path; NULL: there is none. */
+const zd_elimination *zd_embed_find(zd_motion *motion);
+/* Sets the tolerance of Phi for a step that begins at the point. */
+void zd_embed_begin(zd_motion *motion);
+/* True if, at the point, an entry of D exceeds the bound up to which the formulation keeps its independent velocities. */
+int zd_embed_is_steep(const zd_motion *motion);
+/* The acceleration at the point, with the terms `added` to the right side of (6) */
+int zd_embed_accelerate(zd_motion *motion, const double *added);
+/* Counterparts of a formulation's unpack(), pack() and update(), for a step that begins or ends at the point. */
+int zd_embed_unpack(zd_motion *motion, double t, const double *y);
+int zd_embed_pack(zd_motion *motion, double *y);
+int zd_embed_update(zd_motion *motion);
+/* p and v of the path from the state; entries that the state does not have are estimates. */
+void zd_embed_read(zd_motion *motion, double t, const double *y);
+/* y <- the independent entries of p and v, or of their rates */
+void zd_embed_write(const zd_motion *motion, const double *p, const double *v, double *y);
+
+typedef struct zd_embedded {    /* outputs of an evaluation; D, lambda, power and pivots are NULL if not requested */
+    double *D, *pdot, *vdot, *lambda, *power, *pivots;
+} zd_embedded;
+/* Dependent entries of the path's v and, with finds_p, of its p, from the independent ones; with them the requested outputs. */
+int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to);
 
 #endif

@@ -5,8 +5,7 @@
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../point/quaternions.h"
-#include "../point/units.h"
+#include "../point/point.h"
 
 void zd_stepper_create(zd_stepper *self, zd_arena *arena, zd_motion *motion, const zd_integrator *integrator, const void *given,
                      zd_variables dependent, const zd_system *independent)

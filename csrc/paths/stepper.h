@@ -1,10 +1,10 @@
 /* The integrated state of a run: integrate it, save it, return to it. */
-#ifndef ZD_STEPPER_H
-#define ZD_STEPPER_H
+#ifndef ZD_PATHS_STEPPER_H
+#define ZD_PATHS_STEPPER_H
 
+#include "../constraints/rank.h"
 #include "../integrators/integrator.h"
 #include "../motion/motion.h"
-#include "../motion/state.h"
 
 /* A formulation, which determines the integrated variables. */
 typedef struct zd_variables {
@@ -49,5 +49,54 @@ int zd_stepper_return_to(zd_stepper *self, const zd_state *place);
 zd_cached_accelerations zd_rates_create(zd_arena *arena, const zd_motion *motion);
 void zd_stepper_save_rates(const zd_stepper *self, zd_cached_accelerations *rates);
 void zd_stepper_restore_rates(zd_stepper *self, const zd_cached_accelerations *rates);
+
+/* Integrated variables near a bifurcation: variables.c */
+
+/* (p, v), if it may have to replace the motion's variables; otherwise without a formulation. */
+zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integrator, const zd_system *independent);
+/* True if the attempted step, with this status, must be repeated in (p, v). */
+static inline int zd_variables_lose_digits(const zd_stepper *stepper, int status)
+{
+    const zd_motion *motion = stepper->motion;
+    return stepper->dependent.formulation && motion->formulation == stepper->chosen.formulation && motion->point->rank->was_ill_conditioned
+        && status != ZD_CALLBACK && status != ZD_NO_MEMORY;
+}
+/* Returns to the start of the step and changes to (p, v). */
+int zd_variables_use_dependent(zd_stepper *stepper);
+/* Changes to the given formulation before a state is restored. */
+void zd_variables_restore(zd_stepper *stepper, const zd_formulation *formulation);
+/* Changes back to the chosen formulation, unless the point is still near a bifurcation. */
+int zd_variables_use_chosen(zd_stepper *stepper);
+
+/* State of integrator and formulation that a step passes to the next, saved while steps are made that do not belong to the run. */
+
+typedef struct zd_checkpoint {
+    int is_set;             /* true if a state is saved */
+    int has_integrator;     /* true if the integrator's state is included */
+    void *of_integrator, *of_chosen;    /* copies of memory_of_integrator and memory_of_chosen */
+    double *y;              /* (size,): integrated state; u recomputed from v = D u would differ by rounding */
+    const zd_formulation *formulation;
+    int was_ill_conditioned, was_deficient, was_doubtful;   /* flags of zd_rank */
+} zd_checkpoint;
+
+zd_checkpoint zd_checkpoint_create(zd_arena *arena, const zd_stepper *stepper);
+/* Save, at the end of a step of the run. The second saves the formulation's choice of variables only, which suffices if no steps are made
+ * before it is restored. */
+void zd_checkpoint_set(zd_checkpoint *self, const zd_stepper *stepper);
+void zd_checkpoint_set_variables(zd_checkpoint *self, const zd_stepper *stepper);
+/* Restores it, at the state `end` */
+int zd_checkpoint_return(zd_checkpoint *self, zd_stepper *stepper, const zd_state *end);
+
+/* Dense output within the last step, if its method has a polynomial. */
+
+/* Allocates the copy of the formulation's choice of variables that values within a step need where that choice may change at its end. To be
+ * called before the first step. ZD_NO_MEMORY */
+int zd_dense_output_create(zd_stepper *stepper);
+/* The first: true if there is a polynomial for the last step, from t0. The second prepares it, with the motion at the end of the step; it
+ * is valid until the next step. */
+int zd_has_dense_output(const zd_stepper *stepper, double t0);
+int zd_dense_output_prepare(zd_stepper *stepper);
+/* Moves the point to time t within the step: the value of the polynomial, with all corrections. y (size,) receives the state there. */
+int zd_dense_output_move(zd_stepper *stepper, double t, double *y);
 
 #endif

@@ -8,7 +8,7 @@
  * A step near a bifurcation is made in (p, v) by (8) instead, and so are the next, until one is no longer near; the projection after each
  * of them corrects the constraints. Without such a projection the chosen variables are used throughout.
  */
-#include "variables.h"
+#include "stepper.h"
 
 #include <string.h>
 

@@ -1,8 +1,6 @@
-#include "expand.h"
+#include "point.h"
 
 #include <string.h>
-
-#include "point.h"
 
 /* Copies a matrix (rows, columns) into one with rows of length `stride`. Returns the end of the source. */
 static const double *copy_block(int rows, int columns, const double *from, double *to, int stride)

@@ -1,5 +1,5 @@
 /* Offsets by zd_structure: A and M are stored block after block, C group after group. */
-#include "layout.h"
+#include "point.h"
 
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "mass.h"
+#include "point.h"
 
 #include "../linalg/small.h"
 

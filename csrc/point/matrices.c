@@ -1,9 +1,8 @@
-#include "matrices.h"
+#include "point.h"
 
 #include <string.h>
 
 #include "../linalg/small.h"
-#include "expand.h"
 
 /* ---- rows of C ---- */
 

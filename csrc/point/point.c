@@ -8,7 +8,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
 
 /* ---- terms of a system: all that follows from their list in the public header ---- */

@@ -4,11 +4,9 @@
  * A length within rounding of one is not changed. So normalization is idempotent, and a run continued from a saved state has the same bits
  * as an uninterrupted one.
  */
-#include "quaternions.h"
+#include "point.h"
 
 #include <math.h>
-
-#include "matrices.h"
 
 static const double LENGTH_ROUNDING = 4 * 0x1p-52; /* deviation of the squared length from 1 that is rounding */
 static const double WRITTEN = 1e-6;     /* deviation of a start's length from 1 that is accepted: numbers written with seven digits */

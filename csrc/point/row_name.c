@@ -1,4 +1,4 @@
-#include "row_name.h"
+#include "point.h"
 
 #include <stdio.h>
 

@@ -7,14 +7,12 @@
  * ratios of derivatives by angle and by length in one row. A tolerance of 1e-12 on Phi / size thus corresponds to errors of
  * 1e-12 rad, or of 1e-12 L, in the coordinates; multiplying Phi by a number has no effect.
  */
-#include "units.h"
+#include "point.h"
 
 #include <math.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/small.h"
 #include "../workspace.h"
-#include "matrices.h"
 
 static const double NO_ROW = 0x1p-40;   /* size below which a row is rounding, relative to the largest row, or to the terms of its sum */
 

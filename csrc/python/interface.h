@@ -8,8 +8,7 @@
 #include <stddef.h>
 
 #include "../block/block.h"
-#include "../block/gaps.h"
-#include "../mechanisms/common/assembly/displacement.h"
+#include "../mechanisms/common/assembly/given.h"
 #include "../mechanisms/plane/assembly/varied.h"
 #include "../mechanisms/space_tree/tree.h"
 #include "../zerodrift.h"

@@ -1,21 +1,16 @@
 /* Creation of a run: its memory, its components, and the checks of its start. */
-#include "create.h"
+#include "run.h"
 
 #include <stdio.h>
 
-#include "../constraints/redundancy.h"
-#include "../motion/reactions.h"
+#include "../constraints/rank.h"
+#include "../motion/motion.h"
 #include "../paths/choose.h"
-#include "../paths/variables.h"
-#include "../point/quaternions.h"
-#include "../point/units.h"
+#include "../paths/stepper.h"
+#include "../point/point.h"
 #include "../registry.h"
-#include "../step/adaptive.h"
-#include "arguments/arguments.h"
-#include "explain.h"
-#include "goal.h"
-#include "inputs.h"
-#include "start.h"
+#include "../step/step_loop.h"
+#include "arguments/checks.h"
 
 /* Parameters as given, or the default ones. */
 static const void *complete(zd_given *given, const zd_card *card)

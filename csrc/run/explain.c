@@ -1,5 +1,5 @@
 /* Explanation of a failed run, in one sentence with numbers. */
-#include "explain.h"
+#include "run.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -7,10 +7,7 @@
 
 #include "../constraints/rank.h"
 #include "../integrators/integrator.h"
-#include "../point/matrices.h"
-#include "../point/row_name.h"
-#include "nonfinite.h"
-#include "status.h"
+#include "../point/point.h"
 
 #define ON_SINGULAR "on_singular=\"continue\" takes the branch of least acceleration"
 

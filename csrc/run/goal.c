@@ -1,14 +1,13 @@
 /* Open runs advance from goal to goal. Fixed steps stay at t_begin + k step, so that chained advances have the bits of one; t_begin and the
  * count begin anew only where a step was shortened, to a time between two of these or to a terminal event.
  */
-#include "goal.h"
+#include "run.h"
 
 #include <math.h>
 
 #include "../constraints/rank.h"
 #include "../paths/choose.h"
-#include "../paths/variables.h"
-#include "inputs.h"
+#include "../paths/stepper.h"
 
 static int is_fixed(const zd_run *run) { return run->settings.steps == ZD_FIXED_STEPS; }
 

@@ -2,7 +2,7 @@
  * over a given time in which steps are adaptive, and which ends with one of them. Or they jump, see jump.c. A change
  * makes what is known at the start of the step invalid; without a change nothing is done, and the bits are those of a run without inputs.
  */
-#include "inputs.h"
+#include "run.h"
 
 #include <math.h>
 #include <string.h>

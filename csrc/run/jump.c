@@ -11,7 +11,7 @@
 
 #include "../constraints/limits.h"
 #include "../paths/choose.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 #include "../safeguards/safeguards.h"
 #include "run.h"
 

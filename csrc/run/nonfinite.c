@@ -1,9 +1,9 @@
 /* Search for the non-finite term after a failure. Terms are not checked during a run, at no cost to it: after a failure the last step is
  * repeated with checks of every evaluation.
  */
-#include "nonfinite.h"
+#include "run.h"
 
-#include "../linalg/norms.h"
+#include "../linalg/small.h"
 
 static const double IMMENSE = 1e75;     /* larger states overflow by themselves: terms have up to their fourth power */
 

@@ -3,13 +3,13 @@
  *
  * Characteristic scales, the initial energy and the order of pivots come from the start of the run, which is the same here.
  */
-#include "resample.h"
+#include "run.h"
 
 #include <string.h>
 
-#include "../step/step.h"
 #include "../paths/choose.h"
-#include "../paths/dense_output.h"
+#include "../paths/stepper.h"
+#include "../step/step_loop.h"
 
 /* One sample of an array with `size` numbers per sample. */
 static const double *row_of(const zd_saved *saved, const double *array, int size, int64_t row)

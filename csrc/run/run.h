@@ -1,14 +1,15 @@
 /* A run and its components. */
-#ifndef ZD_RUN_H
-#define ZD_RUN_H
+#ifndef ZD_RUN_RUN_H
+#define ZD_RUN_RUN_H
 
 #include "../motion/motion.h"
+#include "../output/reading.h"
+#include "../output/watch.h"
 #include "../output/within_step.h"
-#include "../output/events.h"
-#include "../output/record.h"
+#include "../paths/stepper.h"
 #include "../safeguards/safeguards.h"
 #include "../step/step_loop.h"
-#include "../paths/stepper.h"
+#include "../zerodrift.h"
 
 enum { ZD_MESSAGE = 500 };
 
@@ -71,5 +72,71 @@ int zd_jump_end(zd_run *run);
 int zd_speeds_fit(zd_run *run, double *Psi);
 /* The sentence on the speed that differs most from its input after that. */
 void zd_speeds_say(const zd_run *run, char *to, size_t size);
+
+/* Creates a run at (t, p, v) and finds the rank of C there; the start is not checked yet. NULL without memory, with status and message;
+ * otherwise `status` is that of finding the rank. */
+zd_run *zd_run_open(const zd_system *system, const zd_settings *settings, double t, const double *p, const double *v, int *status,
+                    char *message, int size);
+
+/* Checks the start, the system and the tolerance, and prepares the first step. `status` is that of finding the rank. */
+int zd_run_start(zd_run *run, int status, const double *p0, const double *v0);
+/* The same from another start with other data, for a run that is not advanced afterwards: sets its scales, energy and first step, and the
+ * acceleration if it has no closed-form functions. ZD_SINGULAR if neither closed-form functions nor blocks apply at this start. */
+size_t zd_run_start_memory(const zd_run *run);      /* bytes of temporary memory for zd_run_start_elsewhere() */
+int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const double *p0, const double *v0);
+/* Measures sizes anew at the present point, and compares positions with them: the largest violation, and true if a start may have it. */
+int zd_start_measure(zd_run *run, double *violation, int *is_allowed);
+
+/* Inputs of a run. */
+
+/* Memory for the inputs of a run, which are those of its settings. */
+zd_held_inputs zd_inputs_create(zd_arena *arena, const zd_inputs *inputs, const zd_motion *motion);
+/* True if one of them is a speed; the place is that of a given input. */
+int zd_inputs_have_speeds(const zd_inputs *inputs);
+/* Reads the inputs at the start of an advance; ZD_BAD_INPUT leaves the ones before. */
+int zd_inputs_read(zd_run *run);
+/* Writes new inputs, none of which is a speed, to their places. */
+void zd_inputs_write(zd_run *run);
+/* Ends the ramps of speeds that were followed, begins new ones, or makes their jumps. */
+int zd_inputs_begin_step(zd_run *run);
+/* s: time at which the next ramp of adaptive steps ends; INFINITY: none */
+double zd_inputs_next_end(const zd_run *run);
+/* Returns speeds to the start of the step. */
+void zd_inputs_return(zd_run *run);
+
+/* Open runs: the goal of the present advance, and the return from a step that failed. */
+
+/* Removes the end of a run that is at its start. */
+void zd_run_leave_open(zd_run *run);
+/* Saves the start of the next step. */
+void zd_run_save_good(zd_run *run);
+/* Returns from a failed step to its start, from where the run can go on; on failure it cannot. */
+int zd_run_return_to_good(zd_run *run);
+
+/* Writes the run's message, if it has none yet; returns the status, or a more specific one. */
+int zd_explain(zd_run *run, int status);
+/* Writes the beginning of a message, with time and step; returns its length. `steps` is 0 if their number is not known in advance. */
+size_t zd_say_where(char *to, size_t size, double t, int64_t step, int64_t steps);
+void zd_say_event(char *to, size_t size, int event);    /* message of a run ended by this event */
+
+/* Meaning of a status, as a sentence. */
+
+const char *zd_sentence(int status);
+
+/* Bit of the non-finite term that caused a failure, and *t <- its time; 0: there is none. */
+int zd_run_not_finite(zd_run *run, int status, double *t);
+
+/* States between the samples of a finished run that saved every step. */
+
+typedef struct zd_resample {
+    zd_run *run;            /* a run from the same start, not advanced yet */
+    const zd_saved *saved;
+    int64_t row;            /* sample at the start of the step repeated last; -1: none */
+    int is_general;         /* true if that step leaves the closed-form path for the matrix path */
+    int has_polynomial;     /* true if its dense output is available */
+} zd_resample;
+
+/* Moves the run to time t, between the first and the last sample. */
+int zd_resample_move(zd_resample *self, double t);
 
 #endif

@@ -1,23 +1,17 @@
 /* Checks of the start of a run: it must satisfy the constraints, the system must be consistent, and the tolerance reachable. Memory that
  * only these checks need is freed after them.
  */
-#include "start.h"
+#include "run.h"
 
 #include <math.h>
 #include <stdio.h>
 
-#include "../constraints/rows.h"
-#include "../linalg/norms.h"
+#include "../constraints/rank.h"
 #include "../linalg/small.h"
 #include "../paths/choose.h"
-#include "../point/mass.h"
-#include "../point/matrices.h"
-#include "../point/quaternions.h"
-#include "../point/row_name.h"
-#include "../point/units.h"
+#include "../point/point.h"
 #include "../registry.h"
-#include "../step/adaptive.h"
-#include "inputs.h"
+#include "../step/step_loop.h"
 
 static const double START_TOLERANCE = 1e-10;    /* violation allowed at the start relative to sizes, if the corrections' own is tighter */
 static const double CONSTRAINT_ROUNDING = 0x1p-46;  /* rounding of Phi relative to the largest size: tens of roundings of its terms */

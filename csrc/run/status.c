@@ -1,5 +1,5 @@
 /* Statuses: all that follows from their list in the public header. */
-#include "status.h"
+#include "run.h"
 
 #include <stddef.h>
 

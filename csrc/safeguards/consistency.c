@@ -8,14 +8,14 @@
  * If this fails, the error is reported only if other difference quotients, one-sided and with other e, agree with the first: the
  * quotients of a Phi with kinks or coarse rounding prove nothing.
  */
-#include "consistency.h"
+#include "safeguards.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "../linalg/norms.h"
-#include "../point/matrices.h"
+#include "../linalg/small.h"
+#include "../point/point.h"
 
 static const double ASYMMETRY_OF_M = 1e-12;  /* |M_ij - M_ji| allowed, relative to the largest entry of M */
 static const double ASYMMETRY_OF_ENTRY = 1e-9;  /* the same, relative to sqrt(M_ii M_jj), the bound of |M_ij|; either tolerance suffices */

@@ -16,17 +16,16 @@
  * Shorter steps distinguish the two cases, in step/passage.c: through a bifurcation the motion is continuous, so that one of them
  * ends near enough for limits.c to recognize it; otherwise the orientation changes in one step, however short the steps are.
  */
-#include "crossing.h"
+#include "safeguards.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "../constraints/rank.h"
 #include "../constraints/rank_monitor.h"
-#include "../constraints/rows.h"
-#include "../linalg/lu.h"
+#include "../linalg/dense.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
-#include "../point/units.h"
+#include "../point/point.h"
 
 enum { MAX_POINTS = 64 };     /* maximum number of points at which C is evaluated along a long displacement */
 static const double LONGEST = 1;    /* displacement in characteristic scales: along a longer one, intermediate points are evaluated */

@@ -19,14 +19,14 @@
  * (omega h)^2 / 12 of p1 - p0. After a step in which this is more than a small part, or which is faster than at any check, checks are
  * eight steps apart again.
  */
-#include "guard.h"
+#include "safeguards.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../constraints/rank.h"
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 static const double ASTRAY = 0.5;
 static const double NEARBY = 1e-8;      /* in characteristic scales: smaller detours come from rounding and tolerances */

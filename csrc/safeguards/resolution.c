@@ -13,7 +13,7 @@
  * which its error cannot exceed. The factors and bounds are those that best separated wrong from right runs in
  * tests/stress/light_parts.py.
  */
-#include "resolution.h"
+#include "safeguards.h"
 
 #include <math.h>
 

@@ -5,12 +5,12 @@
  *
  * where the last term is Adot v of a quaternion of constant length. Distances of quaternions are half the angles of rotation.
  */
-#include "turning.h"
+#include "safeguards.h"
 
 #include <math.h>
 
 #include "../linalg/small.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 enum { ENTRIES = 4 };
 

@@ -7,12 +7,12 @@
  * The safety factor is below the customary 0.9, with which every fourth step of order eight would be rejected where speeds change as
  * abruptly as in a four-bar. Predictive and proportional-integral controllers were tried and save nothing worth their code.
  */
-#include "adaptive.h"
+#include "step_loop.h"
 
 #include <math.h>
 
-#include "../linalg/norms.h"
 #include "../linalg/roots.h"
+#include "../linalg/small.h"
 #include "../step_limits.h"
 
 static const double AFTER_FAILURE = 0.25;   /* ratio of the size after a failed step to that before */

@@ -1,4 +1,4 @@
-#include "clock.h"
+#include "step_loop.h"
 
 #include <math.h>
 #include <time.h>

@@ -7,7 +7,7 @@
  * steps of dry friction, stiff dampers, stiff impacts and steep smooth laws, by three methods and tolerances from 1e-3 to 1e-9: at a jump
  * whose steps are that short at least a quarter of them count, in any other run at most 16.
  */
-#include "collapse.h"
+#include "step_loop.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 /* Step across a bifurcation: bisection by shorter steps decides whether the motion passes through it continuously. */
-#include "passage.h"
+#include "step_loop.h"
 
 #include <math.h>
 
-#include "../constraints/rows.h"
+#include "../constraints/rank.h"
 #include "../linalg/bracket.h"
 #include "../step_limits.h"
 

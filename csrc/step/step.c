@@ -18,12 +18,11 @@
  *
  * zd_substep(): a step to a sample or an event within the last one is the same without 3 and 7, with all corrections, due or not.
  */
-#include "step.h"
+#include "step_loop.h"
 
 #include <math.h>
 
 #include "../paths/choose.h"
-#include "passage.h"
 
 enum { MAX_HALVINGS = 8 };     /* largest number of halvings of a substep that fails */
 

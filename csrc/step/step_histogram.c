@@ -1,5 +1,5 @@
 /* Distribution of adaptive steps in time: the end of every stride-th step is saved; when the array is full, the stride doubles. */
-#include "step_histogram.h"
+#include "step_loop.h"
 
 zd_step_histogram zd_step_histogram_create(zd_arena *arena, double t0)
 {

@@ -1,10 +1,50 @@
 /* Step loop of a run: its progress, and the control of its next step. */
-#ifndef ZD_STEP_LOOP_H
-#define ZD_STEP_LOOP_H
+#ifndef ZD_STEP_STEP_LOOP_H
+#define ZD_STEP_STEP_LOOP_H
+
+#include <stdint.h>
 
 #include "../paths/path.h"
-#include "collapse.h"
-#include "step_histogram.h"
+#include "../workspace.h"
+
+/* The wall clock. */
+
+double zd_seconds_now(void);
+
+/* Distribution of adaptive steps in time, in memory of fixed size. */
+
+enum { ZD_STEP_HISTOGRAM = 256 };
+
+typedef struct zd_step_histogram {
+    double *t;              /* (ZD_STEP_HISTOGRAM,), s: end of step i * stride; the start of the run for i = 0 */
+    int count;              /* saved times */
+    int64_t stride, left;   /* steps between two saved times; steps until the next */
+} zd_step_histogram;
+
+zd_step_histogram zd_step_histogram_create(zd_arena *arena, double t0);
+void zd_step_histogram_save(zd_step_histogram *histogram, double t);
+void zd_step_histogram_half(const zd_step_histogram *histogram, double *from, double *to);   /* shortest interval with half of the steps */
+static inline void zd_step_histogram_step(zd_step_histogram *histogram, double t)
+{
+    if (--histogram->left == 0) zd_step_histogram_save(histogram, t);
+}
+
+/* Collapse of adaptive steps at one place, as where a force jumps back and forth with the sign of a speed. */
+
+typedef struct zd_collapse {
+    double share;           /* size of a step below which it may count, relative to the span of the run; 0: none counts */
+    int64_t count;          /* steps counted at one place */
+    double t, h;            /* s: start of the first of them, and size of the last */
+    double *rate;           /* (nv,): mean accelerations in the last of them */
+    double *change;         /* (nv,): sum of their changes from one to the next, in characteristic scales */
+} zd_collapse;
+
+zd_collapse zd_collapse_create(zd_arena *arena, int nv);
+/* `most`: settings->max_steps */
+void zd_collapse_begin(zd_collapse *self, int64_t most);
+/* Counts the step of size h just made, whose error scale is `scale` (size,); ZD_COLLAPSED at the last that is allowed at one place. */
+int zd_collapse_count(zd_collapse *self, const zd_stepper *stepper, double h, const double *scale);
+int zd_collapse_velocity(const zd_collapse *self, int nv);      /* index of the velocity whose rate changed most */
 
 /* Attempts at a step. */
 enum zd_attempt_kind {
@@ -86,5 +126,28 @@ static inline int zd_step_loop_is_corrected(const zd_step_loop *loop)
 {
     return zd_motion_is_corrected(loop->motion, loop->step) || loop->stepper->t == loop->end || loop->parts;
 }
+
+/* Adaptive steps. */
+
+zd_control zd_adaptive_create(zd_arena *arena, const zd_stepper *stepper, double t0);
+/* Chooses the size of the first step; work (3, size). */
+int zd_adaptive_start(zd_step_loop *loop, double *work);
+/* Passes the approximate error scale of the next step to an integrator that needs it. */
+void zd_adaptive_set_scale(zd_step_loop *loop);
+
+/* Passage through a bifurcation within a step. */
+
+/* Finds the bifurcation in the step to t1; *found: true if the motion is continuous where the sign of the orientation changes. `make`: makes
+ * a step to a time from the start of the last one, corrected but without checks. */
+int zd_passage_find(zd_step_loop *loop, double t1, int (*make)(zd_step_loop *loop, double t), int *found);
+
+/* One step of a run: step.c */
+
+/* Makes the next step of the run, fixed or adaptive. */
+int zd_step(zd_step_loop *loop);
+/* Makes a step to a time within the last one, from where the stepper is, with all corrections. */
+int zd_substep(zd_step_loop *loop, double t);
+/* Makes one attempt on the present evaluation path. */
+int zd_step_attempt(zd_step_loop *loop, const zd_attempt *attempt);
 
 #endif

@@ -11,8 +11,8 @@
 #include "closed_form/chaplygin_sleigh.h"
 #include "kind.h"
 #include "precise/precise.h"
-#include "skate.h"
 #include "series/series.h"
+#include "skate.h"
 
 enum { X = ZD_SKATE_X, Y = ZD_SKATE_Y, PHI = ZD_SKATE_PHI, N = ZD_SKATE_N };
 

@@ -9,7 +9,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "../point/layout.h"
 #include "../point/point.h"
 
 typedef struct holding {    /* arguments of create() */

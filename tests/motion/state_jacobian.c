@@ -1,10 +1,9 @@
 /* The rate of the state that a formulation integrates, and its derivatives as jacobian.c finds them, for Python to compare. */
 #include <string.h>
 
-#include "../../csrc/constraints/redundancy.h"
+#include "../../csrc/constraints/rank.h"
 #include "../../csrc/motion/motion.h"
-#include "../../csrc/point/quaternions.h"
-#include "../../csrc/point/units.h"
+#include "../../csrc/point/point.h"
 
 extern const zd_formulation zd_independent, zd_mixed, zd_schur;
 

@@ -1,7 +1,7 @@
 /* Minimum-norm solutions of sparse rows for tests/linalg/test_minimum_norm.py. */
 #include <stdlib.h>
 
-#include "linalg/sparse/minimum_norm.h"
+#include "linalg/sparse/equations.h"
 
 /* x (n,) <- solution; row k has the entries begin[k] to begin[k + 1] of x and column. Returns the status. */
 int solve(int blocks, const int *at, const int *block_of, int rows, const int *begin, double *entries, const int *column,

@@ -1,7 +1,7 @@
 /* Minimum-norm solutions for tests/linalg/test_row_space.py. */
 #include <string.h>
 
-#include "linalg/row_space.h"
+#include "linalg/dense.h"
 
 /* x (n,) <- solution of A x = right, and turned (n,) <- the given vector along the rows and the null space; returns the rank, or -1 */
 int solve(int rows, int n, const double *A, const double *right, double *x, double *turned)

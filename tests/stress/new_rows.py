@@ -79,9 +79,9 @@ const zd_integrator zd_ralston = {
 
 FORMULATION = r"""
 /* (8) with iterative refinement: what the solution leaves of the equations is solved for again. */
-#include "dependent.h"
+#include "formulation.h"
 
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 extern const zd_formulation zd_augmented;
 
@@ -165,7 +165,7 @@ CORRECTION = r"""
 /* A part of the velocity violation is taken out after the step: v <- v - share solve(0, Psi), after (25b). */
 #include "../constraints/limits.h"
 #include "../motion/motion.h"
-#include "../point/matrices.h"
+#include "../point/point.h"
 
 typedef struct relaxation {
     double share;
@@ -351,7 +351,7 @@ SWIVEL = r"""    /* A body is turned back about an axis of the first body. */
     },
 """
 
-POINT_ON_PLANE = r"""    /* A point on a plane: the second body's point stays in a plane of the first, whose normal is the axis. */
+POINT_ON_PLANE = r"""    /* The second body's point stays in a plane of the first, whose normal is the axis. */
     {
         .card = {
             .name = "point_on_plane", .summary = "Keeps a point in a plane of the first body.", .equations = "(3), (5)",
@@ -605,7 +605,7 @@ ADDED = {
 NAMES = ("(ralston or refined or relaxation or spherical_pendulum or heat or parallel or offset_slider or soft_guide "
          "or point_on_plane or soft_plane or swivel) and not small_singular_values")
 WHOLE = ["tests/test_registry.py", "tests/test_core.py", "tests/runs/test_methods.py", "tests/point/test_terms.py",
-         "tests/test_structure_of_core.py", "tests/mechanisms/plane/joints", "tests/mechanisms/test_joint_verbs.py",
+         "tests/test_structure_of_core.py", "tests/mechanisms/plane", "tests/mechanisms/test_joint_verbs.py",
          "tests/mechanisms/test_force_verbs.py", "tests/mechanisms/test_table_verbs.py", "tests/mechanisms/test_files.py",
          "tests/mechanisms/test_compiled.py"]
 

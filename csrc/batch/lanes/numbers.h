@@ -37,8 +37,8 @@ typedef struct zd_lanes {
     double t0, end, step, steps;        /* steps: number of fixed steps */
     double rtol, atol, longest, tiny, max_steps, save_every, decay;
     double every;                       /* number of steps between projections; the last step is projected, too */
-    double astray, nearby, limit;       /* limits of safeguards/guard.h */
-    double weight;                      /* weight of safeguards/resolution.h for this order of the method */
+    double astray, nearby, limit;       /* limits of safeguards/safeguards.h */
+    double weight;                      /* weight of safeguards/safeguards.h for this order of the method */
     int order_of_method;
     enum { ZD_WATCHES_NOTHING, ZD_WATCHES_NUMBERS, ZD_WATCHES_STEPS } watches;  /* entries of y in fixed steps, or others */
     int events;

@@ -1,12 +1,12 @@
 /* Inputs of open runs in lanes. The lanes have copies of the present ones in one block, and write changed ones to their own numbers: what
  * belongs to a single run is not touched in an advance, as it lies scattered in memory. A run gets them when it is needed itself.
  */
-#include "lane_inputs.h"
+#include "open_lanes.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../run/inputs.h"
+#include "../../run/run.h"
 
 static int64_t position_in(const double *block, int64_t size, const double *place)
 {

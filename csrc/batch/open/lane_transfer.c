@@ -1,13 +1,12 @@
 /* Transfer of an open run between its own memory and a lane. The next bits of a motion depend on t, p, v, the energy input, the number of the
  * step and the inputs alone; with them go the schedule of checks and the counts, so that warnings do not depend on where steps were made.
  */
-#include "lane_transfer.h"
+#include "open_lanes.h"
 
 #include <math.h>
 
 #include "../../paths/choose.h"
 #include "../../step_limits.h"
-#include "lane_inputs.h"
 
 int zd_lane_may_enter(const zd_open_lanes *self, const zd_run *run)
 {

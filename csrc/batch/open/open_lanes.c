@@ -2,14 +2,13 @@
  * and one so long that the rows of C may have reversed. Between two advances the numbers of a group are in its image, and the run itself is
  * behind its lane until it is needed.
  */
-#include "lane_transfer.h"
+#include "open_lanes.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../step/clock.h"
-#include "lane_inputs.h"
-#include "../side_by_side.h"
+#include "../../step/step_loop.h"
+#include "../batch.h"
 
 /* ---- creation ---- */
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../../workspace.h"
-#include "../gaps.h"
+#include "../block.h"
 #include "opened_memory.h"
 
 enum { MESSAGE = ZD_OPENED_MESSAGE };

@@ -13,15 +13,14 @@
  * solutions of an iteration lose the digits of W. Redundant constraints may have a part of s that no x removes, and which stays: so the
  * decrease is that of C dx.
  */
-#include "bodywise.h"
+#include "structured.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../../constraints/rank.h"
 #include "../../linalg/small.h"
-#include "../../point/mass.h"
-#include "../../point/matrices.h"
+#include "../../point/point.h"
 
 enum { MAX_ITERATIONS = 40, MAX_FOR_MULTIPLIERS = 240 };     /* reductions of s by a tenth each: the latter leave BALANCED of it */
 static const double WEIGHT = 0x1p25;            /* weight of a constraint relative to the mass its bodies have along it */

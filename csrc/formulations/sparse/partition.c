@@ -17,8 +17,8 @@
 #include <string.h>
 
 #include "../../constraints/rank.h"
-#include "../../linalg/refinement.h"
-#include "../../point/matrices.h"
+#include "../../linalg/iteration.h"
+#include "../../point/point.h"
 
 enum { MANY_JOINTS = 12 };      /* joints of a body above which it is eliminated last, as it would couple all its neighbours */
 static const double LARGEST_SHARE = 0x1p-2, MIN_SHARE = 0x1p-40, SHRINK = 0x1p-2;    /* pivot thresholds relative to a column's square */

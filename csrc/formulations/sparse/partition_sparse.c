@@ -1,12 +1,11 @@
-#include "partition_sparse.h"
+#include "partition.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../linalg/newton.h"
-#include "../../linalg/norms.h"
-#include "../../point/matrices.h"
-#include "../../point/units.h"
+#include "../../linalg/iteration.h"
+#include "../../linalg/small.h"
+#include "../../point/point.h"
 
 enum { MAX_ITERATIONS = 40 };
 static const double NEARLY = 64;        /* residual, units of rounding, that is accepted if it no longer halves */

@@ -12,16 +12,15 @@
  * which is not stored otherwise, and takes as long as everything else: so systems with many constraints that were found accurate are
  * verified again only after a number of factorizations that doubles each time, or as soon as the pivot has halved.
  */
-#include "schur_blocks.h"
+#include "structured.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../constraints/rows.h"
-#include "../../linalg/refinement.h"
+#include "../../constraints/rank.h"
+#include "../../linalg/iteration.h"
 #include "../../linalg/small.h"
-#include "../../point/mass.h"
-#include "../../point/matrices.h"
+#include "../../point/point.h"
 
 enum { LONGEST_WAIT = 251 };  /* largest number of factorizations between verifications: a prime, so that all stages of a step are covered */
 static const double ACCURATE_RESIDUAL = 64 * 0x1p-52;        /* residual relative to the terms of C x of accurate solutions */

@@ -2,9 +2,9 @@
  * out; without the constraints that were redundant at the start, all of them are positive except at a bifurcation. No equations are
  * solved with these factors.
  */
-#include "singularity_monitor.h"
+#include "structured.h"
 
-#include "../../point/mass.h"
+#include "../../point/point.h"
 
 typedef struct plan {
     const zd_point *point;

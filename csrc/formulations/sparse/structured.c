@@ -2,7 +2,7 @@
  * constraint is redundant; else of the bodies. Where matrices are not formed, these formulations differ only in the systems they accept. */
 #include "structured.h"
 
-#include "../../constraints/rows.h"
+#include "../../constraints/rank.h"
 
 zd_structured *zd_structured_create(zd_arena *arena, const zd_system *system)
 {

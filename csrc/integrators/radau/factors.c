@@ -1,11 +1,9 @@
-#include "factors.h"
+#include "iteration.h"
 
 #include <math.h>
 
-#include "../../linalg/complex_lu.h"
-#include "../../linalg/lu.h"
-#include "../../linalg/norms.h"
-#include "pairs.h"
+#include "../../linalg/dense.h"
+#include "../../linalg/iteration.h"
 
 /* A power of two above the largest entry of a row of gamma / h - J, so that rows compare */
 static double size_of_row(const zd_radau_matrices *self, int i, double h)

@@ -1,4 +1,4 @@
-#include "matrices.h"
+#include "iteration.h"
 
 zd_radau_matrices zd_radau_matrices_create(zd_arena *arena, int size)
 {

@@ -1,9 +1,8 @@
-#include "newton.h"
+#include "iteration.h"
 
 #include <math.h>
 
-#include "../../linalg/newton.h"
-#include "../../linalg/norms.h"
+#include "../../linalg/iteration.h"
 #include "../../linalg/roots.h"
 #include "../../linalg/small.h"
 

@@ -6,12 +6,11 @@
  *
  * All in the units of the differences, in which pdot = s v with a power of two s for each entry; a is divided by it.
  */
-#include "pairs.h"
+#include "iteration.h"
 
 #include <math.h>
 
-#include "../../linalg/complex_lu.h"
-#include "../../linalg/lu.h"
+#include "../../linalg/dense.h"
 
 /* Size of row i of the matrix: a power of two near its largest entry, for a mu of size 1 / h. */
 static double size_of_row(const zd_radau_matrices *self, int i, double mu)

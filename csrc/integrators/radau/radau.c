@@ -13,9 +13,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../linalg/norms.h"
 #include "../../linalg/small.h"
-#include "newton.h"
+#include "iteration.h"
 
 enum { STAGES = ZD_RADAU_STAGES };
 

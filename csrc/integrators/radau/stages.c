@@ -10,12 +10,12 @@
  *
  * For any other state x, which is in independent velocities, it is sum_j B_ij x_j - J_i x_i = a_i as it stands.
  */
-#include "stages.h"
+#include "iteration.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "../../linalg/lu.h"
+#include "../../linalg/dense.h"
 
 enum {
     STAGES = ZD_RADAU_STAGES,

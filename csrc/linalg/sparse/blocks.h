@@ -1,6 +1,6 @@
 /* Sparse block factorization S = L D L^T of symmetric positive definite matrices. */
-#ifndef ZD_BLOCKS_H
-#define ZD_BLOCKS_H
+#ifndef ZD_LINALG_SPARSE_BLOCKS_H
+#define ZD_LINALG_SPARSE_BLOCKS_H
 
 #include "../../workspace.h"
 #include "ordering.h"
@@ -48,5 +48,13 @@ static inline void zd_blocks_solve(const zd_blocks *self, double *x)
     zd_blocks_forward(self, x);
     zd_blocks_backward(self, x);
 }
+
+/* Block factors as in blocks.h, but with triangular factors of diagonal blocks: for ill-conditioned matrices, whose blocks must not be
+ * inverted. */
+
+/* S <- its factors. Returns the first row, in the order of elimination, whose pivot is not positive, or -1. */
+int zd_triangular_factor(zd_blocks *self);
+/* x (rows,), in the order of elimination, <- S^-1 x */
+void zd_triangular_solve(const zd_blocks *self, double *x);
 
 #endif

@@ -1,4 +1,4 @@
-#include "few_columns.h"
+#include "equations.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,7 +6,7 @@
  * Remaining rows are stored with the block that they come from, and are gathered by its parent: the neighbour that is eliminated
  * first. The order has little fill: the cost of chains, trees and rows of loops is proportional to their size.
  */
-#include "minimum_norm.h"
+#include "equations.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,7 +14,6 @@
 #include "../../workspace.h"
 #include "../../zerodrift.h"
 #include "../small.h"
-#include "few_columns.h"
 #include "ordering.h"
 
 static const double RANK = 1e-9;        /* relative to rows of length one: bound of redundant ones */

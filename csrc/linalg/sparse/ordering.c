@@ -62,7 +62,6 @@ static void remove(queues *self, int degree, int k)
     else self->before[self->after[k]] = self->before[k];
 }
 
-
 /* ---- the search ---- */
 
 static int *arena_ints(zd_arena *arena, int count) { return zd_arena_bytes(arena, (size_t)count * sizeof(int)); }

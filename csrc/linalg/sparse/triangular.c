@@ -5,7 +5,7 @@
  * The inverse of a diagonal block would carry the rounding of its largest entries into all of its products. In M + C^T W C these entries
  * are of the order 1 / M, in the directions that constraints leave free; multiplied by W they would have to cancel.
  */
-#include "triangular.h"
+#include "blocks.h"
 
 #include <math.h>
 #include <string.h>

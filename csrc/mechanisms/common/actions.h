@@ -4,7 +4,7 @@
 #define ZD_COMMON_ACTIONS_H
 
 #include "../../linalg/small.h"
-#include "laws.h"
+#include "planned.h"
 
 typedef struct zd_actions {
     const zd_planned_elements *elements;
@@ -13,7 +13,7 @@ typedef struct zd_actions {
     void *to;
 } zd_actions;
 
-/* Statuses are those of laws.h. With the sign of (2), a row acts with -lambda times its factors. */
+/* Statuses are those of planned.h. With the sign of (2), a row acts with -lambda times its factors. */
 int zd_rows_act(const zd_actions *self, double t, const double *lambda);        /* all rows */
 void zd_joint_rows_act(const zd_actions *self, int count, const int *rows, const double *lambda);  /* rows (count,) of a joint */
 /* Drives of a joint, by rows and, if `all`, by generalized forces, and its damping. */

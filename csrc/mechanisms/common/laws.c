@@ -1,7 +1,7 @@
 /* Values of user functions, and of rows and generalized forces without one, from the marker quantities at one state. */
 #include <math.h>
 
-#include "laws.h"
+#include "planned.h"
 
 static int all_finite(const double *values, int count)
 {

@@ -4,11 +4,11 @@
  * the wrenches of all joints, inboard ones included, and relations. z minimizes |S (lambda + N z)| with moments divided by a length, so that
  * the choice depends neither on coordinates nor on the axes of the drawing.
  */
-#include "least_reactions.h"
+#include "output_spec.h"
 
 #include <math.h>
 
-#include "../../linalg/row_space.h"
+#include "../../linalg/dense.h"
 #include "../../linalg/small.h"
 
 static const double DEPENDENT = 1e-8;       /* relative to the norm of a constraint: residual norm below which it is redundant */

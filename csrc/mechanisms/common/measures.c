@@ -1,11 +1,10 @@
 /* Measures are marker quantities with their first and second derivatives, reactions of joints, and forces of springs and drives. */
-#include "measures.h"
+#include "output_spec.h"
 
 #include <math.h>
 
 #include "../../linalg/small.h"
 #include "../../workspace.h"
-#include "least_reactions.h"
 
 /* Places the frame at the state, and moves it if twists are needed, unless the previous call has done so. */
 static void place_and_move(const zd_measuring *self, int is_same_state, int needs_twists, const zd_measured_state *at)

@@ -1,8 +1,8 @@
 /* Measures of the system interface, from their specifications. */
-#ifndef ZD_COMMON_OUTPUT_SPEC_H
-#define ZD_COMMON_OUTPUT_SPEC_H
+#ifndef ZD_MECHANISMS_COMMON_OUTPUT_SPEC_H
+#define ZD_MECHANISMS_COMMON_OUTPUT_SPEC_H
 
-#include "laws.h"
+#include "planned.h"
 
 enum { ZD_WRENCH_FORCE = 3, ZD_WRENCH_SIZE = 6 };      /* components of a wrench, unused ones included: a force, then a torque */
 
@@ -51,5 +51,21 @@ int zd_drive_force(const zd_planned_elements *elements, const zd_readings *at, i
 /* value <- a measure of a relation: this force, or its power. */
 int zd_output_drive(const zd_planned_elements *elements, const zd_readings *at, const zd_output_spec *measure, double t, const double *lambda,
                     double *value);
+
+/* Evaluation of measures, common to plane and space: dispatch by kind, on the numerics of either. */
+
+/* As zd_measures.evaluate(). Returns ZD_DONE, ZD_BAD_ARGUMENT or ZD_CALLBACK. */
+int zd_measures_evaluate(const zd_measuring *self, int measure, const zd_measured_state *at, const zd_measured *out);
+/* As zd_reading.evaluate(). */
+int zd_measures_read(const zd_measuring *self, int law, const zd_measured_state *at, const double *r, int is_same_state, double *u);
+
+/* Multipliers of the least reactions, where constraints are redundant. */
+
+/* to (m,) <- multipliers with the same generalized force C^T lambda, for which the sum over all joints and relations of force^2 +
+ * (moment / length)^2 is least. The frame is placed and moving. Returns ZD_DONE, ZD_NO_MEMORY or ZD_CALLBACK. */
+int zd_least_reactions(const zd_measuring *self, const zd_measured_state *at, double *to);
+
+/* N (m, m) <- `count` redundant multipliers, C^T n = 0, one after another; total <- norm of the weighted wrenches S N. As above. */
+int zd_redundant_multipliers(const zd_measuring *self, const zd_measured_state *at, double *N, int *count, double *total);
 
 #endif

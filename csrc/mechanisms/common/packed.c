@@ -1,5 +1,5 @@
 /* Groups follow each other as rows do, and each one's bodies are in order. */
-#include "packed.h"
+#include "planned.h"
 
 void zd_packed_create(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms)
 {

@@ -1,6 +1,6 @@
 /* Elements in their planned form: rows of joints and relations in the order of C, generalized forces and measures. */
-#ifndef ZD_COMMON_PLANNED_H
-#define ZD_COMMON_PLANNED_H
+#ifndef ZD_MECHANISMS_COMMON_PLANNED_H
+#define ZD_MECHANISMS_COMMON_PLANNED_H
 
 #include "../../include/zerodrift/system.h"
 #include "../../workspace.h"
@@ -49,5 +49,58 @@ void zd_elements_add_relations(const zd_elements *elements, int nonholonomic, zd
 zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_element_parts *from, int mh);
 /* Bit mask of the terms of (2), (3), (5) and (6) that rows and generalized forces provide. */
 int zd_elements_terms(const zd_elements *elements, const zd_planned_elements *planned);
+
+/* Access to values and rates of marker quantities at one state. */
+
+typedef struct zd_readings {
+    double (*value)(const void *mechanism, const void *frame, int quantity);
+    double (*rate)(const void *mechanism, const void *frame, int quantity);
+    const void *mechanism, *frame;
+    const double *inputs;       /* values of the user functions of forces, if some of these read reactions */
+    double *x, *xdot, *out;     /* inputs of user functions, (longest,) each, and their output, (longest + 3,) */
+} zd_readings;
+
+static inline double zd_value_of(const zd_readings *at, int quantity) { return at->value(at->mechanism, at->frame, quantity); }
+static inline double zd_rate_of(const zd_readings *at, int quantity) { return at->rate(at->mechanism, at->frame, quantity); }
+
+/* Values of constraint rows and generalized forces at one state, with or without a user function. */
+
+/* A row g(t, x) = 0 of (3), or a_i(t, x) xdot_i + a_0(t, x) = 0 of (5). */
+typedef struct zd_combined {
+    double value;           /* g of a user function; without one: minus the constant part, as the marker quantities are added by the caller */
+    double explicit_rate;   /* explicit part of the rate in (5): dg/dt, or a_0 */
+    double second;          /* part of (6) that does not contain second derivatives of the marker quantities */
+    const double *factors;  /* dg/dx_i, or a_i: (terms,) */
+} zd_combined;
+
+/* These return ZD_DONE, or what the user function returns that failed: ZD_NOT_FINITE or ZD_CALLBACK. */
+int zd_combine(const zd_planned_elements *elements, const zd_readings *at, const zd_relation *row, double t, zd_combined *all);
+/* value <- the generalized force; rate <- the rate of its marker quantity, NULL: not wanted. */
+int zd_force_evaluate(const zd_planned_elements *elements, const zd_readings *at, const zd_generalized_force *force, double t,
+                      double *value, double *rate);
+/* u <- the same with the reactions r that its user function reads; 0 if none has this user function. */
+int zd_force_read(const zd_planned_elements *elements, const zd_readings *at, int law, double t, const double *r, double *u);
+int zd_forces_power(const zd_planned_elements *elements, const zd_readings *at, double t, double *power);     /* sum over all, for (28) */
+/* Potential energy: V of gravity plus the energy stored in springs. */
+double zd_springs_potential(const zd_planned_elements *elements, const zd_readings *at, double V);
+
+/* Block structure and storage of C: each body is a block with a constant diagonal mass; the rows of a joint are a row group, and so is
+ * each relation. */
+
+typedef struct zd_packed {
+    zd_structure structure;
+    int size_of_C;          /* number of stored entries */
+    int *at;                /* (m,) offset of each row in C */
+    int *near, *far;        /* (terms,) offsets in the row of the entries of the first and second body; -1: the ground */
+    int *coordinates, *velocities, *mass, *rows, *first, *block;    /* arrays of `structure` */
+} zd_packed;
+
+/* body <- the first and the second body of a marker quantity; 0 is the ground. */
+typedef void zd_bodies_of(const void *quantities, int quantity, int body[2]);
+
+/* Memory for so many bodies, rows and terms of rows. */
+void zd_packed_create(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms);
+/* Fills in the structure; `coordinates` and `velocities` must be set. Returns -1, or the first row that has no entries, which is an error. */
+int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *quantities);
 
 #endif

@@ -3,7 +3,7 @@
 #define ZD_COMMON_ROWS_H
 
 #include "../../linalg/small.h"
-#include "laws.h"
+#include "planned.h"
 
 typedef struct zd_row_numerics {
     const zd_planned_elements *elements;

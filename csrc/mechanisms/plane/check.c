@@ -1,5 +1,5 @@
 /* Checks of bodies, joints and marker quantities in the plane; elements are checked in ../common/check.c. */
-#include "check.h"
+#include "tables.h"
 
 #include <stddef.h>
 

@@ -1,6 +1,6 @@
 /* Layout of the scratch memory of a planar mechanism. */
-#include "marker_quantity.h"
 #include "plan.h"
+#include "tree.h"
 
 /* Offset of the next `count` structures of `bytes` each. */
 static size_t next(size_t *used, int count, size_t bytes)

@@ -1,9 +1,9 @@
 /* The size of what is drawn: how far apart points of the ground are, twice how far those of bodies are from their mass centres, and lengths
  * of joints and marker quantities. Coordinates alone do not tell it, as a slider may start at 0. */
-#include "length.h"
+#include "tables.h"
 
 #include "../../linalg/roots.h"
-#include "vectors.h"
+#include "tree.h"
 
 typedef struct extent {
     double largest;

@@ -5,12 +5,11 @@
  * mass centre; for an angular velocity a unit vector times a lever arm, at most the mechanism's length and the distances of both points from
  * the origin. A force on a body has a moment with the mechanism's length and the distance of the body from the origin as lever arm.
  */
-#include "magnitudes.h"
-
-#include "../common/actions.h"
-#include "../../linalg/roots.h"
-#include "marker_quantity.h"
 #include "plan.h"
+
+#include "../../linalg/roots.h"
+#include "../common/actions.h"
+#include "tree.h"
 
 static double distance_of(const zd_plane_pose *pose, const double *point)
 {

@@ -1,6 +1,6 @@
 /* The kinds of marker quantities. Each is a component of Q - P along a direction, its length, or an angle; the direction is a global axis, or
  * rotates with the first body. */
-#include "marker_quantity.h"
+#include "tree.h"
 
 typedef struct direction {
     zd_vector unit;

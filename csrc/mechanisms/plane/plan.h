@@ -1,13 +1,12 @@
 /* Planned form of a planar mechanism: bodies renumbered so that parents come before children, joints converted to rows of marker quantities.
  * */
-#ifndef ZD_PLANE_PLAN_H
-#define ZD_PLANE_PLAN_H
+#ifndef ZD_MECHANISMS_PLANE_PLAN_H
+#define ZD_MECHANISMS_PLANE_PLAN_H
 
 #include "../common/planned.h"
-#include "../common/readings.h"
+#include "hinged.h"
 #include "tables.h"
 #include "tree.h"
-#include "hinged.h"
 
 typedef struct zd_plane_planned_joint {
     int carried;            /* the body of which it is the inboard joint; 0: none */
@@ -38,7 +37,7 @@ struct zd_plane {
     const zd_plane_coordinate_owner *coordinate;      /* (nq,) */
     zd_hinged hinged;             /* used if all bodies turn about revolute joints and nothing is packed */
     const struct zd_packing *packing;   /* in absolute coordinates, where its matrices are stored packed; else NULL */
-    int revolutes, lines;           /* in absolute coordinates, their numbers: see revolute_joints.h, lines.h */
+    int revolutes, lines;           /* in absolute coordinates, their numbers: see structure/packing.h */
     zd_plane_frame_at frame_at;
     zd_system system;               /* its data is the mechanism */
     zd_measures measures;
@@ -74,5 +73,11 @@ zd_plane_frame zd_plane_frame_of(const zd_plane *mechanism, double *scratch);
 int zd_plane_frame_divide(const zd_plane *mechanism, zd_plane_frame_at *to);    /* returns the number of doubles */
 /* Marker quantities of a placed frame; their rates need a moving one. */
 zd_readings zd_plane_frame_readings(const zd_plane *mechanism, const zd_plane_frame *frame);
+
+/* Magnitudes before cancellation: see zd_system. Those of the gradients of constraints are for joint coordinates of the plane. */
+
+int zd_plane_magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
+int zd_plane_force_magnitudes(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
+                              double *scratch);
 
 #endif

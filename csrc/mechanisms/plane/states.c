@@ -1,6 +1,6 @@
 /* Between poses of bodies and coordinates. */
-#include "marker_quantity.h"
 #include "plan.h"
+#include "tree.h"
 
 void zd_plane_poses(const zd_plane *mechanism, const double *p, const double *v, double *poses, double *rates, double *scratch)
 {

@@ -7,12 +7,11 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_PLANE_TABLES_H
-#define ZD_PLANE_TABLES_H
+#ifndef ZD_MECHANISMS_PLANE_TABLES_H
+#define ZD_MECHANISMS_PLANE_TABLES_H
 
 #include "../common/elements.h"
 #include "elements.h"
-#include "link.h"
 
 typedef struct zd_plane_body {
     double mass, inertia;       /* kg, kg m^2 about the mass centre */
@@ -94,5 +93,14 @@ void zd_plane_state(const zd_plane *mechanism, const double *poses, const double
  * `scratch` holds measures->scratch doubles. */
 void zd_plane_components(const void *mechanism, const double *p, const double *v, int count, const int *which, double *value,
                              int *at, double *row, double *scratch);
+
+/* Consistency of the tables of a planar mechanism. */
+
+/* Returns 1, or 0 with the violated rule in `message`. */
+int zd_plane_tables_are_right(const zd_plane_tables *tables, char *message, int message_size);
+
+/* Characteristic length of a mechanism. */
+
+double zd_plane_tables_length(const zd_plane_tables *tables);     /* m */
 
 #endif

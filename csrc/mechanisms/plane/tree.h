@@ -4,11 +4,40 @@
  * own coordinates, measured from the ground, so that a torque on such a body reaches its own coordinate alone, while a force goes on to the
  * bodies further in. Constraints, springs and drives are not used here.
  */
-#ifndef ZD_PLANE_TREE_H
-#define ZD_PLANE_TREE_H
+#ifndef ZD_MECHANISMS_PLANE_TREE_H
+#define ZD_MECHANISMS_PLANE_TREE_H
 
-#include "link.h"
-#include "vectors.h"
+#include "../../linalg/small.h"
+#include "elements.h"
+#include "tables.h"
+
+/* Vectors of the plane. */
+
+/* Force at a body's mass centre, and torque. */
+typedef struct zd_plane_wrench {
+    zd_vector force;
+    double torque;
+} zd_plane_wrench;
+
+ZD_INLINE zd_vector zd_plus(zd_vector a, zd_vector b) { return (zd_vector){a.x + b.x, a.y + b.y}; }
+ZD_INLINE zd_vector zd_minus(zd_vector a, zd_vector b) { return (zd_vector){a.x - b.x, a.y - b.y}; }
+ZD_INLINE zd_vector zd_times(double s, zd_vector a) { return (zd_vector){s * a.x, s * a.y}; }
+ZD_INLINE double zd_inner(zd_vector a, zd_vector b) { return a.x * b.x + a.y * b.y; }
+ZD_INLINE double zd_cross(zd_vector a, zd_vector b) { return a.x * b.y - a.y * b.x; }
+
+/* turn x a, of a rotation about the axis that points out of the plane */
+ZD_INLINE zd_vector zd_turned(double turn, zd_vector a) { return (zd_vector){-turn * a.y, turn * a.x}; }
+
+ZD_INLINE zd_vector zd_rotated(double cosine, double sine, zd_vector a)
+{
+    return (zd_vector){cosine * a.x - sine * a.y, sine * a.x + cosine * a.y};
+}
+
+ZD_INLINE void zd_plane_add_wrench(zd_plane_wrench *to, double s, zd_plane_wrench what)
+{
+    to->force = zd_plus(to->force, zd_times(s, what.force));
+    to->torque += s * what.torque;
+}
 
 typedef struct zd_plane_tree {
     int bodies;             /* without the ground */
@@ -57,5 +86,18 @@ void zd_plane_tree_gather(const zd_plane_tree *tree, const zd_plane_pose *pose, 
 void zd_plane_tree_transmit(const zd_plane_tree *tree, const zd_plane_pose *pose, zd_plane_wrench *wrench);
 /* M (nv, nv), which is zero before */
 void zd_plane_tree_mass(const zd_plane_tree *tree, const zd_plane_pose *pose, zd_plane_composite *composite, double *M);
+
+/* Values, rates and unit forces of marker quantities in the plane. */
+
+typedef struct zd_plane_reading {
+    double value;
+    zd_plane_wrench first, second;    /* value's rate = first . twist of the first body + second . twist of the second */
+} zd_plane_reading;
+
+zd_plane_reading zd_plane_quantity_read(const zd_plane_quantity *quantity, const zd_plane_pose *pose);
+/* Returns the rate; bias <- its derivative by time at vdot = 0. */
+double zd_plane_quantity_rate(const zd_plane_quantity *quantity, const zd_plane_pose *pose, const zd_plane_twist *twist, double *bias);
+/* Point of a marker quantity or joint on one of its bodies, from the global origin. */
+zd_vector zd_point_of(const zd_plane_pose *pose, const double *point);
 
 #endif

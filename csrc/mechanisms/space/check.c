@@ -1,10 +1,10 @@
 /* Checks of bodies, joints and marker quantities in space; elements are checked in ../common/check.c. */
-#include "check.h"
+#include "tables.h"
 
 #include <stddef.h>
 
 #include "../common/check.h"
-#include "unwrapped_angles.h"
+#include "plan.h"
 
 static int is_particle(const zd_space_tables *tables, int body) { return body && tables->body[body - 1].is_particle; }
 

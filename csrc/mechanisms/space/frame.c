@@ -1,7 +1,6 @@
 /* The scratch of a mechanism in space, laid out once for its size and once for its parts. */
-#include "marker_quantity.h"
+#include "bodies.h"
 #include "plan.h"
-#include "unwrapped_angles.h"
 
 enum { POSE = sizeof(zd_space_pose) / sizeof(double), TWIST = sizeof(zd_space_twist) / sizeof(double),
       WRENCH = sizeof(zd_space_wrench) / sizeof(double),

@@ -4,7 +4,7 @@
  * a direction a has the rate omega x a and, where no velocity changes, the second rate omega x (omega x a); so has the way from the
  * mass centre to a point. The derivative of omega is there what the turned derivative of its own components is, as omega x omega vanishes.
  */
-#include "marker_quantity.h"
+#include "bodies.h"
 
 typedef struct moving {
     zd_vector3 value, rate, second;     /* the second rate where no velocity changes */

@@ -1,5 +1,5 @@
 /* Marker quantities of the entries of a joint's table. */
-#include "picked.h"
+#include "plan.h"
 
 #include <string.h>
 

@@ -1,11 +1,11 @@
 /* Planned form of a spatial mechanism: joints converted to rows of marker quantities, and the storage of their entries. */
-#ifndef ZD_SPACE_PLAN_H
-#define ZD_SPACE_PLAN_H
+#ifndef ZD_MECHANISMS_SPACE_PLAN_H
+#define ZD_MECHANISMS_SPACE_PLAN_H
 
+#include "../../workspace.h"
 #include "../common/output_spec.h"
-#include "../common/packed.h"
-#include "../common/readings.h"
-#include "marker_quantity.h"
+#include "../common/planned.h"
+#include "bodies.h"
 #include "point_joint_tables.h"
 #include "tables.h"
 
@@ -34,7 +34,7 @@ typedef struct zd_carrying {
     void *tree;                     /* the tree's own data; released with the mechanism */
 } zd_carrying;
 
-/* Angles of joints that count turns: see unwrapped_angles.h. */
+/* Angles of joints that count turns: see unwrapped_angles.c. */
 typedef struct zd_unwrapped_angles {
     int count;
     zd_space_quantity *angle;          /* (count,) marker quantity of each angle */
@@ -69,7 +69,7 @@ typedef struct zd_space_frame {
     double *angle;                  /* (turns,) of joints */
     zd_arms *arms;                  /* (point joints,), as the next */
     zd_directions *directions;
-    double *turns;                  /* angular entries of the point joints' rows, see point_joints.h */
+    double *turns;                  /* angular entries of the point joints' rows, see point_joints.c */
     double *is_placed, *is_moving;  /* used by measures only: 1 if poses and twists belong to the current state */
     double *is_least, *least;       /* used by measures only: 1 if (m,) multipliers of the least reactions belong to the current state */
     double *row;                    /* (nv,) of measures alone */
@@ -86,5 +86,43 @@ void zd_space_frame_place(const zd_space *space, const zd_space_frame *frame, co
 void zd_space_frame_move(const zd_space *space, const zd_space_frame *frame, const double *v);
 /* Marker quantities of a placed frame; their rates need a moving one. */
 zd_readings zd_space_frame_readings(const zd_space *space, const zd_space_frame *frame);
+
+/* Unwrapped angles of joints. An attitude determines an angle only up to full turns, so each joint angle is a coordinate of its own. Where
+ * bodies are free, and for joints that close loops of a tree, it is a dependent coordinate: integrated by its rate, and after each step set
+ * to the angle between both attitudes plus the nearest multiple of 2 pi. Of an inboard joint it is an independent coordinate. */
+
+/* Number of angles among the coordinates of a joint. */
+int zd_unwrapped_angles_of(const zd_space_joint *joint);
+/* Allocates memory for the given number of joints. */
+void zd_unwrapped_angles_create(zd_unwrapped_angles *self, zd_arena *arena, size_t joints);
+/* Lists all angles of the joints; the coordinates of dependent ones begin at p[at]. */
+void zd_unwrapped_angles_plan(zd_unwrapped_angles *self, int joints, const zd_space_joint *joint, int at);
+/* frame->angle <- all joint angles. */
+void zd_unwrapped_angles_read(const zd_space *space, const zd_space_frame *frame, const double *p);
+/* pdot (nq,) <- rates of all dependent angles at the velocities x (nv,), from placed bodies. */
+void zd_unwrapped_angles_rate(const zd_space *space, const zd_space_frame *frame, const double *x, double *pdot);
+/* Updates the dependent angles in p from the attitudes, keeping their full turns. */
+void zd_space_follow(const void *data, double *p);
+
+/* The marker quantities of joints. */
+
+/* The marker quantity that a pick of a joint's kind is; an angle counts no turns. */
+zd_space_quantity zd_space_picked_quantity(const zd_space_joint *joint, const zd_space_pick *pick);
+
+/* Rows of point joints. */
+
+/* Allocates memory for the given numbers of bodies, joints and rows. */
+void zd_point_joints_create(zd_point_joints *self, zd_arena *arena, size_t bodies, size_t joints, size_t rows);
+/* Finds the point joints among the rows, after their storage was planned. */
+void zd_point_joints_plan(zd_point_joints *self, const zd_space *space);
+/* Arms, directions and angular entries of all point joints, from placed bodies. */
+void zd_point_joints_turn(const zd_point_joints *self, const zd_space_frame *frame);
+/* Phi, C, Phi_t and xi of all point joints, as far as wanted. */
+void zd_point_joints_write(const zd_point_joints *self, const zd_space_frame *frame, int want, const zd_terms *out);
+
+/* Products with A and, if all constraints are point joints, with C, without their stored entries. */
+
+extern const zd_operations zd_space_products;       /* products with A only, for any spatial mechanism */
+extern const zd_operations zd_point_joint_products;      /* products with A and C, if self->point_joints.are_all */
 
 #endif

@@ -4,7 +4,7 @@
  *     Phi = a . b,                C v = (omega2 - omega1) . (b x a),              xi = -a" . b - 2 a' . b' - a . b"      (3), (5), (6)
  *
  * with omega in global axes. In the axes of a body, (omega x w)_k = omega . (w x e_k), where e_k is the k-th global axis in body axes. */
-#include "point_joints.h"
+#include "plan.h"
 
 void zd_point_joints_create(zd_point_joints *self, zd_arena *arena, size_t bodies, size_t joints, size_t rows)
 {

@@ -1,8 +1,6 @@
 /* The rows of each point joint are those of point_joints.c: for the velocities of its bodies' mass centres 1 and -1 in the three rows of the
  * point, for their angular velocities the entries in the scratch. So C W C^T has products of three entries instead of six. */
-#include "products.h"
-
-#include "unwrapped_angles.h"
+#include "plan.h"
 
 /* ---- A ---- */
 

@@ -4,14 +4,14 @@
  * and a unit quaternion, scalar first, that rotates body axes into global axes; its velocities are that of its mass centre in global axes,
  * and its angular velocity in body axes. These are its principal axes, so that M is constant and diagonal. A particle has a position and a
  * velocity only. Body 0 is the ground; given bodies are numbered from 1. The coordinates of bodies are followed by the joint angles, in the
- * order of joints, which count turns: unwrapped_angles.h. All points are in the axes of their body and from its mass centre (on the ground:
+ * order of joints, which count turns: unwrapped_angles.c. All points are in the axes of their body and from its mass centre (on the ground:
  * in global axes, from the global origin). Relations, generalized forces, measures and user functions are of marker quantities in space;
  * forces and torques have three components.
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_SPACE_TABLES_H
-#define ZD_SPACE_TABLES_H
+#ifndef ZD_MECHANISMS_SPACE_TABLES_H
+#define ZD_MECHANISMS_SPACE_TABLES_H
 
 #include "../common/elements.h"
 #include "elements.h"
@@ -83,5 +83,10 @@ typedef struct zd_space_plan {
 } zd_space_plan;
 
 zd_space_plan zd_space_planned(const zd_space *space);
+
+/* Consistency of the tables of a spatial mechanism. */
+
+/* Returns 1, or 0 with the violated rule in `message`. */
+int zd_space_tables_are_right(const zd_space_tables *tables, char *message, int message_size);
 
 #endif

@@ -5,9 +5,9 @@
  * where a x o is perpendicular to b, as it is if the joint is closed. The angle is atan2(o . b, a . b) plus the multiple of 2 pi that brings
  * it nearest to the coordinate. This removes the error of the integrated rate in each step; turns are correct while it is below pi.
  */
-#include "unwrapped_angles.h"
+#include "plan.h"
 
-#include "marker_quantity.h"
+#include "bodies.h"
 
 int zd_unwrapped_angles_of(const zd_space_joint *joint)
 {

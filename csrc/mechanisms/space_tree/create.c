@@ -5,12 +5,7 @@
 #include <string.h>
 
 #include "../../workspace.h"
-#include "evaluate.h"
-#include "inward.h"
-#include "magnitudes.h"
-#include "motion.h"
-#include "reactions.h"
-#include "unwrapped_angles.h"
+#include "links.h"
 
 typedef struct parts {
     zd_space_tree *tree;

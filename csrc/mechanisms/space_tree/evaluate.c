@@ -1,14 +1,9 @@
 /* The equations of motion (1), (2), (3), (5), (6) in joint coordinates: rows are those of joints outside the tree, and relations. */
-#include "evaluate.h"
+#include "links.h"
 
 #include <string.h>
 
-#include "../space/system/forces.h"
-#include "../space/system/rows.h"
-#include "inertia.h"
-#include "inward.h"
-#include "motion.h"
-#include "unwrapped_angles.h"
+#include "../space/system/system.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 

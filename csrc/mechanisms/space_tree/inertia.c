@@ -1,10 +1,8 @@
 /* The mass matrix by composite bodies, and the bias by recursive Newton-Euler equations: R. Featherstone, Rigid Body Dynamics Algorithms,
  * 2008, chapters 5 and 6; here in the drawing's axes, and about mass centres. */
-#include "inertia.h"
+#include "links.h"
 
 #include <string.h>
-
-#include "inward.h"
 
 /* ---- composite bodies ---- */
 

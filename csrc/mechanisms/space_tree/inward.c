@@ -1,6 +1,6 @@
 /* The generalized force of a wrench on a body is its product with the column of each velocity, the twist of the body at unit velocity; the
  * wrench is then transmitted to the parent. */
-#include "inward.h"
+#include "links.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* Connections of bodies to their parents, as determined by their inboard joints. */
-#ifndef ZD_SPACE_TREE_LINKS_H
-#define ZD_SPACE_TREE_LINKS_H
+#ifndef ZD_MECHANISMS_SPACE_TREE_LINKS_H
+#define ZD_MECHANISMS_SPACE_TREE_LINKS_H
 
 #include "../space/plan.h"
 
@@ -59,5 +59,67 @@ int zd_space_tree_frame_size(int bodies, int nv);
 zd_space_tree_frame zd_space_tree_frame_of(const zd_space_tree *tree, const zd_space_frame *frame);
 
 static inline const zd_space_tree *zd_space_tree_of(const zd_space *space) { return space->carrying.tree; }
+
+/* Inward recursion: generalized forces of wrenches on bodies, and the wrenches that joints transmit. */
+
+/* row (nv,) += scale times the generalized force of a unit force along a marker quantity. It is exactly zero for common ancestors of both
+ * bodies, unless the force acts on one body alone, or a particle between them transmits no torque. */
+void zd_space_tree_act(const zd_space *space, const zd_space_frame *frame, const zd_space_quantity *quantity, double scale,
+                       const zd_space_reading *reading,
+                  double *row);
+/* to (nv,) <- generalized forces of the wrenches on all bodies, frame->wrench, which is overwritten. */
+void zd_space_tree_gather(const zd_space *space, const zd_space_frame *frame, double *to);
+/* frame->wrench: required wrench on each body individually -> wrench transmitted to each body from its parent. */
+void zd_space_tree_transmit(const zd_space *space, const zd_space_frame *frame);
+/* Wrench on the parent that is transmitted from a wrench on a body; a particle transmits no torque. */
+zd_space_wrench zd_space_tree_pass(const zd_space_link *link, const zd_space_pose *pose, int body, zd_space_wrench what);
+
+/* Outward: from coordinates to poses, velocities and accelerations. */
+
+/* frame->pose, and the columns of the tree's Jacobian. */
+void zd_space_tree_place(const zd_space *space, const zd_space_frame *frame, const double *p);
+/* frame->twist, and in frame->bias accelerations where vdot is zero. */
+void zd_space_tree_move(const zd_space *space, const zd_space_frame *frame, const double *v);
+/* Accelerations, to the tree's frame, of one that is moving. */
+void zd_space_tree_accelerate(const zd_space *space, const zd_space_frame *frame, const double *vdot);
+/* A frame after a turn about one of its directions. */
+void zd_space_tree_turn_axes(zd_space_axes *F, int direction, double angle);
+/* Attitude of a body. */
+zd_rotation zd_space_tree_attitude(const zd_space_tree *tree, int body, const double *p);
+/* A of (1), without the rows of dependent angles: ones, and for quaternions half of q times (0, omega). A (nq, nv) must be zero before. */
+void zd_space_tree_write_A(const zd_space_tree *tree, const double *p, double *A);
+
+/* Mass matrix and inertia forces. */
+
+/* M (nv, nv) of a frame that is placed. */
+void zd_space_tree_mass(const zd_space *space, const zd_space_frame *frame, double *M);
+/* d (nv,) of one that is moving; frame->wrench is used up. */
+void zd_space_tree_bias(const zd_space *space, const zd_space_frame *frame, double *d);
+/* Force and torque about the mass centre that give a body its acceleration. */
+zd_space_wrench zd_space_tree_need(const zd_space_planned_body *body, const zd_space_pose *pose, const zd_space_twist *twist,
+                                   const zd_space_twist *change);
+
+/* Reactions of inboard joints. */
+
+/* See zd_carrying. */
+int zd_space_tree_reaction(const zd_space *space, const zd_space_frame *frame, int joint, zd_vector3 point,
+                           const zd_measured_state *at, zd_space_wrench *reaction);
+
+/* Magnitudes of the gradients of constraints and of generalized forces before cancellation, in joint coordinates of space: see zd_system. */
+
+int zd_space_tree_magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
+int zd_space_tree_force_magnitudes(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
+                                   double *scratch);
+
+/* Unwrapped joint angles: independent coordinates of inboard joints, dependent coordinates of all other joints. */
+
+/* Rows of A (nq, nv) of the dependent angles, from placed bodies; they must be zero before. */
+void zd_space_tree_write_rates(const zd_space *space, const zd_space_frame *frame, double *A);
+/* Updates the dependent angles in p, keeping their full turns. */
+void zd_space_tree_follow(const void *data, double *p);
+
+/* The equations of motion of a tree of bodies in space. */
+
+zd_evaluate zd_space_tree_evaluate;
 
 #endif

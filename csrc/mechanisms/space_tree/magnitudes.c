@@ -1,9 +1,8 @@
 /* Magnitudes of the gradients of constraints and of generalized forces before cancellation, as in the plane (../plane/magnitudes.c). */
-#include "magnitudes.h"
+#include "links.h"
 
 #include "../common/actions.h"
-#include "../space/system/magnitudes.h"
-#include "links.h"
+#include "../space/system/system.h"
 
 static double norm(zd_vector3 a) { return sqrt(zd_inner3(a, a)); }
 

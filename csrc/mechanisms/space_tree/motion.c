@@ -4,7 +4,7 @@
  * e; so where vdot is zero, a turn at the rate s adds omega x (s e) to the angular acceleration, and a slide by the way d at the rate s adds
  * alpha x d + omega x (omega x d) + 2 omega x (s e) to the acceleration of the point.
  */
-#include "motion.h"
+#include "links.h"
 
 #include "../../include/zerodrift/sines.h"
 

@@ -1,10 +1,7 @@
 /* Reaction of an inboard joint: inertia forces of the outer bodies minus all other forces on them. */
-#include "reactions.h"
+#include "links.h"
 
-#include "../space/system/forces.h"
-#include "inertia.h"
-#include "inward.h"
-#include "motion.h"
+#include "../space/system/system.h"
 
 /* frame->wrench <- inertia force of each body minus the applied and constraint forces on it, without joints of the tree. */
 static int write_needs(const zd_space *space, const zd_space_frame *frame, const zd_measured_state *at)

@@ -1,7 +1,6 @@
 /* Between poses of bodies and coordinates. */
-#include "motion.h"
+#include "links.h"
 #include "tree.h"
-#include "unwrapped_angles.h"
 
 static const double TURN = 6.283185307179586;
 enum { POSE = 12, TWIST = 6 };      /* doubles */

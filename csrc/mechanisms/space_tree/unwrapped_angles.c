@@ -1,10 +1,8 @@
 /* As in ../space/unwrapped_angles.c: the rate is that about the joint's axis, and the angle is that between both attitudes plus the nearest
  * multiple of 2 pi. */
-#include "unwrapped_angles.h"
+#include "links.h"
 
-#include "../space/marker_quantity.h"
-#include "inward.h"
-#include "motion.h"
+#include "../space/bodies.h"
 
 /* True if the k-th angle belongs to a joint outside the tree, so that it is a dependent coordinate. */
 static int follows(const zd_space *space, int k) { return !space->planned[space->unwrapped.joint[k]].carried; }

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "../../linalg/sparse/triangular.h"
+#include "../../linalg/sparse/blocks.h"
 
 typedef struct plan {
     const zd_layout *layout;

@@ -3,12 +3,12 @@
 #define ZD_BODIES_H
 
 #include "../../linalg/sparse/blocks.h"
-#include "../layout.h"
+#include "../point.h"
 
 typedef struct zd_bodies {
     const zd_layout *layout;
     zd_blocks *blocks;
-    int is_triangular;      /* true if it is factored as in triangular.h */
+    int is_triangular;      /* true if it is factored as in triangular.c */
     int *at;                /* (blocks of M,) offset of the velocities of each body in a right-hand side */
     int *pair;              /* offset of the block C_a^T W C_b in S, for each group and each pair b <= a of its bodies */
 } zd_bodies;
@@ -19,7 +19,7 @@ zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_l
 void zd_bodies_add_mass(zd_bodies *self, const double *M);
 /* Adds C^T W C; W (m,) */
 void zd_bodies_add_rows(zd_bodies *self, const double *C, const double *W);
-/* Factors the matrix as in triangular.h, accurate for any ratio of W to M. Returns the first velocity with a pivot that is not positive, or
+/* Factors the matrix as in triangular.c, accurate for any ratio of W to M. Returns the first velocity with a pivot that is not positive, or
  * -1. */
 int zd_bodies_factor(zd_bodies *self);
 /* As zd_blocks_factor(). */

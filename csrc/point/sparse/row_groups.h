@@ -2,7 +2,7 @@
 #ifndef ZD_ROW_GROUPS_H
 #define ZD_ROW_GROUPS_H
 
-#include "../layout.h"
+#include "../point.h"
 
 typedef struct zd_row_group {   /* the rows of a group */
     int kernel;             /* compiled kernel for these sizes; 0: none */

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../linalg/refinement.h"
+#include "../../linalg/iteration.h"
 #include "../../linalg/small.h"
 
 /* product (rows, n) <- A W of a body */

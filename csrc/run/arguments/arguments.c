@@ -1,16 +1,15 @@
 /* Checks of arguments before a run starts. Users' arguments are checked in Python, by name; these checks ensure that no arguments passed
  * through zerodrift.h make the core crash or run forever.
  */
-#include "arguments.h"
+#include "checks.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 
 #include "../../output/reading.h"
-#include "../../point/quaternions.h"
+#include "../../point/point.h"
 #include "../../registry.h"
-#include "interface.h"
 
 typedef struct rule {
     int broken;

@@ -1,13 +1,13 @@
 /* Checks of the optional members of zd_system, one function per pointer: their sizes must match those of the system, and declared arrays
  * and functions must exist. Messages count from 0, as the interface does.
  */
-#include "interface.h"
+#include "checks.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
-#include "../../point/layout.h"
+#include "../../point/point.h"
 
 typedef struct text {
     char *here;

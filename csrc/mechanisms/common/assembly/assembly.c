@@ -1,11 +1,10 @@
-#include "assembly.h"
+#include "given.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../../../linalg/small.h"
-#include "steps.h"
-#include "target_rows.h"
+#include "problem.h"
 
 static const double MET = 1e-9;         /* relative to the largest prescribed or computed velocity: tolerance of velocities */
 static const double ZERO_ROW = 1e-9;    /* relative to the mechanism's length: length of a row of rounding errors */

@@ -1,13 +1,11 @@
-#include "conditions.h"
+#include "problem.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../../../linalg/small.h"
-#include "../../../point/expand.h"
 #include "../../../point/point.h"
-#include "displacement.h"
-#include "target_rows.h"
+#include "given.h"
 
 static const double MIN_MASS = 1e-6;          /* relative to the largest mass, in the metric: mass of massless directions */
 static const double OFTEN = 1e8;                /* operations between checks for an interruption: some 0.1 s */

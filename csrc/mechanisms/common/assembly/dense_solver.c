@@ -2,9 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../../linalg/row_space.h"
+#include "../../../linalg/dense.h"
 #include "../../../linalg/small.h"
-#include "rows.h"
+#include "problem.h"
 
 static const double RANK = 1e-9;                /* relative to the longest row: bound below which rows are redundant */
 enum { POWERS = 200 };

@@ -1,4 +1,4 @@
-#include "displacement.h"
+#include "given.h"
 
 #include <math.h>
 

@@ -2,8 +2,8 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_ASSEMBLY_GIVEN_H
-#define ZD_ASSEMBLY_GIVEN_H
+#ifndef ZD_MECHANISMS_COMMON_ASSEMBLY_GIVEN_H
+#define ZD_MECHANISMS_COMMON_ASSEMBLY_GIVEN_H
 
 #include "../../../include/zerodrift/system.h"
 
@@ -60,5 +60,33 @@ enum zd_assembly_outcome {
     ZD_JOINTS_OPEN,             /* the joints do not close */
     ZD_TARGETS_UNMET            /* drives, couplings and held targets are not met, or contradict each other */
 };
+
+/* Displacements (nv,): places move, and bodies turn about an axis of their own by the length of a rotation vector. */
+
+/* Absolute coordinates: those of M are rates of p, except that quaternions (scalar first) change by angular velocities in body axes.
+ * to (nq,) <- p after the displacement x; not p itself. Dependent angles stay on their turns. */
+void zd_displace(const zd_system *system, const double *p, const double *x, double *to);
+/* x (nv,) <- displacement from `other` to p, by the shorter rotation of each body */
+void zd_displacement(const zd_system *system, const double *p, const double *other, double *x);
+
+/* Assembly: from a reference configuration to positions in which all joints are closed, and velocities that they allow.
+ *
+ * The unknowns are absolute coordinates, of the mass centres, so that the start is the same whatever coordinates a simulation takes. Steps
+ * are measured in rad and parts of the mechanism's length, and have minimum norm in the mass metric. Rows may be redundant. */
+
+/* Each returns an outcome, or a negative status of the core: no memory, or a failed evaluation of the system. p (nq,). */
+
+/* Nearest positions that satisfy all constraints and held targets, and approach wished ones; p: the reference configuration on entry */
+int zd_assemble_positions(const zd_assembly_given *given, double *p);
+/* Positions that satisfy drives and held targets, led there from closed ones, while staying targets keep their values. */
+int zd_assembly_lead(const zd_assembly_given *given, double *p);
+/* Nearest positions that satisfy all constraints, by Newton's method; p is unchanged without these. */
+int zd_assembly_project(const zd_assembly_given *given, double *p);
+/* Positions in which the sum of squares of the residuals of all constraints, in m and rad, is least */
+int zd_assembly_minimize(const zd_assembly_given *given, double *p);
+/* ZD_ASSEMBLED if p satisfies all constraints and held targets */
+int zd_assembly_check(const zd_assembly_given *given, const double *p);
+/* v (nv,) <- minimum-norm velocities that satisfy all constraints and held targets and approach wished ones */
+int zd_assemble_velocities(const zd_assembly_given *given, const double *p, double *v);
 
 #endif

@@ -1,4 +1,4 @@
-#include "rows.h"
+#include "problem.h"
 
 #include <math.h>
 

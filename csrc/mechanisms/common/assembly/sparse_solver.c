@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "../../../linalg/small.h"
-#include "rows.h"
+#include "problem.h"
 
 static const double WISHED = 1e-6;      /* weight of a wish relative to the norm of a step */
 

@@ -1,10 +1,10 @@
-#include "steps.h"
+#include "problem.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "../../../linalg/small.h"
-#include "displacement.h"
+#include "given.h"
 
 static const double TRACKED = 0.1;          /* step of a target, at most, in rad or parts of the mechanism's length */
 static const double LONGEST = 0.4;          /* step of any coordinate, at most, in the same units */

@@ -1,4 +1,4 @@
-#include "target_rows.h"
+#include "problem.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #ifndef ZD_PLANE_VARIED_H
 #define ZD_PLANE_VARIED_H
 
-#include "../../common/assembly/assembly.h"
+#include "../../common/assembly/given.h"
 #include "../tables.h"
 
 /* Tables of the first of so many mechanisms; entries of each that are bodies, joints, marker quantities, terms, relations and generalized

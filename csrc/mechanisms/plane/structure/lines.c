@@ -5,7 +5,7 @@
  *
  * where e turns with the first body; u in the place of u + d where it does not, and of a distance |d| with e = d / |d|. What is read off the
  * second body alone does nothing to the first. Angles are constant rows. See marker_quantity.c for the same in any tree. */
-#include "lines.h"
+#include "packing.h"
 
 static int turns_along(int kind) { return kind == ZD_PLANE_ALONG || kind == ZD_PLANE_ACROSS; }
 static int is_of_second_alone(int kind) { return kind == ZD_PLANE_GLIDE || kind == ZD_PLANE_SKID; }

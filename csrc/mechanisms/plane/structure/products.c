@@ -1,7 +1,5 @@
 /* The rows of each revolute joint are those of revolute_joints.c, I and k x arm with opposite signs on its bodies. */
-#include "products.h"
-
-#include "structure.h"
+#include "packing.h"
 
 /* The arms of all joints are first in the scratch, followed by memory for a vector. */
 static const zd_vector *arms_in(const double *scratch) { return (const zd_vector *)scratch; }

@@ -4,7 +4,7 @@
  *
  * Marker quantities along x and y are the same constraints individually, but rotate both points twice. Vectors over the coordinates have
  * three entries for each body and for the ground, whose entries are zero, so that no branch depends on the bodies of a joint. */
-#include "revolute_joints.h"
+#include "packing.h"
 
 static int is_plain(const zd_plane *mechanism, const zd_relation *row, int kind)
 {

@@ -1,5 +1,5 @@
 /* Storage of free bodies, and the constraint rows that are revolute joints. */
-#include "structure.h"
+#include "packing.h"
 
 void zd_packing_create(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms, size_t lines)
 {

@@ -3,13 +3,10 @@
 
 #include "../../../include/zerodrift/sines.h"
 #include "../../../workspace.h"
-#include "../check.h"
-#include "../length.h"
-#include "../magnitudes.h"
-#include "../structure/products.h"
-#include "../structure/structure.h"
-#include "evaluate.h"
-#include "measures.h"
+#include "../plan.h"
+#include "../structure/packing.h"
+#include "../tables.h"
+#include "system.h"
 
 /* Arrays that are filled during creation, and constant afterwards. */
 typedef struct parts {

@@ -1,9 +1,7 @@
 /* The equations of motion (2), (3), (5), (6) of a mechanism, from its tables. */
-#include "evaluate.h"
+#include "system.h"
 
-#include "../structure/structure.h"
-#include "forces.h"
-#include "rows.h"
+#include "../structure/packing.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 

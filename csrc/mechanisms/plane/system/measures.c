@@ -1,10 +1,8 @@
-/* Numerics of measures in the plane: see ../common/measures.h. */
-#include "measures.h"
+/* Numerics of measures in the plane: see ../../common/output_spec.h. */
+#include "system.h"
 
-#include "../../common/measures.h"
-#include "../marker_quantity.h"
-#include "reactions.h"
-#include "rows.h"
+#include "../../common/output_spec.h"
+#include "../tree.h"
 
 static void place(const void *mechanism, const void *frame, const double *p)
 {

@@ -1,10 +1,9 @@
 /* Reactions of joints. With the sign of (2), M vdot + d = f - C^T lambda, a row acts on bodies with -lambda times its wrenches. So joints
  * that are constraints have theirs from the multipliers; what goes through a joint of the tree is what the bodies further out need for
  * their accelerations beyond what else acts on them. */
-#include "reactions.h"
+#include "system.h"
 
-#include "../marker_quantity.h"
-#include "forces.h"
+#include "../tree.h"
 
 /* The joint's point of the second body; where a wheel rolls, the contact. */
 static zd_vector point_of(const zd_plane_frame *frame, const zd_plane_joint *joint)

@@ -1,9 +1,9 @@
 /* Numerics of rows in the plane: see ../../common/rows.h. */
-#include "rows.h"
+#include "system.h"
 
 #include "../../common/rows.h"
-#include "../marker_quantity.h"
-#include "../structure/structure.h"
+#include "../structure/packing.h"
+#include "../tree.h"
 
 /* Adds what a wrench on a body does to a row, where its entries are stored from `at` on. */
 static void add_packed(const zd_plane *self, int body, int at, double scale, zd_plane_wrench what, double *to)

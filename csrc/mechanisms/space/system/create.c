@@ -1,14 +1,9 @@
 /* From tables to a mechanism in space: joints become rows of marker quantities. */
 #include <stdio.h>
 
-#include "../check.h"
-#include "../picked.h"
-#include "../point_joints.h"
-#include "../products.h"
-#include "../unwrapped_angles.h"
-#include "evaluate.h"
-#include "magnitudes.h"
-#include "measures.h"
+#include "../plan.h"
+#include "../tables.h"
+#include "system.h"
 
 /* Arrays that are filled during creation, and constant afterwards. */
 typedef struct parts {

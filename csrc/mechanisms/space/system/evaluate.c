@@ -1,9 +1,7 @@
 /* The equations of motion (1), (2), (3), (5), (6) of a mechanism in space, from its tables. */
-#include "evaluate.h"
+#include "system.h"
 
-#include "../point_joints.h"
-#include "forces.h"
-#include "rows.h"
+#include "../plan.h"
 
 enum { ROWS = ZD_PHI | ZD_C | ZD_PHI_T | ZD_XI };
 

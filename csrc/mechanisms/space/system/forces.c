@@ -1,7 +1,7 @@
 /* A generalized force along a marker quantity acts on each body with its value times the unit wrench of that quantity, as in the plane. */
-#include "forces.h"
+#include "system.h"
 
-#include "../marker_quantity.h"
+#include "../bodies.h"
 
 ZD_INLINE void add(const zd_readings *at, void *unused, int index, double force)
 {

@@ -1,5 +1,5 @@
 /* A force on a body has a moment with a lever arm as in the plane (../../plane/magnitudes.c). */
-#include "magnitudes.h"
+#include "system.h"
 
 #include <string.h>
 

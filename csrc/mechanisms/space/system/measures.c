@@ -1,10 +1,8 @@
-/* Numerics of measures in space: see ../common/measures.h. */
-#include "measures.h"
+/* Numerics of measures in space: see ../../common/output_spec.h. */
+#include "system.h"
 
-#include "../../common/measures.h"
-#include "../marker_quantity.h"
-#include "reactions.h"
-#include "rows.h"
+#include "../../common/output_spec.h"
+#include "../bodies.h"
 
 static void place(const void *mechanism, const void *frame, const double *p) { zd_space_frame_place(mechanism, frame, p); }
 

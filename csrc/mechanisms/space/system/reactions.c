@@ -1,9 +1,9 @@
 /* Reactions of joints. With the sign of (2), M vdot + d = f - C^T lambda, a row acts on bodies with -lambda times its wrenches; the
  * reaction of an inboard joint is computed by the tree. */
-#include "reactions.h"
+#include "system.h"
 
 #include "../../common/actions.h"
-#include "../marker_quantity.h"
+#include "../bodies.h"
 
 /* Reaction of a joint on its second body, about a point of it. */
 typedef struct reaction_at {

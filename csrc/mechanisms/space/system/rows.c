@@ -1,8 +1,8 @@
 /* Numerics of rows in space: see ../../common/rows.h. */
-#include "rows.h"
+#include "system.h"
 
 #include "../../common/rows.h"
-#include "../marker_quantity.h"
+#include "../bodies.h"
 
 static double read(const zd_readings *from, int term, double factor, double *to)
 {
