@@ -33,10 +33,10 @@ static const zd_parameter parameters[] = {
      "with the step in up to eight parts (or shorter, with adaptive steps); `Solution.stats` counts all of them. Where none of this "
      "helps, the run fails.", 1, ZD_COUNT, (const double[]){10}},
     {"every", "", "Steps between corrections; the last step is always corrected.", 1, ZD_COUNT, (const double[]){1}},
-    {"metric", "", "mass identity: What the correction is orthogonal in: the mass matrix, or (for comparison) the identity of the paper's "
-     "reference [20].", 1, ZD_CHOICE, (const double[]){MASS}},
-    {"positions", "", "Whether positions are corrected.", 1, ZD_SWITCH, (const double[]){1}},
-    {"velocities", "", "Whether velocities are corrected.", 1, ZD_SWITCH, (const double[]){1}},
+    {"metric", "", "mass identity: Metric in which the correction is orthogonal: the mass matrix, or (for comparison) the identity of the "
+     "paper's reference [20].", 1, ZD_CHOICE, (const double[]){MASS}},
+    {"positions", "", "True: positions are corrected.", 1, ZD_SWITCH, (const double[]){1}},
+    {"velocities", "", "True: velocities are corrected.", 1, ZD_SWITCH, (const double[]){1}},
 };
 
 typedef struct projection {

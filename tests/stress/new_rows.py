@@ -36,7 +36,7 @@ typedef struct staged {
 } staged;
 
 static const zd_parameter parameters[] = {
-    {"theta", "", "Where the second stage is, as a part of the step.", 1, ZD_POSITIVE, (const double[]){2.0 / 3}},
+    {"theta", "", "Position of the second stage, as a part of the step.", 1, ZD_POSITIVE, (const double[]){2.0 / 3}},
 };
 
 static void *create(zd_arena *arena, const void *table, const zd_system *system, int size, const void *given)

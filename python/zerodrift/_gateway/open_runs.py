@@ -122,7 +122,7 @@ class ManyOpenRuns:
     Attributes
     ----------
     status : ndarray (runs,) of int
-        Of the last advance; a run that has failed, with a negative one, is not advanced.
+        Status of the last advance, one per run; a run that has failed has a negative one and is not advanced.
     t, p, v : ndarray (runs,), (runs, nq), (runs, nv)
         Present states.
     lanes : list

@@ -21,9 +21,9 @@ class Packing:
     Attributes
     ----------
     shapes : dict of str to tuple of int
-        What A, M and C are as the equations have them.
+        Shapes of A, M and C as in the equations.
     offsets : dict of str to tuple of int
-        Where, of what is stored, each block of A and M and each group of C begins, and the end.
+        Offsets, in the packed storage, of each block of A and M and each group of C, followed by the total size.
     """
 
     def __init__(self, blocks: Sequence[tuple[int, int, int]], groups: Sequence[tuple[int, tuple[int, ...]]]) -> None:

@@ -33,7 +33,7 @@ def each(function: Function, sizes: np.ndarray, width: int) -> np.ndarray:
     Parameters
     ----------
     function : callable
-        Of the numbers (j,) of directions and distances h (j,) along them; returns values (j, width).
+        Function of the numbers (j,) of directions and the distances h (j,) along them; returns values (j, width).
     sizes : ndarray (k,)
         The sizes of the directions in characteristic scales: steps are so many times shorter. Zero: nothing changes along it.
     width : int

@@ -28,7 +28,7 @@ class Efforts:
     efforts : dict of str to ndarray
         In N or N m, those of vectors also by component.
     power : ndarray (k,)
-        Of all efforts together, in W.
+        Power of all efforts together, in W.
     residual : ndarray (k,)
         Norm of the force that the efforts do not give, in the mass metric, in N/sqrt(kg).
     rank : ndarray (k,)

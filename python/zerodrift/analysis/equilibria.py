@@ -36,7 +36,7 @@ class EquilibriumPath:
     stable : ndarray (k,), bool
         No direction has a negative stiffness.
     limit_points : tuple of LimitPoint
-        Where the parameter turns back, and stability changes.
+        Points of the path at which the parameter turns back and the stability changes.
     """
 
     def __init__(self, system: BaseSystem, parameter: str, found: list[Knot], limits: list[Knot]) -> None:
@@ -77,7 +77,7 @@ def equilibria(system: Any, parameter: str, values: Any, *, near: Any = None, t:
     values : array_like (j,)
         Values at which equilibria are wanted, increasing or decreasing.
     near : array_like (nq,), or dict of measure to value, optional
-        Where the search for the first one begins, as in `equilibrium`.
+        Starting point of the search for the first equilibrium, as in `equilibrium`.
     t : float
         Time in s at which drives stand.
 

@@ -48,7 +48,7 @@ class Equilibrium(Reading):
     basis : ndarray (nv, k)
         The basis, in velocities.
     eigenvalues : ndarray
-        Of the motion nearby, in 1/s, those of free directions left out.
+        Eigenvalues of the motion near the equilibrium, in 1/s, without those of free directions.
     frequencies : ndarray
         In Hz, of the modes, in the order of the eigenvalues.
     stable : bool or None

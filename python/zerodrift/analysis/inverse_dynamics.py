@@ -39,7 +39,7 @@ def inverse_dynamics(system: Any, motion: Any, p: Any = None, v: Any = None, vdo
     p, v, vdot : array_like (nq,) or (k, nq), (nv,) or (k, nv), (nv,) or (k, nv), optional
         With times: the motion in the system's coordinates.
     efforts : sequence of str or measure, optional
-        Where the motion is driven: efforts conjugate to the rates of measures, coordinates or velocities; ``"joint.torque"`` and
+        Efforts that drive the motion, conjugate to the rates of measures, coordinates or velocities; ``"joint.torque"`` and
         ``"joint.force"`` act along the joint's coordinate. Left out: what is prescribed in `motion`. Drives of the system that
         prescribe a motion have their efforts among the reactions, ``inv["motor.torque"]``.
     weights : dict of effort to float, optional

@@ -52,7 +52,7 @@ class Linearization:
     rotation : ndarray (3,)
         Angular velocity in rad/s of the frame in which the motion is steady.
     is_exact : bool
-        Whether the derivatives of the accelerations are the system's own; otherwise they are differences.
+        True: the derivatives of the accelerations are the system's own; False: they are finite differences.
     """
 
     def __init__(self, flow: Flow, B: np.ndarray, C: np.ndarray, D: np.ndarray, inputs: tuple[str, ...],
@@ -118,8 +118,8 @@ class Linearization:
         Parameters
         ----------
         names : sequence of str or measure
-            Of positions, as many as half of the eigenvalues; they must not depend on ignorable coordinates. The printed names of
-            rotations, such as ``"frame rotation about x"``, are among them.
+            Names of measures of positions, as many as half of the eigenvalues; they must not depend on ignorable coordinates.
+            The printed names of rotations, such as ``"frame rotation about x"``, are among them.
 
         Raises
         ------

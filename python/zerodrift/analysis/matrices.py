@@ -33,8 +33,8 @@ def mass_matrix(system: Any, p: Any = None, *, t: float = 0.0, tangent: bool = F
     t : float
         Time in s.
     tangent : bool
-        Whether to restrict it to the r velocities that the constraints allow: ``Z.T @ M @ Z``, Z (nv, r) a basis of these that is
-        orthonormal in characteristic scales, ``zd.jacobian(system, names_of_velocities, p, tangent=True)``.
+        True: the matrix is restricted to the r velocities that the constraints allow: ``Z.T @ M @ Z``, with Z (nv, r) a basis
+        of these that is orthonormal in characteristic scales, ``zd.jacobian(system, names_of_velocities, p, tangent=True)``.
 
     Returns
     -------
@@ -67,14 +67,14 @@ def jacobian(system: Any, measure: Any, p: Any = None, *, t: float = 0.0, tangen
     ----------
     system : system or Mechanism
     measure : measure, str, or a sequence of these
-        Of positions or velocities; of velocities it is the derivative of the measure itself. Coordinates and velocities of the
-        system by name, too. Several are stacked.
+        Measures of positions or velocities, and coordinates and velocities of the system by name; several are stacked. For a
+        measure of velocities the result is the derivative of the measure itself.
     p : array_like (nq,), optional
         Position; left out: the start.
     t : float
         Time in s.
     tangent : bool
-        Whether to restrict it to the r velocities that the constraints allow, see `mass_matrix`.
+        True: the matrix is restricted to the r velocities that the constraints allow, see `mass_matrix`.
 
     Returns
     -------
@@ -110,9 +110,9 @@ def bias(system: Any, p: Any = None, v: Any = None, *, t: float = 0.0, tangent: 
     t : float
         Time in s.
     tangent : bool
-        Whether to restrict it to the r velocities that the constraints allow, see `mass_matrix`: ``Z.T @ (d + M @ x)``, with x
-        the smallest acceleration that satisfies (6). Then ``mass_matrix(..., tangent=True) @ a + bias = Z.T @ f``, with the
-        acceleration ``x + Z @ a``.
+        True: the vector is restricted to the r velocities that the constraints allow, see `mass_matrix`: ``Z.T @ (d + M @ x)``,
+        with x the smallest acceleration that satisfies (6). Then ``mass_matrix(..., tangent=True) @ a + bias = Z.T @ f``, with
+        the acceleration ``x + Z @ a``.
 
     Returns
     -------

@@ -202,7 +202,7 @@ class Search:
     system, t, held
         As of `Balance`.
     is_downhill : bool
-        Whether to search for a stable position; otherwise for any.
+        True: only a stable position is accepted; False: any equilibrium.
     """
 
     def __init__(self, system: BaseSystem, t: float, held: Mapping[str, np.ndarray], *, is_downhill: bool) -> None:

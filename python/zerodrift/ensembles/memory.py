@@ -97,7 +97,7 @@ class Joined(Mapping):
     names : sequence of str
     parts : sequence of mappings of str to ndarray
     rows : int
-        Of all parts together.
+        Number of rows of all parts together.
     """
 
     def __init__(self, names: Sequence[str], parts: Sequence[Mapping[str, np.ndarray]], rows: int) -> None:

@@ -29,7 +29,7 @@ class Part(NamedTuple):
     failed : ndarray (n,) of bool
     messages : list of str (n,)
     paths : ndarray (n,) of uint8
-        How each run was made: index into `PATHS`.
+        Evaluation path of each run: index into `PATHS`.
     doubtful : ndarray (n,) of bool
         True for runs of which `simulate` would warn.
     values, t_events, solutions : list (n,)

@@ -132,7 +132,7 @@ class Ensemble:
         Returns
         -------
         Path
-            Where it was written.
+            Path of the written file.
 
         Raises
         ------

@@ -24,7 +24,7 @@ class Grid(Mapping):
     Attributes
     ----------
     shape : tuple of int
-        How many values each parameter has; runs are in the order of ``numpy.ndindex(shape)``.
+        Number of values of each parameter; runs are in the order of ``numpy.ndindex(shape)``.
     """
 
     def __init__(self, values: Mapping[str, np.ndarray]) -> None:

@@ -24,7 +24,7 @@ class Exhibit(NamedTuple):
     Attributes
     ----------
     name : str
-        Of the model in `zerodrift.models`.
+        Name of the model in `zerodrift.models`.
     see : str
         A sentence on what to see.
     span, step : float
@@ -34,7 +34,7 @@ class Exhibit(NamedTuple):
     speed : float
         Seconds of motion per second of film.
     options : dict
-        What `zerodrift.simulate` takes besides.
+        Further arguments of `zerodrift.simulate`.
     arguments : tuple
         Arguments of the model.
     """

@@ -28,7 +28,7 @@ def film(exhibit: Exhibit, *, frames: int = 16, width: int = 240, height: int = 
     ----------
     exhibit : Exhibit
     frames : int
-        How many pictures.
+        Number of pictures.
     width, height : int
         In pixels.
     solution : Solution, optional

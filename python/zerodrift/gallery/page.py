@@ -56,12 +56,12 @@ def write(folder: str | Path, *, frames: int | None = None, names: list[str] | N
     frames : int, optional
         Pictures of each film; left out: forty.
     names : list of str, optional
-        Of models; left out: all.
+        Names of models; left out: all.
 
     Returns
     -------
     Path
-        Of the page.
+        Path of the page.
 
     Raises
     ------

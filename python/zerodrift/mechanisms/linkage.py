@@ -47,10 +47,10 @@ def linkage(points: Mapping[str, Any], links: Mapping[str, Any], *, lengths: Map
     Returns
     -------
     Mechanism
-        Where two links meet is a hinge with the point's name. Where more meet, hinges join them to the one that was listed
-        first, and to the ground where it is among them; they are named by the point and the link, ``"X crank"``, and the point
-        has its name. Each point has a position, ``"X.position"``. To a link of two points, `Mechanism.link` applies; the inertia
-        of others does not change with their mass.
+        A point at which two links meet is a hinge with the point's name. At a point where more meet, hinges join them to the
+        one that was listed first, and to the ground where it is among them; they are named by the point and the link, ``"X
+        crank"``, and the point has its name. Each point has a position, ``"X.position"``. To a link of two points,
+        `Mechanism.link` applies; the inertia of others does not change with their mass.
 
     Raises
     ------

@@ -46,11 +46,11 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
     Attributes
     ----------
     ground : Body
-        What does not move; its frame is the drawing's.
+        The body that does not move; its frame is the drawing's.
     bodies, joints, motors : tuple
         In the order in which they were added; ``m["name"]`` is any element.
     p0, v0 : ndarray (nq,), (nv,)
-        Where its `system` starts, in the coordinates that this takes.
+        Initial state of its `system`, in the coordinates of that system.
 
     Raises
     ------
@@ -248,7 +248,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         Returns
         -------
         Path
-            Where it was written.
+            Path of the written file.
 
         Raises
         ------

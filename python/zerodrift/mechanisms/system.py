@@ -58,9 +58,9 @@ class MechanismSystem(Reported):
     parameters : dict
         Every number by its path, such as ``"crank.mass"``, and the mechanism's own parameters.
     measures : tuple of str
-        What ``sol[...]`` knows.
+        Names of the measures that ``sol[...]`` accepts.
     compiled : bool
-        Whether the equations are written out and compiled; False, too, where there was no compiler.
+        True: the equations are written out and compiled; False also where no compiler was found.
     """
 
     def __init__(self, drawing: Drawing, layout: str | None, changed: dict[str, float], compiled: bool = False,

@@ -30,11 +30,11 @@ class Claim:
     figure : int
         The figure it is about.
     claim, expected : str
-        What the paper says, in our words, and the number or criterion taken for it.
+        The claim of the paper, in other words, and the number or criterion taken for it.
     measured : str
-        What we found.
+        The measured result.
     holds : bool
-        Whether it comes out as stated.
+        True: the measurement agrees with the claim.
     remark : str
         Why not, or under what condition.
     """

@@ -36,7 +36,7 @@ class CrankEquation:
     lengths : (4,) in m
         Ground, links 1, 2, 3.
     masses : (3,) in kg
-        Of slender rods.
+        Masses of the slender rods.
     gravity : float in m/s^2
     side : {1, -1}
         Open or crossed.

@@ -29,7 +29,7 @@ def carried(table: np.ndarray, bodies: Iterable[Sequence[int]], size: float) -> 
     Returns
     -------
     dict of int to (tuple of int, ndarray)
-        Of each such point: the points that span the axes, and its coordinates in them.
+        For each such point: the points that span the axes, and its coordinates in them.
     """
     found: Carried = {}
     for body in bodies:

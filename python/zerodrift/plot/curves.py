@@ -200,7 +200,7 @@ def energy_violation(sol: Solution, ax: Axes | None = None, *, log: bool = False
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
     log : bool
-        Whether to draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge.
+        True: draw its magnitude on a logarithmic scale, exact zeros as triangles on the lower edge.
     **style
         For ``ax.plot``; a label adds a legend.
 
@@ -235,14 +235,14 @@ def error(sol: Solution, reference: Solution | Reference | Callable[[float], Any
     sol : Solution
         Data.
     reference : Reference, Solution or callable
-        What `zerodrift.reference` gave, a solution whose times contain those of `sol`, or a function of the time that returns
-        p (nq,).
+        Result of `zerodrift.reference`, a solution whose times contain those of `sol`, or a function of the time that returns p
+        (nq,).
     names : str or sequence of str, optional
-        Of coordinates and (with a Solution as reference) velocities; left out: all coordinates.
+        Names of coordinates and (with a Solution as reference) velocities; left out: all coordinates.
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
     log : bool
-        Whether to draw magnitudes on a logarithmic scale, exact zeros as triangles on the lower edge.
+        True: draw magnitudes on a logarithmic scale, exact zeros as triangles on the lower edge.
     **style
         Further arguments of ``ax.plot``.
 

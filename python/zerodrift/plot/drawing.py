@@ -44,7 +44,7 @@ def mechanism(system_or_solution: BaseSystem | Solution, p: Any = None, ax: Axes
     Parameters
     ----------
     system_or_solution : system, Mechanism or Solution
-        What to draw.
+        Mechanism to draw.
     p : array_like (nq,), optional
         Coordinates of the position to draw; by default the start of the system, or positions of the solution.
     ax : Axes, optional
@@ -125,7 +125,7 @@ def path(sol: Solution, points: Any, ax: Axes | None = None, **style: Any) -> Ax
     Parameters
     ----------
     sol : Solution
-        Of a mechanism.
+        Solution of a mechanism.
     points : str, point or measure, or a sequence of them
         Such as ``"F"``, ``"rod.end"``, ``rod.end`` or ``"F.position"``.
     ax : Axes, optional

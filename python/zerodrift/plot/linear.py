@@ -26,7 +26,7 @@ def mode(lin: Linearization, index: int = 0, ax: Axes | None = None, *, amplitud
     ----------
     lin : Linearization
     index : int
-        Of the eigenvalue.
+        Index of the eigenvalue.
     ax : Axes, optional
         Left out: a new figure.
     amplitude : float

@@ -27,7 +27,7 @@ def bands(ens: Ensemble, name: Any, quantiles: Sequence[float] = QUANTILES, ax: 
     Parameters
     ----------
     ens : Ensemble
-        What to draw; its runs share their times.
+        Runs to draw, with common times.
     name : str or measure
         A scalar output, or a component of one, such as ``"C.force.x"``.
     quantiles : sequence of float
@@ -87,7 +87,7 @@ def against(ens: Ensemble, parameter: str, of: Any = None, ax: Axes | None = Non
     Parameters
     ----------
     ens : Ensemble
-        What to draw.
+        Runs to draw.
     parameter : str
         A scalar one.
     of : str, measure or array_like (n,), optional

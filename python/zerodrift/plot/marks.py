@@ -28,7 +28,7 @@ class Mark(NamedTuple):
     face, edge : str
         Colours; "none" where there is none.
     width : float
-        Of the edge, in those of a picture's lines.
+        Width of the edge, in widths of the picture's lines.
     dashes : str or tuple
         As matplotlib's line styles.
     """

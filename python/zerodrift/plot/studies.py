@@ -35,7 +35,7 @@ def work_precision(result: WorkPrecision, ax: Axes | None = None) -> Axes:
     Parameters
     ----------
     result : WorkPrecision
-        What `zerodrift.work_precision` measured.
+        Result of `zerodrift.work_precision`.
     ax : Axes, optional
         Axes to draw into; by default those of a new figure.
 
@@ -82,7 +82,7 @@ def stability_map(result: StabilityMap, axes: Sequence[Axes] | None = None) -> n
     Parameters
     ----------
     result : StabilityMap
-        What `zerodrift.stability_map` found.
+        Result of `zerodrift.stability_map`.
     axes : sequence of Axes, optional
         One per way, of one figure; left out: a new figure.
 

@@ -28,13 +28,13 @@ def trace(traced: Trace, names: Any, ax: Axes | None = None, *, degrees: bool = 
     Parameters
     ----------
     traced : Trace
-        What `zerodrift.trace` returned.
+        Result of `zerodrift.trace`.
     names : str or measure, or a sequence of them
         Scalar measures of positions.
     ax : Axes, optional
         Left out: a new figure.
     degrees : bool
-        Whether angles are drawn in degrees.
+        True: draw angles in degrees.
     **style
         For ``ax.plot``.
 
@@ -85,13 +85,13 @@ def positions(traced: Trace, at: Any = None, ax: Axes | None = None, *, names: b
     Parameters
     ----------
     traced : Trace
-        What `zerodrift.trace` returned.
+        Result of `zerodrift.trace`.
     at : array_like of int, optional
         Numbers of the positions; left out: the first, and eight others along the way.
     ax : Axes, optional
         Left out: a new figure.
     names : bool
-        Whether to write the names of the parts.
+        True: write the names of the parts.
     path : str, point or measure, or a sequence of them
         Points whose paths through all traced positions are drawn.
 

@@ -30,7 +30,7 @@ class Event:
     direction : {-1, 0, 1}
         1: from below only, -1: from above only.
     terminal : bool or int
-        Whether the run ends when it has happened, once or that often.
+        True: the run ends at the first occurrence; an integer n: at the n-th.
     of : dict of str to measure, optional
         Measures that the function receives, by argument name, or that symbols of the expression stand for.
 

@@ -35,7 +35,7 @@ class Identity:
     Attributes
     ----------
     functions : dict of str to dict
-        Of each function met: its name, and the digests of its code, defaults and closure.
+        For each function met: its name, and the digests of its code, defaults and closure.
     """
 
     _other_flags = 0        # of code, which do not count

@@ -134,9 +134,9 @@ class Jump(NamedTuple):
     t : float
         s
     impulses : dict of str to float
-        Of each motor, in N m s or N s, with the sign of its torque or force.
+        Impulse of each motor, in N m s or N s, with the sign of its torque or force.
     works : dict of str to float
-        Of each motor, in J: the impulse times the mean of its speeds before and after.
+        Work of each motor, in J: the impulse times the mean of its speeds before and after.
     work : float
         J: of all motors, also of those whose speeds are not inputs: the change of the kinetic energy.
     """

@@ -84,13 +84,13 @@ class Row(_gateway.Card):
     name, summary, equations : str
         `equations` are those of the paper, or where it comes from.
     description, reference : str
-        What it does and when to take it; the literature.
+        Purpose and recommended use; the literature.
     order, error_order : int
-        Of an integrator and of its error estimate; 0: there is none.
+        Order of an integrator and of its error estimate; 0: it has none.
     stability : float
-        Of an integrator: the largest omega h at which a motion that is somewhat damped does not grow; 0: there is none.
+        Stability limit of an integrator: the largest omega h at which a somewhat damped motion does not grow; 0: it has none.
     parameters : tuple of Parameter
-        What may be set.
+        Parameters that may be set.
     settings : type
         Class of its settings, an argument of `simulate`.
     """

@@ -456,7 +456,7 @@ class Solution:
         Returns
         -------
         Path
-            Where it was written.
+            Path of the written file.
         """
         from pathlib import Path  # slow to import
 

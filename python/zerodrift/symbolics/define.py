@@ -53,8 +53,8 @@ def symbolic(
     nonholonomic : sequence of Expr (mn,) or dict
         Constraints on velocities, linear in these: C v + Phi_t of (5).
     speeds : sequence of Symbol or functions of time, or dict
-        What v consists of; left out: the derivatives of the coordinates. A dict says what each is in terms of coordinates and
-        their derivatives, so that `kinetic` can be written with speeds where there are `kinematics`.
+        Components of v; left out: the derivatives of the coordinates. A dict gives each in terms of coordinates and their
+        derivatives, so that `kinetic` can be written with speeds where there are `kinematics`.
     kinematics : dict, sequence of Expr (nq,) or Matrix (nq, nv), optional
         The derivatives of the coordinates in terms of the speeds, linear: ``pdot = A v`` of (1). Left out: the identity.
     parameters : dict of Symbol or str to float

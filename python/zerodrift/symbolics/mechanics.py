@@ -49,7 +49,7 @@ def from_mechanics(
     Raises
     ------
     TypeError, ValueError
-        Where it is something else, or what it lacks is needed.
+        If the argument is of another kind, or lacks a term that is needed.
 
     Examples
     --------

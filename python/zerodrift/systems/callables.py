@@ -55,9 +55,9 @@ class System(BaseSystem):
     kinematics : callable -> (nq, nv)
         A of (1), ``pdot = A v``. Left out: the identity.
     quaternions : sequence of int or str
-        Where unit quaternions, scalar first, begin in p: index or name of the first coordinate of each. They are kept at length 1
-        after each step, and each is one coordinate more than there are velocities. They need `kinematics` that keep their length,
-        and no constraint that says so.
+        First coordinates of the unit quaternions in p (scalar first), by index or name. Quaternions are kept at length 1 after
+        each step, and each is one coordinate more than there are velocities. They need `kinematics` that keep their length, and
+        no constraint that says so.
     potential : callable -> float
         V in J. Without it there are no energies.
     power : callable -> float

@@ -17,7 +17,7 @@ class Shape(NamedTuple):
     points : ndarray (n, 2)
         Places in m; of some kinds the last is a direction.
     name : str
-        Of what it belongs to.
+        Name of the element it belongs to.
     number : float
         A radius in m, or an angle in rad, of kinds that have one.
     """

@@ -70,11 +70,11 @@ class Curve:
     geometry : Geometry
         The rows that are held at their values, and one component more, the measure.
     held : ndarray
-        What each row shall be.
+        Target value of each row.
     scale : ndarray (n,)
-        Of the coordinates.
+        Characteristic scales of the coordinates.
     size : ndarray
-        Of the rows, and of the measure, in scaled coordinates.
+        Sizes of the rows, and of the measure, in scaled coordinates.
     """
 
     def __init__(self, geometry: Geometry, held: np.ndarray, scale: np.ndarray, size: np.ndarray) -> None:
@@ -116,7 +116,7 @@ class Curve:
         Raises
         ------
         CorrectionFailed
-            Where the curve cannot be followed.
+            If the curve cannot be followed.
         """
         step, before, arc = FIRST_STEP, None, 0.0
         while True:

@@ -34,12 +34,12 @@ def trace(system: Any, measure: Any, values: Any = None, *, hold: Any = (), thro
         In rad or m, in any order. Left out: `count` positions over a full turn of an angle that turns fully; of everything else,
         from the start through all dead points until the mechanism is back, evenly along the way.
     hold : dict of measure to value, or measures, optional
-        What stays where it is put, or where it starts: one measure for each freedom more than one.
+        Measures that stay at the given value, or at that of the start: one for each freedom more than one.
     through : bool
-        Whether the way is never gone back: then, where values turn, it goes on through the next dead point and has them on the
-        branch behind it. False: all values lie between the same two dead points.
+        True: the direction of travel never reverses: where values turn, the trace continues through the next dead point, and
+        the values after it are on the branch beyond it. False: all values lie between the same two dead points.
     count : int
-        How many positions where values are left out, besides dead points.
+        Number of positions where values are left out, besides dead points.
 
     Returns
     -------

@@ -38,17 +38,17 @@ class Trace:
     Attributes
     ----------
     system : system
-        Of the mechanism, with its coordinates.
+        System of the mechanism, with its coordinates.
     measure, unit : str
         By what it was traced, and "rad" or "m".
     values : ndarray (k,)
-        Of that measure.
+        Values of that measure.
     p : ndarray (k, nq)
         The positions, in the coordinates of `system`.
     slopes : ndarray (k, nq)
         Their derivatives by the measure; infinite at dead points.
     dead_points : tuple of DeadPoint
-        Those that were passed, in order.
+        Dead points that were passed, in order.
     """
 
     system: MechanismSystem

@@ -51,7 +51,7 @@ def main():
     asked.add_argument("peers", nargs="*", default=there, help=f"of {', '.join(there)}; zerodrift and scipy at least")
     asked.add_argument("--problem", action="append", help="one of the problems alone, such as four-bar; may be repeated")
     asked.add_argument("--every", type=int, default=1, help="measure every so many settings of each sweep alone")
-    asked.add_argument("--name", default="peers", help="what the files are called")
+    asked.add_argument("--name", default="peers", help="name of the files")
     asked = asked.parse_args()
     peers, rows = installed(asked.peers), []
     for chain in (problems.four_bar(), *map(problems.pendulum_chain, (3, 4, 6)), andrews.Squeezer()):

@@ -36,7 +36,7 @@ def main():
     asked.add_argument("peers", nargs="*", default=there, help=f"of {', '.join(there)}; zerodrift at least")
     asked.add_argument("--problem", action="append", help=f"of {', '.join(stiff_problems.ALL)}; may be repeated")
     asked.add_argument("--every", type=int, default=1, help="measure every so many settings of each sweep alone")
-    asked.add_argument("--name", default="stiff", help="what the files are called")
+    asked.add_argument("--name", default="stiff", help="name of the files")
     asked = asked.parse_args()
     warnings.simplefilter("ignore")         # of explicit methods on stiff systems, and of loose tolerances
     peers, rows = installed(asked.peers, "stiff_with_"), []

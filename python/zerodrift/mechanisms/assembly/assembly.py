@@ -53,7 +53,7 @@ class Assembly:
     core : MechanismCore
         In absolute coordinates.
     rows : sequence of str
-        What each row of C belongs to, for errors.
+        Name of the element that each row of C belongs to, for errors.
     left_out : sequence of int
         Holonomic rows that are not looked at: of drives whose start value is not known yet.
     length : float

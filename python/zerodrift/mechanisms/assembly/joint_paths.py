@@ -17,9 +17,9 @@ class Reach:
     Parameters
     ----------
     carrier : sequence of int
-        Of each body the joint that carries it in the tree; -1: it is free.
+        Inboard joint of each body in the tree; -1: the body is free.
     ends : sequence of (int, int)
-        Of each joint the numbers of its bodies; 0 is the ground.
+        Numbers of the two bodies of each joint; 0 is the ground.
     """
 
     def __init__(self, inboard: Sequence[int], ends: Sequence[tuple[int, int]]) -> None:

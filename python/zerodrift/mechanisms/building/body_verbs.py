@@ -35,9 +35,9 @@ class BodyVerbs(Elements):
             the axes of its frame, or its diagonal; products of inertia as they stand in the matrix, which is with the sign that
             tables of products often leave out.
         at : array_like (2,) or (3,), Point or name
-            Where the origin of its frame is in the drawing, in m; left out: the drawing's origin.
+            Position of the origin of its frame in the drawing, in m; left out: the drawing's origin.
         angle : float
-            Of its frame, from the drawing's x axis, counter-clockwise, in rad; in the plane.
+            Angle of its frame from the drawing's x axis, counter-clockwise, in rad; in the plane.
         rotation : array_like (3, 3) or (4,)
             The same in space: a matrix whose columns are the body's axes in the drawing, or a unit quaternion (w, x, y, z).
         com : array_like (2,) or (3,)
@@ -159,8 +159,8 @@ class BodyVerbs(Elements):
         mass : float
             In kg, at least 0.
         at : array_like (2,) or (3,), Point or name
-            Where it is in the drawing, in m: then it is a part of its own. Or a point of a body: then its mass belongs to that
-            body, and it has measures, but no joint.
+            Position in the drawing, in m: then the particle is a part of its own. Or a point of a body: then its mass belongs
+            to that body, and it has measures, but no joint.
 
         Returns
         -------

@@ -104,7 +104,7 @@ class CouplingVerbs(Elements):
         ----------
         name : str
         value : callable, SymPy expression, or dict of measure to float
-            What has to be zero; a dict is a sum of measures by their coefficients.
+            Expression that is constrained to zero; a dict is a sum of measures by their coefficients.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -147,8 +147,8 @@ class CouplingVerbs(Elements):
         follower : Joint, measure, or name of one
             Whose coordinate, or what measure, follows.
         profile : callable, SymPy expression, or (angles, values)
-            Of the angle, which it may call as it likes; in rad or m. A table over one turn becomes a
-            periodic quintic spline; its last point may repeat the first, a turn later.
+            Function of the angle, of any form; in rad or m. A table over one turn becomes a periodic quintic spline; its last
+            point may repeat the first, a turn later.
 
         Returns
         -------
@@ -198,8 +198,8 @@ class CouplingVerbs(Elements):
         ----------
         name : str
         value : callable or SymPy expression
-            What has to be zero: of t, parameters, and measures of positions. Callables are built of operators and NumPy's
-            functions, and their derivatives are exact.
+            Expression that is constrained to zero: of t, parameters, and measures of positions. Callables are built of
+            operators and NumPy's functions, and their derivatives are exact.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -224,7 +224,8 @@ class CouplingVerbs(Elements):
         ----------
         name : str
         value : callable or SymPy expression
-            What has to be zero: of t, parameters, measures of positions, and linear in measures of velocities.
+            Expression that is constrained to zero: of t, parameters, measures of positions, and linear in measures of
+            velocities.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 

@@ -36,13 +36,14 @@ class ForceVerbs(Elements):
         joint : Joint or name
             With an angle or a displacement.
         angle, displacement : float, callable or SymPy expression of t
-            What the joint's coordinate is, in rad or m, zero as drawn; t counts from 0. Callables are built of NumPy's functions.
+            Prescribed coordinate of the joint, in rad or m, zero as drawn; t counts from 0. Callables are built of NumPy's
+            functions.
         speed : float, callable or expression
             The rate of that coordinate, in rad/s or m/s: a number, or a function of t, parameters and measures of positions.
         torque, force : float, callable or expression
-            What acts on the joint's second body, its opposite on the first, in N m or N; of t, parameters and measures of
-            positions and velocities; and of reactions and accelerations, such as ``"pin.force.x"``. These are solved for together
-            with the accelerations; `NoUniqueMotion` is raised where they have no unique solution.
+            Torque or force on the joint's second body, its opposite on the first, in N m or N; of t, parameters and measures of
+            positions and velocities; and of reactions and accelerations, such as ``"pin.force.x"``. These are solved for
+            together with the accelerations; `NoUniqueMotion` is raised where they have no unique solution.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -101,7 +102,7 @@ class ForceVerbs(Elements):
         length : float, callable or SymPy expression of t
             The distance of the points, in m; t counts from 0. Callables are built of NumPy's functions.
         force : float, callable or expression
-            What pushes them apart, in N; of the same as the torque of `motor`.
+            Force that pushes the points apart, in N; of the same as the torque of `motor`.
         of : dict of str to measure
             Measures that the callable receives, by argument name.
 
@@ -146,7 +147,7 @@ class ForceVerbs(Elements):
         ----------
         name : str
         point : Point, Body or name
-            Of a body without a point, its centre of mass.
+            Point of application; a body alone: its centre of mass.
         along : array_like (2,) or (3,)
             Its direction in the drawing; the length of the vector is ignored. Left out where `value` is a vector.
         value : float, callable, SymPy expression, or array_like (2,) or (3,)

@@ -27,16 +27,16 @@ class Shape:
     link : str
         Its name, for errors.
     names : sequence of str
-        Of its points, at least one.
+        Names of its points, at least one.
     drawn : dict of str to array (2,)
-        Where the sketch has them.
+        Positions of the points in the sketch.
     lengths : dict
         Between two points, by the set of their names; those of other links are not looked at.
 
     Attributes
     ----------
     pose : Pose
-        Of the frame in the sketch.
+        Pose of the frame in the sketch.
     places : dict of str to array (2,)
         In the frame, in the order of the names.
 

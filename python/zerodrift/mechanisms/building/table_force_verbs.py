@@ -23,7 +23,7 @@ WORDS = {
     "axis": ("array_like {axis_size}", "{axis}direction in the drawing; it turns with the first body.{own_axes}"),
     "normal": ("array_like (3,), optional", "In space its second direction, which is made perpendicular; the third follows."),
     "length": ("float, optional", "Unstressed length in m, at least 0; left out: as drawn."),
-    "angle": ("float", "Of the joint, at which it is slack, in rad."),
+    "angle": ("float", "Angle of the joint at which the spring is slack, in rad."),
     "value": ("float, callable or SymPy expression",
               "In {unit}; of the same as the torque of `motor`."),
     "of": ("dict of str to measure", "Measures by the names of the callable's arguments.")}

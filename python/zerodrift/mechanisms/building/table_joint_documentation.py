@@ -12,7 +12,7 @@ WIDTH = 120     # columns of a docstring
 SIDES = {
     "first, second": ("Body, Point or name", "Two points; a body and a point; or two bodies, and `at`.")}
 POINTS = {"first, second": ("Point, Particle or name", "")}
-POINT = {"point": ("Point, Body or name", "Of a body without a point, its centre of mass.")}
+POINT = {"point": ("Point, Body or name", "Point of a body; a body alone: its centre of mass.")}
 WORDS = {
     "axis": ("array_like {axis_size}", "{only}direction in the drawing; it turns with the {carrier}."),
     "along": ("array_like {axis_size}", "Its direction in the drawing, in which the point glides; it turns with the body."),
@@ -25,7 +25,7 @@ WORDS = {
     "at": ("array_like {size}", "Position of the joint in the drawing, in m.{origin}"),
     "pitch": ("float", "Advance of the second body along the axis per turn, in m; positive for a right-handed screw."),
     "length": ("float", "In m, above 0{left_out}."),
-    "damping": ("float", "Of its {coordinate}, in {unit}, at least 0."),
+    "damping": ("float", "Damping of its {coordinate}, in {unit}, at least 0."),
     "cut": ("bool", "True if this joint must close a loop; left out, the joint that closes a loop is chosen.")}
 EXAMPLES = {"axis": ("(1, 0)", "(1, 0, 0)"), "along": ("(1, 0)", "(1, 0, 0)"), "axes": ("", "((1, 0, 0), (0, 1, 0))"),
             "normal": ("", "(0, 0, 1)"), "pitch": ("", "0.002"), "length": ("0.5", "0.5")}       # in the plane, in space

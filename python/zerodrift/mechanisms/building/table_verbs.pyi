@@ -23,7 +23,7 @@ class TableVerbs(Elements):
         at : array_like (2,) or (3,)
             Position of the joint in the drawing, in m.
         damping : float
-            Of its angle, in N m s, at least 0.
+            Damping of its angle, in N m s, at least 0.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
 
@@ -65,7 +65,7 @@ class TableVerbs(Elements):
         at : array_like (2,) or (3,)
             Position of the joint in the drawing, in m. Left out for two bodies, it is the second's origin.
         damping : float
-            Of its displacement, in N s/m, at least 0.
+            Damping of its displacement, in N s/m, at least 0.
         cut : bool
             True if this joint must close a loop; left out, the joint that closes a loop is chosen.
 
@@ -208,7 +208,7 @@ class TableVerbs(Elements):
         ----------
         name : str
         point : Point, Body or name
-            Of a body without a point, its centre of mass.
+            Point of a body; a body alone: its centre of mass.
         along : array_like (2,) or (3,)
             Its direction in the drawing, in which the point glides; it turns with the body.
         normal : array_like (3,), optional
@@ -477,7 +477,7 @@ class TableVerbs(Elements):
         stiffness : float
             In N m/rad, at least 0.
         angle : float
-            Of the joint, at which it is slack, in rad.
+            Angle of the joint at which the spring is slack, in rad.
         damping : float
             In N m s/rad, at least 0.
 

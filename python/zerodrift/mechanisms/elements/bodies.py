@@ -38,7 +38,7 @@ class Point(Fixed):
     def __init__(self, body: Body, local: np.ndarray, name: str | None = None) -> None:
         self.body, self.name, self._local = body, name, local
 
-    position = vector("position", "Where the point is, in the drawing's axes, in m.")
+    position = vector("position", "Position of the point, in the drawing's axes, in m.")
     velocity = vector("velocity", "Its velocity, in the drawing's axes, in m/s.")
     acceleration = vector("acceleration", "Its acceleration, in the drawing's axes, in m/s^2.")
 
@@ -99,7 +99,7 @@ class Body(Fixed):
         self.name, self.pose, self.mass, self.inertia, self._com = name, pose, mass, inertia, com
         self._register: Callable[[Point], Point] = _as_it_is       # replaced by the mechanism's own
 
-    position = vector("position", "Where the origin of its frame is, in the drawing's axes, in m.")
+    position = vector("position", "Position of the origin of its frame, in the drawing's axes, in m.")
     velocity = vector("velocity", "The velocity of that origin, in the drawing's axes, in m/s.")
     angle = scalar("angle", "Its orientation from the drawing's x axis, counter-clockwise, in rad; it counts turns.")
     acceleration = vector("acceleration", "The acceleration of that origin, in the drawing's axes, in m/s^2.")
@@ -189,7 +189,7 @@ class Link(Body):
 
     what = "link"
     has_given_length = False        # True: the drawing is a sketch
-    position = vector("position", "Where its start is, in the drawing's axes, in m; its middle is ``link.center.position``.")
+    position = vector("position", "Position of its start, in the drawing's axes, in m; its middle is ``link.center.position``.")
     velocity = vector("velocity", "The velocity of its start, in the drawing's axes, in m/s.")
     acceleration = vector("acceleration", "The acceleration of its start, in the drawing's axes, in m/s^2.")
 

@@ -64,9 +64,9 @@ class Joint(Fixed):
     if TYPE_CHECKING:       # the measures that the entry defines
         def __getattr__(self, name: str) -> Any: ...
 
-    force = vector("force", "What the first body does to the second through the joint, in the drawing's axes, in N: what holds "
-                   "the joint, its motors and its damping. Springs, and couplings such as gears, are elements of their own: what "
-                   "they do along the joint's coordinate is in their measures, and not in this one.")
+    force = vector("force", "Force of the first body on the second through the joint, in the drawing's axes, in N: reactions of "
+                   "the joint, its motors and its damping. Springs, and couplings such as gears, are elements of their own: "
+                   "their forces along the joint's coordinate are in their measures, and not in this one.")
 
     @property
     def dimension(self) -> int:
@@ -124,9 +124,9 @@ def _measures(row: JointKind) -> dict[str, str]:
     """Scalar measures of a joint, and their documentation."""
     found, unit = {}, "rad" if row.coordinate == "angle" else "m"
     if row.coordinate == "angle":
-        found["angle"] = "How far the second body has turned against the first since the drawing, in rad; it counts turns."
+        found["angle"] = "Angle of the second body relative to the first, zero as drawn, in rad; it counts turns."
     elif row.coordinate:
-        found["displacement"] = "How far the second's point has moved along the axis since the drawing, in m."
+        found["displacement"] = "Displacement of the second's point along the axis, zero as drawn, in m."
     if row.coordinate:
         found["speed"] = f"The rate of `{row.coordinate}`, in {unit}/s."
         found["acceleration"] = f"The rate of `speed`, in {unit}/s^2."
@@ -134,11 +134,11 @@ def _measures(row: JointKind) -> dict[str, str]:
         found["torque"] = ("The moment that the first body exerts on the second through the joint, about the second's point, in "
                            "N m; as with `force`, without springs and couplings.")
     if row.tension:
-        found[row.tension] = "What pulls the two points together, negative where it pushes, in N."
+        found[row.tension] = "Force that pulls the two points together, negative where it pushes, in N."
     return found
 
 
-PLACE = {"position": "Where the joint is, by the second's point, in the drawing's axes, in m.",
+PLACE = {"position": "Position of the joint, that of the second's point, in the drawing's axes, in m.",
          "velocity": "The velocity of that point, in the drawing's axes, in m/s."}
 TRANSMISSION = "The angle between the lines of its two links, in rad, where there is one: `zerodrift.transmission_angle`."
 
@@ -245,7 +245,7 @@ class Coupling(Fixed):
         The measures it couples: of gears and racks (first, second), where ``second = ratio * first``; of cams (cam, follower).
     ratio : float or None
     law : Law or None
-        What has to be zero, of the others.
+        Function that is constrained to zero, of couplings other than gears, racks and cams.
 
     Notes
     -----

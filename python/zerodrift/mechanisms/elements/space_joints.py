@@ -109,14 +109,14 @@ def _measures(row: JointKind) -> dict[str, str]:
     """Scalar measures of a joint, and their documentation."""
     found = {}
     for name, quantity in row.coordinates:
-        found[name] = ("How far the second's point has moved along the axis since the drawing, in m." if quantity == "along" else
-                       "How far the second body has turned against the first since the drawing, in rad; it counts turns.")
+        found[name] = ("Displacement of the second's point along the axis, zero as drawn, in m." if quantity == "along" else
+                       "Angle of the second body relative to the first, zero as drawn, in rad; it counts turns.")
     for speed, name in speeds(row).items():
         unit = "m" if dict(row.coordinates)[name] == "along" else "rad"
         found[speed] = f"The rate of `{name}`, in {unit}/s."
         found[acceleration_of(speed)] = f"The rate of `{speed}`, in {unit}/s^2."
     if row.tension:
-        found[row.tension] = "What pulls the two points together, negative where it pushes, in N."
+        found[row.tension] = "Force that pulls the two points together, negative where it pushes, in N."
     return found
 
 

@@ -65,7 +65,7 @@ def parameters(entry: ElementKind) -> dict[str, tuple[str, ...]]:
 def _measures(entry: ElementKind) -> dict[str, property]:
     """Measures of an element."""
     if entry.measure is None:
-        found = {"force": vector("force", "What the first body does to the second, at the second's point, in the drawing's axes, "
+        found = {"force": vector("force", "Force of the first body on the second, at the second's point, in the drawing's axes, "
                                  "in N."), "torque": MOMENT}
     else:
         where = ("what acts on the joint's second body" if entry.at_joint else "positive where it pulls, its damping included"

@@ -76,7 +76,7 @@ class Written:
     core : MechanismCore or SpaceCore
         The compiled system; where there is no compiler, the interpreted one.
     is_compiled : bool
-        Whether there is a compiler.
+        True if a compiler was found.
     key : str
         The name of the code: two mechanisms of the same differ in numbers alone.
     """

@@ -133,7 +133,7 @@ class Equations(Relations):
     Attributes
     ----------
     values : dict of Node to Node
-        What leaves of the graph stand for: of these none.
+        Nodes that replace leaves of the graph; none here.
     """
 
     def __init__(self, plan: PlanePlan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,

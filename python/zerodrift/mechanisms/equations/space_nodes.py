@@ -83,7 +83,7 @@ class Equations(Relations):
     Attributes
     ----------
     values : dict of Node to Node
-        What leaves of the graph stand for.
+        Nodes that replace leaves of the graph.
     """
 
     def __init__(self, plan: SpacePlan, reader: Any, sizes: tuple[int, int, int, int], laws: Laws,

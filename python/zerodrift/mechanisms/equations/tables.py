@@ -39,7 +39,7 @@ class Tables:
     carrier : list of int
         Inboard joint of each body; -1: the body is free.
     relation_names : list of str
-        What each relation belongs to.
+        Name of the element that each relation belongs to.
     """
 
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> None:

@@ -36,7 +36,7 @@ def choose(lowering: Lowering, terms: dict[str, list[int]], sizes: tuple[int, in
     Parameters
     ----------
     embeds : bool
-        Whether they are for formulations in independent velocities: then each is for other ones.
+        True: the orders are for formulations in independent velocities, and each is for another set of these.
     lengths : ndarray (nq + nv,) of bool
         Which coordinates and velocities are lengths.
     p0 : ndarray (nq,), optional
