@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from support import refused
-from zerodrift._gateway.mechanisms import plane, space
+from zerodrift._gateway.mechanisms import element_tables, plane, space
 from zerodrift._gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec, Relation
 
 BODIES = {plane: plane.Body(1.5, 1.0), space: space.Body(1.5, (1.0, 1.0, 1.0))}
@@ -56,7 +56,7 @@ def test_measures_are_of_what_there_is(room, wrong):
 
 
 def test_a_quantity_that_there_is_not(room, monkeypatch):
-    monkeypatch.setitem(room.written_elements.__globals__["OUTPUT_KINDS"], "none", 99)
+    monkeypatch.setitem(element_tables.OUTPUT_KINDS, "none", 99)
     with refused("wrong-value", "measure it: the entries that it measures must exist"):
         core(room, **measure("none", 0))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import functools
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
@@ -11,14 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._core import ffi, lib
-from ...errors import WrongValue
-from ..base import MESSAGE_SIZE, Card, card_of, doubles, text
-from ..systems import CoreSystem
+from ..base import Card, card_of, doubles, text
 from . import element_tables
-from .assembly import displaced, displacement
-from .element_tables import GeneralizedForce, OutputSpec, Relation, Row, law_sizes, rows_of, written_elements
-from .law_owner import Law, LawOwner, calls_python, compiled_table
+from .element_tables import GeneralizedForce, OutputSpec, Relation
+from .law_owner import Law
 from .plane import Coordinate
+from .tables_core import TablesCore
 
 QUANTITY_KINDS = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
                   "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE,
@@ -150,37 +147,13 @@ def coordinate_quantity(joint: Joint, coordinate: int, angles: int) -> Quantity:
     return Quantity(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
 
 
-class SpaceCore(CoreSystem):
-    """The core's system of a mechanism in space, in absolute coordinates.
+class SpaceCore(TablesCore):
+    """The core's system of a mechanism in space, in absolute coordinates."""
 
-    Parameters
-    ----------
-    tables : Tables
-    law : callable, optional
-        As of `MechanismCore`.
-    laws_know_time : bool
-        Whether a law depends on t but through positions and velocities.
-
-    Attributes
-    ----------
-    measures : tuple of OutputSpec
-
-    Raises
-    ------
-    ValueError
-        If the tables contradict themselves; the sentence says where.
-    """
-
-    _made_by = lib.zd_space_create
+    room, quantity_kinds, width, _made_by = "space", QUANTITY_KINDS, 6, lib.zd_space_create
 
     def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
-        self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
-        self._owner: LawOwner | None = None
-        self._numbers, self._has_written_terms = ffi.NULL, False
-        self.written_inputs: Any = None
-        self._mechanism, self._words = _create(tables, law is not None, laws_know_time, self._made_by)
-        super().__init__(lib.zd_space_system(self._mechanism), (self._mechanism,))
-        self.measures = tuple(tables.measures)
+        super().__init__(tables, law, laws_know_time=laws_know_time)
         sizes = np.array([PARTICLE if body.is_particle else BODY for body in tables.bodies])
         self._at_p, self._at_v = (np.concatenate([[0], np.cumsum(column)[:-1]]) for column in sizes.T)
         self._turning = np.array([not body.is_particle for body in tables.bodies])
@@ -189,59 +162,10 @@ class SpaceCore(CoreSystem):
         self._angle_at = places         # in p
 
     @functools.cached_property
-    def rows(self) -> tuple[Row, ...]:
-        """Origin of each constraint, holonomic ones first."""
-        return rows_of(lib.zd_space_rows(self._mechanism), self.m)
-
-    @functools.cached_property
     def motions(self) -> tuple[Coordinate, ...]:
         """Quantity whose rate each entry of v is: a coordinate of the mass centre, or an angle about an axis of a body."""
         return tuple(Coordinate(i, kind) for i, turns in enumerate(self._turning, 1)
                      for kind in ("x", "y", "z", *(("angle",) * 3 if turns else ()))[:6])
-
-    def for_run(self) -> SpaceCore:
-        """The system; with user functions, a copy that stores their exceptions."""
-        if self._law is None:
-            return self
-        sizes = law_sizes(self.tables)
-        owner = LawOwner(self._law, sizes)
-        # Written terms have the laws in them, and leave them to measures.
-        compiled = (ffi.NULL, None) if self._has_written_terms else compiled_table(self._law, sizes)
-        mine = self._with_data(ffi.new_handle(owner), self._numbers, compiled)
-        mine._owner = owner
-        return mine
-
-    def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> SpaceCore:
-        mine = copy.copy(self)
-        data = ffi.new("char[]", lib.zd_space_data_size())
-        lib.zd_space_with(self._mechanism, handle, compiled[0], numbers, data)
-        mine.c = ffi.new("zd_system *", self.c[0])
-        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
-        return mine
-
-    def many_bodies(self) -> Any:
-        """Components of measures for the assembly of many free bodies."""
-        return ffi.new("zd_many_bodies *", (self._mechanism, ffi.addressof(lib, "zd_space_components"), 6))
-
-    @property
-    def lane_numbers(self) -> Any:
-        """Numbers that generated closed-form functions read, an array of C, or None without such functions."""
-        return self._numbers if self.has_closed_form and self._numbers else None
-
-    @property
-    def calls_python(self) -> bool:
-        """True if the mechanism has user functions that are not compiled, and terms that call them."""
-        return calls_python(self, law_sizes(self.tables))
-
-    @property
-    def error(self) -> BaseException | None:
-        """Exception raised by a user function, or None."""
-        return self._owner.error if self._owner else None
-
-    @property
-    def refusal(self) -> BaseException | None:
-        """Error for the last values of a user function that were not finite, which shorter steps may have avoided since."""
-        return self._owner.refusal if self._owner else None
 
     # ---- between the state and bodies ----
 
@@ -264,14 +188,6 @@ class SpaceCore(CoreSystem):
         """Positions (nq,) in which all bodies are at the drawing's origin, with its axes."""
         return self.state(np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (len(self._at_p), 1)))[0]
 
-    def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Positions (nq,) after a displacement (nv,): bodies turn about an axis of their own, and angles count turns."""
-        return displaced(self, p, step)
-
-    def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """Displacement (nv,) from other positions to p, by the shorter rotation of each body."""
-        return displacement(self, p, other)
-
     def angles(self, p: np.ndarray) -> np.ndarray:
         """The angles of joints, (k,) in rad with their turns."""
         return np.asarray(p)[self._angle_at]
@@ -286,23 +202,3 @@ class SpaceCore(CoreSystem):
         if rates is None:
             return p, np.zeros(self.nv)
         return p, np.concatenate([rate if turns else rate[:3] for rate, turns in zip(rates, self._turning, strict=True)])
-
-
-def _create(tables: Tables, has_laws: bool, laws_know_time: bool, made_by: Any) -> tuple[Any, Any]:
-    """The core's mechanism, and the texts to keep with it."""
-    written, words = written_tables(tables, has_laws, laws_know_time)
-    c = ffi.new("zd_space_tables *", written)
-    message = ffi.new("char[]", MESSAGE_SIZE)
-    mechanism = made_by(c, message, MESSAGE_SIZE)
-    if not mechanism:
-        raise WrongValue(text(message))
-    return ffi.gc(mechanism, lib.zd_space_free), words
-
-
-def written_tables(tables: Tables, has_laws: bool, laws_know_time: bool) -> tuple[dict[str, Any], Any]:
-    """Fields of a `zd_space_tables`, and the words that must live as long as the objects made from it."""
-    bodies, joints = ffi.new("zd_space_body[]", list(tables.bodies)), ffi.new("zd_space_joint[]", list(tables.joints))
-    quantities = ffi.new("zd_space_quantity[]", [(QUANTITY_KINDS[kind], *others) for kind, *others in tables.quantities])
-    elements, words = written_elements(tables, has_laws, laws_know_time)
-    return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "quantities": len(quantities),
-            "body": bodies, "joint": joints, "quantity": quantities, "elements": elements}, words

@@ -1,0 +1,134 @@
+"""Systems that the core makes of tables of numbers, in the plane and in space."""
+
+from __future__ import annotations
+
+import copy
+import functools
+from typing import Any, Self
+
+import numpy as np
+
+from ..._core import ffi, lib
+from ...errors import WrongValue
+from ..base import MESSAGE_SIZE, text
+from ..systems import CoreSystem
+from .assembly import displaced, displacement
+from .element_tables import Row, law_sizes, rows_of, written_elements
+from .law_owner import Law, LawOwner, calls_python, compiled_table
+
+
+class TablesCore(CoreSystem):
+    """The core's system of a mechanism.
+
+    Parameters
+    ----------
+    tables : Tables
+    law : callable, optional
+        ``law(number, t, x, xdot)`` gives, for a generalized force, (1,): its value; for a relation with k marker quantities
+        (k + 3,): g, dg/dx_i, dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and
+        da_i/dt xdot_i + da_0/dt.
+    laws_know_time : bool
+        True if a law depends on t explicitly, not only through positions and velocities.
+
+    Attributes
+    ----------
+    measures : tuple of OutputSpec
+
+    Raises
+    ------
+    ValueError
+        If the tables contradict themselves; the sentence says where.
+    """
+
+    room: str                   # "plane" or "space"
+    quantity_kinds: dict[str, int]
+    width: int                  # velocities of a free body
+    _made_by: Any               # function of the core
+
+    def __init__(self, tables: Any, law: Law | None = None, *, laws_know_time: bool = True) -> None:
+        self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
+        self._owner: LawOwner | None = None
+        self._numbers, self._has_written_terms = ffi.NULL, False
+        self.written_inputs: Any = None
+        self._mechanism = self._create()
+        super().__init__(self._function("system")(self._mechanism), (self._mechanism,))
+        self.measures = tuple(tables.measures)
+
+    def _function(self, name: str) -> Any:
+        return getattr(lib, f"zd_{self.room}_{name}")
+
+    def _create(self) -> Any:
+        written, self._words = self.written(self.tables, self._law is not None, self._laws_know_time)
+        message = ffi.new("char[]", MESSAGE_SIZE)
+        mechanism = self._made_by(ffi.new(f"zd_{self.room}_tables *", written), message, MESSAGE_SIZE)
+        if not mechanism:
+            raise WrongValue(text(message))
+        return ffi.gc(mechanism, self._function("free"))
+
+    @classmethod
+    def written(cls, tables: Any, has_laws: bool = False, laws_know_time: bool = False) -> tuple[dict[str, Any], Any]:
+        """Fields of the core's structure of tables, and the words that must live as long as the objects made from it."""
+        bodies, joints = (ffi.new(f"zd_{cls.room}_{kind}[]", list(those))
+                          for kind, those in (("body", tables.bodies), ("joint", tables.joints)))
+        quantities = ffi.new(f"zd_{cls.room}_quantity[]",
+                             [(cls.quantity_kinds[kind], *others) for kind, *others in tables.quantities])
+        elements, words = written_elements(tables, has_laws, laws_know_time)
+        return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "quantities": len(quantities),
+                "body": bodies, "joint": joints, "quantity": quantities, "elements": elements}, words
+
+    @functools.cached_property
+    def rows(self) -> tuple[Row, ...]:
+        """Origin of each constraint, holonomic ones first."""
+        return rows_of(self._function("rows")(self._mechanism), self.m)
+
+    def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Positions (nq,) after a displacement (nv,): bodies turn about an axis of their own, and angles count turns."""
+        return displaced(self, p, step)
+
+    def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
+        """Displacement (nv,) from other positions to p, by the shorter rotation of each body."""
+        return displacement(self, p, other)
+
+    def for_run(self) -> Self:
+        """The system; with user functions, a copy that stores their exceptions."""
+        if self._law is None:
+            return self
+        sizes = law_sizes(self.tables)
+        owner = LawOwner(self._law, sizes)
+        # Written terms have the laws in them, and leave them to measures.
+        compiled = (ffi.NULL, None) if self._has_written_terms else compiled_table(self._law, sizes)
+        mine = self._with_data(ffi.new_handle(owner), self._numbers, compiled)
+        mine._owner = owner
+        return mine
+
+    def many_bodies(self) -> Any:
+        """Components of measures for the assembly of many free bodies."""
+        return ffi.new("zd_many_bodies *", (self._mechanism, ffi.addressof(lib, f"zd_{self.room}_components"), self.width))
+
+    def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> Self:
+        mine = copy.copy(self)
+        data = ffi.new("char[]", self._function("data_size")())
+        self._function("with")(self._mechanism, handle, compiled[0], numbers, data)
+        mine.c = ffi.new("zd_system *", self.c[0])
+        mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
+        return mine
+
+    @property
+    def lane_numbers(self) -> Any:
+        """Numbers that generated closed-form functions read, an array of C, or None without such functions."""
+        return self._numbers if self.has_closed_form and self._numbers else None
+
+    @property
+    def calls_python(self) -> bool:
+        """True if the mechanism has user functions that are not compiled, and terms that call them."""
+        return calls_python(self, law_sizes(self.tables))
+
+    @property
+    def error(self) -> BaseException | None:
+        """Exception raised by a user function, or None."""
+        return self._owner.error if self._owner else None
+
+    @property
+    def refusal(self) -> BaseException | None:
+        """Error for the last values of a user function that were not finite, which shorter steps may have avoided since."""
+        return self._owner.refusal if self._owner else None
