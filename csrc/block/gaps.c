@@ -1,7 +1,6 @@
 #include "block.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "../mechanisms/common/assembly/given.h"
@@ -23,7 +22,7 @@ typedef struct gaps {
     double *Phi, *v, *scratch;              /* (mh,); (nv,) zeros; of the system */
     double *open;                           /* (joints,): m; largest residual where loops are not named, m or rad */
     double *p;                              /* (nq,) with the smallest gaps */
-    int *is_angle, *row, *of_loop;          /* (nv,) and (mh,) of zd_assembly_given; (bodies + 1 + joints,) */
+    int *row, *of_loop;                     /* (mh,) of zd_assembly_given; (bodies + 1 + joints,) */
 } gaps;
 
 static gaps create(zd_arena *arena, const zd_block *block)
@@ -34,7 +33,7 @@ static gaps create(zd_arena *arena, const zd_block *block)
     return (gaps){.block = block, .Phi = zd_arena_doubles(arena, mh),
                   .v = zd_arena_doubles(arena, nv), .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
                   .open = zd_arena_doubles(arena, joints), .p = zd_arena_doubles(arena, (size_t)system->nq),
-                  .is_angle = zd_arena_bytes(arena, nv * sizeof(int)), .row = zd_arena_bytes(arena, mh * sizeof(int)),
+                  .row = zd_arena_bytes(arena, mh * sizeof(int)),
                   .of_loop = zd_arena_bytes(arena, (joints + bodies + 1) * sizeof(int))};
 }
 
@@ -67,22 +66,20 @@ static int most_open(const gaps *self)
 
 static void name_joints(const gaps *self, zd_complaint to)
 {
-    int used = snprintf(to.message, (size_t)to.size, "the joints cannot all close: nearest to it there stay open ");
-    for (int i = 0; i < NAMED && i < zd_block_count(&self->block->layout, ZD_BLOCK_JOINTS) && used < to.size; i++) {
+    zd_append(&to, "the joints cannot all close: nearest to it there stay open ");
+    for (int i = 0; i < NAMED && i < zd_block_count(&self->block->layout, ZD_BLOCK_JOINTS); i++) {
         const int joint = most_open(self);
-        used += snprintf(to.message + used, (size_t)(to.size - used), "%s'%s' by %.3g", i ? ", " : "",
-                         zd_block_joint_name(&self->block->layout, joint), self->open[joint]);
+        zd_append(&to, "%s'%s' by %.3g", i ? ", " : "", zd_block_joint_name(&self->block->layout, joint), self->open[joint]);
         self->open[joint] = -1;
     }
-    if (used < to.size) snprintf(to.message + used, (size_t)(to.size - used), " (m, or rad)%s", HINT);
+    zd_append(&to, " (m, or rad)%s", HINT);
 }
 
 static void name_loop(const gaps *self, int joint, zd_complaint to)
 {
-    const int used = zd_block_name_loop(&self->block->layout, joint, self->of_loop, to.message, to.size);
-    if (used < to.size)
-        snprintf(to.message + used, (size_t)(to.size - used), ", cannot close: it stays open by %.3g m at '%s'%s", self->open[joint],
-                 zd_block_joint_name(&self->block->layout, joint), HINT);
+    zd_block_name_loop(&self->block->layout, joint, self->of_loop, &to);
+    zd_append(&to, ", cannot close: it stays open by %.3g m at '%s'%s", self->open[joint],
+              zd_block_joint_name(&self->block->layout, joint), HINT);
 }
 
 /* ---- smallest gaps ---- */
@@ -96,7 +93,7 @@ static int close_joint(const gaps *self, const double *p, int joint)
         const int is_closed = owner->owner == ZD_OF_JOINT && (joint < 0 || owner->index == joint);
         self->row[row] = is_closed ? ZD_ROW_OF_JOINT : ZD_ROW_LEFT_OUT;
     }
-    const zd_assembly_given given = {.system = system, .length = length_of(self->block), .is_angle = self->is_angle, .row = self->row};
+    const zd_assembly_given given = {.system = system, .length = length_of(self->block), .row = self->row};
     memcpy(self->p, p, (size_t)system->nq * sizeof *p);
     const int status = zd_assembly_minimize(&given, self->p);
     return status ? status : read_gaps(self, self->p);
@@ -120,7 +117,6 @@ static int find_open_loop(const gaps *self, const double *p)
 /* Writes the sentence on the gaps at p, or on the smallest ones from there on, if any exceeds `least`; returns a status of the core. */
 static int explain(const gaps *self, const double *p, int is_smallest, double least, zd_complaint to)
 {
-    self->block->layout.of->angles(self->block, self->is_angle);
     const int alone = self->names_loops ? find_open_loop(self, p) : -1;
     const int status = is_smallest ? read_gaps(self, p) : close_joint(self, p, alone);
     if (status) return status;

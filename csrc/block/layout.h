@@ -55,9 +55,8 @@ struct zd_block_dimension {
     int pose;                   /* numbers of a pose, see zd_block_poses() */
     void (*poses)(const void *mechanism, const double *p, double *poses, double *scratch);
     void (*name_row)(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size);
-    /* p (nq,) at poses, and is_angle (nv,) <- 1 for rates of angles: in the coordinates in which gaps are found, in space absolute ones */
+    /* p (nq,) at poses, in the coordinates in which gaps are found: in space absolute ones */
     void (*state)(const zd_block *block, const double *poses, double *p);
-    void (*angles)(const zd_block *block, int *is_angle);
     /* Coordinates of a body whose inboard joint this is; -1: it is of no kind for trees. NULL: gaps are found without a tree. */
     int (*freedoms)(const zd_block_layout *layout, int joint, int is_particle);
     int (*is_angle_row)(const zd_block_layout *layout, int joint, int component);   /* 1 for residuals in rad; NULL without a tree */

@@ -1,6 +1,5 @@
 #include "made.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* Members of entries: kind, first and second body begin those of joints, mass those of bodies, and is_particle and inboard end these. */
@@ -88,42 +87,30 @@ static int parent_of(const zd_block_layout *layout, int body)
     return joint < 0 ? 0 : end_of(layout, joint, end_of(layout, joint, 0) == body);
 }
 
-typedef struct text {
-    char *to;
-    int size, used;
-} text;
-
-static void append(text *self, const char *before, const char *word)
-{
-    if (self->used < self->size) self->used += snprintf(self->to + self->used, (size_t)(self->size - self->used), "%s%s", before, word);
-}
-
 /* Bodies from below `meet` out to a body, in this order or the opposite one; their inboard joints are of the loop. */
-static void name_way(const zd_block_layout *layout, int body, int meet, int is_outward, int *of_loop, text *to)
+static void name_way(const zd_block_layout *layout, int body, int meet, int is_outward, int *of_loop, zd_complaint *to)
 {
     if (body == meet) return;
-    if (!is_outward) append(to, ", ", body_name(layout, body));
+    if (!is_outward) zd_append(to, ", %s", body_name(layout, body));
     if (zd_block_inboard(layout, body) >= 0) of_loop[zd_block_inboard(layout, body)] = 1;
     name_way(layout, parent_of(layout, body), meet, is_outward, of_loop, to);
-    if (is_outward) append(to, ", ", body_name(layout, body));
+    if (is_outward) zd_append(to, ", %s", body_name(layout, body));
 }
 
-int zd_block_name_loop(const zd_block_layout *layout, int joint, int *is_on_way, char *to, int size)
+void zd_block_name_loop(const zd_block_layout *layout, int joint, int *is_on_way, zd_complaint *to)
 {
     const int bodies = zd_block_count(layout, ZD_BLOCK_BODIES), joints = zd_block_count(layout, ZD_BLOCK_JOINTS);
     int *of_loop = is_on_way + bodies + 1, meet = end_of(layout, joint, 1), is_first = 1;
-    text words = {to, size, 0};
     memset(is_on_way, 0, (size_t)(bodies + 1 + joints) * sizeof *is_on_way);
     for (int body = end_of(layout, joint, 0); body; body = parent_of(layout, body)) is_on_way[body] = 1;
     while (meet && !is_on_way[meet]) meet = parent_of(layout, meet);
     of_loop[joint] = 1;
-    append(&words, "the loop of ", body_name(layout, meet));
-    name_way(layout, end_of(layout, joint, 0), meet, 1, of_loop, &words);
-    name_way(layout, end_of(layout, joint, 1), meet, 0, of_loop, &words);
+    zd_append(to, "the loop of %s", body_name(layout, meet));
+    name_way(layout, end_of(layout, joint, 0), meet, 1, of_loop, to);
+    name_way(layout, end_of(layout, joint, 1), meet, 0, of_loop, to);
     for (int i = 0; i < joints; i++) {
         if (!of_loop[i]) continue;
-        append(&words, is_first ? ", through " : ", ", zd_block_joint_name(layout, i));
+        zd_append(to, "%s%s", is_first ? ", through " : ", ", zd_block_joint_name(layout, i));
         is_first = 0;
     }
-    return words.used;
 }

@@ -69,9 +69,9 @@ int zd_block_has_tree(const zd_block_layout *layout);
 /* inboard (bodies,) <- inboard joints, -1 for free bodies, of the tree that grows from the ground by the joint of fewest coordinates, and
  * among these by the one nearest to the ground; `distance` (bodies + 1,) is scratch. */
 void zd_block_grow_tree(const zd_block_layout *layout, int *inboard, int *distance);
-/* Writes the bodies and joints of the loop that a joint closes, "the loop of ground, crank, through A, B". Returns the length of the text.
- * `is_on_way` (bodies + joints + 1,) is scratch. */
-int zd_block_name_loop(const zd_block_layout *layout, int joint, int *is_on_way, char *to, int size);
+/* Appends the bodies and joints of the loop that a joint closes, "the loop of ground, crank, through A, B". `is_on_way`
+ * (bodies + joints + 1,) is scratch. */
+void zd_block_name_loop(const zd_block_layout *layout, int joint, int *is_on_way, zd_complaint *to);
 
 const char *zd_block_joint_name(const zd_block_layout *layout, int joint);
 

@@ -64,12 +64,6 @@ static void name_row(const zd_block_layout *layout, int joint, int component, co
 
 static void state(const zd_block *block, const double *poses, double *p) { zd_plane_state(block->mechanism, poses, NULL, p, NULL); }
 
-static void angles(const zd_block *block, int *is_angle)
-{
-    const zd_plane_coordinate_owner *coordinate = zd_plane_coordinates(block->mechanism);
-    for (int i = 0; i < block->system.nv; i++) is_angle[i] = coordinate[i].kind == ZD_COORDINATE_ANGLE;
-}
-
 static int freedoms(const zd_block_layout *layout, int joint, int is_particle)
 {
     switch (kind_of(layout, joint)->inboard) {
@@ -87,5 +81,5 @@ static int is_angle_row(const zd_block_layout *layout, int joint, int component)
 
 const zd_block_dimension zd_block_plane = {
     .dimension = 2, .structure = structure, .make = make, .release = release, .pose = 3, .poses = poses, .name_row = name_row,
-    .state = state, .angles = angles, .freedoms = freedoms, .is_angle_row = is_angle_row,
+    .state = state, .freedoms = freedoms, .is_angle_row = is_angle_row,
 };

@@ -62,29 +62,17 @@ static void name_row(const zd_block_layout *layout, int joint, int component, co
     else snprintf(to, size, "%s.%s %s", name, pick->quantity == ZD_SPACE_COSINE ? "about" : "along", of >= 0 && of < 3 ? direction[of] : "");
 }
 
-/* 1 for a body with a position alone. */
-static int is_particle(const zd_block *block, int body)
-{
-    return zd_block_is(zd_block_entry(&block->layout, ZD_BLOCK_BODIES, body)[4], 1);
-}
-
 static void state(const zd_block *block, const double *poses, double *p)
 {
     for (int body = 0; body < zd_block_count(&block->layout, ZD_BLOCK_BODIES); body++, poses += 12) {
         for (int k = 0; k < 3; k++) *p++ = poses[k];
-        if (is_particle(block, body)) continue;
+        if (zd_block_is(zd_block_entry(&block->layout, ZD_BLOCK_BODIES, body)[4], 1)) continue;       /* a particle */
         zd_space_tree_quaternion(poses + 3, p);
         p += 4;
     }
 }
 
-static void angles(const zd_block *block, int *is_angle)
-{
-    for (int body = 0; body < zd_block_count(&block->layout, ZD_BLOCK_BODIES); body++)
-        for (int k = 0; k < (is_particle(block, body) ? 3 : 6); k++) *is_angle++ = k >= 3;
-}
-
 const zd_block_dimension zd_block_space = {
     .dimension = 3, .structure = structure, .make = make, .release = release, .pose = 12, .poses = poses, .name_row = name_row,
-    .state = state, .angles = angles,
+    .state = state,
 };

@@ -85,3 +85,34 @@ def test_no_drive_is_blamed_within_its_reach():
     m.torque("load", "c", value=lambda t: 1 / 0 if t > 0.1 else 0.0)
     with pytest.raises(ZeroDivisionError):
         zd.simulate(m, 0.3, step=0.01)
+
+
+def test_only_the_drive_that_ends_is_named():
+    """Another one turns a wheel, and a lock of constant length holds a third body; none of them matters."""
+    m = driven(False)
+    wheel, post = m.link("wheel", (3, 0), (3.2, 0), mass=1.0), m.link("post", (5, 0), (5, 1), mass=1.0)
+    m.revolute("axle", m.ground.point((3, 0)), wheel.start), m.revolute("foot", m.ground.point((5, 0)), post.start)
+    m.motor("spin", "axle", speed=7.0)
+    m.actuator("lock", m.ground.point((6, 0)), post.end, length=2**0.5)
+    with pytest.raises(zd.CorrectionFailed, match=r"^'drive' must not drive .* dead point, A.angle = 0\.395664794, where"):
+        zd.simulate(m, 1.0, step=0.01)
+
+
+def test_two_drives_that_contradict_each_other_are_both_named():
+    """A hinge and a cylinder over it move together until t = 0.1."""
+    m = zd.Mechanism("twice driven")
+    link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    m.revolute("A", m.ground, link.start)
+    m.motor("hinge", "A", angle=lambda t: 0.1 * t)
+    m.actuator("cylinder", m.ground.point((0, -1)), link.end,
+               length=lambda t: np.sqrt(2 + 2 * np.sin(0.1 * t)) + 10 * max(t - 0.1, 0.0)**2)
+    with pytest.raises(zd.CorrectionFailed, match=r"^'hinge' and 'cylinder' must .*, A.angle = 0\.0100.*, cyl\w*.length = 1.4"):
+        zd.simulate(m, 0.3, step=0.01)
+
+
+def test_a_drive_that_jumps_comes_to_no_dead_point():
+    m = rocker()
+    m.motor("drive", "A", angle=lambda t: 0.1 * t + (2.5 if t > 0.1 else 0.0))
+    with pytest.raises(zd.ZerodriftError) as caught:
+        zd.simulate(m, 0.3, step=0.01)
+    assert "dead point" not in str(caught.value)

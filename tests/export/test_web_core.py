@@ -13,6 +13,7 @@ import pytest
 
 import tolerances as tol
 import zerodrift as zd
+from analysis.test_reach_of_drives import driven
 from browser import Browser, needs_chromium
 from zerodrift._rotations import rotation_of
 from zerodrift.errors import sentence
@@ -264,3 +265,20 @@ def placed(pose):
     if len(pose) == 7:
         return pose[:3], rotation_of(pose[3:])
     return pose[:2], np.array([[np.cos(pose[2]), -np.sin(pose[2])], [np.sin(pose[2]), np.cos(pose[2])]])
+
+
+@pytest.mark.parametrize("space", [False, True], ids=["plane", "space"])
+def test_a_drive_beyond_its_reach_is_named_in_the_words_of_python(web, space):
+    """Also if its speed is an input, so that it prescribes velocities alone; the run stays where it was, and says it again."""
+    with pytest.raises(zd.CorrectionFailed) as refusal:
+        zd.simulate(driven(space), 1.0, step=1e-3)
+    blocks = {name: zd.block(driven(space), step=1e-3, outputs=["A.angle"], inputs=inputs)
+              for name, inputs in {"number": [], "input": ["drive.speed"]}.items()}
+    told = web("""
+        for (const name of ["number", "input"]) {
+          const m = zd.create(core, block(name));
+          for (const steps of [1000, 5])
+            try { zd.step(m, steps); tell(""); } catch (error) { tell([zd.time(m), error.message]); }
+        }
+    """, **blocks)
+    assert told == [[pytest.approx(0.395), sentence(refusal.value)]] * 4

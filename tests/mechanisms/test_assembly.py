@@ -388,7 +388,7 @@ def test_a_motor_that_comes_to_a_dead_centre_is_named(layout):
     with pytest.raises(zd.ZerodriftError) as caught:
         zd.simulate(slider_crank(0.5, speed=1.0).system(layout), 1.0, step=1e-3)
     assert caught.value.solution["wrist.force"].shape[1] == 2
-    assert "'drive' must not drive 'slider-crank' beyond its reach" in str(caught.value)
+    assert "'drive' must not drive the mechanism beyond its reach" in str(caught.value)
 
 
 def test_no_dead_centre_is_blamed_for_what_fails_elsewhere():

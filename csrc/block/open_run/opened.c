@@ -163,10 +163,12 @@ int zd_opened_set_parameter(zd_opened *self, int parameter, double value)
 /* Advances to the goal that was set. */
 static int advance(zd_opened *self, int status)
 {
-    if (!status) do status = zd_run_advance(self->run, NULL, SPAN);
+    const int is_refused = status;
+    if (!is_refused) do status = zd_run_advance(self->run, NULL, SPAN);
     while (status == ZD_PAUSED);
     if (status) snprintf(self->message, MESSAGE, "%s", status == ZD_BAD_ARGUMENT ? "the time must not be before the present one" :
                          status == ZD_BAD_INPUT ? "inputs must be finite" : zd_run_message(self->run));
+    if (status < 0 && !is_refused) zd_opened_explain_reach(self);
     return status;
 }
 

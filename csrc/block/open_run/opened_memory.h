@@ -19,4 +19,7 @@ struct zd_opened {
     char message[ZD_OPENED_MESSAGE];
 };
 
+/* Message <- sentence on the drives that bring the run to a dead point within four steps; otherwise it is unchanged. */
+void zd_opened_explain_reach(struct zd_opened *self);
+
 #endif

@@ -14,6 +14,16 @@ int zd_complain(zd_complaint to, const char *format, ...)
     return 0;
 }
 
+void zd_append(zd_complaint *to, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    const int size = vsnprintf(to->message, (size_t)to->size, format, list), used = size < to->size ? size : to->size - 1;
+    va_end(list);
+    to->message += used;
+    to->size -= used;
+}
+
 /* Elements with the numbers of joints and marker quantities that they may refer to. */
 typedef struct tables {
     const zd_elements *elements;

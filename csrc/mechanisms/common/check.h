@@ -12,6 +12,9 @@ typedef struct zd_complaint {
 /* Writes the message of a violated rule; returns 0. */
 int zd_complain(zd_complaint to, const char *format, ...);
 
+/* Writes after what was written; `to` <- the rest of the message. */
+void zd_append(zd_complaint *to, const char *format, ...);
+
 static inline int zd_is_in(int index, int count) { return index >= 0 && index < count; }
 
 /* Checks of bodies, joints and marker quantities, common to plane and space. They return 1, or write the violated rule and

@@ -25,7 +25,8 @@ from ..errors import WrongValue, ZerodriftError
 from ..export import parameters as _parameters
 from ..export import wasm
 from ..export.block import choose, table_words, written
-from ..mechanisms.elements.forces import Motor
+from ..mechanisms.assembly.drive_starts import driven_coordinate
+from ..mechanisms.elements.forces import Actuator, Motor
 from ..mechanisms.system import MechanismSystem
 from ..runs.simulate import simulate
 from ..runs.solution import Solution
@@ -126,7 +127,8 @@ def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None 
     sol = _motion(system, step, options)
     points = body_points(system, sol.p)
     inputs, limits = _given(system, sliders) if sliders is not None else (_inputs(system), {})
-    chosen = choose(system, None, None, 0.0, step, [], list(inputs), options)._replace(has_grip=True)
+    chosen = choose(system, None, None, 0.0, step, [], list(inputs), options)._replace(
+        has_grip=True, watched=tuple(map(driven_coordinate, system._drawing.of((Motor, Actuator)))))
     words = table_words(chosen), _parameters.computed_once(functools.partial(_coordinates, system, points))
     limits = _parameters.ranges(limits, system.parameters) if sliders is not None else _automatic(system, words)
     data = written(chosen._replace(limits=limits), words[0])

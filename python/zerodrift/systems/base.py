@@ -300,9 +300,9 @@ class BaseSystem:
         """Advice on the error of a run that failed near a state; None: there is none."""
         return None
 
-    def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str | None:
-        """Sentence on a drive that a motion at (t, p) does not follow for a time ahead in s; None: it does."""
-        return None
+    def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str:
+        """Sentence on a drive that a motion at (t, p) does not follow for a time ahead in s; "": it does."""
+        return ""
 
     def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
         """Name of the velocity whose rate jumps where the step size of a run has collapsed."""

@@ -128,6 +128,7 @@ static void evaluate(zd_assembly *self, int terms, const double *p)
 static void weigh(zd_assembly *self, const double *p)
 {
     const zd_structure *structure = self->system->structure;
+    const int *lengths = self->system->lengths ? self->system->lengths + self->system->nq : NULL;
     double largest = 0, *M = self->terms.M;
     evaluate(self, ZD_M, p);
     for (int i = 0, b = 0, in_block = 0; i < self->n; i++) {
@@ -136,7 +137,7 @@ static void weigh(zd_assembly *self, const double *p)
         const double mass = is_diagonal ? M[0] : M[in_block];
         M += is_diagonal ? 1 : width;
         if (++in_block == width) b++, in_block = 0;
-        self->scale[i] = self->given->is_angle[i] ? 1 : self->given->length;
+        self->scale[i] = lengths && lengths[i] ? self->given->length : 1;
         self->weight[i] = mass * (self->scale[i] * self->scale[i]);
         largest = fmax(largest, self->weight[i]);
     }

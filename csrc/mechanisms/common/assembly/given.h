@@ -44,7 +44,6 @@ typedef struct zd_assembly_given {
     const zd_system *system;    /* in absolute coordinates, with the measures of the targets */
     const double *inputs;       /* (2 inputs + 1,) or NULL */
     double t, length;           /* s; m: characteristic length */
-    const int *is_angle;        /* (nv,): 1 for rates of angles */
     const int *row;             /* (mh,) enum zd_assembly_row */
     int targets;
     const zd_target *target;    /* (targets,) */
@@ -88,5 +87,9 @@ int zd_assembly_minimize(const zd_assembly_given *given, double *p);
 int zd_assembly_check(const zd_assembly_given *given, const double *p);
 /* v (nv,) <- minimum-norm velocities that satisfy all constraints and held targets and approach wished ones */
 int zd_assemble_velocities(const zd_assembly_given *given, const double *p, double *v);
+/* message <- sentence on the drives that bring a motion at p to a dead point within a time `ahead` in s; otherwise it is unchanged.
+ * measure (mh,): of the coordinate that each constraint drives; -1: none, or it is not known. given->row is ignored. */
+int zd_assembly_explain_reach(const zd_assembly_given *given, const double *p, const int *measure, double ahead, char *message,
+                              int message_size);
 
 #endif

@@ -43,7 +43,7 @@ typedef struct found {      /* start of one mechanism */
     double *poses, *rates, *places;     /* (bodies, 3) both; (drives,) */
     double *p, *v, *scratch;            /* state of the mechanism in absolute coordinates, and its scratch */
     double *Phi;                        /* (mh,) */
-    int *is_angle, *row;                /* (nv,) and (mh,), as an assembly requires them */
+    int *row;                           /* (mh,), as an assembly requires it */
 } found;
 
 static found allocate(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
@@ -55,7 +55,7 @@ static found allocate(zd_arena *arena, const zd_varied *self, const zd_plane *dr
             .places = zd_arena_doubles(arena, (size_t)self->drives),
         .p = zd_arena_doubles(arena, (size_t)system->nv), .v = zd_arena_doubles(arena, (size_t)system->nv),
         .scratch = zd_arena_doubles(arena, (size_t)system->scratch), .Phi = zd_arena_doubles(arena, (size_t)system->mh),
-        .is_angle = zd_arena_bytes(arena, (size_t)system->nv * sizeof(int)), .row = zd_arena_bytes(arena, (size_t)system->mh * sizeof(int)),
+        .row = zd_arena_bytes(arena, (size_t)system->mh * sizeof(int)),
     };
 }
 
@@ -91,9 +91,8 @@ static void find_places(const zd_varied *self, const zd_plane *drawn, const foun
 static int assemble(const zd_varied *self, int64_t run, const zd_plane *drawn, const found *to)
 {
     const zd_system *system = zd_plane_system(drawn);
-    const zd_assembly_given given = {.system = system, .length = self->length[run], .is_angle = to->is_angle, .row = to->row,
+    const zd_assembly_given given = {.system = system, .length = self->length[run], .row = to->row,
                                      .targets = self->targets, .target = self->target};
-    for (int i = 0; i < system->nv; i++) to->is_angle[i] = zd_plane_coordinates(drawn)[i].kind == ZD_COORDINATE_ANGLE;
     for (int k = 0; k < system->mh; k++) to->row[k] = kind_of(self, drawn, k);
     zd_plane_state(drawn, self->poses + run * 3 * drawn->tree.bodies, NULL, to->p, NULL);
     if (zd_assemble_positions(&given, to->p) || zd_assemble_velocities(&given, to->p, to->v)) return 0;

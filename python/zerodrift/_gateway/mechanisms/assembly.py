@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..._core import ffi, lib
-from ..base import doubles, error_of
+from ..base import MESSAGE_SIZE, doubles, error_of, text
 from ..systems import CoreSystem
 
 ROWS = {"joint": lib.ZD_ROW_OF_JOINT, "coupling": lib.ZD_ROW_OF_COUPLING, "drive": lib.ZD_ROW_OF_DRIVE,
@@ -57,7 +57,6 @@ class CoreAssembly:
         self.core, self.length, self.t, self.error = core, length, t, None
         self._many = core.many_bodies() if is_of_many else ffi.NULL
         self._rows = ffi.new("int[]", [ROWS[row] for row in rows])
-        self._is_angle = ffi.new("int[]", [int(coordinate.kind == "angle") for coordinate in core.motions])
         self._nudge = np.random.default_rng(0).standard_normal(core.nv)
 
     def run(self, operation: str, p: np.ndarray, targets: Sequence[CoreTarget] = (), *, left_out: Sequence[int] = ()) -> Outcome:
@@ -73,6 +72,16 @@ class CoreAssembly:
         v, p = np.zeros(self.core.nv), np.ascontiguousarray(p, dtype=float)
         return self._called("assemble_velocities", targets, (), v, doubles(p, self.core.nq), doubles(v, v.size, writable=True))
 
+    def beyond_reach(self, p: np.ndarray, measures: Sequence[int], ahead: float) -> str:
+        """Sentence on drives that come to a dead point within a time ahead in s; "" if none does.
+
+        `measures` are those of the coordinates that the holonomic constraints drive; -1: none.
+        """
+        message, p = ffi.new("char[]", MESSAGE_SIZE), np.ascontiguousarray(p, dtype=float)
+        self._called("assembly_explain_reach", (), (), p, doubles(p, self.core.nq), ffi.new("int[]", measures), ahead, message,
+                     MESSAGE_SIZE)
+        return text(message)
+
     def _called(self, operation: str, targets: Sequence[CoreTarget], left_out: Sequence[int], found: np.ndarray,
                 *arrays: Any) -> Outcome:
         core, rows = self.core.for_run(), self._rows
@@ -82,12 +91,12 @@ class CoreAssembly:
         handle, self.error = ffi.new_handle(self), None
         target, inputs = ffi.new("zd_target[]", list(targets)), core.initial_inputs()
         given = ffi.new("zd_assembly_given *", {
-            "system": core.c, "inputs": inputs, "t": self.t, "length": self.length, "is_angle": self._is_angle, "row": rows,
+            "system": core.c, "inputs": inputs, "t": self.t, "length": self.length, "row": rows,
             "targets": len(targets), "target": target, "nudge": doubles(self._nudge, core.nv), "many": self._many,
             "interrupted": lib.zd_interrupted_in_python, "owner": handle,
             "residual": doubles(residual, residual.size, writable=True), "size": doubles(size, size.size, writable=True)})
         outcome = getattr(lib, f"zd_{operation}")(given, *arrays)
-        if outcome < 0:
+        if outcome < 0 or self.error:
             raise self.error or core.error or error_of(outcome, "the system's evaluation failed")
         return Outcome(outcome, found, residual, size)
 

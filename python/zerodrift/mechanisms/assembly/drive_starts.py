@@ -14,7 +14,7 @@ import numpy as np
 from ..._gateway.mechanisms.plane import MechanismCore
 from ...errors import CorrectionFailed, InconsistentStart
 from ..elements.drawing import Drawing
-from ..elements.forces import Motor
+from ..elements.forces import Actuator, Motor
 from .assembly import NUDGE, Assembly, Target
 
 
@@ -39,9 +39,9 @@ def speed_drives(drawing: Drawing) -> list[Motor]:
     return [motor for motor in drawing.of(Motor) if motor.drives == "speed"]
 
 
-def driven_coordinate(motor: Motor) -> str:
-    """Measure of the coordinate that a motor drives."""
-    return f"{motor.joint.name}.{motor.coordinate}"
+def driven_coordinate(drive: Motor | Actuator) -> str:
+    """Measure of the coordinate that a motor or an actuator drives."""
+    return f"{getattr(drive, 'joint', drive).name}.{drive.coordinate}"
 
 
 def drawn_targets(names: Sequence[str], core: MechanismCore) -> list[Target]:

@@ -7,10 +7,12 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ..._gateway.mechanisms.assembly import CoreAssembly
 from ..._gateway.mechanisms.plane import MechanismCore
 from ...errors import ZerodriftError, sentence
 from ...systems.base import BaseSystem
 from ..assembly import space_advice
+from ..assembly.drive_starts import driven_coordinate
 from ..assembly.free_coordinates import is_driven
 from ..assembly.start import Starting, size_of
 from ..elements.drawing import Drawing
@@ -73,24 +75,13 @@ class Reported(BaseSystem):
             return None
         return space_advice.on_failure(self._started_tables, self._interpreted, t, p)
 
-    def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str | None:
+    def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str:
         """Sentence on the drive, and the dead point to which it moves the mechanism within a time ahead."""
-        from ...analysis.quantities import find  # slow to import and rarely needed
-        from ...analysis.reach_of_drives import dead_point
-
-        length = size_of(self._drawing, self._numbers)
-        drives = {row: each for row, constraint in enumerate(self.constraints[:self.mh])
-                  for each in [self._drawing.elements.get(constraint.name)] if isinstance(each, Motor | Actuator)}
-        sizes = {row: 1.0 if each.coordinate == "angle" else length for row, each in drives.items()}
-        found = dead_point(self, sizes, t, p, ahead)
-        if found is None:
-            return None
-        names = [drives[row] for row in found.rows]
-        limits = [f"{each.joint.name if isinstance(each, Motor) else each.name}.{each.coordinate}" for each in names]
-        reached = ", ".join(f"{name} = {float(find(found.at, name, 'drives').value[0]):.9g}" for name in limits)
-        return (f"{' and '.join(repr(each.name) for each in names)} must not drive {self.name!r} beyond its reach: at t = "
-                f"{found.at.t:.9g} it comes to a dead point, {reached}, where the joints let no motion go on; end before it, or "
-                "drive another joint")
+        core = self._measuring
+        core.name_rows(self)
+        driven = {each.name: driven_coordinate(each) for each in self._drawing.of((Motor, Actuator))}
+        measures = [self._watching.number.get(driven.get(each.name), -1) for each in self.constraints[:self.mh]]
+        return CoreAssembly(core, (), size_of(self._drawing, self._numbers), t).beyond_reach(p, measures, ahead)
 
     def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
         """Also the forces and torques that jump there."""
