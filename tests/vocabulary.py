@@ -1,4 +1,4 @@
-"""Texts of the project: docstrings, comments, messages and pages, each with the place where it stands."""
+"""Texts of the project: docstrings, descriptions, comments, messages and pages, each with the place where it stands."""
 
 import ast
 import json
@@ -15,6 +15,7 @@ DESCRIBED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 # In Python: a comment, or a string, which may contain the sign of one. Python's own tokens take ten times as long.
 COMMENT_OR_STRING = re.compile(r'(\#[^\n]*)|"""(?:\\.|[^\\])*?"""|' r"'''(?:\\.|[^\\])*?'''|"
                                r'"(?:\\.|[^"\\\n])*"|' r"'(?:\\.|[^'\\\n])*'", re.DOTALL)
+ENTRY = re.compile(r"^\S.*\n((?: {4}.*(?:\n|$))+)", re.MULTILINE)       # of a section of a docstring: its description
 
 
 @dataclass(frozen=True)
@@ -23,8 +24,8 @@ class Text:
 
     file: str
     line: int
-    kind: str       # docstring, comment, message or page
-    owner: str      # the function or class that a docstring describes, the exception that a message belongs to, or ""
+    kind: str       # docstring, description, comment, message or page
+    owner: str      # the function or class that is documented, the exception that a message belongs to, or ""
     text: str
 
     def __str__(self):
@@ -32,11 +33,17 @@ class Text:
 
 
 def python_texts(path):
-    """Docstrings, comments and messages of exceptions and warnings in a Python file."""
+    """Docstrings, the entries of their sections, other sentences, comments and messages of a Python file."""
     source, file = path.read_text(encoding="utf-8"), str(path.relative_to(ROOT))
+    docstrings = set()
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, DESCRIBED) and (found := ast.get_docstring(node)):
-            yield Text(file, getattr(node, "lineno", 1), "docstring", getattr(node, "name", ""), found)
+            where = file, getattr(node, "lineno", 1)
+            docstrings.add(ast.get_docstring(node, clean=False))
+            yield Text(*where, "docstring", getattr(node, "name", ""), found)
+            yield from (Text(*where, "description", getattr(node, "name", ""), each) for each in ENTRY.findall(found))
+        if isinstance(node, ast.Constant) and node.value not in docstrings and re.match("[A-Z][a-z]* ", str(node.value)):
+            yield Text(file, node.lineno, "description", "", node.value)
         if isinstance(node, ast.Call) and (name := _exception(node.func)):
             for found in filter(None, map(_message, node.args[:2])):
                 yield Text(file, node.lineno, "message", name, found)
@@ -71,7 +78,7 @@ def c_texts(path):
         if comment:
             yield Text(file, line, "comment", "", re.sub(r"\n\s*\*", "\n", comment).strip())
         elif found[3] and " " in found[3]:
-            yield Text(file, line, "message", "", found[3])
+            yield Text(file, line, "description" if found[3][0].isupper() else "message", "", found[3])
 
 
 def page_texts(path):

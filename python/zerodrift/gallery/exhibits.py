@@ -139,7 +139,7 @@ TABLE = [
             "Carrier and sun are driven, and the ring runs ahead of both, as Willis's equation has it.",
             0.6, 0.002, speed=0.2),
     Exhibit("quarter_car",
-            "The wheel follows the road, and the body sways late and far: the road's waves are near its resonance.",
+            "The wheel follows a road whose waves are near the resonance of the body, which sways late and far.",
             3.0, 0.002),
     Exhibit("quick_return",
             "The ram goes slowly one way and returns in less than two fifths of the turn.",
