@@ -20,7 +20,7 @@ struct zd_rank {
     int max_rank, max_rank_holonomic;  /* maximum number of independent constraints, all and holonomic; below m, mh if some are redundant */
     int is_large;           /* 1: the declared structure exceeds ZD_MAX_DENSE_ROWS; dependence is checked at the start only */
     unsigned char *left_out;    /* (m,) if is_large: 1 for constraints found redundant at the start; NULL: none */
-    int may_be_deficient;   /* 1: fewer independent constraints are tolerated at a point; 0: they raise ZD_BIFURCATION */
+    int allows_deficiency;   /* 1: fewer independent constraints are tolerated at a point; 0: they raise ZD_BIFURCATION */
     int is_started;         /* 1: redundant constraints have been determined */
     int was_deficient;      /* 1: fewer were independent at some point of this step */
     int was_doubtful;       /* 1: possible dependence at a point of this step required an orthogonalization */
@@ -34,7 +34,7 @@ struct zd_rank {
     zd_rank_monitor *monitor;          /* NULL for few constraints, or where the formulation's own factorization shows independence */
     zd_store *store;        /* memory of the run, for what is allocated once constraints may be dependent: */
     zd_selection *selection;    /* NULL until then */
-    zd_rank_monitor *kept;          /* the selected independent constraints and their change since; NULL: none */
+    zd_rank_monitor *kept;          /* monitor of the selection kept from step to step, and of its change; NULL: none */
 };
 
 /* Selection of independent constraints where some are linearly dependent. */

@@ -151,7 +151,7 @@ int zd_redundancy_prepare(zd_point *point)
     int status = zd_point_need(point, ZD_C | ZD_M);
     if (!status) status = zd_point_measure(point);
     if (status) return status;
-    point->rank->may_be_deficient = 1;
+    point->rank->allows_deficiency = 1;
     measure(point);
     return ZD_DONE;
 }
@@ -164,12 +164,12 @@ int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
         return zd_redundancy_sparse_find(point);
     }
     int status = zd_rows_find(point);
-    self->may_be_deficient = on_singular == ZD_CONTINUE;
+    self->allows_deficiency = on_singular == ZD_CONTINUE;
     self->is_started = 1;
     if (status || point->rows == self->m) return status;
     status = point->system->provides & ZD_XI ? classify_dependent(point) : ZD_DONE;
     if (status) return status;
     self->was_deficient = point->rows < self->max_rank;
-    if (self->was_deficient && !self->may_be_deficient) return ZD_BIFURCATION;
+    if (self->was_deficient && !self->allows_deficiency) return ZD_BIFURCATION;
     return self->was_deficient ? zd_rows_find_again(point) : ZD_DONE;
 }

@@ -39,7 +39,7 @@ static int reduce(zd_point *point)
     if (!zd_is_finite(zd_size_of_C(point->system), point->terms.C)) return ZD_NOT_FINITE;
     status = zd_rank_need_selection(self, point->system);
     if (status) return status;
-    const int by_limits = self->is_started && self->may_be_deficient, was_ill_conditioned = self->was_ill_conditioned;
+    const int by_limits = self->is_started && self->allows_deficiency, was_ill_conditioned = self->was_ill_conditioned;
     self->was_ill_conditioned = 0;
     zd_rank_choose(point, by_limits ? region : SQUARED);
     if (by_limits && point->rows < self->max_rank) {
@@ -50,7 +50,7 @@ static int reduce(zd_point *point)
     self->was_deficient |= is_deficient;
     if (!status) status = keep_selection(point, self->was_ill_conditioned);
     self->was_ill_conditioned |= was_ill_conditioned;
-    if (is_deficient && !self->may_be_deficient) return ZD_BIFURCATION;
+    if (is_deficient && !self->allows_deficiency) return ZD_BIFURCATION;
     if (!status) point->known |= ZD_RANKED;
     return status;
 }

@@ -22,7 +22,7 @@ typedef struct zd_residual_state {
     zd_point *varied;       /* point besides that of the state, at which residuals are evaluated */
     int parts, width;       /* requested parts, ZD_RESIDUAL_..., and the number of their entries, which follow one another in this order: */
     int s_at, Psi_at, pdot_at, power_at;    /* offsets of the parts after r */
-    int needs;              /* terms that they need besides A */
+    int needs;              /* terms that the requested residuals need besides A */
     zd_point *point;        /* the state */
     const double *vdot, *lambda;    /* (nv,), (m,): there */
     int moves;              /* true if an entry of vdot is not zero */

@@ -25,7 +25,7 @@
 #include "../step_limits.h"
 
 /* Rates at one end of a step that is not sampled by dense output or a series. */
-static zd_end_rates create_rates(zd_arena *arena, const zd_output *output)
+static zd_end_rates create_end_rates(zd_arena *arena, const zd_output *output)
 {
     const zd_system *system = &output->stepper->motion->system;
     if (zd_is_adaptive(output->loop) || output->stepper->integrator->takes_series) return (zd_end_rates){0};
@@ -45,8 +45,8 @@ zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *ou
         .now = zd_arena_doubles(arena, count),
         .zeros = zd_arena_bytes(arena, count * sizeof(zd_zeros)),
         .occurrence = zd_arena_bytes(arena, count * ZD_MAX_POINTS * sizeof(zd_occurrence)),
-        .at_start = create_rates(arena, output),
-        .at_end = create_rates(arena, output),
+        .at_start = create_end_rates(arena, output),
+        .at_end = create_end_rates(arena, output),
         .end = zd_state_create(arena, motion),
         .early = zd_state_create(arena, motion),
         .late = zd_state_create(arena, motion),

@@ -182,7 +182,7 @@ static int begin(zd_run *run)
     write(run, held->is_new && !inputs->jumps ? run->settings.step : 0);
     if (!held->is_new) held->has_ramp = 0;
     held->is_new = 0;
-    return jumps ? zd_jump_end(run) : renew(run);
+    return jumps ? zd_jump_finish(run) : renew(run);
 }
 
 int zd_inputs_begin_step(zd_run *run)

@@ -50,7 +50,7 @@ static int project(zd_run *run)
     return ZD_DONE;
 }
 
-int zd_jump_end(zd_run *run)
+int zd_jump_finish(zd_run *run)
 {
     zd_motion *motion = &run->motion;
     zd_held_inputs *held = &run->held;

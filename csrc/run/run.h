@@ -67,7 +67,7 @@ static inline void zd_inputs_derive(const zd_inputs *inputs)
 
 /* jump.c: a jump of speeds, before and after the new ones are written; the second function moves the velocities. */
 int zd_jump_begin(zd_run *run);
-int zd_jump_end(zd_run *run);
+int zd_jump_finish(zd_run *run);
 /* Sets each speed that is an input to the number which the velocities at the point fit. Psi (m,) is overwritten. */
 int zd_speeds_fit(zd_run *run, double *Psi);
 /* The sentence on the speed that differs most from its input after that. */

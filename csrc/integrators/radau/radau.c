@@ -34,7 +34,7 @@ typedef struct radau {
     zd_radau_newton newton; /* with start, size and stages of the last step */
     double *f0;             /* (size,): rate at the start of the step */
     double *before;         /* (STAGES, size): z of the previous step, from which iterations are started */
-    double before_h;        /* size of the previous step; 0: none */
+    double previous_h;        /* size of the previous step; 0: none */
     double *seen_before;    /* (size,): newton.seen before the step, restored if it fails */
     double bound;           /* s: upper bound of steps with one J, set by one that was too long for the iteration; 0: none */
     int steps_since;        /* steps since the bound was set */
@@ -68,10 +68,10 @@ static void start(radau *self)
     zd_radau_newton *it = &self->newton;
     const int n = it->size;
     memset(it->z, 0, (size_t)(STAGES * n) * sizeof(double));
-    if (self->before_h == 0) return;
+    if (self->previous_h == 0) return;
     for (int s = 0; s < STAGES; s++)
         for (int i = 0; i < n; i++)
-            it->z[s * n + i] = zd_radau_dense_output(self->before + i, n, 1 + c[s] * it->h / self->before_h) - self->before[2 * n + i];
+            it->z[s * n + i] = zd_radau_dense_output(self->before + i, n, 1 + c[s] * it->h / self->previous_h) - self->before[2 * n + i];
 }
 
 /* The step before is the one last made, where this begins at its end; or still the one before that, where it begins at its beginning anew. */
@@ -81,15 +81,15 @@ static void save_step(radau *self, double t, double h, const zd_rate *rate)
     self->filters = !it->rate || t == it->t0;
     if (rate->size != it->size || rate->pairs != it->matrices.pairs) {
         it->size = rate->size;
-        it->h = self->before_h = 0;
+        it->h = self->previous_h = 0;
         zd_radau_matrices_resize(&it->matrices, rate->size, rate->pairs);
     }
     const double end = it->t0 + it->h;
     if (it->h != 0 && fabs(t - end) <= CHANGE_ROUNDING * fabs(end)) {
         zd_exchange(&self->before, &it->z);
-        self->before_h = it->h;
+        self->previous_h = it->h;
         if (it->by_stages) zd_radau_stages_give_J(&it->stages, &it->matrices);
-    } else if (t != it->t0) self->before_h = 0;
+    } else if (t != it->t0) self->previous_h = 0;
     it->t0 = t;
     it->h = h;
 }

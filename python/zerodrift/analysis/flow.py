@@ -222,14 +222,14 @@ class Flow:
         """Changes of z' (k, j), vdot (nv, j) and of lambda (m, j), by generalized forces (nv, j)."""
         V = self.tangent.velocities
         if core_of(self.at.system).functions:
-            force = force + read_forces.added(self.at, self.vdot, self.lam, force, self._at_forces)
-        vdot, lam = self._at_forces(force)
+            force = force + read_forces.added(self.at, self.vdot, self.lam, force, self._changes_by_forces)
+        vdot, lam = self._changes_by_forces(force)
         n = V.shape[1]
         z = np.zeros((self.tangent.quasi.shape[1], force.shape[1]))
         z[-n:] = V.T @ force if n else z[-n:]
         return z, vdot, lam
 
-    def _at_forces(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _changes_by_forces(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Changes of vdot (nv, j) and of lambda (m, j) by generalized forces (nv, j), all of them included."""
         V = self.tangent.velocities
         lam = self.derivatives.solve(-force, np.zeros((self.at.system.m, force.shape[1])))[1]

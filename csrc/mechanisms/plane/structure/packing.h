@@ -27,7 +27,7 @@ typedef struct zd_revolute_joint {
 
 typedef struct zd_revolute_joints {
     int count;
-    zd_revolute_bodies *between; /* (count,), as the next two */
+    zd_revolute_bodies *between; /* (count,), as the next two: bodies, points and rows of each joint */
     zd_points *points;
     zd_revolute_joint *joint;
     int *end_at;            /* (bodies + 2,): offsets of each body's joints in `end` */

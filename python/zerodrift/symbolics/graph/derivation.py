@@ -32,7 +32,7 @@ class Given:
     nv: int
     A: Matrix | None = None
     kinetic: Node | None = None             # in p, t and rates
-    mass: Matrix | None = None              # or M and d themselves
+    mass: Matrix | None = None              # M, with d in `bias`: given instead of `kinetic`
     bias: list[Node] | None = None
     force: list[Node] | None = None         # of what V does not describe
     potential: Node | None = None
