@@ -282,3 +282,17 @@ def test_a_drive_beyond_its_reach_is_named_in_the_words_of_python(web, space):
         }
     """, **blocks)
     assert told == [[pytest.approx(0.395), sentence(refusal.value)]] * 4
+
+
+def test_a_length_that_the_drives_do_not_allow_is_refused_by_their_names_and_others_are_reached(web):
+    """The end of the crank is 0.3 m above the guide: a shorter rod could close with the crank further down alone."""
+    data = zd.block(driven_slider_crank(), step=1e-3, outputs=[], parameters={"rod.length": (0.1, 4.0)})
+    told = web("""
+        const m = zd.create(core, block("it"));
+        for (const length of [0.31, 3.9, 0.29, 0.305, 0.2])
+          try { zd.setParameter(m, "rod.length", length); tell(zd.violation(m)); } catch (error) { tell(error.message); }
+    """, it=data)
+    refused_by_drive = ("the values that the start holds and the drives cannot be met together; "
+                        "the nearest positions miss 'drive' by ")
+    assert [each.startswith(refused_by_drive) if isinstance(each, str) else each < 1e-11 for each in told] == [True] * 5
+    assert [isinstance(each, str) for each in told] == [False, False, True, False, True]

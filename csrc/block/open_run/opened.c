@@ -114,7 +114,7 @@ int zd_opened_restart(zd_opened *self, double t, const double *p, const double *
 int zd_opened_assemble(zd_opened *self, double t, const double *p, const double *v)
 {
     const zd_system *system = zd_block_system(self->block);
-    memcpy(self->p, p, (size_t)system->nq * sizeof *p);
+    memmove(self->p, p, (size_t)system->nq * sizeof *p);
     memcpy(self->v, v, (size_t)system->nv * sizeof *v);
     const int status = zd_project(system, &self->settings, t, self->p, self->v, NULL, NULL, NULL, self->message, MESSAGE);
     return status ? status : zd_opened_restart(self, t, self->p, self->v);
@@ -131,6 +131,8 @@ static int replace(zd_opened *self, zd_block *block)
     int status = zd_block_settings(block, &self->settings, self->message, MESSAGE);
     self->settings.is_open = 1;
     if (!status) status = zd_opened_assemble(self, t, zd_run_p(before.run), zd_run_v(before.run));
+    if (status && !zd_opened_find_positions(self, t, zd_run_p(before.run)))
+        status = zd_opened_assemble(self, t, self->p, zd_run_v(before.run));
     if (status) {
         zd_block_explain_start(block, self->message, MESSAGE);
         self->block = before.block;

@@ -21,5 +21,8 @@ struct zd_opened {
 
 /* Message <- sentence on the drives that bring the run to a dead point within four steps; otherwise it is unchanged. */
 void zd_opened_explain_reach(struct zd_opened *self);
+/* self->p <- positions at time t, assembled from p (nq,), which may be too far for a projection. Returns a status; the message names the
+ * drives that cannot be met. */
+int zd_opened_find_positions(struct zd_opened *self, double t, const double *p);
 
 #endif

@@ -1,4 +1,5 @@
-/* Drives that bring the open run of a block to a dead point. */
+/* Drives of the open run of a block that cannot be met: at a dead point, or with other lengths. */
+#include <math.h>
 #include <string.h>
 
 #include "../../mechanisms/common/assembly/given.h"
@@ -8,6 +9,10 @@
 
 static const double STEPS_AHEAD = 4;    /* number of fixed steps in which a dead point may be the cause of a failure */
 static const double AHEAD = 1e-3;       /* s: the same with adaptive steps */
+static const double MET = 1e-9;         /* relative to its size: residual of a drive that is met */
+enum { NAME = 64 };
+
+static double length_of(const zd_block *block) { return block->layout.part[ZD_BLOCK_GRAVITY].word[block->layout.of->dimension]; }
 
 /* Measure of the coordinate that a relation drives; -1: the block has none. */
 static int driven(const zd_block_layout *layout, int relation)
@@ -58,11 +63,41 @@ void zd_opened_explain_reach(struct zd_opened *self)
             const zd_row_owner *owner = block->names.owner + i;
             measure[i] = owner->owner == ZD_OF_RELATION ? driven(layout, owner->index) : -1;
         }
-        const double length = layout->part[ZD_BLOCK_GRAVITY].word[layout->of->dimension];
-        const zd_assembly_given given = {.system = &block->system, .t = t, .length = length};
+        const zd_assembly_given given = {.system = &block->system, .t = t, .length = length_of(block)};
         zd_assembly_explain_reach(&given, zd_run_p(self->run), measure, step > 0 ? STEPS_AHEAD * step : AHEAD, self->message,
                                   ZD_OPENED_MESSAGE);
     }
     zd_release(measure);
     if (block) zd_block_free(block);
+}
+
+/* Writes which relations are missed, by the residuals of all constraints (mh,) in units of their sizes. */
+static void name_missed(struct zd_opened *self, const double *residual, const double *size)
+{
+    zd_complaint to = {self->message, ZD_OPENED_MESSAGE};
+    const char *before = "the values that the start holds and the drives cannot be met together; the nearest positions miss ";
+    char name[NAME];
+    for (int k = 0; k < self->block->system.mh; k++) {
+        if (self->block->names.owner[k].owner != ZD_OF_RELATION || !(fabs(residual[k]) > MET)) continue;
+        zd_block_name_row(&self->block->names, k, name, NAME);
+        zd_append(&to, "%s'%s' by %.3g", before, name, fabs(residual[k]) * size[k]);
+        before = ", ";
+    }
+}
+
+int zd_opened_find_positions(struct zd_opened *self, double t, const double *p)
+{
+    const zd_block *block = self->block;
+    const size_t m = (size_t)(block->system.mh + block->system.mn);
+    double *residual = zd_allocate(3 * m * sizeof *residual), *size = residual + m;
+    if (!residual) return ZD_NO_MEMORY;
+    int *row = (int *)(size + m);
+    for (int k = 0; k < block->system.mh; k++) row[k] = block->names.owner[k].owner == ZD_OF_RELATION ? ZD_ROW_OF_DRIVE : ZD_ROW_OF_JOINT;
+    const zd_assembly_given given = {.system = &block->system, .t = t, .length = length_of(block), .row = row, .residual = residual,
+                                     .size = size};
+    memcpy(self->p, p, (size_t)block->system.nq * sizeof *p);
+    const int outcome = zd_assemble_positions(&given, self->p);
+    if (outcome == ZD_TARGETS_UNMET) name_missed(self, residual, size);
+    zd_release(residual);
+    return outcome ? ZD_BAD_ARGUMENT : ZD_DONE;
 }
