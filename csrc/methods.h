@@ -3,9 +3,7 @@
 #ifndef ZD_METHODS_H
 #define ZD_METHODS_H
 
-#define ZD_SYSTEM_LIST(X) \
-    X(zd_four_bar) X(zd_oscillator) X(zd_pendulum) X(zd_slider_crank) X(zd_knife_edge) \
-    X(zd_chaplygin_sleigh) X(zd_rolling_disc) X(zd_vertical_disc) X(zd_driven_four_bar)
+#define ZD_SYSTEM_LIST(X) X(zd_four_bar) X(zd_oscillator) X(zd_pendulum) X(zd_knife_edge)
 #define ZD_FORMULATION_LIST(X) X(zd_augmented) X(zd_nullspace) X(zd_schur) X(zd_mixed) X(zd_independent)
 #define ZD_INTEGRATOR_LIST(X) \
     X(zd_euler) X(zd_midpoint) X(zd_heun) X(zd_rk4) X(zd_dormand_prince) X(zd_dop853) X(zd_extrapolation) X(zd_trapezoidal) \

@@ -1,5 +1,5 @@
 """Writer of csrc/systems/closed_form, the closed-form functions of built-in systems, from their
-derivations in tests/symbolic_counterparts.py:
+derivations in tests/support/symbolic_counterparts.py:
 ``python python/write_closed_form.py``, after which the core has to be built again.
 """
 
@@ -9,18 +9,18 @@ from pathlib import Path
 import sympy
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path += [str(ROOT / "tests"), str(ROOT / "python")]     # where it does not run in the test suite
+sys.path += [str(ROOT / folder) for folder in ("tests", "tests/support", "python")]     # where it does not run in the test suite
 
 from symbolic_counterparts import OF_PARAMETERS  # noqa: E402
 from zerodrift.symbolics.emit import closed_form  # noqa: E402
 
 FOLDER = ROOT / "csrc" / "systems" / "closed_form"
 # Offset of the constants of the closed-form functions in the doubles of a system: after its own, or 0 where they are the same.
-BEGINS = {"four_bar": 14, "driven_four_bar": 18, "pendulum": 0, "slider_crank": 0, "chaplygin_sleigh": 0,
-          "oscillator": 0, "knife_edge": 0, "vertical_disc": 0}
+BEGINS = {"four_bar": 14, "pendulum": 0, "oscillator": 0, "knife_edge": 0}
 # Systems that provide D have no independent velocities that are entries of v.
-EMBEDS = {"chaplygin_sleigh": (False,), "knife_edge": (False,)}
-HEADING = f"/* Written by python/write_closed_form.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
+EMBEDS = {"knife_edge": (False,)}
+HEADING = (f"/* Written by python/write_closed_form.py with SymPy {sympy.__version__}, "
+           "from tests/support/symbolic_counterparts.py. */")
 
 
 def sources():

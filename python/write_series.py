@@ -1,5 +1,5 @@
 """Writer of csrc/systems/series and csrc/systems/precise, the Taylor series of built-in systems in double and double-double
-arithmetic, from their derivations in tests/symbolic_counterparts.py:
+arithmetic, from their derivations in tests/support/symbolic_counterparts.py:
 ``python python/write_series.py``, after which the core has to be built again.
 """
 
@@ -10,28 +10,29 @@ from pathlib import Path
 import sympy
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path += [str(ROOT / "tests"), str(ROOT / "python")]     # where it does not run in the test suite
+sys.path += [str(ROOT / folder) for folder in ("tests", "tests/support", "python")]     # where it does not run in the test suite
 
-from symbolic_counterparts import OF_PARAMETERS, WITH_SERIES_ALONE  # noqa: E402
+from symbolic_counterparts import OF_PARAMETERS, PRECISE  # noqa: E402
 from zerodrift.symbolics.emit import series  # noqa: E402
 
 SYSTEMS = ROOT / "csrc" / "systems"
 # Offset of the numbers of the series in the doubles of a system.
-BEGINS = {"four_bar": 14, "driven_four_bar": 18}
+BEGINS = {"four_bar": 14}
 COEFFICIENTS = re.compile(r"enum \{ ROWS.*?\n}\n", re.DOTALL)       # the text of them, which both precisions have in common
 NUMBERS = re.compile(r"(const k = )([^;]*);")
-HEADING = f"/* Written by python/write_series.py with SymPy {sympy.__version__}, from tests/symbolic_counterparts.py. */"
+HEADING = (f"/* Written by python/write_series.py with SymPy {sympy.__version__}, "
+           "from tests/support/symbolic_counterparts.py. */")
 
 
 def sources():
     """Text of each file by its path in csrc/systems."""
-    texts, names = {}, sorted(OF_PARAMETERS | WITH_SERIES_ALONE["series"])
+    texts, names = {}, sorted(OF_PARAMETERS)
     for name in names:
-        code = (WITH_SERIES_ALONE["series"].get(name) or OF_PARAMETERS[name])()._code
+        code = OF_PARAMETERS[name]()._code
         begins = BEGINS.get(name)
         plain = relative(name, "series", series.write(
             code.program, code.sizes, f"(const double *)data + {begins}" if begins else "data"))
-        code = (WITH_SERIES_ALONE["precise"].get(name) or WITH_SERIES_ALONE["series"].get(name) or OF_PARAMETERS[name])()._code
+        code = PRECISE.get(name, OF_PARAMETERS[name])()._code
         precise = relative(name, "precise", series.write_precise(code.program, code.sizes))
         texts |= shared(name, plain, precise)
     return texts | {f"{kind}/{kind}.h": header(kind, names) for kind in ("series", "precise")}

@@ -18,8 +18,7 @@ from taylor import mp
 FAMILIES = {family.__name__: family for family in (
     free.linear, free.linear_long, free.linear_stiff, free.oscillator, free.henon, free.henon_in_python, free.duffing,
     free.kepler, free.stiff_spring, free.pulse, free.body, held.pendulum, held.moved_pendulum, held.double_pendulum,
-    held.double_pendulum_in_cartesian, held.ellipse, held.wire, held.hung_plate, held.crank, held.sleigh, held.knife_edge,
-    held.vertical_disc)}
+    held.double_pendulum_in_cartesian, held.ellipse, held.wire, held.hung_plate, held.crank, held.sleigh, held.knife_edge)}
 ROWS = 12       # output times; of a motion with every step, three times as many rows are compared
 
 

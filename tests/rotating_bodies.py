@@ -50,19 +50,3 @@ def about_a_point(mass, inertia, arm, omega, gravity=9.81, quaternions=(0,)):
         TURN, speeds=SPIN, kinematics=turning(TURN, SPIN), quaternions=quaternions, mass=sp.diag(*shifted),
         bias=gyroscopic(shifted), potential=mass * gravity * (matrix(TURN) * sp.Matrix(arm))[2], p0=[1, 0, 0, 0], v0=omega,
         name="body about a point", progress=False)
-
-
-@cache
-def rolling_disc(mass, radius, axle, diameter, p0, v0, gravity=9.81):
-    """A thin disc whose own x axis is its axle; its height is a holonomic constraint, that it does not slip are two others."""
-    R, up = matrix(TURN), sp.Matrix([0, 0, 1])
-    lean = (R[:, 0].T * up)[0]
-    upward = sp.sqrt(1 - lean**2)
-    to_contact = -radius * (up - lean * R[:, 0]) / upward
-    slip = sp.Matrix(SPEED) + (R * sp.Matrix(SPIN)).cross(to_contact)
-    inertia = (axle, diameter, diameter)
-    return zd.symbolic(
-        [*PLACE, *TURN], speeds=[*SPEED, *SPIN], kinematics=[*SPEED, *turning(TURN, SPIN)], quaternions=["e0"],
-        mass=sp.diag(mass, mass, mass, *inertia), bias=[0, 0, 0, *gyroscopic(inertia)], potential=mass * gravity * PLACE[2],
-        constraints=[PLACE[2] - radius * upward], nonholonomic=list(slip[:2]),
-        units=["m"] * 3 + [""] * 4 + ["m/s"] * 3 + ["rad/s"] * 3, p0=p0, v0=v0, name="rolling disc", progress=False)

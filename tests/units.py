@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 
+import energy_models
 import zerodrift as zd
 
 
@@ -35,10 +36,10 @@ def four_bar(u, lengths=(1.0, 0.3, 1.0, 0.6), masses=(1.0, 1.0, 3.0), **options)
 
 
 def slider_crank(u):
-    return zd.systems.slider_crank(
-        crank=0.5 * u.length, rod=1.0 * u.length, relaxed_length=1.0 * u.length,
-        crank_inertia=u.of(2, 1), rod_inertia=2.0 * u.of(2, 1), mass=1.0 * u.mass, stiffness=u.of(0, 1, -2),
-        damping=u.of(0, 1, -1), force=u.force, crank_angle=1.0, crank_rate=0.5 / u.time)
+    return energy_models.slider_crank(
+        crank=0.5 * u.length, rod=1.0 * u.length, rest_length=1.0 * u.length, crank_inertia=u.of(2, 1),
+        rod_inertia=2.0 * u.of(2, 1), slider_mass=1.0 * u.mass, stiffness=u.of(0, 1, -2), damping=u.of(0, 1, -1),
+        pull=u.force, angle=1.0)
 
 
 def pendulum(u):

@@ -6,9 +6,12 @@
  *    / alpha_1      alpha_3 \
  *   o                        o  (l0, 0)
  */
-#include "four_bar.h"
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
 
 #include "../include/zerodrift/sines.h"
+#include "../include/zerodrift/system.h"
 #include "../linalg/roots.h"
 #include "../linalg/small.h"
 #include "closed_form/four_bar.h"
@@ -21,16 +24,33 @@ static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */
 static const double COSINE_ROUNDING = 8 * 0x1p-52;  /* rounding error of a cosine */
 static const double FLAT = 1e-9;                    /* gap allowed with all links in line, relative to the ground link */
 
-enum { ALPHA_1, ALPHA_2, ALPHA_3, N = ZD_FOUR_BAR_N };
+enum { ALPHA_1, ALPHA_2, ALPHA_3, N };
+enum { OF_CLOSED_FORM = 11 };   /* number of parameters, the first, of the closed-form functions */
 
-typedef zd_four_bar_given given;
-typedef zd_four_bar_constants constants;
+/* parameters, in the order of the table at the end */
+typedef struct given {
+    double l[4];        /* m: l0 ... l3 */
+    double m[N];        /* kg */
+    double J[N];        /* kg m^2 */
+    double g;           /* m/s^2 */
+    double crossed;
+    double angle, rate; /* alpha_1(0), rad; its rate, rad/s */
+} given;
+
+/* constants of evaluate(), from the parameters */
+typedef struct constants {
+    double l0, l[N];
+    double side;            /* side of the diagonal with joint 3: 1 open, -1 crossed; 0: changes where both assemblies meet */
+    double diagonal[N];     /* M_ii, kg m^2 */
+    double k12, k13, k23;   /* M_ij / cos(alpha_j - alpha_i), kg m^2 */
+    double weight[N];       /* -f_i / cos(alpha_i), N m */
+} constants;
+
+_Static_assert(sizeof(constants) == ZD_FOUR_BAR_CLOSED_FORM_BEGINS * sizeof(double), "where closed-form functions look for theirs");
 
 typedef struct sines {          /* valid while p does not change */
     double s[N], c[N];
 } sines;
-
-_Static_assert(sizeof(sines) == ZD_FOUR_BAR_SCRATCH * sizeof(double), "the header tells other systems the size of the scratch");
 
 static void write_mass(const constants *k, const sines *a, double *M)
 {
@@ -68,7 +88,7 @@ static void write_closure_bias(const constants *k, const sines *a, const double 
     xi[1] = zd_dot(N, pull, a->s);
 }
 
-int zd_four_bar_evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
+static int evaluate(const void *data, int want, double t, const double *p, const double *v, const zd_terms *out)
 {
     (void)t;
     const constants *k = data;
@@ -132,8 +152,9 @@ static void close_rates(const given *q, const double *p, double *v)
     v[ALPHA_3] = q->rate * q->l[1] / q->l[3] * zd_sin(p[ALPHA_2] - p[ALPHA_1]) / sine;
 }
 
-void zd_four_bar_start(const given *q, double *p, double *v)
+static void start(const double *parameters, double *p, double *v)
 {
+    const given *q = (const given *)parameters;
     p[ALPHA_1] = q->angle;
     close_loop(q->l[0], q->l + 1, q->crossed != 0 ? -1 : 1, p);
     close_rates(q, p, v);
@@ -156,17 +177,20 @@ static double inertia(const given *q, int i)
     return isnan(q->J[i]) ? q->m[i] * q->l[i + 1] * q->l[i + 1] / 12 : q->J[i];
 }
 
-const char *zd_four_bar_prepare(const given *q, constants *to)
+static const char *prepare(const double *parameters, double *to)
 {
+    const given *q = (const given *)parameters;
     double p[N] = {q->angle};
     if (!close_loop(q->l[0], q->l + 1, q->crossed != 0 ? -1 : 1, p))
         return "links of these lengths cannot close the loop at this crank_angle";
     if (!(fabs(zd_sin(p[ALPHA_3] - p[ALPHA_2])) > 1e-8))
         return "links 2 and 3 are in line at this crank_angle: there the crank does not determine the motion";
-    double J[N];
+    double *of_closed_form = to + ZD_FOUR_BAR_CLOSED_FORM_BEGINS, *J = of_closed_form + offsetof(given, J) / sizeof *to;
+    memcpy(of_closed_form, q, OF_CLOSED_FORM * sizeof *to);
     for (int i = 0; i < N; i++) J[i] = inertia(q, i);
+    zd_four_bar_closed_form_constants(of_closed_form);
     double l1 = q->l[1], l2 = q->l[2], l3 = q->l[3], m1 = q->m[0], m2 = q->m[1], m3 = q->m[2];
-    *to = (constants){
+    const constants k = {
         .l0 = q->l[0],
         .l = {l1, l2, l3},
         .side = can_be_flat(q->l) ? 0 : q->crossed != 0 ? -1 : 1,
@@ -176,16 +200,11 @@ const char *zd_four_bar_prepare(const given *q, constants *to)
         .k23 = 0.5 * m3 * l2 * l3,
         .weight = {(0.5 * m1 + m2 + m3) * q->g * l1, (0.5 * m2 + m3) * q->g * l2, 0.5 * m3 * q->g * l3},
     };
+    memcpy(to, &k, sizeof k);
     return NULL;
 }
 
-void zd_four_bar_fill(const zd_four_bar_given *q, double *to)
-{
-    memcpy(to, q, ZD_FOUR_BAR_CLOSED_FORM * sizeof *to);
-    for (int i = 0; i < N; i++) to[offsetof(given, J) / sizeof *to + (size_t)i] = inertia(q, i);
-}
-
-void zd_four_bar_draw(const double *data, const double *p, double *points)
+static void draw(const double *data, const double *p, double *points)
 {
     const constants *k = (const constants *)data;
     points[0] = points[1] = 0;
@@ -195,32 +214,19 @@ void zd_four_bar_draw(const double *data, const double *p, double *points)
     }
 }
 
-const zd_variable zd_four_bar_coordinate[] = {{"alpha1", "rad"}, {"alpha2", "rad"}, {"alpha3", "rad"}};
-const zd_variable zd_four_bar_velocity[] = {{"alpha1_dot", "rad/s"}, {"alpha2_dot", "rad/s"}, {"alpha3_dot", "rad/s"}};
-
-/* ---- the row of the table: the crank is free ---- */
-
-_Static_assert(sizeof(constants) == ZD_FOUR_BAR_CLOSED_FORM_BEGINS * sizeof(double), "where closed-form functions look for theirs");
-
-static const char *prepare(const double *parameters, double *to)
-{
-    double *of_closed_form = to + ZD_FOUR_BAR_CLOSED_FORM_BEGINS;
-    zd_four_bar_fill((const given *)parameters, of_closed_form);
-    zd_four_bar_closed_form_constants(of_closed_form);
-    return zd_four_bar_prepare((const given *)parameters, (constants *)to);
-}
-
-static void start(const double *parameters, double *p, double *v)
-{
-    zd_four_bar_start((const given *)parameters, p, v);
-}
+static const zd_variable coordinate[] = {{"alpha1", "rad"}, {"alpha2", "rad"}, {"alpha3", "rad"}};
+static const zd_variable velocity[] = {{"alpha1_dot", "rad/s"}, {"alpha2_dot", "rad/s"}, {"alpha3_dot", "rad/s"}};
+static const zd_variable constraint[] = {{"closure_x", "m"}, {"closure_y", "m"}};
 
 static const zd_parameter parameter[] = {
-    ZD_FOUR_BAR_PARAMETERS,
+    {"lengths", "m", "ground l0 and links l1, l2, l3", 4, ZD_POSITIVE, (const double[]){1, 0.3, 1, 0.6}},
+    {"masses", "kg", "of links 1, 2, 3", 3, ZD_POSITIVE, (const double[]){1.5, 5, 3}},
+    {"inertias", "kg m^2", "about the link midpoints; left out: slender rods, m l^2 / 12", 3, ZD_NOT_NEGATIVE, NULL},
+    {"gravity", "m/s^2", "downwards, along -y", 1, ZD_ANY, (const double[]){9.81}},
+    {"assembly", "", "open crossed", 1, ZD_CHOICE, (const double[]){0}},
+    {"crank_angle", "rad", "alpha1 at the start", 1, ZD_ANY, (const double[]){0x1.921fb54442d18p+0}},
     {"crank_rate", "rad/s", "its rate at the start", 1, ZD_ANY, (const double[]){1}},
 };
-
-static const zd_variable constraint[] = {{"closure_x", "m"}, {"closure_y", "m"}};
 
 const zd_kind zd_four_bar = {
     .card = {
@@ -236,15 +242,15 @@ const zd_kind zd_four_bar = {
     .system = {
         .nq = N, .nv = N, .mh = 2,
         .provides = ZD_M | ZD_BIAS | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
-        .scratch = ZD_FOUR_BAR_SCRATCH,
-        .evaluate = zd_four_bar_evaluate,
+        .scratch = sizeof(sines) / sizeof(double),
+        .evaluate = evaluate,
         .series = &zd_four_bar_series,
         .closed_form = zd_four_bar_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
         .embed = embed,
         .independent = (const int[]){ALPHA_1},
     },
-    ZD_PREPARED_DOUBLES(ZD_FOUR_BAR_CLOSED_FORM_ENDS),
-    .coordinate = zd_four_bar_coordinate, .velocity = zd_four_bar_velocity, .constraint = constraint,
-    .points = N + 1, .dimension = 2, .draw = zd_four_bar_draw,
+    ZD_PREPARED(ZD_FOUR_BAR_CLOSED_FORM_ENDS),
+    .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
+    .points = N + 1, .dimension = 2, .draw = draw,
     .precise = &zd_four_bar_precise,
 };

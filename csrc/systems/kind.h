@@ -4,10 +4,9 @@
 
 #include "../include/zerodrift/system.h"
 
-/* Initializers from the table `parameter` and the functions `prepare` and `start` of a file, and from the type of the constants that
- * `prepare` computes, or their number. */
-#define ZD_PREPARED(constants_type) ZD_PREPARED_DOUBLES(sizeof(constants_type) / sizeof(double))
-#define ZD_PREPARED_DOUBLES(count) \
+/* Initializers from the table `parameter` and the functions `prepare` and `start` of a file, and from the number of the constants that
+ * `prepare` computes. */
+#define ZD_PREPARED(count) \
     .parameters = sizeof parameter / sizeof parameter[0], \
     .parameter = parameter, \
     .constants = count, \

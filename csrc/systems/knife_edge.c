@@ -8,19 +8,22 @@
  * Left alone at the top with some spin it does not run down: it drifts sideways on a cycloid. Bloch, Nonholonomic Mechanics and
  * Control, 2nd edition 2015, section 1.6; with that row, lambda = 2 m g sin(incline) sin phi from a start at phi = 0 at rest.
  */
+#include <math.h>
+#include <string.h>
+
 #include "../include/zerodrift/sines.h"
+#include "../include/zerodrift/system.h"
 #include "closed_form/knife_edge.h"
 #include "kind.h"
 #include "precise/precise.h"
 #include "series/series.h"
-#include "skate.h"
 
-enum { X = ZD_SKATE_X, Y = ZD_SKATE_Y, PHI = ZD_SKATE_PHI, N = ZD_SKATE_N };
+enum { X, Y, PHI, N };
 
 typedef struct given {
     double m, I;            /* kg, kg m^2 */
     double g, incline;      /* m/s^2, rad */
-    zd_skate_launch launch;
+    double heading, speed, turn_rate;   /* rad; m/s, along the edge; rad/s */
 } given;
 
 typedef struct constants {
@@ -42,8 +45,11 @@ static int evaluate(const void *data, int want, double t, const double *p, const
     if (want & ZD_FORCE) memcpy(out->f, (double[]){k->weight, 0, 0}, N * sizeof(double));
     if (want & ZD_C) memcpy(out->C, (double[]){a->s, -a->c, 0}, N * sizeof(double));           /* (5) */
     if (want & ZD_XI) *out->xi = -v[PHI] * (a->c * v[X] + a->s * v[Y]);                        /* (6) */
-    if (want & ZD_COMPLEMENT) zd_skate_complement(a->s, a->c, out->D);
-    if (want & ZD_GAMMA) zd_skate_gamma(a->s, a->c, v, out->gamma);
+    if (want & ZD_COMPLEMENT) memcpy(out->D, (double[]){a->c, 0, a->s, 0, 0, 1}, 2 * N * sizeof(double));      /* (14) */
+    if (want & ZD_GAMMA) {                                              /* (15): Ddot u */
+        double along = a->c * v[X] + a->s * v[Y], turn = v[PHI];
+        memcpy(out->gamma, (double[]){-along * turn * a->s, along * turn * a->c, 0}, N * sizeof(double));
+    }
     if (want & ZD_POTENTIAL) *out->V = -k->weight * p[X];
     return ZD_DONE;
 }
@@ -59,7 +65,12 @@ static const char *prepare(const double *parameters, double *to)
 
 static void start(const double *parameters, double *p, double *v)
 {
-    zd_skate_start(&((const given *)parameters)->launch, p, v);
+    const given *q = (const given *)parameters;
+    p[X] = p[Y] = 0;
+    p[PHI] = q->heading;
+    v[X] = q->speed * zd_cos(q->heading);
+    v[Y] = q->speed * zd_sin(q->heading);
+    v[PHI] = q->turn_rate;
 }
 
 enum { POINTS = 5 };
@@ -69,8 +80,12 @@ static void draw(const double *data, const double *p, double *points)
 {
     const constants *k = (const constants *)data;
     double l = sqrt(12 * k->I / k->m), tip = 0.5 * l, back = 0.3 * l, wide = 0.08 * l;
+    double s = zd_sin(p[PHI]), c = zd_cos(p[PHI]);
     const double arrow[POINTS][2] = {{-tip, 0}, {tip, 0}, {back, wide}, {back, -wide}, {tip, 0}};
-    zd_skate_draw(POINTS, arrow, p, points);
+    for (int i = 0; i < POINTS; i++) {
+        points[2 * i] = p[X] + c * arrow[i][0] - s * arrow[i][1];
+        points[2 * i + 1] = p[Y] + s * arrow[i][0] + c * arrow[i][1];
+    }
 }
 
 static const double mass[] = {1.25}, inertia[] = {0.13}, gravity[] = {9.81}, eighth[] = {0x1.921fb54442d18p-1}, zero[] = {0},
@@ -85,6 +100,10 @@ static const zd_parameter parameter[] = {
     {"speed", "m/s", "along the edge at the start", 1, ZD_ANY, zero},
     {"turn_rate", "rad/s", "at the start; it stays", 1, ZD_ANY, sixth},
 };
+
+static const zd_variable coordinate[] = {{"x", "m"}, {"y", "m"}, {"phi", "rad"}};
+static const zd_variable velocity[] = {{"x_dot", "m/s"}, {"y_dot", "m/s"}, {"phi_dot", "rad/s"}};
+static const zd_variable constraint[] = {{"slip", "m/s"}};
 
 const zd_kind zd_knife_edge = {
     .card = {
@@ -103,8 +122,8 @@ const zd_kind zd_knife_edge = {
         .series = &zd_knife_edge_series,
         .closed_form = zd_knife_edge_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_KNIFE_EDGE_CLOSED_FORM_ENDS),
-    .coordinate = zd_skate_coordinate, .velocity = zd_skate_velocity, .constraint = zd_skate_constraint,
+    ZD_PREPARED(ZD_KNIFE_EDGE_CLOSED_FORM_ENDS),
+    .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = POINTS, .dimension = 2, .draw = draw,
     .precise = &zd_knife_edge_precise,
 };

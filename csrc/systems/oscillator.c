@@ -72,7 +72,7 @@ const zd_kind zd_oscillator = {
         .series = &zd_oscillator_series,
         .closed_form = zd_oscillator_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_OSCILLATOR_CLOSED_FORM_ENDS),
+    ZD_PREPARED(ZD_OSCILLATOR_CLOSED_FORM_ENDS),
     .coordinate = coordinate, .velocity = velocity,
     .points = 2, .dimension = 2, .draw = draw,
     .precise = &zd_oscillator_precise,

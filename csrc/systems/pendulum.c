@@ -100,7 +100,7 @@ const zd_kind zd_pendulum = {
         .series = &zd_pendulum_series,
         .closed_form = zd_pendulum_closed_form, .closed_forms = ZD_COUNT_OF_SETS,
     },
-    ZD_PREPARED_DOUBLES(ZD_PENDULUM_CLOSED_FORM_ENDS),
+    ZD_PREPARED(ZD_PENDULUM_CLOSED_FORM_ENDS),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = 2, .dimension = 2, .draw = draw,
     .precise = &zd_pendulum_precise,

@@ -13,7 +13,7 @@ import numpy as np
 import zerodrift as zd
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "support")]
 
 import energy_models  # noqa: E402
 

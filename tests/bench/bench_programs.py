@@ -91,7 +91,7 @@ print(json.dumps([seconds, clock, time.perf_counter() - began]))
 def costs(expression):
     """Seconds by stage; and by the clock, of terms and of all."""
     with tempfile.TemporaryDirectory() as folder:
-        said = subprocess.run([sys.executable, "-c", MEASURED, str(HERE), expression, str(HERE.parent)], check=True,
+        said = subprocess.run([sys.executable, "-c", MEASURED, str(HERE), expression, str(HERE.parent / "support")], check=True,
                               capture_output=True, text=True, env=os.environ | {"ZERODRIFT_CACHE": folder})
     return json.loads(said.stdout)
 

@@ -89,10 +89,8 @@ def test_bodies_and_joints_are_the_pendulum_of_energies(links):
     ({"links": 2.5}, TypeError, r"links must be a whole number, not 2\.5"),
     ({"links": 4, "span": 4.0}, ValueError, r"span must be less than 4 links of 1 m together, 4 m, not 4"),
     ({"length": 0.0}, ValueError, "length must be greater than 0"),
-    ({"mass": "1"}, TypeError, "parameter 'mass' must be a real number, not '1'"),
+    ({"mass": "1"}, TypeError, "mass must be a real number, not '1'"),
 ])
 def test_wrong_closed_pendulums(wrong, error, message):
     with pytest.raises(error, match=message):
-        energy_models.closed_pendulum(**wrong)
-    with pytest.raises(error, match=message.replace("parameter 'mass'", "mass")):
         zd.models.closed_pendulum(**wrong)

@@ -82,7 +82,6 @@ def test_where_the_compiler_has_no_vectors_the_baseline_is_told(vector):
 
 def test_a_run_on_the_matrix_path_used_none():
     assert run("built in", integrator="rattle").settings["vector"] is None
-    assert zd.simulate(zd.systems.rolling_disc(), 1.0, step=0.1).settings["vector"] is None
 
 
 def test_solutions_of_before_used_none():

@@ -26,7 +26,7 @@ def system(name):
     return getattr(symbolic_counterparts, name)()
 
 
-SYSTEMS = ["four_bar", "driven_four_bar", "chaplygin_sleigh", "rolling_disc"]
+SYSTEMS = ["four_bar", "arm", "chaplygin_sleigh", "rolling_disc"]
 DEPENDENT = ["augmented", "nullspace", "schur"]
 COLUMNS = ("p", "v", "multipliers", "position_violation", "velocity_violation", "kinetic_energy", "potential_energy",
            "energy_input", "energy_violation")
@@ -57,7 +57,7 @@ def assert_same_motion(general, closed_form, error=tol.STEPPED):
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_both_roads_lead_to_the_same_place(name, stabilization):
     options = {"step": 0.01, "stabilization": STABILIZATIONS[stabilization]}
-    if stabilization == "projection" and name != "driven_four_bar":     # all of whose motion is enforced
+    if stabilization == "projection" and name != "arm":     # all of whose motion is enforced
         options["energy"] = True
     assert_same_motion(*both(system(name), **options))
 
@@ -70,7 +70,7 @@ def test_all_dependent_formulations_take_it(name, equations):
 
 @pytest.mark.parametrize("method", [name for name in INTEGRATORS if zd.integrators()[name].stability and name != "rattle"])
 def test_integrators_take_it(method):
-    assert_same_motion(*both(system("driven_four_bar"), step=0.01, integrator=method))
+    assert_same_motion(*both(system("arm"), step=0.01, integrator=method))
 
 
 def test_steps_that_are_chosen_take_it():
@@ -81,12 +81,12 @@ def test_steps_that_are_chosen_take_it():
 
 
 @pytest.mark.parametrize(("name", "options"), [
-    ("rolling_disc", {"formulation": "independent"}), ("sleigh", {"formulation": "mixed"}),
+    ("rolling_disc", {"formulation": "independent"}), ("knife_edge", {"formulation": "mixed"}),
     ("four_bar", {"integrator": "rattle"}), ("four_bar", {"integrator": "trapezoidal"}), ("four_bar", {"closed_form": False}),
 ], ids=str)
 def test_what_it_does_not_serve_takes_the_matrix_path(name, options, tmp_path):
     """Such as systems with a kinematic matrix, or with a complement of their own."""
-    sol = zd.simulate(zd.systems.chaplygin_sleigh() if name == "sleigh" else system(name), 0.1, step=0.01, **options)
+    sol = zd.simulate(zd.systems.knife_edge() if name == "knife_edge" else system(name), 0.1, step=0.01, **options)
     assert sol.stats["closed_form_steps"] == 0
     assert sol.settings["vector"] is None
     (name, value), = options.items()
@@ -126,7 +126,7 @@ def test_values_between_steps_are_those_of_shorter_steps():
 
 
 def test_repeated_to_the_last_bit():
-    first, second = (zd.simulate(system("driven_four_bar"), SPAN, step=0.01) for _ in range(2))
+    first, second = (zd.simulate(system("arm"), SPAN, step=0.01) for _ in range(2))
     assert (first.p == second.p).all()
     assert (zd.simulate(first.system, first.t_span, **first.settings).p == first.p).all()
 
@@ -140,7 +140,7 @@ def test_only_none_and_false_are_known(value):
 # ---- formulations in independent velocities ----
 
 INDEPENDENT = ["mixed", "independent"]
-MOVING = {"four_bar": 1.0, "driven_four_bar": 1.0, "chaplygin_sleigh": 1.0, "rolling_disc": 1.0, 2: 0.5, 4: 0.5}      # s
+MOVING = {"four_bar": 1.0, "arm": 1.0, "chaplygin_sleigh": 1.0, "rolling_disc": 1.0, 2: 0.5, 4: 0.5}      # s
 
 
 @functools.cache
@@ -154,7 +154,7 @@ def moving(name):
 def test_both_roads_integrate_the_same_independent_velocities(name, equations, stabilization):
     """And choose others at the same steps, each of which the matrix path makes."""
     options = {"step": 0.01, "stabilization": STABILIZATIONS[stabilization], "formulation": equations}
-    if stabilization == "projection" and name not in ("driven_four_bar", 4):     # where all motion is enforced, or nearly
+    if stabilization == "projection" and name not in ("arm", 4):     # where all motion is enforced, or nearly
         options["energy"] = True
     of = moving(name)
     general, closed_form = both(of, MOVING[name], **options)

@@ -214,7 +214,7 @@ def test_mechanism_in_space_gets_axes_in_space():
 @pytest.mark.parametrize("animated", [False, True])
 def test_a_drawing_in_space_has_equal_scales(animated):
     """A disc that rolls far is still round."""
-    sol, ax = zd.simulate(zd.systems.rolling_disc(), 2.0, step=0.01), plt.figure().add_subplot(projection="3d")
+    sol, ax = zd.simulate(zd.models.rolling_disc(), 2.0, step=0.01), plt.figure().add_subplot(projection="3d")
     if animated:
         plot.animate(sol, fps=1, ax=ax).to_jshtml()
     else:

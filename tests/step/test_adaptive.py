@@ -8,8 +8,10 @@ import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
 
+import energy_models
 import zerodrift as zd
 from support import INTEGRATORS, SYSTEMS, refused
+from symbolic_counterparts import rolling_disc
 
 ADAPTIVE = [name for name in INTEGRATORS if zd.integrators()[name].error_order]
 WITHIN = 3000       # global error of tolerance: half a second of the liveliest system multiplies what steps leave by this
@@ -88,7 +90,7 @@ def test_slices_change_no_bit(bar, monkeypatch):
 
 
 def test_integrals_along_the_state_are_controlled_too():
-    sol = zd.simulate(SYSTEMS["slider_crank"], 5.0, rtol=1e-9, atol=1e-9, integrator="dop853")
+    sol = zd.simulate(energy_models.slider_crank(), 5.0, rtol=1e-9, atol=1e-9, integrator="dop853")
     assert np.abs(sol.energy_violation).max() < 1e-8
 
 
@@ -338,6 +340,6 @@ def test_an_exception_ends_adaptive_steps_at_once():
 
 
 def test_a_disc_that_nearly_falls_flat_in_trial_steps_swings_round():
-    disc = zd.systems.rolling_disc(lean=1.37)
+    disc = rolling_disc(lean=1.37)
     exact = zd.simulate(disc, 3.0, rtol=1e-10, atol=1e-10)
     assert np.abs(zd.simulate(disc, 3.0, rtol=1e-3, atol=1e-6).p[-1] - exact.p[-1]).max() < 0.02

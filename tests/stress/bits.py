@@ -1,8 +1,8 @@
 """A hash of every bit of many runs, to compare two versions of the package that must compute the same.
 
-    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/bits.py > before
+    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support python tests/stress/bits.py > before
     ...
-    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/bits.py | diff before -
+    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support python tests/stress/bits.py | diff before -
 
 One line for each built-in system, model, symbolic system and random symbolic system, in each kind of coordinates, with each
 formulation and some integrators, fixed and adaptive. Failures are part of it, by the type of their error.

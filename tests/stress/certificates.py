@@ -17,7 +17,7 @@ import numpy as np
 import zerodrift as zd
 
 TESTS = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(TESTS))
+sys.path[:0] = [str(TESTS), str(TESTS / "support")]
 
 from certain_motions import FAMILIES, compare  # noqa: E402
 

@@ -16,7 +16,7 @@ import numpy as np
 import zerodrift as zd
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
+sys.path[:0] = [str(HERE.parent), str(HERE.parent / "support")]
 
 from turning_cranks import LENGTHS, side  # noqa: E402
 from units import MECHANISMS, Units, run  # noqa: E402

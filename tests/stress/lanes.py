@@ -1,6 +1,7 @@
-"""Random ensembles of built-in systems, beside their runs one by one.
+"""Random ensembles of built-in and symbolic systems, beside their runs one by one.
 
-Run it with ``python tests/stress/lanes.py 1000 [seed]``; it prints what was made, and fails where something differs.
+Run it with ``PYTHONPATH=tests:tests/support python tests/stress/lanes.py 1000 [seed]``; it prints what was made, and fails
+where something differs.
 
 Speeds go up to 450 times those of the systems' own starts, so that some runs fail, and others cannot be made in lanes. Half of
 the ensembles have events, some of which end their runs; a third have their energy corrected. Each run has the bits of
@@ -16,11 +17,14 @@ from collections import Counter
 import numpy as np
 import sympy as sp
 
+import energy_models
+import symbolic_counterparts
 import zerodrift as zd
 from zerodrift.ensembles.part import PATHS
 
-KINDS = ("four_bar", "slider_crank", "pendulum", "driven_four_bar", "knife_edge", "chaplygin_sleigh", "vertical_disc",
-         "oscillator")
+KINDS = {name: getattr(zd.systems, name) for name in zd.systems.__all__} | {
+    "slider_crank": lambda: energy_models.slider_crank().starting(v0=[1.0, -0.5, 0.0]), "arm": symbolic_counterparts.arm,
+    "sleigh": symbolic_counterparts.chaplygin_sleigh}
 FIXED, CHOSEN = ("rk4", "heun", "midpoint", "euler", "dop853", "dormand_prince"), ("dop853", "dormand_prince")
 ALIKE, SENSITIVE, CHANGE = 1e-9, 1e3, 2.0**-50
 
@@ -79,10 +83,10 @@ def compare(system, name, start, end, options, again):
 
 def study(chance):
     """One ensemble; numbers of its runs made in lanes, made individually, or failed, and the largest difference."""
-    system, count = getattr(zd.systems, chance.choice(KINDS))(), int(chance.integers(1, 20))
+    system, count = KINDS[chance.choice(list(KINDS))](), int(chance.integers(1, 20))
     end = float(chance.uniform(0.05, 0.6))
     shares = chance.choice([0.3, 1, 2, 5, 20, 300], size=count) * chance.uniform(0.5, 1.5, size=count)
-    if system.name == "driven_four_bar":        # its start is what drives it
+    if system.name == "arm":        # its start is what drives it
         shares[:] = 1
     starts, name, options = shares[:, None] * system.v0, system.coordinates[0].name, options_of(chance, end)
     if chance.integers(2):

@@ -590,7 +590,7 @@ ADDED = {
     "a formulation": ("csrc/formulations/refined.c", FORMULATION, REGISTRY, r"(X\(zd_independent\))", r"\1 X(zd_refined)"),
     "a correction with a setting": ("csrc/corrections/relaxation.c", CORRECTION, REGISTRY, r"(X\(zd_projection_row\))",
                                     r"\1 X(zd_relaxation)"),
-    "a system": ("csrc/systems/spherical_pendulum.c", SYSTEM, REGISTRY, r"(X\(zd_driven_four_bar\))",
+    "a system": ("csrc/systems/spherical_pendulum.c", SYSTEM, REGISTRY, r"(X\(zd_knife_edge\))",
                  r"\1 X(zd_spherical_pendulum)"),
     "a joint of the plane": (None, "", PLANE, *entry("JOINT", PARALLEL)),
     "a joint that takes something": (None, "", PLANE, *entry("JOINT", OFFSET_SLIDER)),

@@ -10,7 +10,7 @@ import zerodrift as zd
 from covering import draws
 from native_systems import compile_text, needs_compiler
 from rotating_bodies import SPIN, TURN, gyroscopic, turning
-from spinning_body import INERTIA, attitude, body, precession
+from spinning_body import INERTIA, attitude, body, half_turns, precession
 from spinning_body import SPIN as START
 from support import FORMULATIONS, assert_close, refused
 
@@ -48,7 +48,6 @@ def test_a_body_held_to_turn_about_one_axis(which, name):
 def test_the_core_says_which_formulations_suit():
     assert list(zd.formulations(body())) == SUITED
     assert list(zd.formulations(body(quaternions=[0]))) == FORMULATIONS
-    assert list(zd.formulations(zd.systems.rolling_disc())) == FORMULATIONS
 
 
 @pytest.mark.usefixtures("few_places")
@@ -105,17 +104,12 @@ def test_independent_coordinates_say_what_they_need():
 
 def test_independent_coordinates_need_a_velocity_for_each_that_is_no_surplus():
     """A rotor in the body, whose angle is not a coordinate: as many coordinates as velocities, and one of them is surplus."""
-    system = zd.System(["e0", "e1", "e2", "e3"], mass=np.eye(4), kinematics=lambda p: np.hstack([half(p), np.zeros((4, 1))]),
-                       quaternions=[0], p0=[1.0, 0, 0, 0], v0=[1.0, 2, 3, 4])
+    system = zd.System(["e0", "e1", "e2", "e3"], mass=np.eye(4), quaternions=[0],
+                       kinematics=lambda p: np.hstack([half_turns(p), np.zeros((4, 1))]), p0=[1.0, 0, 0, 0], v0=[1.0, 2, 3, 4])
     assert list(zd.formulations(system)) == SUITED
     with pytest.raises(zd.UnsuitedFormulation, match="besides one for each of 1 unit quaternions, not 4 and 4"):
         zd.simulate(system, 1.0, step=0.1, formulation="independent")
     assert_close(zd.simulate(system, 1.0, step=0.1).v[-1], system.v0, 1e-14)
-
-
-def half(p):
-    w, x, y, z = p
-    return 0.5 * np.array([[-x, -y, -z], [w, -z, y], [z, w, -x], [-y, x, w]])
 
 
 # ---- how it is said ----
@@ -232,7 +226,7 @@ def test_without_a_start_callables_are_tried_without_rotation():
 
     def kinematics(p):
         seen.append(np.array(p, dtype=float))
-        return half(p)
+        return half_turns(p)
 
     body(quaternions=[0], kinematics=kinematics, p0=None)
     assert (np.array(seen) == [1, 0, 0, 0]).all()

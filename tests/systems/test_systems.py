@@ -144,8 +144,3 @@ def test_parameters_may_be_changed(system):
         system.with_parameters({key: value}, **{key: 1.01 * value})
     with refused("wrong-type", "changes"):
         system.with_parameters([value])
-
-
-def test_a_disc_that_lies_flat_is_refused():
-    with refused("wrong-value", "lean must be between -pi/2 and pi/2"):
-        zd.systems.rolling_disc(lean=2.0)

@@ -1,4 +1,4 @@
-/* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/support/symbolic_counterparts.py. */
 #ifndef ZD_LANES
 #include "pendulum.h"
 

@@ -1,12 +1,10 @@
-/* Written by python/write_series.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_series.py with SymPy 1.14.0, from tests/support/symbolic_counterparts.py. */
 /* Taylor series and residuals in double-double arithmetic of built-in systems. */
 #ifndef ZD_SYSTEMS_PRECISE_H
 #define ZD_SYSTEMS_PRECISE_H
 
 #include "../../include/zerodrift/system.h"
 
-extern const zd_precise zd_chaplygin_sleigh_precise, zd_driven_four_bar_precise, zd_four_bar_precise, zd_knife_edge_precise,
-    zd_oscillator_precise, zd_pendulum_precise, zd_rolling_disc_precise, zd_slider_crank_precise,
-    zd_vertical_disc_precise;
+extern const zd_precise zd_four_bar_precise, zd_knife_edge_precise, zd_oscillator_precise, zd_pendulum_precise;
 
 #endif

@@ -1,4 +1,4 @@
-/* Written by python/write_series.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_series.py with SymPy 1.14.0, from tests/support/symbolic_counterparts.py. */
 #include <math.h>
 #include "../../include/zerodrift/series.h"
 #include "../../include/zerodrift/system.h"

@@ -1,4 +1,4 @@
-/* Written by python/write_series.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_series.py with SymPy 1.14.0, from tests/support/symbolic_counterparts.py. */
 /* Taylor coefficients of zd_oscillator, in the precision of the numbers that the including file has chosen. */
 enum { ROWS = 8 };
 

@@ -1,12 +1,10 @@
-/* Written by python/write_series.py with SymPy 1.14.0, from tests/symbolic_counterparts.py. */
+/* Written by python/write_series.py with SymPy 1.14.0, from tests/support/symbolic_counterparts.py. */
 /* Taylor series of built-in systems. */
 #ifndef ZD_SYSTEMS_SERIES_H
 #define ZD_SYSTEMS_SERIES_H
 
 #include "../../include/zerodrift/system.h"
 
-extern const zd_series zd_chaplygin_sleigh_series, zd_driven_four_bar_series, zd_four_bar_series, zd_knife_edge_series,
-    zd_oscillator_series, zd_pendulum_series, zd_rolling_disc_series, zd_slider_crank_series,
-    zd_vertical_disc_series;
+extern const zd_series zd_four_bar_series, zd_knife_edge_series, zd_oscillator_series, zd_pendulum_series;
 
 #endif

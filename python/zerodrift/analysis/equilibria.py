@@ -96,7 +96,7 @@ def equilibria(system: Any, parameter: str, values: Any, *, near: Any = None, t:
     --------
     >>> import numpy as np
     >>> import zerodrift as zd
-    >>> path = zd.equilibria(zd.systems.slider_crank(), "stiffness", np.linspace(1.0, 2.0, 3))
+    >>> path = zd.equilibria(zd.models.slider_crank(), "spring.stiffness", np.linspace(1.0, 2.0, 3))
     >>> path.values
     array([1. , 1.5, 2. ])
     """

@@ -16,7 +16,7 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
                  pull: float = 1.0, angle: float = np.pi / 2) -> Mechanism:
     """The damped slider-crank of SUNDIALS' example idaSlCrank, from bodies and joints.
 
-    It is what `zerodrift.systems.slider_crank` has in C. A spring and a damper join the midpoints of crank and rod. The rod's
+    A spring and a damper join the midpoints of crank and rod. The rod's
     mass is centred at the slider; the rod runs on beyond it by as much again, and there a constant force pulls along x. The
     bodies are ``crank`` and ``rod``, the slider is a point, ``slider``, in the slot ``slide``.
 

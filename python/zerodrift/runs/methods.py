@@ -219,7 +219,7 @@ def integrators(system: BaseSystem | None = None) -> dict[str, Row]:
     >>> import zerodrift as zd
     >>> zd.integrators()["rk4"].order
     4
-    >>> "rattle" in zd.integrators(zd.systems.rolling_disc())
+    >>> "rattle" in zd.integrators(zd.systems.knife_edge())
     False
     """
     table = TABLES["integrators"]

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import decimal
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 # Coordinates and velocities that are given at the start, and from which all others follow.
-HELD_AT_START: dict[str, tuple[list[int], list[int]]] = {
-    "four_bar": ([0], [0]), "slider_crank": ([0], [0]), "rolling_disc": ([0, 1, 3, 4, 5], [3, 4, 5]),
-    "vertical_disc": ([0, 1, 2, 3], [2, 3])}
+HELD_AT_START: dict[str, tuple[list[int], list[int]]] = {"four_bar": ([0], [0])}
 
 
 def exact_numbers(name: str, parameters: Mapping[str, Any]) -> np.ndarray:
     """Numbers (k, 2) of the functions in double-double arithmetic, high and low parts: see zd_precise."""
     given = {key: _exact(value) for key, value in parameters.items() if not isinstance(value, str) and value is not None}
-    derive = _DERIVED.get(name, _as_given)
-    return _pairs([number for group in derive(given) for number in group])
+    groups = list(given.values())
+    if name == "four_bar":      # inertias of slender rods, m l^2 / 12, if none are given
+        rods = [m * length**2 / 12 for m, length in zip(given["masses"], given["lengths"][1:], strict=True)]
+        groups = [given["lengths"], given["masses"], given.get("inertias", rods), given["gravity"]]
+    return _pairs([number for group in groups for number in group])
 
 
 def exact_start(name: str, parameters: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray] | None:
@@ -71,16 +72,7 @@ def _skate_start(given: Mapping[str, Fraction]) -> tuple[list[Fraction], list[Fr
     return [zero, zero, given["heading"]], [speed * c, speed * s, given["turn_rate"]]
 
 
-def _disc_start(given: Mapping[str, Fraction]) -> tuple[list[Fraction], list[Fraction]]:
-    """As rolling_disc.c: yaw and spin are 0, and the contact point is the origin."""
-    s, c = sine_and_cosine(given["lean"])
-    zero, R, lean_rate = Fraction(0), given["radius"], given["lean_rate"]
-    w1 = given["spin_rate"] - given["yaw_rate"] * s
-    return ([R * s, zero, R * c, zero, given["lean"], zero],
-            [R * lean_rate * c, -R * w1, -R * lean_rate * s, w1, lean_rate, given["yaw_rate"] * c])
-
-
-_STARTS = {"pendulum": _pendulum_start, "knife_edge": _skate_start, "chaplygin_sleigh": _skate_start, "rolling_disc": _disc_start}
+_STARTS = {"pendulum": _pendulum_start, "knife_edge": _skate_start}
 
 
 def _exact(value: Any) -> tuple[Fraction, ...]:
@@ -128,40 +120,3 @@ def _orthonormality(frames: Sequence[Sequence[Sequence[Entry]]], exact: Mapping[
                     if number >= 0:
                         slopes[-1][places[number]] += factor * float(value)
     return residuals, np.array(slopes).reshape(len(residuals), len(places))
-
-
-Groups = list[Sequence[Fraction]]
-Given = Mapping[str, Sequence[Fraction]]
-
-
-def _as_given(given: Given) -> Groups:
-    return list(given.values())
-
-
-def _bar(given: Given) -> Groups:
-    """Inertias of slender rods, m l^2 / 12, if none are given."""
-    rods = [m * length**2 / 12 for m, length in zip(given["masses"], given["lengths"][1:], strict=True)]
-    return [given["lengths"], given["masses"], given.get("inertias", rods), given["gravity"]]
-
-
-def _driven_bar(given: Given) -> Groups:
-    return [*_bar(given), *(given[key] for key in ("crank_angle", "crank_rate", "amplitude", "frequency"))]
-
-
-def _inertias(given: Given) -> Groups:
-    """Inertias of a thin disc, m R^2 / 2 about its axle and half of it about a diameter, where they are not given."""
-    (m,), (R,) = given["mass"], given["radius"]
-    return [given.get("axle_inertia", (m * R**2 / 2,)), given.get("diameter_inertia", (m * R**2 / 4,))]
-
-
-def _upright_disc(given: Given) -> Groups:
-    return [given["mass"], given["radius"], *_inertias(given), *(given[key] for key in ("heading", "turn_rate", "roll_rate"))]
-
-
-def _disc(given: Given) -> Groups:
-    (m,), (g,) = given["mass"], given["gravity"]
-    return [given["mass"], given["radius"], (m * g,), *_inertias(given)]
-
-
-_DERIVED: dict[str, Callable[[Given], Groups]] = {
-    "four_bar": _bar, "driven_four_bar": _driven_bar, "vertical_disc": _upright_disc, "rolling_disc": _disc}

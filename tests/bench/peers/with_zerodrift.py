@@ -12,7 +12,7 @@ import zerodrift as zd
 
 try:
     import sympy
-    sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "support"))
     import energy_models
 except ImportError:
     sympy = None

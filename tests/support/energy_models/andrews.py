@@ -1,7 +1,5 @@
 """Andrews' squeezing mechanism: seven bodies, three loops, driven hard for three hundredths of a second."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import sympy as sp
@@ -9,10 +7,9 @@ from sympy.physics.mechanics import dynamicsymbols
 
 from zerodrift.models.andrews import PARAMETERS, START
 from zerodrift.symbolics.define import symbolic
-from zerodrift.symbolics.system import SymbolicSystem
 
 
-def andrews(**parameters: float) -> SymbolicSystem:
+def andrews(**parameters):
     """Andrews' squeezing mechanism, the seven-body test problem of the DAE literature.
 
     A crank, which a constant moment drives, a coupler, and three chains that carry the coupler's end: a lever on a spring, and
@@ -42,7 +39,7 @@ def andrews(**parameters: float) -> SymbolicSystem:
     beta, theta, gamma, phi, delta, omega, epsilon = angles
     t = dynamicsymbols._t
 
-    def turned(angle: sp.Expr, x: sp.Expr, y: sp.Expr = sp.S.Zero) -> sp.Matrix:
+    def turned(angle, x, y=sp.S.Zero):
         return sp.Matrix([x * sp.cos(angle) - y * sp.sin(angle), x * sp.sin(angle) + y * sp.cos(angle)])
 
     A, B, C = sp.Matrix([k.xa, k.ya]), sp.Matrix([k.xb, k.yb]), sp.Matrix([k.xc, k.yc])

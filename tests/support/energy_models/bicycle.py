@@ -1,17 +1,14 @@
 """A bicycle seen from above: two wheels that do not slip sideways, and a handlebar that a rider turns."""
 
-from __future__ import annotations
-
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
 from zerodrift.symbolics.define import symbolic
-from zerodrift.symbolics.system import SymbolicSystem
 
 
-def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, inertia: float = 10.0, fork_mass: float = 5.0,
-            fork_inertia: float = 0.3, amplitude: float = 0.3, frequency: float = 1.5, stiffness: float = 60.0,
-            damping: float = 4.0, thrust: float = 0.0, speed: float = 5.0) -> SymbolicSystem:
+def bicycle(*, wheelbase=1.1, centre=0.5, mass=85.0, inertia=10.0, fork_mass=5.0,
+            fork_inertia=0.3, amplitude=0.3, frequency=1.5, stiffness=60.0,
+            damping=4.0, thrust=0.0, speed=5.0):
     """A bicycle that is kept upright: the plane single-track vehicle, with two nonholonomic constraints.
 
     A frame with its rider, on a rear wheel, and a fork with the front wheel, whose centre of mass is on the steering axis; this
@@ -51,10 +48,10 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
              "damping": damping, "thrust": thrust}
     w, b, m, J, m_fork, J_fork, swing, pace, k, c, F = sp.symbols(list(given))
 
-    def direction(angle: sp.Expr) -> sp.Matrix:
+    def direction(angle):
         return sp.Matrix([sp.cos(angle), sp.sin(angle)])
 
-    def sideways(point: sp.Matrix, angle: sp.Expr) -> sp.Expr:
+    def sideways(point, angle):
         return point.diff(t).dot(direction(angle + sp.pi / 2))
 
     rear = sp.Matrix([x, y])
