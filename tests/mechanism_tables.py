@@ -9,8 +9,8 @@ from zerodrift._gateway.mechanisms.plane import (
     Body,
     GeneralizedForce,
     Joint,
-    MechanismCore,
     OutputSpec,
+    PlaneCore,
     Quantity,
     Relation,
     Tables,
@@ -27,7 +27,7 @@ class Tabled(BaseSystem):
     """The system of tables."""
 
     def __init__(self, tables, p0=None, v0=None, law=None, **options):
-        self._core = core = MechanismCore(tables, law, **options)
+        self._core = core = PlaneCore(tables, law, **options)
         self.name, self.parameters, self.p0, self.v0 = "mechanism", {}, p0, v0
         self.coordinates = tuple(Variable(f"{kind}{body}", UNITS[kind]) for body, kind in core.coordinates)
         self.velocities = tuple(Variable(f"{name}_dot", f"{unit}/s") for name, unit in self.coordinates)

@@ -14,7 +14,7 @@ from .._gateway import is_length as is_length_of
 from .._gateway.base import row_named
 from .._gateway.compiled.precise import Precise
 from .._gateway.mechanisms import law_inputs
-from .._gateway.mechanisms.plane import MechanismCore
+from .._gateway.mechanisms.core import MechanismCore
 from ..errors import WrongValue, ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import CLOSED_FORM, NO_COMPILER, ClosedFormFunctions
 from ..systems.base import WithInputs

@@ -8,7 +8,7 @@ from zerodrift._gateway.mechanisms import element_tables, plane, space
 from zerodrift._gateway.mechanisms.element_tables import GeneralizedForce, OutputSpec, Relation
 
 BODIES = {plane: plane.Body(1.5, 1.0), space: space.Body(1.5, (1.0, 1.0, 1.0))}
-CORES = {plane: plane.MechanismCore, space: space.SpaceCore}
+CORES = {plane: plane.PlaneCore, space: space.SpaceCore}
 AXES = {plane: ("x", "y"), space: ("x", "y", "z")}
 
 

@@ -55,7 +55,8 @@ class Texts:
 
 def tables(written: plane.Tables | space.Tables, texts: Texts) -> dict[str, list[float]]:
     """Sections with the tables of a mechanism: the members of the core's structures in their order."""
-    packed, _words = (space.SpaceCore if isinstance(written, space.Tables) else plane.MechanismCore).written(written)
+    core = space.SpaceCore if isinstance(written, space.Tables) else plane.PlaneCore
+    packed, _words = core.written_tables(written)
     elements = packed["elements"]
     arrays = {"bodies": packed["body"], "joints": packed["joint"], "quantities": packed["quantity"], "terms": elements["term"],
               "relations": elements["relation"], "forces": elements["force"], "measures": elements["measure"]}

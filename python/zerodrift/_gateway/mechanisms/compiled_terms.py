@@ -8,8 +8,7 @@ import numpy as np
 
 from ..._core import ffi, lib
 from ..base import TERMS, doubles
-from .plane import MechanismCore
-from .space import SpaceCore
+from .core import MechanismCore
 
 
 class WrittenTerms(NamedTuple):
@@ -21,9 +20,9 @@ class WrittenTerms(NamedTuple):
     scratch: int
 
 
-def with_functions(core: MechanismCore | SpaceCore, numbers: np.ndarray, keep: Any, *, terms: WrittenTerms | None = None,
+def with_functions(core: MechanismCore, numbers: np.ndarray, keep: Any, *, terms: WrittenTerms | None = None,
                    closed_form: int | None = None, jacobian: int | None = None,
-                   series: int | None = None) -> MechanismCore | SpaceCore:
+                   series: int | None = None) -> MechanismCore:
     """Copy of the system with these terms and closed-form functions; measures are evaluated as before.
 
     The `data` of the functions begins with a pointer to `numbers`; `closed_form` is the address of a `zd_closed_form`, `jacobian`

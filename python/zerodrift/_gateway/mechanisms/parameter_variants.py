@@ -10,7 +10,7 @@ import numpy as np
 from ..._core import ffi, lib
 from ..base import doubles
 from .assembly import HELD
-from .plane import MechanismCore, Tables
+from .plane import PlaneCore, Tables
 
 
 class Held(NamedTuple):
@@ -77,7 +77,7 @@ class Varied:
 
     def _tables(self, tables: Tables, count: int) -> dict[str, Any]:
         """Fields of a `zd_plane_tables`: the entries of all mechanisms, one after the other."""
-        written, words = MechanismCore.written(_first(tables))
+        written, words = PlaneCore.written_tables(_first(tables))
         self._kept((written, words))
         changes = {"body": _fields(tables.bodies), "joint": _fields(tables.joints), "quantity": _fields(tables.quantities),
                    "term": _coefficients(tables), "relation": _fields(tables.relations), "force": _fields(tables.forces)}

@@ -13,8 +13,8 @@ from ..._core import lib
 from ..base import Card, card_of, doubles, text
 from ..measures import given
 from . import element_tables
+from .core import MechanismCore
 from .element_tables import GeneralizedForce, OutputSpec, Relation
-from .tables_core import TablesCore
 
 QUANTITY_KINDS = {"x": lib.ZD_PLANE_X, "y": lib.ZD_PLANE_Y, "angle": lib.ZD_PLANE_ANGLE, "along": lib.ZD_PLANE_ALONG,
                   "across": lib.ZD_PLANE_ACROSS, "distance": lib.ZD_PLANE_DISTANCE, "glide": lib.ZD_PLANE_GLIDE,
@@ -134,10 +134,10 @@ def element_kinds() -> dict[str, element_tables.ElementKind]:
     return element_tables.element_kinds(lib.zd_plane_element_kinds(), lib.zd_plane_element_kind_of, _element_quantities)
 
 
-class MechanismCore(TablesCore):
-    """The core's system of a mechanism in the plane."""
+class PlaneCore(MechanismCore):
+    """The core's system of a planar mechanism."""
 
-    room, quantity_kinds, width, _made_by = "plane", QUANTITY_KINDS, 3, lib.zd_plane_create
+    dimension, quantity_kinds, velocities, made_by = "plane", QUANTITY_KINDS, 3, lib.zd_plane_create
 
     @functools.cached_property
     def coordinates(self) -> tuple[Coordinate, ...]:

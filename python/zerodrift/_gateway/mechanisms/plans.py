@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from ..._core import ffi, lib
 from .element_tables import FORCE_KINDS, GeneralizedForce, Relation
-from .plane import QUANTITY_KINDS, MechanismCore, Quantity
+from .plane import QUANTITY_KINDS, PlaneCore, Quantity
 
 FREE, FREE_POINT, TURNING = lib.ZD_HANGS_FREE, lib.ZD_HANGS_FREE_POINT, lib.ZD_HANGS_TURNING
 SLIDING, FIXED, PINNED = lib.ZD_HANGS_SLIDING, lib.ZD_HANGS_FIXED, lib.ZD_HANGS_PINNED
@@ -46,7 +46,7 @@ class PlanePlan(NamedTuple):
     gravity: tuple[Any, Any]
 
 
-def plan_of(core: MechanismCore, measured: Sequence[int] = ()) -> PlanePlan:
+def plan_of(core: PlaneCore, measured: Sequence[int] = ()) -> PlanePlan:
     """The plan of a mechanism; marker quantities of measures, by their numbers in the core's table, follow those in use."""
     c = lib.zd_plane_planned(core._mechanism)
     links = tuple(_link(c.link[i]) for i in range(1, len(core.tables.bodies) + 1))

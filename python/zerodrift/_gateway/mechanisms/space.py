@@ -12,10 +12,10 @@ import numpy as np
 from ..._core import ffi, lib
 from ..base import Card, card_of, doubles, text
 from . import element_tables
+from .core import MechanismCore
 from .element_tables import GeneralizedForce, OutputSpec, Relation
 from .law_owner import Law
 from .plane import Coordinate
-from .tables_core import TablesCore
 
 QUANTITY_KINDS = {"x": lib.ZD_SPACE_X, "y": lib.ZD_SPACE_Y, "z": lib.ZD_SPACE_Z, "along": lib.ZD_SPACE_ALONG,
                   "cosine": lib.ZD_SPACE_COSINE, "angle": lib.ZD_SPACE_ANGLE,
@@ -147,10 +147,10 @@ def coordinate_quantity(joint: Joint, coordinate: int, angles: int) -> Quantity:
     return Quantity(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
 
 
-class SpaceCore(TablesCore):
+class SpaceCore(MechanismCore):
     """The core's system of a mechanism in space, in absolute coordinates."""
 
-    room, quantity_kinds, width, _made_by = "space", QUANTITY_KINDS, 6, lib.zd_space_create
+    dimension, quantity_kinds, velocities, made_by = "space", QUANTITY_KINDS, 6, lib.zd_space_create
 
     def __init__(self, tables: Tables, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         super().__init__(tables, law, laws_know_time=laws_know_time)

@@ -16,7 +16,7 @@ POSE, TWIST = 12, 6     # doubles of a body as the core tells it
 class SpaceTreeCore(SpaceCore):
     """The core's system of a mechanism in space whose bodies are carried by joints; as `SpaceCore`."""
 
-    _made_by = lib.zd_space_tree_create
+    made_by = lib.zd_space_tree_create
 
     def poses(self, p: np.ndarray, v: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray | None]:
         """Poses (bodies, 7) of the mass centres, place and unit quaternion, and where v is given their rates (bodies, 6): the

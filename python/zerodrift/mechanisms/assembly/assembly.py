@@ -12,7 +12,7 @@ import numpy as np
 
 from ..._gateway.mechanisms import assembly as core_assembly
 from ..._gateway.mechanisms.assembly import CoreAssembly, CoreTarget, Outcome
-from ..._gateway.mechanisms.plane import MechanismCore
+from ..._gateway.mechanisms.core import MechanismCore
 from ...errors import CorrectionFailed, InconsistentStart
 from .contradictions import contradiction, unit_of
 

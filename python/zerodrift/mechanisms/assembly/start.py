@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..._gateway.mechanisms.blocks import BlockCore, of_joints
-from ..._gateway.mechanisms.plane import MechanismCore
+from ..._gateway.mechanisms.core import MechanismCore
 from ..._rotations import quaternion_of
 from ...errors import CorrectionFailed, InconsistentStart, SingularSystem, sentence
 from ..elements import columns

@@ -24,8 +24,8 @@ from ... import _gateway
 from ..._gateway.compiled.precise import Precise
 from ..._gateway.mechanisms import space_plans
 from ..._gateway.mechanisms.compiled_terms import WrittenTerms, with_functions
+from ..._gateway.mechanisms.core import MechanismCore
 from ..._gateway.mechanisms.law_inputs import WrittenInputs
-from ..._gateway.mechanisms.plane import MechanismCore
 from ..._gateway.mechanisms.plans import plan_of
 from ..._gateway.mechanisms.space import SpaceCore
 from ...errors import NoCompilerWarning, UnsuitedIntegrator

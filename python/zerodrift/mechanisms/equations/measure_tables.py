@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ... import _check
+from ..._gateway.mechanisms.core import MechanismCore
 from ..._gateway.mechanisms.element_tables import OutputSpec
-from ..._gateway.mechanisms.plane import MechanismCore, Quantity
+from ..._gateway.mechanisms.plane import Quantity
 from ..._rotations import angles_of, quaternions_of
 from ...errors import WrongValue
 from ...systems.measure_values import Watching

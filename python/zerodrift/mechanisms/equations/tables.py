@@ -12,7 +12,7 @@ import numpy as np
 from ..._gateway import Variable
 from ..._gateway.mechanisms import plane as entries
 from ..._gateway.mechanisms.element_tables import OutputSpec
-from ..._gateway.mechanisms.plane import MechanismCore, Quantity
+from ..._gateway.mechanisms.plane import PlaneCore, Quantity
 from ..elements import columns
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing, Inertias
@@ -68,10 +68,10 @@ class Tables:
     def _masses(self) -> Any:
         return Inertias(self.drawing, self.numbers)
 
-    def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[OutputSpec] = ()) -> MechanismCore:
+    def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[OutputSpec] = ()) -> PlaneCore:
         """Core system of the tables, with the measures `observed` and their marker quantities; left out: without measures."""
         laws = self.laws if self.laws.rows else None
-        return MechanismCore(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
+        return PlaneCore(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
 
     def written(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[OutputSpec] = ()) -> entries.Tables:
         """Tables for the core."""
@@ -354,7 +354,7 @@ def _pair(vector: np.ndarray) -> tuple[float, float]:
     return float(vector[0]), float(vector[1])
 
 
-def constraint_names(tables: Tables, core: MechanismCore) -> tuple[Variable, ...]:
+def constraint_names(tables: Tables, core: PlaneCore) -> tuple[Variable, ...]:
     """Names and units of the constraints: the joint and its marker quantity, or the drive or coupling."""
     named = []
     for row in core.rows:

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..._gateway.mechanisms.assembly import CoreAssembly
-from ..._gateway.mechanisms.plane import MechanismCore
+from ..._gateway.mechanisms.core import MechanismCore
 from ...errors import ZerodriftError, sentence
 from ...systems.base import BaseSystem
 from ..assembly import space_advice

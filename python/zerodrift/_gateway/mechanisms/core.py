@@ -1,10 +1,11 @@
-"""Systems that the core makes of tables of numbers, in the plane and in space."""
+"""The core's system of a mechanism, in the plane or in space, made from tables of numbers."""
 
 from __future__ import annotations
 
 import copy
 import functools
-from typing import Any, Self
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -17,12 +18,13 @@ from .element_tables import Row, law_sizes, rows_of, written_elements
 from .law_owner import Law, LawOwner, calls_python, compiled_table
 
 
-class TablesCore(CoreSystem):
+class MechanismCore(CoreSystem):
     """The core's system of a mechanism.
 
     Parameters
     ----------
     tables : Tables
+        Those of its dimension.
     law : callable, optional
         ``law(number, t, x, xdot)`` gives, for a generalized force, (1,): its value; for a relation with k marker quantities
         (k + 3,): g, dg/dx_i, dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and
@@ -40,37 +42,35 @@ class TablesCore(CoreSystem):
         If the tables contradict themselves; the sentence says where.
     """
 
-    room: str                   # "plane" or "space"
-    quantity_kinds: dict[str, int]
-    width: int                  # velocities of a free body
-    _made_by: Any               # function of the core
+    dimension: str                          # "plane" or "space": part of the names in the core
+    quantity_kinds: Mapping[str, int]       # the core's numbers of marker quantities, by name
+    velocities: int                         # largest number of velocities of a body
+    made_by: Any                            # the core's function that makes the mechanism
 
     def __init__(self, tables: Any, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
         self._owner: LawOwner | None = None
         self._numbers, self._has_written_terms = ffi.NULL, False
         self.written_inputs: Any = None
-        self._mechanism = self._create()
+        written, self._words = self.written_tables(tables, law is not None, laws_know_time)
+        message = ffi.new("char[]", MESSAGE_SIZE)
+        mechanism = self.made_by(ffi.new(f"zd_{self.dimension}_tables *", written), message, MESSAGE_SIZE)
+        if not mechanism:
+            raise WrongValue(text(message))
+        self._mechanism = ffi.gc(mechanism, self._function("free"))
         super().__init__(self._function("system")(self._mechanism), (self._mechanism,))
         self.measures = tuple(tables.measures)
 
-    def _function(self, name: str) -> Any:
-        return getattr(lib, f"zd_{self.room}_{name}")
-
-    def _create(self) -> Any:
-        written, self._words = self.written(self.tables, self._law is not None, self._laws_know_time)
-        message = ffi.new("char[]", MESSAGE_SIZE)
-        mechanism = self._made_by(ffi.new(f"zd_{self.room}_tables *", written), message, MESSAGE_SIZE)
-        if not mechanism:
-            raise WrongValue(text(message))
-        return ffi.gc(mechanism, self._function("free"))
+    @classmethod
+    def _function(cls, name: str) -> Any:
+        return getattr(lib, f"zd_{cls.dimension}_{name}")
 
     @classmethod
-    def written(cls, tables: Any, has_laws: bool = False, laws_know_time: bool = False) -> tuple[dict[str, Any], Any]:
-        """Fields of the core's structure of tables, and the words that must live as long as the objects made from it."""
-        bodies, joints = (ffi.new(f"zd_{cls.room}_{kind}[]", list(those))
-                          for kind, those in (("body", tables.bodies), ("joint", tables.joints)))
-        quantities = ffi.new(f"zd_{cls.room}_quantity[]",
+    def written_tables(cls, tables: Any, has_laws: bool = False, laws_know_time: bool = False) -> tuple[dict[str, Any], Any]:
+        """Fields of the core's tables, and the words that must live as long as the objects made from them."""
+        bodies, joints = (ffi.new(f"zd_{cls.dimension}_{kind}[]", list(entries))
+                          for kind, entries in (("body", tables.bodies), ("joint", tables.joints)))
+        quantities = ffi.new(f"zd_{cls.dimension}_quantity[]",
                              [(cls.quantity_kinds[kind], *others) for kind, *others in tables.quantities])
         elements, words = written_elements(tables, has_laws, laws_know_time)
         return {"gravity": tables.gravity, "bodies": len(bodies), "joints": len(joints), "quantities": len(quantities),
@@ -89,7 +89,7 @@ class TablesCore(CoreSystem):
         """Displacement (nv,) from other positions to p, by the shorter rotation of each body."""
         return displacement(self, p, other)
 
-    def for_run(self) -> Self:
+    def for_run(self) -> MechanismCore:
         """The system; with user functions, a copy that stores their exceptions."""
         if self._law is None:
             return self
@@ -101,17 +101,18 @@ class TablesCore(CoreSystem):
         mine._owner = owner
         return mine
 
-    def many_bodies(self) -> Any:
-        """Components of measures for the assembly of many free bodies."""
-        return ffi.new("zd_many_bodies *", (self._mechanism, ffi.addressof(lib, f"zd_{self.room}_components"), self.width))
-
-    def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> Self:
+    def _with_data(self, handle: Any, numbers: Any, compiled: tuple[Any, Any] = (ffi.NULL, None)) -> MechanismCore:
         mine = copy.copy(self)
         data = ffi.new("char[]", self._function("data_size")())
         self._function("with")(self._mechanism, handle, compiled[0], numbers, data)
         mine.c = ffi.new("zd_system *", self.c[0])
         mine.c.data, mine._data, mine._numbers = data, (*self._data, handle, *compiled, numbers, data), numbers
         return mine
+
+    def many_bodies(self) -> Any:
+        """Components of measures for the assembly of many free bodies."""
+        components = ffi.addressof(lib, f"zd_{self.dimension}_components")
+        return ffi.new("zd_many_bodies *", (self._mechanism, components, self.velocities))
 
     @property
     def lane_numbers(self) -> Any:
