@@ -1,6 +1,8 @@
 /* Many runs in one call: each begins at its entry of the arrays and ends independently of the others. */
 #include "batch.h"
 
+#include "../zerodrift.h"
+
 static void prepare(const zd_batch *batch)
 {
     for (int64_t i = 0; i < batch->runs; i++) {
@@ -27,4 +29,31 @@ int zd_batch_run(const zd_batch *batch)
         for (int64_t i = 0; i < batch->runs && !zd_batch_is_stopped(batch); i++) zd_single_run_execute(batch, &own, i);
     zd_release(arena.base);
     return status;
+}
+
+/* Constants and starts of many systems, from their parameters. */
+
+static int64_t count_parameters(const zd_kind *kind)
+{
+    int64_t count = 0;
+    for (int i = 0; i < kind->parameters; i++) count += kind->parameter[i].size;
+    return count;
+}
+
+int64_t zd_batch_of_kind(const zd_kind *kind, int64_t runs, const double *parameters, double *constants, double *p0, double *v0,
+                         const char **reason)
+{
+    const int64_t count = count_parameters(kind);
+    *reason = NULL;
+    for (int64_t i = 0; i < runs; i++) {
+        *reason = kind->prepare(parameters + i * count, constants + i * kind->constants);
+        if (*reason) return i;
+        kind->start(parameters + i * count, p0 + i * kind->system.nq, v0 + i * kind->system.nv);
+    }
+    return runs;
+}
+
+void zd_batch_derive(void (*derive)(double *data), int64_t runs, int64_t doubles, double *data)
+{
+    for (int64_t i = 0; i < runs; i++) derive(data + i * doubles);
 }

@@ -86,7 +86,7 @@ int zd_lane_group_keeps_energy(zd_lane_group *self, int lane);
 void zd_lane_group_stand(zd_lane_group *self, int lane, double t, const double *y);
 void zd_lane_group_note_start(zd_lane_group *self, int lane);
 
-/* lane_energy.c: correct_rest of zd_lanes. */
+/* lane_checks.c: correct_rest of zd_lanes. */
 void zd_lane_group_correct_rest(void *group, const double *t, double *y, int forced);
 
 /* lane_checks.c: full checks of the last step, in lanes in which they are due: resolution of each velocity, and energy. */

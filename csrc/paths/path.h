@@ -22,7 +22,7 @@ typedef struct zd_evaluation_path {
 } zd_evaluation_path;
 
 /* matrix.c: by matrices. closed_form.c: (p, v) by closed form, where the projection ends a step; converted.c: where a step has more parts.
- * independent.c: independent velocities by closed form. */
+ * embedded_rate.c: independent velocities by closed form. */
 extern const zd_evaluation_path zd_matrix_path, zd_converted_path, zd_independent_path, zd_closed_form_path;
 
 /* matrix.c: parts of steps whose state the formulation converts. The second moves the point to the state y at t1. */

@@ -215,3 +215,98 @@ const double *zd_dense_C(const zd_point *point, double *memory)
     zd_expand(point->system, ZD_C, point->terms.C, memory);
     return memory;
 }
+
+/* Factors a diagonal M: the reciprocals of D. Returns n, or the index of an entry that is not positive. */
+static int invert_diagonal(int n, const double *M, double *L)
+{
+    for (int i = 0; i < n; i++) {
+        if (!(M[i] > 0) || !(M[i] < INFINITY)) return i;
+        L[i] = 1 / M[i];
+    }
+    return n;
+}
+
+static int factor_block(const zd_layout *layout, int b, const double *M, double *L)
+{
+    int n = layout->velocity_at[b + 1] - layout->velocity_at[b], at = layout->M_at[b];
+    return layout->is_diagonal[b] ? invert_diagonal(n, M + at, L + at) : ZD_SIZED(zd_cholesky, n, M + at, L + at);
+}
+
+int zd_mass_factor(const zd_point *point, double *L)
+{
+    const zd_layout *layout = point->layout;
+    const int n = point->system->nv;
+    if (!layout) return ZD_SIZED(zd_cholesky, n, point->terms.M, L);
+    for (int b = 0; b < layout->blocks; b++) {
+        int first = layout->velocity_at[b], found = first + factor_block(layout, b, point->terms.M, L);
+        if (found < layout->velocity_at[b + 1]) return found;
+    }
+    return n;
+}
+
+void zd_mass_solve(const zd_layout *layout, const double *L, const double *y, double *x)
+{
+    for (int b = 0; b < layout->blocks; b++) {
+        const int first = layout->velocity_at[b], n = layout->velocity_at[b + 1] - first;
+        const double *own = L + layout->M_at[b];
+        for (int i = 0; layout->is_diagonal[b] && i < n; i++) x[first + i] = own[i] * y[first + i];
+        if (layout->is_diagonal[b]) continue;
+        ZD_SIZED(zd_forward, n, own, y + first, x + first);
+        ZD_SIZED(zd_backward, n, own, x + first, x + first);
+    }
+}
+
+/* Copies a matrix (rows, columns) into one with rows of length `stride`. Returns the end of the source. */
+static const double *copy_block(int rows, int columns, const double *from, double *to, int stride)
+{
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < columns; j++) to[i * stride + j] = from[i * columns + j];
+    return from + rows * columns;
+}
+
+static const double *copy_diagonal(int n, const double *from, double *to, int stride)
+{
+    for (int i = 0; i < n; i++) to[i * (stride + 1)] = from[i];
+    return from + n;
+}
+
+static void expand_blocks(const zd_system *system, int term, const double *packed, double *dense)
+{
+    const zd_structure *structure = system->structure;
+    const int stride = system->nv;
+    for (int b = 0, p = 0, v = 0; b < structure->blocks; b++) {
+        int rows = structure->coordinates[b], n = structure->velocities[b];
+        int is_diagonal = term == ZD_M && structure->mass && (structure->mass[b] & ZD_DIAGONAL);
+        double *to = dense + (term == ZD_A ? p : v) * stride + v;
+        packed = is_diagonal ? copy_diagonal(n, packed, to, stride) : copy_block(term == ZD_A ? rows : n, n, packed, to, stride);
+        p += rows, v += n;
+    }
+}
+
+/* First velocity of a block. */
+static int velocity_at(const zd_structure *structure, int block)
+{
+    int at = 0;
+    for (int b = 0; b < block; b++) at += structure->velocities[b];
+    return at;
+}
+
+static void expand_rows(const zd_system *system, const double *packed, double *dense)
+{
+    const zd_structure *structure = system->structure;
+    const int stride = system->nv;
+    for (int g = 0; g < structure->groups; g++)
+        for (int k = 0; k < structure->rows[g]; k++, dense += stride)
+            for (int i = structure->first[g]; i < structure->first[g + 1]; i++) {
+                int b = structure->block[i];
+                packed = copy_block(1, structure->velocities[b], packed, dense + velocity_at(structure, b), stride);
+            }
+}
+
+void zd_expand(const zd_system *system, int term, const double *packed, double *dense)
+{
+    const int rows = term == ZD_A ? system->nq : term == ZD_M ? system->nv : zd_constraints(system);
+    memset(dense, 0, (size_t)(rows * system->nv) * sizeof *dense);
+    if (term == ZD_C) expand_rows(system, packed, dense);
+    else expand_blocks(system, term, packed, dense);
+}

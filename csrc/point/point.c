@@ -6,6 +6,7 @@
 #include "point.h"
 
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../linalg/small.h"
@@ -182,4 +183,13 @@ int zd_point_is_finite(const zd_point *point)
 {
     const int nq = point->system->nq, nv = point->system->nv;
     return nq == nv ? ZD_SIZED(are_finite, nv, point->p, point->v) : zd_is_finite(nq, point->p) && zd_is_finite(nv, point->v);
+}
+
+const char *zd_name_row(const zd_system *system, int row, char to[ZD_ROW_NAME])
+{
+    char name[ZD_ROW_NAME - 16] = "";
+    if (system->name_constraint) system->name_constraint(system->names, row, name, (int)sizeof name);
+    if (*name) snprintf(to, ZD_ROW_NAME, "%d '%s'", row, name);
+    else snprintf(to, ZD_ROW_NAME, "%d", row);
+    return to;
 }

@@ -1,6 +1,8 @@
 /* Queries of a run: progress, message, statistics. */
 #include "run.h"
 
+#include <stddef.h>
+
 #include "../constraints/rank.h"
 
 double zd_run_progress(const zd_run *run)
@@ -17,3 +19,18 @@ const double *zd_run_sizes(const zd_run *run) { return run->motion.point->size; 
 double zd_run_kinetic(const zd_run *run) { return run->safeguards.guard.kinetic; }
 double zd_run_energy_error(const zd_run *run) { return run->tally.energy_error; }
 double zd_run_omega_h(const zd_run *run) { return zd_guard_omega_h(&run->safeguards.guard); }
+
+/* Statuses: all that follows from their list in the public header. */
+
+#define ROW(name, number, error, sentence) {number, #name, error, sentence},
+static const zd_status_row rows[] = {ZD_STATUS_LIST(ROW)};
+enum { ROWS = sizeof rows / sizeof rows[0] };
+
+const zd_status_row *zd_status_at(int row) { return row >= 0 && row < ROWS ? &rows[row] : NULL; }
+
+const char *zd_sentence(int status)
+{
+    for (int i = 0; i < ROWS; i++)
+        if (rows[i].status == status) return rows[i].sentence;
+    return "an unknown status";
+}
