@@ -24,7 +24,7 @@ class MechanismCore(CoreSystem):
     Parameters
     ----------
     tables : Tables
-        Those of its dimension.
+        Tables of its dimension: `plane.Tables` or `space.Tables`.
     law : callable, optional
         ``law(number, t, x, xdot)`` gives, for a generalized force, (1,): its value; for a relation with k marker quantities
         (k + 3,): g, dg/dx_i, dg/dt, and d(dg/dx_i)/dt xdot_i + d(dg/dt)/dt; for a nonholonomic one 0, a_i, a_0, and
