@@ -24,7 +24,7 @@ def test_ordinary_steps_allocate_nothing(tmp_path, core_objects):
     formulation and integrator, corrections on and off, on motions whose rows stay far from dependent ones. Near these see below.
     """
     wrap = [f"-Wl,--wrap={name}" for name in ALLOCATING]
-    program = linked(tmp_path / "allocations", ROOT / "tests" / "allocations.c", core_objects.values(), *wrap)
+    program = linked(tmp_path / "allocations", ROOT / "tests" / "support" / "allocations.c", core_objects.values(), *wrap)
     output = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     lines = [line for line in output.splitlines() if line.startswith("allocations")]
     taken = sum(len(zd.integrators(getattr(zd.systems, name)())) for name in zd.systems.__all__)

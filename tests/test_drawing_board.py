@@ -413,5 +413,5 @@ def test_a_hostile_address_says_so_and_nothing_else_happens(browser, server):
 @pytest.mark.parametrize(("width", "dark"), [(1280, False), (400, True)])
 def test_it_can_be_read_by_everybody(browser, server, width, dark):
     opened(browser, f"{server}#{address(MECHANISMS['slider and crank']())}", width=width, height=800, dark=dark)
-    assert browser.evaluate((ROOT / "tests" / "page_checks.js").read_text(encoding="utf-8")) == []
+    assert browser.evaluate((ROOT / "tests" / "support" / "page_checks.js").read_text(encoding="utf-8")) == []
     assert browser.errors == []

@@ -84,7 +84,7 @@ def test_pages_can_be_read_by_everybody(site, tmp_path):
     """In light and in dark, on a desk and on a telephone: no error, enough contrast, no picture or control without words, no
     page that is wider than the screen.
     """
-    lacks, checks = {}, (ROOT / "tests" / "page_checks.js").read_text(encoding="utf-8")
+    lacks, checks = {}, (ROOT / "tests" / "support" / "page_checks.js").read_text(encoding="utf-8")
     with Browser(tmp_path / "profile") as browser:
         for number, page in enumerate(pages_of(site)):
             for width, dark in LOOKS if page in FIRST else [LOOKS[number % 4]]:

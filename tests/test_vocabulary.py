@@ -27,15 +27,13 @@ REFUSED = (
     "lengths win", "need no word", r"\b(is|are|was|were) asked\b", r"\bglances?\b", "lookout", r"\bblame", r"\bgauges?\b",
 )
 OPENING = re.compile(r"(What|Whether|Where|How|Those|Of)\b(?! freedom)", re.IGNORECASE)
-ANY_OPENING = "python/zerodrift/models/"       # descriptions that are not yet rewritten
 
 
 def refused(text):
     """The reasons for which a text is refused, each with the words that are. Pages and test names may open with a question."""
     words = " ".join(text.text.split())
     found = [match[0] for phrase in REFUSED if (match := re.search(phrase, words, re.IGNORECASE))]
-    opens = text.kind == "docstring" or (text.kind == "comment" and text.file.startswith(C)) or (
-        text.kind == "description" and not text.file.startswith(ANY_OPENING))
+    opens = text.kind in ("docstring", "description") or (text.kind == "comment" and text.file.startswith(C))
     if opens and (match := OPENING.match(words)):
         found.append(f"opens with {match[0]!r}")
     return found

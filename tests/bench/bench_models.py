@@ -3,7 +3,7 @@
 Run it with ``python tests/bench/bench_models.py``; it needs SymPy and SciPy, and a C compiler. Freedom, rows and rank are as
 `print` of the mechanism counts them, with absolute coordinates; loops are those that joint coordinates close. A run is in joint
 coordinates, interpreted and compiled; its time is that in the core, with laws that are expressions of SymPy, the least of rounds.
-The error is the largest deviation from `tests/known_motions.py` at any sample. It writes ``results/models.csv``.
+The error is the largest deviation from `tests/support/known_motions.py` at any sample. It writes ``results/models.csv``.
 """
 
 import csv

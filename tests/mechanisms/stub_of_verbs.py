@@ -1,6 +1,6 @@
 """Writes `table_verbs.pyi`, the declarations of the methods that are made from the core's tables, from their signatures.
 
-PYTHONPATH=python:tests python tests/mechanisms/stub_of_verbs.py
+PYTHONPATH=python:tests:tests/support python tests/mechanisms/stub_of_verbs.py
 """
 
 import inspect

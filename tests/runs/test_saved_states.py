@@ -14,7 +14,7 @@ from zerodrift import _gateway
 
 @needs_compiler
 def test_copies_continue_with_the_same_bits():
-    """Copies of runs of every kind; `python tests/saved_runs.py 0 400` compares more."""
+    """Copies of runs of every kind; `python tests/support/saved_runs.py 0 400` compares more."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         compared, here, elsewhere = saved_runs.compare(0, draws(20, 40))

@@ -1,6 +1,6 @@
 """Random mechanisms written out and compiled, against their tables: terms, motion, reactions. Writes compiled_mechanisms.md.
 
-    PYTHONPATH=python:tests python tests/stress/compiled_mechanisms.py [first seed] [how many] [seconds at most]
+    PYTHONPATH=python:tests:tests/support python tests/stress/compiled_mechanisms.py [first seed] [how many] [seconds at most]
 
 Each is taken in joint and in absolute coordinates: all terms at a random state, then 0.1 s from the start with reactions.
 """

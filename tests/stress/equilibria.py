@@ -1,6 +1,6 @@
 """All models: equilibrium, steady motion, or neither and why, with the balance of forces and reactions. Writes equilibria.md.
 
-OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/equilibria.py
+OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support python tests/stress/equilibria.py
 """
 
 import sys

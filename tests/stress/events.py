@@ -1,6 +1,6 @@
 """Random events with known instants: how many are missed, found twice or off, by integrator and way of running. Writes events.md.
 
-OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/events.py [how many [commit]]
+OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support python tests/stress/events.py [how many [commit]]
 """
 
 import sys

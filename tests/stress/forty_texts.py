@@ -1,6 +1,6 @@
 """Forty texts and forty identifiers drawn at random: is each understood from its words alone?
 
-    PYTHONPATH=python:tests python tests/stress/forty_texts.py
+    PYTHONPATH=python:tests:tests/support python tests/stress/forty_texts.py
 
 First lines of docstrings, comments and descriptions of parameters, and identifiers of at least two words, of the package and of
 the core are drawn with a seed that does not change. Beside each, one sentence is written before its code is opened, and then what

@@ -639,7 +639,8 @@ def add(folder, file, text, changed, where, by):
 
 def run(folder, *command):
     """Output of a command; if it fails, the script exits."""
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(folder / "python"), str(folder / "tests")])}
+    folders = (str(folder / each) for each in ("python", "tests", "tests/support"))
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(folders)}
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
     if done.returncode:
         sys.exit(f"{' '.join(map(str, command))}\n{done.stdout[-6000:]}\n{done.stderr[-3000:]}")

@@ -1,6 +1,6 @@
 """A thousand random mechanisms against plain NumPy: motion and reactions. Writes planar_mechanisms.md beside this.
 
-    PYTHONPATH=python:tests python tests/stress/planar_mechanisms.py [how many, or seed,seed,... to be shown alone]
+    PYTHONPATH=python:tests:tests/support python tests/stress/planar_mechanisms.py [how many, or seed,seed,... to be shown alone]
 
 Each is simulated in joint or in absolute coordinates for 0.2 s, by steps of fixed size. What fails is counted by how it fails: a
 run that stops with an error is not wrong in silence. Where fixed steps differ, the run is repeated with steps that are chosen for

@@ -1,6 +1,6 @@
 """Random starts, plane and space: coordinates that no loop connects with the held one stay. Writes random_starts.md.
 
-OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/random_starts.py [how many [commit]]
+OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support python tests/stress/random_starts.py [how many [commit]]
 """
 
 import sys

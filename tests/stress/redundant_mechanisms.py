@@ -1,6 +1,7 @@
 """Random mechanisms with welds, braces, doubled joints and idle loops against a dense model. Writes redundant_mechanisms.md.
 
-    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/redundant_mechanisms.py [many [processes [commit [s]]]]
+    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support \
+        python tests/stress/redundant_mechanisms.py [many [processes [commit [s]]]]
 
 Every second one is in space. Each is run in joint and in absolute coordinates, by each formulation in turn; at three states of
 each motion the residuals, the rank (by singular values) and the accelerations are those of plain NumPy, and both motions are the

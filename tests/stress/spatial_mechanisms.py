@@ -1,6 +1,7 @@
 """Random mechanisms in space against plain NumPy: accelerations, reactions, motions. Writes spatial_mechanisms.md.
 
-    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests python tests/stress/spatial_mechanisms.py [how many [how many processes]]
+    OPENBLAS_NUM_THREADS=1 PYTHONPATH=python:tests:tests/support \
+        python tests/stress/spatial_mechanisms.py [how many [how many processes]]
 
 Trees of up to four bodies and joints of all kinds, with up to three loops, in absolute and in joint coordinates; on every
 second of them the last body rolls on the ground, as a ball, a disc or an egg, or glides on a blade. Reactions have to balance

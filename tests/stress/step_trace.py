@@ -1,10 +1,10 @@
 """Files, changes of room and climbs in the calls of one step: how far its reader has to go.
 
-    PYTHONPATH=python:tests python tests/stress/step_trace.py [name=folder ...]
+    PYTHONPATH=python:tests:tests/support python tests/stress/step_trace.py [name=folder ...]
 
 Compiles the core in each folder (without arguments, this repository's `csrc`) with `-O0 -finstrument-functions` and traces step
 23 of the four-bar with projection and energy correction, in closed form and by matrices. A change of room is a call into another
-folder; a climb is one into a folder above in the order of `tests/room_order.py`, calls through tables included. Kernels of
+folder; a climb is one into a folder above in the order of `room_order.py`, calls through tables included. Kernels of
 `linalg/` are left out. Prints a table in Markdown; `step_trace.md` is the one of this version and of the one before it.
 """
 

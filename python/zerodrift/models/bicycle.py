@@ -29,9 +29,9 @@ def bicycle(*, wheelbase: float = 1.1, centre: float = 0.5, mass: float = 85.0, 
     mass, inertia, fork_mass, fork_inertia : float
         In kg and kg m^2; moments of inertia are about vertical axes through the centres of mass.
     amplitude, frequency : float
-        Of the slalom, in rad and rad/s.
+        Amplitude and frequency of the slalom, in rad and rad/s.
     stiffness, damping : float
-        Of the rider's arms, in N m/rad and N m s/rad.
+        Stiffness and damping of the rider's arms, in N m/rad and N m s/rad.
     thrust : float
         In N.
     speed : float

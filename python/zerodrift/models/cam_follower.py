@@ -32,11 +32,11 @@ def cam_follower(*, lift: float = 0.0254, base: float = 0.05, rise: float = np.p
     rise, dwell, fall : float
         Angles of the cam's turn, in rad: in which the follower goes up, stays above, and comes down.
     speed : float
-        Of the cam, in rad/s.
+        Angular velocity of the cam, in rad/s.
     cam_mass, follower_mass : float
         In kg; the cam is a disc of its base circle.
     stiffness, preload : float
-        Of the spring, in N/m, and its force in the low dwell, in N.
+        Stiffness of the spring, in N/m, and its force in the low dwell, in N.
     gravity : float
         Downwards, in m/s^2.
 

@@ -25,7 +25,7 @@ def chebyshev_lambda(*, crank: float = 0.1, speed: float = 2 * np.pi, mass: Any 
     crank : float
         Its length in m.
     speed : float
-        Of the crank, in rad/s.
+        Angular velocity of the crank, in rad/s.
     mass : float or dict of str to float
         In kg, of each link, or by link.
     gravity : array_like (2,), optional

@@ -22,9 +22,9 @@ def closed_pendulum(links: int = 4, *, length: float = 1.0, mass: float = 1.0, g
     Parameters
     ----------
     links : int
-        How many, at least 3: with the ground between the pins, 3 make a four-bar.
+        Number of links, at least 3: with the ground between the pins, 3 make a four-bar.
     length, mass : float
-        Of each link, in m and kg.
+        Length and mass of each link, in m and kg.
     gravity : float
         In m/s^2, downwards.
     span : float, optional

@@ -23,13 +23,13 @@ def four_bar(*, lengths: Any = (1.0, 0.3, 1.0, 0.6), masses: Any = (1.5, 5.0, 3.
     Parameters
     ----------
     lengths : array_like (4,)
-        Of ground, crank, coupler and rocker, in m.
+        Lengths of ground, crank, coupler and rocker, in m.
     masses : array_like (3,)
-        Of crank, coupler and rocker, slender rods, in kg.
+        Masses of crank, coupler and rocker, slender rods, in kg.
     gravity : float
         Downwards, in m/s^2.
     crank_angle, crank_rate : float
-        Of the crank at the start, in rad from the ground, and in rad/s.
+        Angle of the crank at the start, in rad from the ground, and its rate, in rad/s.
 
     Returns
     -------

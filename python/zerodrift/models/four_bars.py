@@ -22,11 +22,11 @@ def four_bars(loops: int = 2, *, length: float = 1.0, mass: float = 1.0, gravity
     loops : int
         N, at least 1.
     length, mass : float
-        Of every slender rod, in m and kg.
+        Length and mass of every slender rod, in m and kg.
     gravity : float
         Downwards, in m/s^2.
     speed : float
-        Of the upper joints at the start, in m/s.
+        Speed of the upper joints at the start, in m/s.
 
     Returns
     -------

@@ -30,7 +30,7 @@ def hoecken(*, crank: float = 0.1, ground: float = 2.5, coupler: float = 3.25, s
     ground, coupler : float
         Lengths in cranks: between the fixed hinges; of the rocker, and of the coupler to its hinge and from there to P.
     speed : float
-        Of the crank, in rad/s.
+        Angular velocity of the crank, in rad/s.
     mass : float or dict of str to float
         In kg, of each link, or by link.
     gravity : array_like (2,), optional

@@ -27,7 +27,7 @@ def klann(*, speed: float = -2 * np.pi, mass: Any = 1.0, scale: float = 0.4, gra
     Parameters
     ----------
     speed : float
-        Of the crank, in rad/s.
+        Angular velocity of the crank, in rad/s.
     mass : float or dict of str to float
         In kg, of each link, or by link.
     scale : float

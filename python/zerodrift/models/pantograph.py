@@ -33,7 +33,7 @@ def pantograph(*, arm: float = 0.2, ratio: float = 2.0, size: float = 0.05, rate
     size : float
         Half the width of the eight, in m, less than a third of the arm.
     rate : float
-        Of the figure, in rad/s.
+        Angular frequency of the figure, in rad/s.
     mass : float or dict of str to float
         In kg, of each bar, or by bar.
     gravity : array_like (2,), optional

@@ -27,7 +27,7 @@ def peaucellier(*, arm: float = 0.25, side: float = 0.12, crank: float = 0.1, am
     arm, side, crank : float
         Lengths in m, of arms from O, sides of the rhombus, and the crank, whose fixed hinge A is as far from O as Q.
     amplitude : float
-        Of the crank, in rad.
+        Amplitude of the crank, in rad.
     rate : float
         In rad/s.
     mass : float or dict of str to float

@@ -25,13 +25,13 @@ def planetary_gear(*, sun: int = 40, planet: int = 20, planets: int = 3, module:
     sun, planet : int
         Numbers of teeth; the ring has sun + 2 planet.
     planets : int
-        How many, at least 1.
+        Number of planets, at least 1.
     module : float
         Diameter of a pitch circle by its teeth, in m.
     carrier_speed, sun_speed : float
         In rad/s.
     density : float
-        Of sun, planets and ring, discs of their pitch circles, in kg/m^2.
+        Density of sun, planets and ring, discs of their pitch circles, in kg/m^2.
     load : float
         The moment on the ring, in N m.
 

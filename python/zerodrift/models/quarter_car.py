@@ -25,7 +25,7 @@ def quarter_car(*, body_mass: float = 2500.0, wheel_mass: float = 320.0, stiffne
     body_mass, wheel_mass : float
         In kg.
     stiffness, damping : float
-        Of the suspension, in N/m and N s/m.
+        Stiffness and damping of the suspension, in N/m and N s/m.
     tyre_stiffness, tyre_damping : float
         In N/m and N s/m.
     amplitude, rate : float

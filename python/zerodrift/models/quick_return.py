@@ -26,11 +26,11 @@ def quick_return(*, ground: float = 0.025, crank: float = 0.010, lever: float = 
     crank, lever, rod : float
         Lengths in m.
     height : float
-        Of the ram's line above the lever's hinge, in m.
+        Height of the ram's line above the lever's hinge, in m.
     speed : float
-        Of the crank, in rad/s.
+        Angular velocity of the crank, in rad/s.
     mass, ram_mass : float
-        Of crank, lever and rod each, and of the ram, in kg.
+        Mass of each of crank, lever and rod, and of the ram, in kg.
     gravity : float
         Downwards, in m/s^2.
 

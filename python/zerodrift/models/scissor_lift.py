@@ -27,13 +27,13 @@ def scissor_lift(stages: int = 3, *, arm: float = 1.0, angle: float = 0.6, ampli
     arm : float
         Length of an arm in m.
     angle : float
-        Of the arms at the start, from the ground, in rad.
+        Angle of the arms at the start, from the ground, in rad.
     amplitude : float
-        Of the roller, in m.
+        Amplitude of the roller, in m.
     rate : float
         In rad/s.
     mass, platform, load : float
-        Of each arm, of the platform, and of the load on its middle, in kg.
+        Mass of each arm, of the platform, and of the load on its middle, in kg.
     gravity : float
         Downwards, in m/s^2.
 

@@ -27,11 +27,11 @@ def slider_crank(*, crank: float = 0.5, rod: float = 1.0, crank_inertia: float =
     crank_inertia, slider_mass, rod_inertia : float
         In kg m^2, kg, kg m^2.
     stiffness, damping, rest_length : float
-        Of spring and damper, in N/m, N s/m, m.
+        Stiffness and damping of spring and damper, and the spring's rest length, in N/m, N s/m, m.
     pull : float
         In N.
     angle : float
-        Of the crank at the start, in rad; it starts from rest.
+        Angle of the crank at the start, in rad; it starts from rest.
 
     Returns
     -------

@@ -22,9 +22,9 @@ def snakeboard(*, mass: float = 6.0, inertia: float = 0.016, rotor_inertia: floa
     Parameters
     ----------
     mass : float
-        Of all together, whose centre is the board's middle, in kg.
+        Mass of all parts together, whose centre is the board's middle, in kg.
     inertia, rotor_inertia, wheel_inertia : float
-        Of the board, the rotor, and each axle, in kg m^2.
+        Moments of inertia of the board, the rotor, and each axle, in kg m^2.
     half : float
         From the middle to an axle, in m.
     rotor_swing, wheel_swing : float

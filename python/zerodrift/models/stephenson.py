@@ -28,7 +28,7 @@ def stephenson(*, speed: float = 2 * np.pi, mass: Any = 0.2, scale: float = 1.0,
     Parameters
     ----------
     speed : float
-        Of the crank, in rad/s.
+        Angular velocity of the crank, in rad/s.
     mass : float or dict of str to float
         In kg, of each link, or by link.
     scale : float

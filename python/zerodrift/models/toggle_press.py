@@ -23,13 +23,13 @@ def toggle_press(*, link: float = 0.3, crank: float = 0.05, rod: float = 0.3, di
     link, crank, rod : float
         Lengths of upper and lower link, crank and rod, in m.
     distance : float
-        Of the crank's hinge from the ram's line, at the height of a straight knee, in m; above crank and rod together.
+        Distance of the crank's hinge from the ram's line, at the height of a straight knee, in m; above crank and rod together.
     speed : float
-        Of the crank, in rad/s.
+        Angular velocity of the crank, in rad/s.
     mass, ram_mass : float
-        Of each link, and of the ram, in kg.
+        Mass of each link, and of the ram, in kg.
     load : float
-        What presses against the ram, in N.
+        Force that presses against the ram, in N.
     gravity : float
         Downwards, in m/s^2.
 

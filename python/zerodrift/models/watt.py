@@ -27,7 +27,7 @@ def watt(*, rocker: float = 0.5, coupler: float = 0.2, amplitude: float = 0.35, 
     rocker, coupler : float
         Lengths in m.
     amplitude : float
-        Of the left rocker, in rad.
+        Amplitude of the left rocker, in rad.
     rate : float
         In rad/s.
     mass : float or dict of str to float

@@ -27,11 +27,11 @@ def bennett(*, first_length: float = 0.3, first_twist: float = 0.5, second_twist
     first_twist, second_twist : float
         alpha and beta, between 0 and pi, the angles between the axes at the ends of a link, in rad.
     angle : float
-        Of the input at the start, from the fixed link about B's axis, in rad; neither 0 nor pi, where it lies flat.
+        Angle of the input at the start, from the fixed link about B's axis, in rad; neither 0 nor pi, where it lies flat.
     density : float
-        Of the links, in kg/m.
+        Density of the links, in kg/m.
     speed : float
-        Of the input at the start, in rad/s.
+        Angular velocity of the input at the start, in rad/s.
     gravity : float
         Downwards, along -z, which is A's axis, in m/s^2.
 

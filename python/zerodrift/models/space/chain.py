@@ -22,11 +22,11 @@ def chain(links: int = 1000, *, length: float = 10.0, mass: float = 10.0, inclin
     links : int
         At least 1. What a step takes is in proportion to them.
     length, mass : float
-        Of the chain, in m and kg.
+        Length and mass of the chain, in m and kg.
     incline : float
         At the start, downwards from the level, in rad.
     coils : float
-        How many times it goes round; 0: it is straight, and falls in a plane.
+        Number of turns; 0: the chain is straight, and falls in a plane.
     gravity : float
         Downwards, along -z, in m/s^2.
 

@@ -27,7 +27,7 @@ def coin(*, radius: float = 0.012, mass: float = 7.5e-3, incline: float = 0.3, d
     mass : float
         In kg.
     incline : float
-        Of the coin against the table at the start, in rad, more than 0 and less than a right angle.
+        Inclination of the coin against the table at the start, in rad, more than 0 and less than a right angle.
     damping : float
         Torque on its angular velocity, in N m s, along the table.
     gravity : float

@@ -25,17 +25,17 @@ def delta_robot(*, base_radius: float = 0.2, platform_radius: float = 0.05, arm:
     Parameters
     ----------
     base_radius, platform_radius : float
-        Of the circles through the shoulders and through the middles of the rods' lower ends, in m.
+        Radii of the circles through the shoulders and through the middles of the rods' lower ends, in m.
     arm, forearm_length : float
         In m.
     angle : float
-        Of the arms at the start, downwards from the level, in rad.
+        Angle of the arms at the start, downwards from the level, in rad.
     half_width : float
-        Of each pair of rods, in m.
+        Half width of each pair of rods, in m.
     arm_mass, forearm_mass, platform_mass : float
-        Of each arm, of each pair of rods, and of the platform, in kg.
+        Mass of each arm, of each pair of rods, and of the platform, in kg.
     amplitude, rate : float
-        Of the drives, in rad and rad/s.
+        Amplitude and rate of the drives, in rad and rad/s.
     gravity : float
         Downwards, along -z, in m/s^2.
 

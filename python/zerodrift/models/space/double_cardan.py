@@ -28,11 +28,11 @@ def double_cardan(*, bend: float = 0.5, last_bend: float | None = None, phase: f
     last_bend : float, optional
         Between middle and output, to the same side; left out: -bend, which makes the output parallel to the input.
     phase : float
-        Of the middle shaft's forks against each other, in rad.
+        Phase of the middle shaft's forks against each other, in rad.
     length, mass : float
-        Of each shaft, a round bar, in m and kg.
+        Length and mass of each shaft, a round bar, in m and kg.
     speed : float
-        Of the input, in rad/s.
+        Angular velocity of the input, in rad/s.
 
     Returns
     -------

@@ -29,7 +29,7 @@ def double_wishbone(*, body_mass: float = 350.0, lower_mass: float = 3.0, upper_
     body_mass, lower_mass, upper_mass, upright_mass, wheel_mass : float
         In kg: a quarter of the car, the arms, the upright and the wheel.
     stiffness, preload, damping : float
-        Of the strut, in N/m, in N as drawn, and in N s/m.
+        Stiffness of the strut, in N/m, its force as drawn, in N, and its damping, in N s/m.
     tyre_stiffness : float
         In N/m. It carries the weight of all as drawn, and pulls where the wheel would lift off.
     amplitude, rate : float

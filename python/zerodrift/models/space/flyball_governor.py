@@ -26,7 +26,7 @@ def flyball_governor(*, arm: float = 0.25, ball_mass: float = 2.0, ball_radius: 
     arm : float
         From the hinge to a ball's centre, in m.
     ball_mass, ball_radius : float
-        Of each solid ball, in kg and m.
+        Mass and radius of each solid ball, in kg and m.
     sleeve_mass : float
         In kg.
     spindle_inertia : float
@@ -34,7 +34,7 @@ def flyball_governor(*, arm: float = 0.25, ball_mass: float = 2.0, ball_radius: 
     speed : float
         At the start, in rad/s.
     damping : float
-        Of the sleeve, in N s/m.
+        Damping of the sleeve, in N s/m.
     lift : float
         Speed of the sleeve at the start, in m/s: with it it swings.
     gravity : float

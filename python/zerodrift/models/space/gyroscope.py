@@ -23,17 +23,17 @@ def gyroscope(*, incline: float = 1.0, spin: float = 200.0, axial_inertia: float
     Parameters
     ----------
     incline : float
-        Of the axle at the start, from the vertical, in rad.
+        Inclination of the axle at the start, from the vertical, in rad.
     spin : float
-        Of the rotor in the inner gimbal, in rad/s.
+        Angular velocity of the rotor in the inner gimbal, in rad/s.
     axial_inertia, transverse_inertia : float
-        Of the rotor, in kg m^2.
+        Moments of inertia of the rotor, in kg m^2.
     weight, arm : float
         In kg, and how far along the axle it hangs, in m.
     inner_inertia, outer_inertia : float
-        Of the gimbals, about all axes alike, in kg m^2.
+        Moments of inertia of the gimbals, about all axes alike, in kg m^2.
     mass : float
-        Of the rotor and of each gimbal, which the bearings carry, in kg.
+        Mass of the rotor and of each gimbal, which the bearings carry, in kg.
     gravity : float
         Downwards, along -z, in m/s^2.
 

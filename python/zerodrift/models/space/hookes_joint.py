@@ -24,11 +24,11 @@ def hookes_joint(*, bend: float = 0.6, length: float = 0.5, mass: float = 1.0, l
     bend : float
         Between the shafts, in rad, less than a right angle.
     length, mass : float
-        Of each shaft, a round bar, in m and kg.
+        Length and mass of each shaft, a round bar, in m and kg.
     load : float
         Torque against the output's turning, in N m.
     speed : float
-        Of the input, in rad/s.
+        Angular velocity of the input, in rad/s.
 
     Returns
     -------

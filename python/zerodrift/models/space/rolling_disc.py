@@ -25,9 +25,9 @@ def rolling_disc(*, radius: float = 0.5, mass: float = 1.0, lean: float = 0.4, t
     mass : float
         In kg.
     lean : float
-        Of its plane from the vertical, in rad, less than a right angle; the axle's far end is up where it is positive.
+        Angle of its plane from the vertical, in rad, less than a right angle; the axle's far end is up where it is positive.
     turning : float
-        Of the contact about the vertical, in rad/s.
+        Angular velocity of the contact about the vertical, in rad/s.
     spin : float, optional
         The disc's angular velocity about its axle at the start, in rad/s; left out: that of the steady motion. Has to be given
         where `turning` is zero.

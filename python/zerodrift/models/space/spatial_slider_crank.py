@@ -24,11 +24,11 @@ def spatial_slider_crank(*, crank: float = 0.08, rod: float = 0.3, offset: float
     crank, rod : float
         Their lengths in m.
     offset, height : float
-        Of the crank's hinge from the slider's line, along y and z, in m.
+        Distances of the crank's hinge from the slider's line, along y and z, in m.
     crank_mass, rod_mass, slider_mass : float
         In kg.
     speed : float
-        Of the crank at the start, in rad/s.
+        Angular velocity of the crank at the start, in rad/s.
     gravity : float
         Downwards, along -z, in m/s^2.
 

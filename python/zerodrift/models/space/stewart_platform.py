@@ -23,15 +23,15 @@ def stewart_platform(*, base_radius: float = 1.0, platform_radius: float = 0.6, 
     Parameters
     ----------
     base_radius, platform_radius : float
-        Of the circles on which feet and heads are, in m.
+        Radii of the circles on which feet and heads are, in m.
     height : float
-        Of the platform over the base at the start, in m.
+        Height of the platform over the base at the start, in m.
     gap : float
         Between two neighbours on a circle and the middle between them, in rad.
     platform_mass, cylinder_mass, piston_mass : float
         In kg; the platform is a disc of a twentieth of its radius.
     amplitude, rate : float
-        Of the drives, in m and rad/s.
+        Amplitude and rate of the drives, in m and rad/s.
     gravity : float
         Downwards, along -z, in m/s^2.
 

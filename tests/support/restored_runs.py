@@ -1,6 +1,6 @@
 """Open runs with inputs that are saved, and go on from their states.
 
-    python tests/restored_runs.py STEPS
+    python tests/support/restored_runs.py STEPS
 
 compares the rest of each run with that of its restored copy, in this process and another.
 """

@@ -13,7 +13,7 @@ import pytest
 
 import zerodrift as zd
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 PENDULUM = ROOT / "tests" / "native" / "pendulum.c"
 OWN = ["arm", "top", "skate"]       # in native/systems.c: rheonomic; with a quaternion; holonomic with nonholonomic
 COMPILER = shutil.which(os.environ.get("CC", "gcc" if os.name == "nt" else "cc"))

@@ -1,6 +1,6 @@
 """Random runs whose states are saved at a random sample: any system, formulation, integrator and correction.
 
-    python tests/saved_runs.py FIRST LAST
+    python tests/support/saved_runs.py FIRST LAST
 
 compares the rest of each run with that of its restored copy, in this process and another.
 """
