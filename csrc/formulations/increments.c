@@ -9,7 +9,7 @@
  * A^+ is that of least squares in characteristic scales. One characteristic scale is added to each increment: relative errors of
  * adaptive steps then refer to it, as for coordinates p, and not to the increment, which is zero at the start of a step.
  */
-#include "increments.h"
+#include "embedding.h"
 
 #include <math.h>
 #include <string.h>

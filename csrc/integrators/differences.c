@@ -1,4 +1,4 @@
-#include "differences.h"
+#include "integrator.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Entry of the table of integrators: one step in time. Most use only the rate of an opaque state. */
-#ifndef ZD_INTEGRATOR_H
-#define ZD_INTEGRATOR_H
+#ifndef ZD_INTEGRATORS_INTEGRATOR_H
+#define ZD_INTEGRATORS_INTEGRATOR_H
 
 #include "../motion/motion.h"
 
@@ -39,5 +39,27 @@ static inline int zd_evaluates_accelerations(const zd_integrator *self) { return
 /* Implicit methods need dense matrices of the size of the state, so systems with a declared structure may have only this many velocities. */
 enum { ZD_MAX_IMPLICIT = 300 };
 static inline int zd_is_too_large(const zd_system *system) { return system->structure && system->nv > ZD_MAX_IMPLICIT; }
+
+/* df/dy of a rate by finite differences, for implicit methods, in units that make the entries of a state comparable: for the trapezoidal
+ * rule; and for Radau's method where motion/jacobian.c has no derivatives of the rate, which are Baumgarte's terms and the corrections' own
+ * entries of the state, states at a bifurcation, and in independent velocities the system's own complement D and large structures. */
+
+typedef struct zd_differences {
+    int size;
+    double *scale;          /* (size,): largest terms so far in each equation, which has a unit of its own */
+    double *unit;           /* (size,): unit of each entry of the matrix, a power of two near its scale when the matrix was made */
+    double *varied;         /* (size,): f at a varied y; or increments */
+    double min_size;      /* smallest size of y_i assumed for increments: y_i and f_i may be rounding errors only */
+} zd_differences;
+
+zd_differences zd_differences_create(zd_arena *arena, int size);
+/* Adapts to a state of another size. */
+void zd_differences_resize(zd_differences *self, int size);
+void zd_differences_choose_units(zd_differences *self);
+/* increment (size,) of each entry for a difference along it, of which y + increment - y is exact. */
+void zd_differences_increments(const zd_differences *self, const double *y, double *increment);
+/* J (size, size) <- share df/dy at (t, y), where f is known, in the units that were chosen: its entry (i, j) times unit_j / unit_i. A
+ * state changes by about h f in a step. y is as it was afterwards. */
+int zd_differences_make(zd_differences *self, const zd_rate *rate, double t, double h, double share, double *y, const double *f, double *J);
 
 #endif

@@ -12,7 +12,7 @@
 #include "../linalg/dense.h"
 #include "../linalg/iteration.h"
 #include "../linalg/small.h"
-#include "differences.h"
+#include "integrator.h"
 
 enum {
     MAX_ITERATIONS = 20,

@@ -3,7 +3,7 @@
 #define ZD_INTEGRATORS_RADAU_ITERATION_H
 
 #include "../../linalg/small.h"
-#include "../differences.h"
+#include "../integrator.h"
 
 /* The numbers of Radau's method IIA with three stages: Hairer and Wanner, section IV.8. */
 

@@ -3,7 +3,31 @@
 #define ZD_LINALG_SPARSE_BLOCKS_H
 
 #include "../../workspace.h"
-#include "ordering.h"
+#include "../small.h"
+
+/* An order in which a symmetric matrix of blocks is eliminated with little fill. */
+
+/* Which blocks of the matrix there are: those of any two block rows that are in one clique. */
+typedef struct zd_pattern {
+    int count;              /* block rows */
+    const int *size;        /* (count,) rows of each, at least one */
+    int cliques;
+    const int *begin, *member;  /* (cliques + 1,), (begin[cliques],): the block rows of each, each at most once */
+} zd_pattern;
+
+/* The order, and what is below the diagonal once fill is added. */
+typedef struct zd_ordering {
+    int count;
+    int *place;             /* (count,) position of each block row in the order */
+    int *size;              /* (count,) rows of each, in the order */
+    int *begin;             /* (count + 1,) in the order: where the block rows begin that are below the diagonal in each column */
+    int *row;               /* (begin[count],) their places, increasing in each column */
+} zd_ordering;
+
+/* Takes memory of its own, which zd_ordering_free() releases. Returns 0 where there is none. `given` (count,): the block rows in the order in
+ * which they are to be eliminated; NULL: in one of little fill. */
+int zd_ordering_find(const zd_pattern *pattern, const int *given, zd_ordering *ordering);
+void zd_ordering_free(zd_ordering *ordering);
 
 typedef struct zd_blocks {
     int count, rows;        /* block rows; scalar rows */
@@ -56,5 +80,38 @@ static inline void zd_blocks_solve(const zd_blocks *self, double *x)
 int zd_triangular_factor(zd_blocks *self);
 /* x (rows,), in the order of elimination, <- S^-1 x */
 void zd_triangular_solve(const zd_blocks *self, double *x);
+
+/* Checks of pivots, and the inverse of a block of two rows. */
+
+/* True if this pivot is positive; updates the smallest relative pivot. Ratios are compared by products, to avoid divisions. */
+ZD_INLINE int zd_judge_pivot(zd_pivots *pivots, int row, double pivot, double diagonal, double rounding)
+{
+    if (!(pivot > rounding * diagonal) || !(pivot < INFINITY)) {
+        if (pivots->failed < 0) pivots->failed = row;
+        return 0;
+    }
+    if (pivot * pivots->diagonal < pivots->pivot * diagonal) pivots->smallest = row, pivots->pivot = pivot, pivots->diagonal = diagonal;
+    return 1;
+}
+
+typedef struct zd_inverse_of_two {  /* symmetric inverse, in registers: these entries times the scale; scale 0: singular */
+    double aa, ab, bb, scale;
+} zd_inverse_of_two;
+
+/* Inverse of a block given by its lower triangle, with one division instead of two that depend on each other. Each relative pivot is at
+ * least the product of both; only if that product is below the smallest relative pivot so far, the pivots are compared individually, and
+ * checked if one is smaller. `row` is the first row of the block. */
+ZD_INLINE zd_inverse_of_two zd_invert_two(const double *diagonal, int row, const double *P, zd_pivots *pivots)
+{
+    const double a = P[0], b = P[2], c = P[3], determinant = a * c - b * b, rounding = 2 * 0x1p-52;
+    int are_pivots = 1;
+    const double second = determinant * pivots->diagonal, least = pivots->pivot * diagonal[1];
+    const int is_product_less = !(second >= diagonal[0] * least);
+    const int is_less = is_product_less && (!(a * pivots->diagonal >= pivots->pivot * diagonal[0]) || !(second >= a * least));
+    if (!(a > 0) || is_less || !(determinant < INFINITY))
+        are_pivots = zd_judge_pivot(pivots, row, a, diagonal[0], rounding)
+                   & zd_judge_pivot(pivots, row + 1, determinant, a * diagonal[1], rounding);
+    return (zd_inverse_of_two){c, -b, a, are_pivots ? 1 / determinant : 0};
+}
 
 #endif

@@ -15,7 +15,6 @@
 #include <stddef.h>
 
 #include "blocks.h"
-#include "pivot.h"
 
 /* kernel(n, is_same, is_complete, ...), compiled for the common sizes */
 #define FOR_SIZE(kernel, size, is_complete, ...)             \

@@ -14,7 +14,7 @@
 #include "../../workspace.h"
 #include "../../zerodrift.h"
 #include "../small.h"
-#include "ordering.h"
+#include "blocks.h"
 
 static const double RANK = 1e-9;        /* relative to rows of length one: bound of redundant ones */
 

@@ -6,7 +6,7 @@
  * Ties are resolved in favour of the row that has had its degree longest. So rows that are not coupled are eliminated in succession, a
  * chain of loops from both ends at once: consecutive products are then independent, and the processor overlaps them.
  */
-#include "ordering.h"
+#include "blocks.h"
 
 #include <string.h>
 

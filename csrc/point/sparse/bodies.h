@@ -13,7 +13,7 @@ typedef struct zd_bodies {
     int *pair;              /* offset of the block C_a^T W C_b in S, for each group and each pair b <= a of its bodies */
 } zd_bodies;
 
-/* Symbolic factorization, and memory for the factors; NULL without memory. `order`: see ordering.h. */
+/* Symbolic factorization, and memory for the factors; NULL without memory. `order`: see ordering.c. */
 zd_bodies *zd_bodies_create(zd_store *store, const zd_system *system, const zd_layout *layout, const int *order);
 /* Adds blocks that are stored as M is. */
 void zd_bodies_add_mass(zd_bodies *self, const double *M);
