@@ -153,25 +153,30 @@ def test_functions_that_refer_to_what_cannot_travel_are_named(processes, argumen
 class Cancels(ThreadPoolExecutor):
     """An executor that drops all that has not begun, once so many tasks have ended."""
 
-    def __init__(self, count):
+    def __init__(self, count, portions):
         super().__init__(1)
-        self.left = count
+        self.left, self.to_come, self.has_all = count, portions, threading.Event()
 
     def submit(self, function, *arguments):
         def counted():
+            self.has_all.wait(tol.HUNG)         # on a busy machine the first are done before the last are submitted
             result = function(*arguments)
             self.left -= 1
             if not self.left:
                 self.shutdown(wait=False, cancel_futures=True)
             return result
-        return super().submit(counted)
+        future = super().submit(counted)
+        self.to_come -= 1
+        if not self.to_come:
+            self.has_all.set()
+        return future
 
 
 def test_runs_that_an_executor_cancels_are_lost_with_an_error(tmp_path):
     """With those that were done, from which the same call goes on."""
     arguments = PLAIN | {"store": tmp_path / "study", "chunk": 2}
     with pytest.raises(zd.WorkerLost, match=r"did not return the runs 4 ... 5, nor 3 other portions: Cancelled") as caught:
-        zd.ensemble(pendulum, 1.0, executor=Cancels(2), **arguments)
+        zd.ensemble(pendulum, 1.0, executor=Cancels(2, 6), **arguments)
     assert caught.value.solution.failed.tolist() == [False] * 4 + [True] * 8
     assert same(zd.ensemble(pendulum, 1.0, **arguments), zd.ensemble(pendulum, 1.0, **PLAIN))
 
