@@ -1,4 +1,4 @@
-/* Full checks of the steps of lanes: selection of the lanes in which they are due, and their energy. */
+/* Full checks of the steps of lanes, in the lanes in which they are due; and the corrections of energy. */
 #include "../step_limits.h"
 
 #include <math.h>

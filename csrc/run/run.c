@@ -1,4 +1,4 @@
-/* Queries of a run: progress, message, statistics. */
+/* Queries of a run: progress, message, statistics; and the table of statuses. */
 #include "run.h"
 
 #include <stddef.h>

@@ -292,7 +292,6 @@ def test_a_length_that_the_drives_do_not_allow_is_refused_by_their_names_and_oth
         for (const length of [0.31, 3.9, 0.29, 0.305, 0.2])
           try { zd.setParameter(m, "rod.length", length); tell(zd.violation(m)); } catch (error) { tell(error.message); }
     """, it=data)
-    refused_by_drive = ("the values that the start holds and the drives cannot be met together; "
-                        "the nearest positions miss 'drive' by ")
+    refused_by_drive = "drives and couplings must be possible with these values: the nearest positions miss 'drive' by "
     assert [each.startswith(refused_by_drive) if isinstance(each, str) else each < 1e-11 for each in told] == [True] * 5
     assert [isinstance(each, str) for each in told] == [False, False, True, False, True]

@@ -1,4 +1,4 @@
-/* Drives of the open run of a block that cannot be met: at a dead point, or with other lengths. */
+/* Explanation of drives that an open run of a block cannot follow: at a dead point, or with changed lengths. */
 #include <math.h>
 #include <string.h>
 
@@ -11,25 +11,28 @@ static const double STEPS_AHEAD = 4;    /* number of fixed steps in which a dead
 static const double AHEAD = 1e-3;       /* s: the same with adaptive steps */
 static const double MET = 1e-9;         /* relative to its size: residual of a drive that is met */
 enum { NAME = 64 };
+/* Numbers of a relation and of a measure in a block, in the order of structures.c. */
+enum { FIRST_TERM, TERMS, NONHOLONOMIC, LAW, CONSTANT, SLOPE, KIND = 2, QUANTITY, SIZE };
 
 static double length_of(const zd_block *block) { return block->layout.part[ZD_BLOCK_GRAVITY].word[block->layout.of->dimension]; }
 
-/* Measure of the coordinate that a relation drives; -1: the block has none. */
-static int driven(const zd_block_layout *layout, int relation)
+/* Index of the measure of the coordinate that a relation drives; -1: the block has none. */
+static int measure_of_drive(const zd_block_layout *layout, int relation)
 {
     const double *row = zd_block_entry(layout, ZD_BLOCK_RELATIONS, relation);
     const size_t size = (size_t)layout->part[ZD_BLOCK_QUANTITIES].width * sizeof *row;
-    const double *quantity = zd_block_entry(layout, ZD_BLOCK_QUANTITIES, (int)*zd_block_entry(layout, ZD_BLOCK_TERMS, (int)row[0]));
-    int i = row[1] == 1 ? zd_block_count(layout, ZD_BLOCK_MEASURES) : 0;
+    const double *quantity = zd_block_entry(layout, ZD_BLOCK_QUANTITIES, (int)*zd_block_entry(layout, ZD_BLOCK_TERMS, (int)row[FIRST_TERM]));
+    int i = row[TERMS] == 1 ? zd_block_count(layout, ZD_BLOCK_MEASURES) : 0;
     while (i--) {
         const double *measure = zd_block_entry(layout, ZD_BLOCK_MEASURES, i);
-        if (zd_block_is(measure[2], ZD_VALUES) && zd_block_is(measure[4], 1)
-            && !memcmp(quantity, zd_block_entry(layout, ZD_BLOCK_QUANTITIES, (int)measure[3]), size)) break;
+        if (zd_block_is(measure[KIND], ZD_VALUES) && zd_block_is(measure[SIZE], 1)
+            && !memcmp(quantity, zd_block_entry(layout, ZD_BLOCK_QUANTITIES, (int)measure[QUANTITY]), size)) break;
     }
     return i;
 }
 
-/* The mechanism whose drives of speeds prescribe positions, at the present speeds from the present positions on; NULL: it is not made. */
+/* Copy of the mechanism in which drives of speeds prescribe positions: the present ones plus the present speed times the time since. NULL:
+ * without memory, or if the core refuses it. */
 static zd_block *with_positions(struct zd_opened *self, double t)
 {
     zd_block *block = self->block;
@@ -40,11 +43,11 @@ static zd_block *with_positions(struct zd_opened *self, double t)
     for (int i = 0; i < zd_block_count(&block->layout, ZD_BLOCK_RELATIONS); i++) {
         double *row = copy + (zd_block_entry(&block->layout, ZD_BLOCK_RELATIONS, i) - block->word), x, out[4];
         const zd_measured value = {.value = &x};
-        const int measure = driven(&block->layout, i);
-        if (measure < 0 || row[2] == 0) continue;
+        const int measure = measure_of_drive(&block->layout, i);
+        if (measure < 0 || row[NONHOLONOMIC] == 0) continue;
         system->measures->evaluate(system->data, NULL, measure, t, zd_run_p(self->run), self->v, NULL, NULL, &value, self->scratch);
-        if (zd_block_law(&block->laws, (int)row[3], t, &x, self->v, out)) continue;
-        row[2] = 0, row[3] = -1, row[4] = x + out[2] * t, row[5] = -out[2];
+        if (zd_block_law(&block->laws, (int)row[LAW], t, &x, self->v, out)) continue;
+        row[NONHOLONOMIC] = 0, row[LAW] = -1, row[CONSTANT] = x + out[2] * t, row[SLOPE] = -out[2];
     }
     zd_block *made = zd_block_create(copy, block->size, NULL, 0);
     zd_release(copy);
@@ -61,7 +64,7 @@ void zd_opened_explain_reach(struct zd_opened *self)
         const zd_block_layout *layout = &block->layout;
         for (int i = 0; i < mh; i++) {
             const zd_row_owner *owner = block->names.owner + i;
-            measure[i] = owner->owner == ZD_OF_RELATION ? driven(layout, owner->index) : -1;
+            measure[i] = owner->owner == ZD_OF_RELATION ? measure_of_drive(layout, owner->index) : -1;
         }
         const zd_assembly_given given = {.system = &block->system, .t = t, .length = length_of(block)};
         zd_assembly_explain_reach(&given, zd_run_p(self->run), measure, step > 0 ? STEPS_AHEAD * step : AHEAD, self->message,
@@ -71,11 +74,11 @@ void zd_opened_explain_reach(struct zd_opened *self)
     if (block) zd_block_free(block);
 }
 
-/* Writes which relations are missed, by the residuals of all constraints (mh,) in units of their sizes. */
+/* Message with the drives and couplings that are not satisfied, by the residuals of all constraints (mh,) relative to their sizes. */
 static void name_missed(struct zd_opened *self, const double *residual, const double *size)
 {
     zd_complaint to = {self->message, ZD_OPENED_MESSAGE};
-    const char *before = "the values that the start holds and the drives cannot be met together; the nearest positions miss ";
+    const char *before = "drives and couplings must be possible with these values: the nearest positions miss ";
     char name[NAME];
     for (int k = 0; k < self->block->system.mh; k++) {
         if (self->block->names.owner[k].owner != ZD_OF_RELATION || !(fabs(residual[k]) > MET)) continue;

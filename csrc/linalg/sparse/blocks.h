@@ -7,7 +7,7 @@
 
 /* An order in which a symmetric matrix of blocks is eliminated with little fill. */
 
-/* Which blocks of the matrix there are: those of any two block rows that are in one clique. */
+/* Nonzero blocks of the matrix: those of any two block rows that are in one clique. */
 typedef struct zd_pattern {
     int count;              /* block rows */
     const int *size;        /* (count,) rows of each, at least one */

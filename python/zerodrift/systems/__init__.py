@@ -3,7 +3,7 @@
 Each function takes the parameters of its system as keywords, with the units its docstring gives, and returns the system.
 """
 
-from .builtin import FACTORIES, BuiltIn  # noqa: F401  (systems pickled by earlier versions name it here)
+from .builtin import FACTORIES
 
 globals().update(FACTORIES)
 __all__ = list(FACTORIES)

@@ -45,7 +45,7 @@ class MechanismCore(CoreSystem):
     dimension: str                          # "plane" or "space": part of the names in the core
     quantity_kinds: Mapping[str, int]       # the core's numbers of marker quantities, by name
     velocities: int                         # largest number of velocities of a body
-    made_by: Any                            # the core's function that makes the mechanism
+    made_by: Any                            # function of the core that creates the mechanism
 
     def __init__(self, tables: Any, law: Law | None = None, *, laws_know_time: bool = True) -> None:
         self.tables, self._law, self._laws_know_time = tables, law, laws_know_time
@@ -67,7 +67,7 @@ class MechanismCore(CoreSystem):
 
     @classmethod
     def written_tables(cls, tables: Any, has_laws: bool = False, laws_know_time: bool = False) -> tuple[dict[str, Any], Any]:
-        """Fields of the core's tables, and the words that must live as long as the objects made from them."""
+        """Fields of the core's tables, and the texts that must be kept as long as the objects made from them."""
         bodies, joints = (ffi.new(f"zd_{cls.dimension}_{kind}[]", list(entries))
                           for kind, entries in (("body", tables.bodies), ("joint", tables.joints)))
         quantities = ffi.new(f"zd_{cls.dimension}_quantity[]",

@@ -19,12 +19,11 @@ from .registry import Elements
 class StartVerbs(Elements):
     """Method of `Mechanism` for initial values."""
 
-    _is_balanced = False        # also of mechanisms pickled by earlier versions
-
     def __init__(self, parameters: Any) -> None:
         super().__init__(parameters)
         self._held: dict[str, Any] = {}
         self._wished: dict[str, Any] = {}
+        self._is_balanced = False
 
     def start(self, held: Mapping[Any, Any] | None = None, *, wish: Mapping[Any, Any] | None = None,
               equilibrium: bool | None = None) -> None:

@@ -131,9 +131,6 @@ class Bushing(TableForce):
     kind = "bushing"
 
 
-SpaceBushing = Bushing      # in pickles of earlier versions
-
-
 class Force(TableForce):
     """A force at a point along a direction, `Mechanism.force`."""
 
