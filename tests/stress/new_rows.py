@@ -287,7 +287,7 @@ const zd_kind zd_spherical_pendulum = {
         .provides = ZD_M | ZD_FORCE | ZD_PHI | ZD_C | ZD_XI | ZD_POTENTIAL | ZD_TIMELESS,
         .evaluate = evaluate,
     },
-    ZD_PREPARED(given),
+    ZD_PREPARED(sizeof(given) / sizeof(double)),
     .coordinate = coordinate, .velocity = velocity, .constraint = constraint,
     .points = 2, .dimension = 3, .draw = draw,
 };
