@@ -5,17 +5,17 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parent / "site"))
 
-import site_math
-import site_pages
+import equations
+import pages
 
 import zerodrift
 
 project, author, release = "zerodrift", "the zerodrift developers", zerodrift.__version__
 extensions = ["myst_nb", "numpydoc", "sphinx.ext.autodoc", "sphinx.ext.autosummary"]
-exclude_patterns = ["templates", "generated/extra"]
-templates_path = ["templates"]
+exclude_patterns = ["site", "generated/extra"]
+templates_path = ["site/templates"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}
 
 nb_render_markdown_format = "myst"      # with tables
@@ -44,12 +44,12 @@ html_theme_options = {"show_prev_next": False, "navbar_align": "left", "secondar
 html_copy_source = False
 html_domain_indices = False
 html_extra_path = ["generated/extra"]      # films of the gallery
-html_static_path, html_css_files = ["templates/site.css"], ["site.css"]
+html_static_path, html_css_files = ["site/templates/site.css"], ["site.css"]
 html_context = {"default_mode": "auto"}
 
 
 def setup(app: object) -> None:
     """Write the generated pages before Sphinx looks for files; equations are MathML."""
-    app.add_html_math_renderer("mathml", (site_math.inline, None), (site_math.block, None))
-    app.connect("doctree-read", site_math.offline)
-    site_pages.write(Path(__file__).parent / "generated")
+    app.add_html_math_renderer("mathml", (equations.inline, None), (equations.block, None))
+    app.connect("doctree-read", equations.offline)
+    pages.write(Path(__file__).parent / "generated")

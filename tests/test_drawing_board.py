@@ -27,9 +27,9 @@ NODE = shutil.which("node")
 needs_node = pytest.mark.skipif(not NODE, reason="there is no node")
 LARGEST = 1_000_000     # bytes of the page with the core
 
-spec = importlib.util.spec_from_file_location("site_live", ROOT / "notebooks" / "site_live.py")
-site_live = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(site_live)
+spec = importlib.util.spec_from_file_location("live", ROOT / "notebooks" / "site" / "live.py")
+live = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(live)
 
 
 def quick_return():
@@ -71,7 +71,7 @@ def portal():
     return m
 
 
-MECHANISMS = {name: functools.partial(site_live.drawn().__getitem__, name) for name in site_live.drawn()}
+MECHANISMS = {name: functools.partial(live.drawn().__getitem__, name) for name in live.drawn()}
 MECHANISMS |= {"quick return": quick_return, "portal": portal}
 
 
@@ -222,7 +222,7 @@ def server(tmp_path_factory):
     """Address of a folder with the board, on this machine."""
     pytest.importorskip("ziglang")
     folder = tmp_path_factory.mktemp("board")
-    site_live.write(folder)
+    live.write(folder)
     assert sum(each.stat().st_size for each in folder.iterdir()) < LARGEST
     class Quiet(http.server.SimpleHTTPRequestHandler):
         def log_message(self, *_):
@@ -253,7 +253,7 @@ def told(browser):
 
 
 def address(mechanism):
-    return site_live.address(mechanism).partition("#")[2]
+    return live.address(mechanism).partition("#")[2]
 
 
 def on_screen(browser, x, y):

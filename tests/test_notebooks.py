@@ -6,7 +6,7 @@ import tolerances as tol
 from covering import WHOLE
 from support import ROOT
 
-NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+NOTEBOOKS = sorted((ROOT / "notebooks").glob("*/*.ipynb"))
 
 
 def read(path):

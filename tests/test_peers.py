@@ -99,7 +99,7 @@ def test_a_peer_that_is_installed_finds_the_same_motion(chain, peer):
     ("PyDy", "pydy", 1e-3)])                # its crank is driven by a torque, and slower by 1e-4
 def test_the_reaction_on_the_page_for_newcomers_is_ours(heading, package, close):
     pytest.importorskip(package)
-    page = (ROOT / "notebooks" / "coming_from.md").read_text(encoding="utf-8")
+    page = (ROOT / "notebooks" / "start" / "coming_from.md").read_text(encoding="utf-8")
     ours, theirs = {}, {}
     exec(page.partition("```python\n")[2].partition("```")[0].replace("m, 1.0)", "m, 0.01, step=1e-4)"), ours)
     exec(page.partition(f"## {heading}\n")[2].partition("```{code-block} python\n")[2].partition("```")[0], theirs)

@@ -16,11 +16,11 @@ from support import ROOT, environment_of_tests
 PAGES = ROOT / "notebooks"
 PACKAGES = ("sphinx", "myst_nb", "numpydoc", "pydata_sphinx_theme", "latex2mathml")
 LOOKS = [(1280, False), (400, True), (1280, True), (400, False)]       # width in points, and whether it is dark
-FIRST = ("index", "how_to", "computation", "generated/gallery", "generated/errors", "generated/models/jansen")     # in all looks
+FIRST = ("index", "use/how_to", "theory/computation", "generated/gallery", "generated/errors", "generated/models/jansen")     # in all looks
 
 
-@pytest.mark.parametrize("page", ["index", "how_to", "tried", "coming_from", "outside_python", "beyond_double_precision",
-                                  "drawing_board"])
+@pytest.mark.parametrize("page", ["index", "use/how_to", "start/coming_from", "use/outside_python", "evidence/beyond_double_precision",
+                                  "start/drawing_board", "../tests/bench/tried"])
 def test_code_of_pages_runs(page, tmp_path, monkeypatch, capsys):
     matplotlib.use("Agg")
     monkeypatch.chdir(tmp_path)
@@ -58,12 +58,12 @@ def site(tmp_path_factory):
 def test_the_site_builds_without_a_warning(site):
     messages = site / "messages"
     assert not messages.exists() or messages.read_text(encoding="utf-8") == ""
-    for page in ("index", "how_to", "generated/errors", "generated/api/zerodrift.simulate"):
+    for page in ("index", "use/how_to", "generated/errors", "generated/api/zerodrift.simulate"):
         assert (site / f"{page}.html").is_file()
 
 
 def test_pages_need_no_network_and_pictures_have_words(site):
-    equations = (site / "computation.html").read_text(encoding="utf-8")
+    equations = (site / "theory" / "computation.html").read_text(encoding="utf-8")
     assert equations.count("<math") > 60
     assert 'id="equation-25a"' in equations
     for written in site.rglob("*.html"):

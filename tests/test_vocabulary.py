@@ -1,4 +1,4 @@
-"""The vocabulary of the project's texts: `notebooks/glossary.md` names the terms, this the phrases that are refused. Identifiers
+"""The vocabulary of the project's texts: `notebooks/theory/glossary.md` names the terms, this the phrases that are refused. Identifiers
 that were replaced stand in `older_identifiers.csv`: * for any end of a name, and the files in which a short word is refused.
 
 ``python tests/test_vocabulary.py [file or folder ...]`` lists what is refused there.
@@ -16,7 +16,7 @@ from support import ROOT
 from vocabulary import PAGES, PYTHON, C, code_files, identifiers, texts
 
 PLACES = (PYTHON, C, PAGES, "README.md", "tests")
-GLOSSARY = "notebooks/glossary.md"      # it names the older words
+GLOSSARY = "notebooks/theory/glossary.md"      # it names the older words
 REFUSED = (
     "general road", "direct road", r"(?<!\ba )(?<!\ba ``)\broads?\b", "rows that count",
     r"what is left of a", "natural units", "somebody",

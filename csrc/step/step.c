@@ -1,4 +1,4 @@
-/* One step of a run. Numbers of equations are the paper's, notebooks/computation.md; C is the Jacobian of the constraints, and y the
+/* One step of a run. Numbers of equations are the paper's, notebooks/theory/computation.md; C is the Jacobian of the constraints, and y the
  * integrated state: (p, v), or fewer variables from which these follow. In order:
  *
  *  1. zd_step(): choose the integrated variables and the evaluation path, by matrices or in closed form (paths/choose.c), once for the step;

@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Iterable
 from pathlib import Path
 
-import site_live
+import live
 
 import zerodrift as zd
 from zerodrift import errors, gallery
@@ -33,8 +33,8 @@ def write(folder: Path) -> None:
              "reference": reference(), **dict(films(folder))}
     (folder / "models").mkdir(exist_ok=True)
     figures(folder)
-    site_live.write(folder / "extra")
-    for name, lines in {"front.html": front(), "cards.html": cards(), "boards.html": site_live.boards(), **{f"{page}.md": text for page, text in pages.items()}}.items():
+    live.write(folder / "extra")
+    for name, lines in {"front.html": front(), "cards.html": cards(), "boards.html": live.boards(), **{f"{page}.md": text for page, text in pages.items()}}.items():
         path, text = folder / name, "\n".join(lines) + "\n"
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
@@ -46,9 +46,9 @@ def front() -> Iterable[str]:
     yield zd.view(sol, path="F", forces=["Y bed", "W"], graphs=["F.position.y"])._repr_html_()
 
 
-CARDS = (("a_mechanism_in_ten_minutes", "slider_crank", "Ten minutes", "a mechanism of your own, a reaction, a film"),
+CARDS = (("start/a_mechanism_in_ten_minutes", "slider_crank", "Ten minutes", "a mechanism of your own, a reaction, a film"),
          ("generated/gallery", "stewart_platform", "Gallery", "36 known mechanisms, in the plane and in space"),
-         ("which_settings", "closed_pendulum", "Which settings", "none at first; then the error that you want"),
+         ("use/which_settings", "closed_pendulum", "Which settings", "none at first; then the error that you want"),
          ("generated/errors", "four_bars", "When it stops", "each message: causes, cures, an example"))
 
 
@@ -167,10 +167,10 @@ def films(folder: Path) -> Iterable[tuple[str, Iterable[str]]]:
     kept = folder / "graphs.json"
     known = json.loads(kept.read_text(encoding="utf-8")) if kept.exists() else {}
     shown = {each.name: each for each in gallery.exhibits()}
-    site_live.lives(folder / "extra" / "live")
+    live.lives(folder / "extra" / "live")
     for exhibit in shown.values():
         path = folder / "extra" / "films" / f"{exhibit.name}.html"
-        if not site_live.is_current(path) or exhibit.name not in known:
+        if not live.is_current(path) or exhibit.name not in known:
             sol = exhibit.run()
             film = zd.view(sol, path=list(exhibit.path), speed=exhibit.speed, graphs=plotted(sol))
             path.with_suffix(".png").write_bytes(base64.b64decode(film._still()))

@@ -16,7 +16,7 @@ from zerodrift.export import wasm
 from zerodrift.mechanisms.files.to_json import described
 from zerodrift.player.live import live_view, player
 
-BOARD = Path(__file__).parent / "board"
+BOARD = Path(__file__).parent.parent / "board"
 SCRIPTS = ("model.js", "block.js", "python.js", "edit.js", "fields.js", "picture.js", "board.js")      # what a script uses stands before it
 
 
@@ -97,7 +97,7 @@ def drawn() -> dict[str, zd.Mechanism]:
 def address(mechanism: zd.Mechanism) -> str:
     """Address on which the drawing board opens a mechanism."""
     data = json.dumps(described(mechanism._drawing()), separators=(",", ":")).encode()
-    return "board.html#m=" + base64.urlsafe_b64encode(data).decode("ascii").rstrip("=")
+    return "../board.html#m=" + base64.urlsafe_b64encode(data).decode("ascii").rstrip("=")
 
 
 def boards() -> Iterable[str]:

@@ -1,4 +1,4 @@
-"""Writes the picture of the README, with the package as it is: ``python notebooks/pictures.py``. Notebooks hold their own pictures."""
+"""Writes the picture of the README, with the package as it is: ``python notebooks/site/pictures.py``. Notebooks hold their own pictures."""
 
 from __future__ import annotations
 
