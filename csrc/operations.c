@@ -30,7 +30,7 @@ static zd_run *accelerated(const zd_system *system, int formulation, enum zd_on_
     if (!*status) *status = zd_check_quaternions(system, p, 0, message, message_size);
     zd_run *run = *status ? NULL : zd_run_open(system, &settings, t, p, v, status, message, message_size);
     if (!run) return NULL;
-    if (!*status) *status = zd_stepper_place(&run->stepper, t, p, v);
+    if (!*status) *status = zd_stepper_set_state(&run->stepper, t, p, v);
     if (!*status) *status = zd_motion_accelerate(&run->motion);
     if (!*status && !zd_is_finite(system->nv, run->motion.point->vdot)) *status = ZD_NOT_FINITE;
     return run;
@@ -75,13 +75,13 @@ int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const
     return status;
 }
 
-int zd_read_given(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
+int zd_read_states(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
                   const double *multipliers, double *u)
 {
     int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system), k = system->reading->functions;
     int status = ZD_DONE;
     for (int64_t i = 0; i < rows && !status; i++)
-        status = zd_reactions_given(system, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m, u + i * k);
+        status = zd_reactions_at(system, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m, u + i * k);
     return status;
 }
 
@@ -213,7 +213,7 @@ static int project_positions(const zd_system *system, const zd_settings *setting
 static zd_constraint_target target_of(const zd_settings *settings)
 {
     zd_constraint_target target = {0};
-    for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) {
+    for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS); row++) {
         const zd_correction *correction = zd_correction_of(row);
         if (settings->correction[row].given && correction->target) target = correction->target(settings->correction[row].value);
     }

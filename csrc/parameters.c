@@ -5,16 +5,16 @@
 
 #include "registry.h"
 
-zd_given zd_initial(const zd_card *card)
+zd_parameter_values zd_initial(const zd_card *card)
 {
-    zd_given initial = {1, {0}};
+    zd_parameter_values initial = {1, {0}};
     double *value = initial.value;
     for (int i = 0; i < card->parameters; value += card->parameter[i++].size)
         memcpy(value, card->parameter[i].initial, (size_t)card->parameter[i].size * sizeof *value);
     return initial;
 }
 
-double *zd_value_named(zd_given *given, const zd_card *card, const char *name)
+double *zd_value_named(zd_parameter_values *given, const zd_card *card, const char *name)
 {
     double *value = given->value;
     for (int i = 0; i < card->parameters; value += card->parameter[i++].size)
@@ -58,11 +58,11 @@ static int check_rules(const zd_card *card, const double *value, char *message, 
     return ZD_DONE;
 }
 
-int zd_check_given(enum zd_table table, int row, const zd_given *given, char *message, int message_size)
+int zd_check_parameter_values(enum zd_table table, int row, const zd_parameter_values *given, char *message, int message_size)
 {
     if (!given->given) return ZD_DONE;
     const size_t size = (size_t)message_size;
-    int status = check_rules(zd_row(table, row), given->value, message, size);
+    int status = check_rules(zd_entry_card(table, row), given->value, message, size);
     if (status || table != ZD_CORRECTIONS) return status;
     const zd_correction *correction = zd_correction_of(row);
     return correction->clash && correction->clash(given->value, message, size) ? ZD_BAD_ARGUMENT : ZD_DONE;

@@ -47,7 +47,7 @@ int zd_formulation_suits(const zd_system *system, int formulation)
     return row && (!row->suits || row->suits(system));
 }
 
-int zd_rows(enum zd_table table)
+int zd_entry_count(enum zd_table table)
 {
     switch (table) {
     case ZD_SYSTEMS: return COUNT(kinds);
@@ -58,22 +58,22 @@ int zd_rows(enum zd_table table)
     return 0;
 }
 
-int zd_row_named(enum zd_table table, const char *name)
+int zd_entry_named(enum zd_table table, const char *name)
 {
-    for (int row = 0; row < zd_rows(table); row++)
-        if (!strcmp(zd_row(table, row)->name, name)) return row;
+    for (int row = 0; row < zd_entry_count(table); row++)
+        if (!strcmp(zd_entry_card(table, row)->name, name)) return row;
     return -1;
 }
 
-int zd_default_row(enum zd_table table)
+int zd_default_entry(enum zd_table table)
 {
     static const char *const name[] = {"four_bar", "schur", "rk4", "projection"};
-    return zd_row_named(table, name[table]);
+    return zd_entry_named(table, name[table]);
 }
 
-const zd_card *zd_row(enum zd_table table, int row)
+const zd_card *zd_entry_card(enum zd_table table, int row)
 {
-    if (row < 0 || row >= zd_rows(table)) return NULL;
+    if (row < 0 || row >= zd_entry_count(table)) return NULL;
     switch (table) {
     case ZD_SYSTEMS: return &kinds[row]->card;
     case ZD_FORMULATIONS: return &formulations[row]->card;

@@ -80,7 +80,7 @@ void zd_memory_free(zd_memory *memory)
     zd_release(memory);
 }
 
-int zd_memory_keep(zd_memory *memory)
+int zd_memory_save(zd_memory *memory)
 {
     if (!memory->image) memory->image = zd_allocate(memory->bytes);
     if (memory->image) memcpy(memory->image, memory->base, memory->bytes);

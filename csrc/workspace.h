@@ -17,13 +17,13 @@ typedef struct zd_memory {
     struct zd_memory *previous;     /* in a store */
     size_t bytes;
     unsigned char *base, *has_numbers;
-    unsigned char *image;   /* (bytes,): copy from zd_memory_keep(); NULL: none */
+    unsigned char *image;   /* (bytes,): copy from zd_memory_save(); NULL: none */
 } zd_memory;
 
 /* A zeroed block; NULL if there is no memory. */
 zd_memory *zd_memory_create(size_t bytes);
 void zd_memory_free(zd_memory *memory);
-int zd_memory_keep(zd_memory *memory);      /* copies the block to its image; nonzero if there is no memory */
+int zd_memory_save(zd_memory *memory);      /* copies the block to its image; nonzero if there is no memory */
 static inline zd_arena zd_arena_in(zd_memory *memory) { return (zd_arena){memory->base, 0, memory->has_numbers}; }
 
 void *zd_arena_bytes(zd_arena *arena, size_t bytes);

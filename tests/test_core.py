@@ -77,6 +77,6 @@ def test_whatever_is_handed_in_does_no_harm(tmp_path, core_objects):
 
 @needs_compiler
 def test_the_public_header_stands_alone(tmp_path):
-    (tmp_path / "alone.c").write_text('#include "zerodrift.h"\nint main(void) { return zd_rows(ZD_SYSTEMS) == 0; }\n')
+    (tmp_path / "alone.c").write_text('#include "zerodrift.h"\nint main(void) { return zd_entry_count(ZD_SYSTEMS) == 0; }\n')
     strict = [CC, "-std=c11", "-I", CSRC, "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "alone.c"]
     subprocess.run(strict, cwd=tmp_path, check=True)

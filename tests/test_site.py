@@ -16,11 +16,12 @@ from support import ROOT, environment_of_tests
 PAGES = ROOT / "notebooks"
 PACKAGES = ("sphinx", "myst_nb", "numpydoc", "pydata_sphinx_theme", "latex2mathml")
 LOOKS = [(1280, False), (400, True), (1280, True), (400, False)]       # width in points, and whether it is dark
-FIRST = ("index", "use/how_to", "theory/computation", "generated/gallery", "generated/errors", "generated/models/jansen")     # in all looks
+# In all looks.
+FIRST = ("index", "use/how_to", "theory/computation", "generated/gallery", "generated/errors", "generated/models/jansen")
 
 
-@pytest.mark.parametrize("page", ["index", "use/how_to", "start/coming_from", "use/outside_python", "evidence/beyond_double_precision",
-                                  "start/drawing_board", "../tests/bench/tried"])
+@pytest.mark.parametrize("page", ["index", "use/how_to", "start/coming_from", "use/outside_python",
+                                  "evidence/beyond_double_precision", "start/drawing_board", "../tests/bench/tried"])
 def test_code_of_pages_runs(page, tmp_path, monkeypatch, capsys):
     matplotlib.use("Agg")
     monkeypatch.chdir(tmp_path)

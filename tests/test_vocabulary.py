@@ -1,5 +1,6 @@
-"""The vocabulary of the project's texts: `notebooks/theory/glossary.md` names the terms, this the phrases that are refused. Identifiers
-that were replaced stand in `older_identifiers.csv`: * for any end of a name, and the files in which a short word is refused.
+"""The vocabulary of the project's texts: `notebooks/theory/glossary.md` names the terms, this the phrases that are refused.
+Identifiers that were replaced stand in `older_identifiers.csv`: * for any end of a name, and the files in which a short word
+is refused.
 
 ``python tests/test_vocabulary.py [file or folder ...]`` lists what is refused there.
 """

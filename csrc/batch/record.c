@@ -3,7 +3,7 @@
 
 static int record_sample(zd_run *run, double t, const double *p, const double *v, double input, zd_record *record)
 {
-    int status = zd_stepper_place(&run->stepper, t, p, v);
+    int status = zd_stepper_set_state(&run->stepper, t, p, v);
     if (run->motion.balance.input) run->stepper.y[run->motion.rate.size - 1] = input;
     return status ? status : zd_recorder_add(&run->recorder, record);
 }

@@ -67,7 +67,7 @@ enum zd_block_code {
     ZD_CODE_LESS, ZD_CODE_LESS_EQUAL, ZD_CODE_GREATER, ZD_CODE_GREATER_EQUAL, ZD_CODE_EQUAL, ZD_CODE_UNEQUAL,     /* 1 if true, else 0 */
     ZD_CODE_AND, ZD_CODE_OR, ZD_CODE_NOT,
     ZD_CODE_CHOOSE,         /* b if a is not 0, otherwise c */
-    ZD_CODE_INPUT,          /* number b (0, 1 or 2) of the place of input a, see zd_input_place */
+    ZD_CODE_INPUT,          /* number b (0, 1 or 2) of the place of input a, see zd_input_slot */
     ZD_CODE_SPLINE,         /* spline a (its number) at value b, derivative of order c (a number: 0, 1 or 2); fails beyond its ends */
     ZD_CODE_POWER, ZD_CODE_ROOT, ZD_CODE_SIN, ZD_CODE_COS, ZD_CODE_TAN, ZD_CODE_ASIN, ZD_CODE_ACOS, ZD_CODE_ATAN, ZD_CODE_ATAN2,
     ZD_CODE_SINH, ZD_CODE_COSH, ZD_CODE_TANH, ZD_CODE_ASINH, ZD_CODE_ACOSH, ZD_CODE_ATANH, ZD_CODE_EXP, ZD_CODE_LOG, ZD_CODE_ABS,

@@ -22,7 +22,7 @@ typedef struct gaps {
     double *Phi, *v, *scratch;              /* (mh,); (nv,) zeros; of the system */
     double *open;                           /* (joints,): m; largest residual where loops are not named, m or rad */
     double *p;                              /* (nq,) with the smallest gaps */
-    int *row, *of_loop;                     /* (mh,) of zd_assembly_given; (bodies + 1 + joints,) */
+    int *row, *of_loop;                     /* (mh,) of zd_assembly_problem; (bodies + 1 + joints,) */
 } gaps;
 
 static gaps create(zd_arena *arena, const zd_block *block)
@@ -46,7 +46,7 @@ static int read_gaps(const gaps *self, const double *p)
     const int status = system->evaluate(system->data, ZD_PHI | ZD_MOVED, 0, p, self->v, &terms);
     memset(self->open, 0, (size_t)zd_block_count(&block->layout, ZD_BLOCK_JOINTS) * sizeof *self->open);
     for (int row = 0; !status && row < system->mh; row++) {
-        const zd_row_owner *owner = block->names.owner + row;
+        const zd_constraint_owner *owner = block->names.owner + row;
         if (owner->owner != ZD_OF_JOINT) continue;
         double *open = self->open + owner->index;
         if (!self->names_loops) *open = fmax(*open, fabs(self->Phi[row]));
@@ -89,11 +89,11 @@ static int close_joint(const gaps *self, const double *p, int joint)
 {
     const zd_system *system = zd_block_system(self->block);
     for (int row = 0; row < system->mh; row++) {
-        const zd_row_owner *owner = self->block->names.owner + row;
+        const zd_constraint_owner *owner = self->block->names.owner + row;
         const int is_closed = owner->owner == ZD_OF_JOINT && (joint < 0 || owner->index == joint);
-        self->row[row] = is_closed ? ZD_ROW_OF_JOINT : ZD_ROW_LEFT_OUT;
+        self->row[row] = is_closed ? ZD_OWNED_BY_JOINT : ZD_OWNED_BY_UNKNOWN_DRIVE;
     }
-    const zd_assembly_given given = {.system = system, .length = length_of(self->block), .row = self->row};
+    const zd_assembly_problem given = {.system = system, .length = length_of(self->block), .row = self->row};
     memcpy(self->p, p, (size_t)system->nq * sizeof *p);
     const int status = zd_assembly_minimize(&given, self->p);
     return status ? status : read_gaps(self, self->p);
@@ -102,7 +102,7 @@ static int close_joint(const gaps *self, const double *p, int joint)
 /* Joint whose loop, taken alone, stays open most; -1: each can close. */
 static int find_open_loop(const gaps *self, const double *p)
 {
-    const zd_row_owner *owner = self->block->names.owner;
+    const zd_constraint_owner *owner = self->block->names.owner;
     double most = CLOSED * length_of(self->block);
     int found = -1;
     for (int row = 0; row < zd_block_system(self->block)->mh; row++) {

@@ -37,7 +37,7 @@ void zd_block_inputs_begin(zd_block *block)
         memory->value[i] = *place = input[4];
         memory->lower[i] = -INFINITY;
         memory->upper[i] = INFINITY;
-        memory->place[i] = (zd_input_place){i, zd_block_is(input[2], ZD_INPUT_SPEED), place};
+        memory->place[i] = (zd_input_slot){i, zd_block_is(input[2], ZD_INPUT_SPEED), place};
     }
     block->inputs = (zd_inputs){.count = count, .value = memory->value, .lower = memory->lower, .upper = memory->upper, .places = count,
                                 .place = memory->place};
@@ -45,7 +45,7 @@ void zd_block_inputs_begin(zd_block *block)
 
 void zd_block_inputs_write(zd_block *block)
 {
-    for (const zd_input_place *place = block->inputs.place; place < block->inputs.place + block->inputs.places; place++) {
+    for (const zd_input_slot *place = block->inputs.place; place < block->inputs.place + block->inputs.places; place++) {
         place->place[0] = block->inputs.value[place->input];
         if (place->is_speed) place->place[1] = place->place[2] = 0;
     }

@@ -54,7 +54,7 @@ struct zd_block_dimension {
     void (*release)(void *mechanism);
     int pose;                   /* numbers of a pose, see zd_block_poses() */
     void (*poses)(const void *mechanism, const double *p, double *poses, double *scratch);
-    void (*name_row)(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size);
+    void (*name_of_constraint)(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size);
     /* p (nq,) at poses, in the coordinates in which gaps are found: in space absolute ones */
     void (*state)(const zd_block *block, const double *poses, double *p);
     /* Coordinates of a body whose inboard joint this is; -1: it is of no kind for trees. NULL: gaps are found without a tree. */

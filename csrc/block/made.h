@@ -24,7 +24,7 @@ int zd_block_law(void *owner, int law, double t, const double *x, const double *
 /* Parts of the name of a row. */
 typedef struct zd_block_names {
     const zd_block_layout *layout;
-    const zd_row_owner *owner;      /* (m,) */
+    const zd_constraint_owner *owner;      /* (m,) */
 } zd_block_names;
 
 /* 1 without names, or if there is one of each body, joint and relation. */
@@ -35,7 +35,7 @@ void zd_block_name_row(const void *names, int row, char *to, int size);
 /* Memory of inputs, (inputs,) each; `speed` has three numbers for each. */
 typedef struct zd_block_inputs_memory {
     double *value, *lower, *upper, *speed;
-    zd_input_place *place;
+    zd_input_slot *place;
 } zd_block_inputs_memory;
 
 struct zd_block {

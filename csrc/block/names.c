@@ -18,12 +18,12 @@ void zd_block_name_row(const void *names, int row, char *to, int size)
 {
     const zd_block_names *self = names;
     const zd_block_layout *layout = self->layout;
-    const zd_row_owner *owner = self->owner + row;
+    const zd_constraint_owner *owner = self->owner + row;
     const int is_of_joint = owner->owner == ZD_OF_JOINT;
     const int before = zd_block_count(layout, ZD_BLOCK_BODIES) + (is_of_joint ? 0 : zd_block_count(layout, ZD_BLOCK_JOINTS));
     to[0] = 0;
     if (!zd_block_count(layout, ZD_BLOCK_NAMES)) return;
     const char *name = zd_block_text(layout, *zd_block_entry(layout, ZD_BLOCK_NAMES, before + owner->index));
     if (!is_of_joint) snprintf(to, (size_t)size, "%s", name);
-    else layout->of->name_row(layout, owner->index, owner->component, name, to, (size_t)size);
+    else layout->of->name_of_constraint(layout, owner->index, owner->component, name, to, (size_t)size);
 }

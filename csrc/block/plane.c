@@ -54,7 +54,7 @@ static const zd_plane_joint_kind *kind_of(const zd_block_layout *layout, int joi
     return zd_plane_joint_kind_of((int)*zd_block_entry(layout, ZD_BLOCK_JOINTS, joint));
 }
 
-static void name_row(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
+static void name_of_constraint(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
 {
     static const char *const word[] = {"x", "y", "angle", "along", "across", "distance", "glide", "skid"};
     const zd_plane_joint_kind *kind = kind_of(layout, joint);
@@ -80,6 +80,7 @@ static int is_angle_row(const zd_block_layout *layout, int joint, int component)
 }
 
 const zd_block_dimension zd_block_plane = {
-    .dimension = 2, .structure = structure, .make = make, .release = release, .pose = 3, .poses = poses, .name_row = name_row,
+    .dimension = 2, .structure = structure, .make = make, .release = release, .pose = 3, .poses = poses,
+        .name_of_constraint = name_of_constraint,
     .state = state, .freedoms = freedoms, .is_angle_row = is_angle_row,
 };

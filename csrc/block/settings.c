@@ -4,9 +4,9 @@
 #include "made.h"
 
 /* Parameters of a method as given. */
-static zd_given given_of(const double *method)
+static zd_parameter_values given_of(const double *method)
 {
-    zd_given given = {1, {0}};
+    zd_parameter_values given = {1, {0}};
     memcpy(given.value, method + 2, sizeof given.value);
     return given;
 }
@@ -17,10 +17,10 @@ static int take_method(const zd_block *block, const double *method, zd_settings 
     if (!zd_block_is_integer(method[0], ZD_FORMULATIONS, ZD_CORRECTIONS + 1) || !name)
         return zd_complain(complaint, "methods of a block must be of a table of methods, and have a name");
     const enum zd_table table = (enum zd_table)(int)method[0];
-    const int row = zd_row_named(table, name);
+    const int row = zd_entry_named(table, name);
     if (row < 0) return zd_complain(complaint, "there is no method '%s' in this core", name);
-    const zd_given given = given_of(method);
-    if (zd_check_given(table, row, &given, complaint.message, complaint.size)) return 0;
+    const zd_parameter_values given = given_of(method);
+    if (zd_check_parameter_values(table, row, &given, complaint.message, complaint.size)) return 0;
     if (table == ZD_FORMULATIONS) to->formulation = row, to->of_formulation = given;
     if (table == ZD_INTEGRATORS) to->integrator = row, to->of_integrator = given;
     if (table == ZD_CORRECTIONS) to->correction[row] = given;
@@ -33,12 +33,12 @@ int zd_block_settings(zd_block *block, zd_settings *settings, char *message, int
     zd_block_inputs_write(block);
     const zd_block_part *methods = block->layout.part + ZD_BLOCK_METHODS, *given = block->layout.part + ZD_BLOCK_SETTINGS;
     *settings = (zd_settings){
-        .formulation = zd_default_row(ZD_FORMULATIONS), .integrator = zd_default_row(ZD_INTEGRATORS), .step = 0.01, .save_every = 1,
+        .formulation = zd_default_entry(ZD_FORMULATIONS), .integrator = zd_default_entry(ZD_INTEGRATORS), .step = 0.01, .save_every = 1,
         .on_singular = ZD_STOP, .outputs = block->outputs.count ? &block->outputs : NULL,
         .inputs = block->inputs.count ? &block->inputs : NULL, .vector = ZD_BASELINE};
     if (!methods->count) {
-        const int correction = zd_default_row(ZD_CORRECTIONS);
-        settings->correction[correction] = zd_initial(zd_row(ZD_CORRECTIONS, correction));
+        const int correction = zd_default_entry(ZD_CORRECTIONS);
+        settings->correction[correction] = zd_initial(zd_entry_card(ZD_CORRECTIONS, correction));
     }
     for (int i = 0; i < methods->count; i++)
         if (!take_method(block, zd_block_entry(&block->layout, ZD_BLOCK_METHODS, i), settings, to)) return ZD_BAD_ARGUMENT;

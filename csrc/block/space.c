@@ -51,7 +51,7 @@ static void poses(const void *mechanism, const double *p, double *poses, double 
     zd_space_tree_poses(mechanism, p, NULL, poses, NULL, scratch);
 }
 
-static void name_row(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
+static void name_of_constraint(const zd_block_layout *layout, int joint, int component, const char *name, char *to, size_t size)
 {
     static const char *const axis[] = {"x", "y", "z"}, *const direction[] = {"axis", "normal", "third"};
     const zd_space_joint_kind *kind = zd_space_joint_kind_of((int)*zd_block_entry(layout, ZD_BLOCK_JOINTS, joint));
@@ -73,6 +73,7 @@ static void state(const zd_block *block, const double *poses, double *p)
 }
 
 const zd_block_dimension zd_block_space = {
-    .dimension = 3, .structure = structure, .make = make, .release = release, .pose = 12, .poses = poses, .name_row = name_row,
+    .dimension = 3, .structure = structure, .make = make, .release = release, .pose = 12, .poses = poses,
+        .name_of_constraint = name_of_constraint,
     .state = state,
 };

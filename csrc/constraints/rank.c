@@ -222,7 +222,7 @@ void zd_rank_use_all(zd_point *point)
 }
 
 /* Sets T of a selection that was kept. Flags of the step are restored, so that later steps are independent of this call. */
-static void express_kept(const zd_point *point)
+static void express_selection(const zd_point *point)
 {
     zd_selection *self = point->rank->selection;
     const int was_ill_conditioned = self->rank->was_ill_conditioned;
@@ -239,14 +239,14 @@ static void express(const zd_point *point)
     self->tolerance = ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE;
     set_rows(point, has_metric(point) ? self->L : NULL);
     set_weights(self);
-    express_kept(point);
+    express_selection(point);
     set_shares(self, self->independent);
     self->is_expressed = 1;
 }
 
 void zd_rank_express_others(const zd_point *point)
 {
-    if (!point->rank->selection->is_expressed) express_kept(point);
+    if (!point->rank->selection->is_expressed) express_selection(point);
 }
 
 static void use_chosen(zd_point *point, int rank)

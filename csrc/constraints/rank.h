@@ -18,7 +18,7 @@ typedef struct zd_selection zd_selection;
 struct zd_rank {
     int n, m, mh;
     int max_rank, max_rank_holonomic;  /* maximum number of independent constraints, all and holonomic; below m, mh if some are redundant */
-    int is_large;           /* 1: the declared structure exceeds ZD_MAX_DENSE_ROWS; dependence is checked at the start only */
+    int is_large;           /* 1: the declared structure exceeds ZD_MAX_DENSE_CONSTRAINTS; dependence is checked at the start only */
     unsigned char *left_out;    /* (m,) if is_large: 1 for constraints found redundant at the start; NULL: none */
     int allows_deficiency;   /* 1: fewer independent constraints are tolerated at a point; 0: they raise ZD_BIFURCATION */
     int is_started;         /* 1: redundant constraints have been determined */
@@ -77,12 +77,13 @@ struct zd_selection {
 /* Largest number of constraints and of velocities of a declared structure for which dense matrices are formed. Beyond, they would
  * dominate the cost, and a small pivot anywhere says nothing about the whole system: bifurcations are not detected, and constraints that
  * are redundant at the start are left out for good. */
-enum { ZD_MAX_DENSE_ROWS = 40, ZD_MAX_DENSE_VELOCITIES = 300 };
+enum { ZD_MAX_DENSE_CONSTRAINTS = 40, ZD_MAX_DENSE_VELOCITIES = 300 };
 static inline int zd_rank_is_of_many(const zd_system *system)
 {
-    int rows = system->structure && system->nv > ZD_MAX_DENSE_VELOCITIES ? ZD_MAX_DENSE_ROWS + 1 : 0;
-    for (int g = 0; system->structure && g < system->structure->groups && rows <= ZD_MAX_DENSE_ROWS; g++) rows += system->structure->rows[g];
-    return rows > ZD_MAX_DENSE_ROWS;
+    int rows = system->structure && system->nv > ZD_MAX_DENSE_VELOCITIES ? ZD_MAX_DENSE_CONSTRAINTS + 1 : 0;
+    for (int g = 0; system->structure && g < system->structure->groups
+        && rows <= ZD_MAX_DENSE_CONSTRAINTS; g++) rows += system->structure->rows[g];
+    return rows > ZD_MAX_DENSE_CONSTRAINTS;
 }
 
 /* Smallest pivot of M relative to its diagonal for which M^-1 serves as a metric. */
@@ -109,7 +110,7 @@ static inline int zd_rank_is_deficient(const zd_point *point)
     return point->rank && (point->rank->lost || point->rows < point->rank->m);
 }
 /* Index of the constraint in row k of point->C. */
-static inline int zd_rank_row(const zd_point *point, int k)
+static inline int zd_independent_constraint(const zd_point *point, int k)
 {
     return zd_rank_is_full(point) ? k : point->rank->selection->row_at[k];
 }
@@ -147,19 +148,19 @@ void zd_rank_name_rows(const zd_point *point, char *to, size_t size);
  * At an ordinary point a quick check shows that all are independent: the products of two rows; the pivots that a formulation computes
  * anyway; or the change since the last full check. Memory for more is allocated only if this is inconclusive. */
 
-enum { ZD_FEW_ROWS = 2 };       /* largest number of constraints checked by their products */
+enum { ZD_FEW_CONSTRAINTS = 2 };       /* largest number of constraints checked by their products */
 
 /* Finds the independent constraints at the point; sets point->rows, point->C. */
-int zd_rows_find(zd_point *point);
-/* Discards a selection kept from an earlier point, so that the next zd_rows_find() selects anew; returns 0 if there was none. */
-int zd_rows_give_up_kept(zd_point *point);
+int zd_find_independent(zd_point *point);
+/* Discards a selection kept from an earlier point, so that the next zd_find_independent() selects anew; returns 0 if there was none. */
+int zd_discard_selection(zd_point *point);
 /* Selects again after a change of the velocity, along which limits are taken. */
 int zd_rows_find_again(zd_point *point);
 
 /* For formulations that check independence themselves: true if no row has shrunk to nearly zero at the point; selection of all
  * constraints. */
 int zd_rows_are_long(const zd_point *point);
-void zd_rows_use_all(zd_point *point);
+void zd_use_all_constraints(zd_point *point);
 
 /* Classification of dependent constraints at the start. */
 

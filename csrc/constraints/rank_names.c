@@ -37,8 +37,8 @@ void zd_rank_name_rows(const zd_point *point, char *to, size_t size)
     for (int i = 0, k = self->selection ? self->selection->independent : 0; i < named && (size_t)length < size; i++, k++) {
         const int row = next_of_others(self, k);
         const char *before = i == 0 ? " " : i == count - 1 ? " and " : ", ";
-        char name[ZD_ROW_NAME];
-        length += snprintf(to + length, size - (size_t)length, "%s%s", before, zd_name_row(point->system, row, name));
+        char name[ZD_CONSTRAINT_NAME];
+        length += snprintf(to + length, size - (size_t)length, "%s%s", before, zd_name_constraint(point->system, row, name));
         if (!self->selection) k = row;
     }
     if (count > named && (size_t)length < size) length += snprintf(to + length, size - (size_t)length, " and %d others", count - named);

@@ -163,7 +163,7 @@ int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular)
         self->is_started = 1;
         return zd_redundancy_sparse_find(point);
     }
-    int status = zd_rows_find(point);
+    int status = zd_find_independent(point);
     self->allows_deficiency = on_singular == ZD_CONTINUE;
     self->is_started = 1;
     if (status || point->rows == self->m) return status;

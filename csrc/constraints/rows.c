@@ -58,7 +58,7 @@ static int reduce(zd_point *point)
 /* True if, in the plain metric, the rows (at most two) may be parallel or zero. */
 ZD_INLINE int are_doubtful(const int n, const int m, zd_rank *self, const double *C)
 {
-    double square[ZD_FEW_ROWS];
+    double square[ZD_FEW_CONSTRAINTS];
     for (int k = 0; k < m; k++) {
         square[k] = zd_dot(n, C + k * n, C + k * n);
         if (!(square[k] > DOUBTFUL * self->start_square[k])) return self->was_ill_conditioned = 1;
@@ -111,7 +111,7 @@ int zd_rows_are_long(const zd_point *point)
     return are_long;
 }
 
-void zd_rows_use_all(zd_point *point)
+void zd_use_all_constraints(zd_point *point)
 {
     zd_rank_use_all(point);
     point->known |= ZD_RANKED;
@@ -127,12 +127,12 @@ static int use_kept(zd_point *point)
     return 1;
 }
 
-/* Finds the independent constraints among more than ZD_FEW_ROWS, or where some are redundant. */
+/* Finds the independent constraints among more than ZD_FEW_CONSTRAINTS, or where some are redundant. */
 static int find_any(zd_point *point)
 {
     zd_rank *self = point->rank;
     if (self->is_large) {
-        zd_rows_use_all(point);
+        zd_use_all_constraints(point);
         return ZD_DONE;
     }
     int status = zd_point_need(point, ZD_C);
@@ -142,24 +142,24 @@ static int find_any(zd_point *point)
     status = need_monitor(self, point->system);
     if (status) return status;
     if (zd_rank_monitor_is_doubtful(self->monitor, point)) return reduce(point);
-    zd_rows_use_all(point);
+    zd_use_all_constraints(point);
     return ZD_DONE;
 }
 
-int zd_rows_find(zd_point *point)
+int zd_find_independent(zd_point *point)
 {
     zd_rank *self = point->rank;
     if (point->known & ZD_RANKED) return ZD_DONE;
-    const int are_few = self->m <= ZD_FEW_ROWS && self->m == self->max_rank && self->m <= self->n && !point->layout;
+    const int are_few = self->m <= ZD_FEW_CONSTRAINTS && self->m == self->max_rank && self->m <= self->n && !point->layout;
     if (!are_few) return find_any(point);
     int status = zd_point_need(point, ZD_C);
     if (status) return status;
     if (ZD_SIZED(are_few_doubtful, self->n, self, point->terms.C)) return reduce(point);
-    zd_rows_use_all(point);
+    zd_use_all_constraints(point);
     return ZD_DONE;
 }
 
-int zd_rows_give_up_kept(zd_point *point)
+int zd_discard_selection(zd_point *point)
 {
     zd_rank_monitor *kept = point->rank->kept;
     const int are_kept = kept && kept->is_known;
@@ -172,5 +172,5 @@ int zd_rows_give_up_kept(zd_point *point)
 int zd_rows_find_again(zd_point *point)
 {
     point->known &= ~(ZD_RANKED | ZD_FACTORED | ZD_COMPLEMENTED | ZD_ACCELERATED);
-    return zd_rows_find(point);
+    return zd_find_independent(point);
 }

@@ -99,7 +99,7 @@ static int position_residual(void *context, double *size)
 
 static int solve_with_identity(projection *self, zd_motion *motion, enum zd_limit what, double *x)
 {
-    int status = zd_motion_find_rows(motion);
+    int status = zd_motion_find_independent(motion);
     if (!status) status = zd_limits_replace(motion->point, what, self->rhs);
     if (status) return status;
     zd_point unit = *motion->point;

@@ -109,7 +109,7 @@ static int factor(void *memory, zd_point *point)
 {
     augmented *self = memory;
     if (self->many) return zd_structured_factor(self->many, point, 0);
-    int status = zd_rows_find(point), size = self->n + point->rows;
+    int status = zd_find_independent(point), size = self->n + point->rows;
     if (status) return status;
     self->m = point->rows;
     const double *M = zd_dense_M(point, self->M), *C = zd_dense_C(point, self->C);
@@ -152,7 +152,7 @@ const zd_formulation zd_augmented = {
         .reference = "E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, Allyn and Bacon, 1989",
     },
     ZD_DEPENDENT_STATE,
-    .takes_many_rows = ZD_MANY_ROWS,
+    .many_constraints = ZD_MANY_CONSTRAINTS,
     .has_matrices_evaluated = 1,
     .create = create,
     .lend_workspace = lend_workspace,

@@ -49,7 +49,8 @@ static int choose(zd_complement *self, zd_point *point)
 {
     for (int k = 0; k < self->m; k++)       /* characteristic scales */
         for (int j = 0; j < self->n; j++)
-            self->choice[k * self->n + j] = self->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, k)];
+            self->choice[k * self->n + j] = self->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_independent_constraint(point,
+                                                                                                                                      k)];
     int rank = zd_choose_columns(self->m, self->n, 0, self->choice, self->order);
     point->failed_index = rank;
     self->chosen = rank == self->m;
@@ -156,7 +157,7 @@ int zd_complement_at(zd_complement *self, zd_point *point)
 {
     if (point->known & ZD_COMPLEMENTED) return ZD_DONE;
     int status = zd_point_need(point, self->is_provided ? ZD_C | ZD_COMPLEMENT : ZD_C);
-    if (!status) status = zd_rows_find(point);
+    if (!status) status = zd_find_independent(point);
     if (!status) status = take_rows(self, point);
     if (!status) status = self->own ? adopt(self, point) : partition(self, point);
     if (!status) point->known |= ZD_COMPLEMENTED;
@@ -212,7 +213,7 @@ static int enforce(const zd_complement *self, zd_point *point, double *x)
     double *all = point->rank->rhs, *rhs = point->rhs;
     for (int k = 0; k < zd_constraints(point->system); k++) all[k] = Phi_t ? -Phi_t[k] : 0;
     int status = zd_limits_replace(point, ZD_LIMIT_ENFORCED, all);
-    for (int k = 0; k < self->m; k++) rhs[k] = all[zd_rank_row(point, k)];
+    for (int k = 0; k < self->m; k++) rhs[k] = all[zd_independent_constraint(point, k)];
     if (!status) zd_complement_particular(self, rhs, x);
     return status;
 }

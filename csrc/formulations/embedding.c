@@ -94,7 +94,7 @@ static int need_rows(zd_embedding *self, zd_point *point)
 {
     int status = zd_point_need(point, ZD_C | ZD_A);
     if (status || !self->mh) return status;
-    status = zd_rows_find(point);
+    status = zd_find_independent(point);
     if (!status) self->C = zd_dense_C(point, self->memory);
     return !status && point->holonomic != self->mh ? ZD_BIFURCATION : status;
 }
@@ -110,7 +110,7 @@ static int factor(zd_embedding *self, zd_point *point)
     for (int k = 0; k < self->mh; k++) {
         double sum = 0;
         for (int j = 0; j < nv; j++) sum += fabs(self->K[k * nv + j] = self->C[k * nv + j]) * point->unit[j];
-        gradient = fmax(gradient, sum * point->inverse_size[zd_rank_row(point, k)]);
+        gradient = fmax(gradient, sum * point->inverse_size[zd_independent_constraint(point, k)]);
     }
     for (int k = 0; k < self->k; k++) fill_row(self, point, k, self->K + (self->mh + k) * nv);
     self->rounding = 16 * 0x1p-52 * gradient * fmax(1, zd_max_scaled(self->nq, point->p, point->inverse_unit_p));
@@ -132,7 +132,7 @@ static int find_resolution(const zd_embedding *self, zd_point *point, double *re
 {
     *resolution = self->rounding;
     if (!point->rank->was_doubtful) return ZD_DONE;
-    int status = zd_rows_find(point);
+    int status = zd_find_independent(point);
     if (!status && point->rank->lost) *resolution = fmax(self->rounding, ZD_RANK_TOLERANCE * ZD_RANK_TOLERANCE);
     return status;
 }
@@ -145,11 +145,11 @@ static int find_violation(const zd_embedding *self, zd_point *point, double *siz
     double resolution = 0, Phi = self->mh ? zd_point_violation(point) : 0, others = 0;
     int status = find_resolution(self, point, &resolution);
     if (!status && point->system->mh > self->mh) {
-        status = zd_rows_find(point);
+        status = zd_find_independent(point);
         others = Phi;
         Phi = 0;
         for (int k = 0; k < self->mh; k++) {
-            const int row = zd_rank_row(point, k);
+            const int row = zd_independent_constraint(point, k);
             Phi = fmax(Phi, fabs(point->terms.Phi[row]) * point->inverse_size[row]);
         }
     }
@@ -176,7 +176,8 @@ static int improve(void *context)
     zd_point *point = it->point;
     int status = factor(self, point);
     if (status) return status;
-    for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->lost ? -point->terms.Phi[zd_rank_row(point, k)] : 0;
+    for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->lost
+        ? -point->terms.Phi[zd_independent_constraint(point, k)] : 0;
     zd_embedding_coordinates(self, point, self->delta + self->mh);
     for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - self->delta[self->mh + k];
     zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
@@ -280,7 +281,7 @@ static int choose_increments(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh;
     for (int i = 0; i < mh; i++)
         for (int j = 0; j < nv; j++)
-            self->choice[i * nv + j] = self->C[i * nv + j] * point->unit[j] * point->inverse_size[zd_rank_row(point, i)];
+            self->choice[i * nv + j] = self->C[i * nv + j] * point->unit[j] * point->inverse_size[zd_independent_constraint(point, i)];
     point->failed_index = zd_choose_columns(mh, nv, 0, self->choice, self->order);
     if (point->failed_index < mh) return ZD_DEPENDENT_ROWS;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k];
@@ -293,7 +294,8 @@ static int choose(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < columns; i++)
-            self->choice[j * columns + i] = point->unit[j] * (i < mh ? self->C[i * nv + j] * point->inverse_size[zd_rank_row(point, i)]
+            self->choice[j * columns + i] = point->unit[j] * (i < mh
+                ? self->C[i * nv + j] * point->inverse_size[zd_independent_constraint(point, i)]
                                                                    : zd_entry_of_A(point, i - mh, j) * point->inverse_unit_p[i - mh]);
     point->failed_index = zd_choose_columns(nv, columns, mh, self->choice, self->order);
     if (point->failed_index < nv) return ZD_DEPENDENT_ROWS;

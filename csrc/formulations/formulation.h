@@ -6,8 +6,8 @@
 
 enum zd_many {
     ZD_FEW_ROWS_ONLY,
-    ZD_MANY_ROWS,
-    ZD_MANY_ROWS_WITHOUT_A,     /* only if pdot = v */
+    ZD_MANY_CONSTRAINTS,
+    ZD_MANY_CONSTRAINTS_WITHOUT_A,     /* only if pdot = v */
 };
 
 /* Components of a state in independent velocities, if they are entries of p and v: all or some entries of p, then some of v. */
@@ -21,7 +21,7 @@ typedef struct zd_formulation {
     zd_card card;
     int drifts_from;        /* ZD_PHI, ZD_C: the constraints (3), (5) that its solutions drift from */
     int inverts_mass;       /* 1: M must be positive definite; 0: only on the velocities that satisfy the constraints */
-    enum zd_many takes_many_rows;   /* support of declared structures with many constraints without dense matrices */
+    enum zd_many many_constraints;   /* support of declared structures with many constraints without dense matrices */
     int has_matrices_evaluated; /* 1: factor() of such a structure evaluates M and C itself, if needed */
     int (*suits)(const zd_system *system);      /* true if the system is supported; NULL: all are */
     /* The system of both has only the independent constraints. */
@@ -30,7 +30,7 @@ typedef struct zd_formulation {
     /* Factors the leading matrix at the point, from M and the independent rows of C. */
     int (*factor)(void *self, zd_point *point);
     /* True if factor() of this system itself shows the independence of the constraints, as it orthogonalizes them; NULL: it never does. */
-    int (*finds_rows)(const zd_system *system);
+    int (*finds_independent)(const zd_system *system);
     /* Work space Q (m, n) and G (m, m), m <= n, that factor() does not use before the independent constraints are known, and that their
      * selection may use meanwhile; NULL: there is none. */
     void (*lend_workspace)(void *self, double **Q, double **G);
@@ -56,11 +56,11 @@ typedef struct zd_formulation {
     void (*pick)(const void *self, const zd_point *point, const double *pdot, const double *vdot, double *ydot);
 } zd_formulation;
 
-/* True if no dense matrices are formed for this system: see ZD_MAX_DENSE_ROWS. */
-static inline int zd_takes_many_rows(const zd_formulation *self, const zd_system *system)
+/* True if no dense matrices are formed for this system: see ZD_MAX_DENSE_CONSTRAINTS. */
+static inline int zd_has_many_constraints(const zd_formulation *self, const zd_system *system)
 {
-    const int takes = self->takes_many_rows == ZD_MANY_ROWS
-                   || (self->takes_many_rows == ZD_MANY_ROWS_WITHOUT_A && !(system->provides & ZD_A));
+    const int takes = self->many_constraints == ZD_MANY_CONSTRAINTS
+                   || (self->many_constraints == ZD_MANY_CONSTRAINTS_WITHOUT_A && !(system->provides & ZD_A));
     return takes && zd_rank_is_of_many(system);
 }
 

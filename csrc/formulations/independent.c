@@ -23,7 +23,7 @@ static int suits(const zd_system *system) { return system->nq == system->nv + sy
 static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     (void)given;
-    if (zd_takes_many_rows(&zd_independent, system)) {
+    if (zd_has_many_constraints(&zd_independent, system)) {
         independent self = {.minimal = zd_minimal_create_many(arena, system)};
         return zd_arena_copy(arena, &self, sizeof self);
     }
@@ -161,7 +161,7 @@ const zd_formulation zd_independent = {
                      "constrained dynamic systems, Journal of Mechanical Design 104 (1982) 247-255",
     },
     .drifts_from = 0,
-    .takes_many_rows = ZD_MANY_ROWS_WITHOUT_A,
+    .many_constraints = ZD_MANY_CONSTRAINTS_WITHOUT_A,
     .suits = suits,
     .state_size = state_size,
     .create = create,

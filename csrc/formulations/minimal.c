@@ -199,7 +199,7 @@ int zd_minimal_tangents(zd_minimal *self, zd_point *point, const double *Psi_alo
     const int nq = point->system->nq, n = point->system->nv, m = zd_constraints(point->system);
     if (self->many || complement->own || point->rank->lost) return ZD_SINGULAR;
     for (int i = 0; i < positions; i++, T += nq + n) {
-        for (int k = 0; k < complement->m; k++) point->rhs[k] = -Psi_along[i * m + zd_rank_row(point, k)];
+        for (int k = 0; k < complement->m; k++) point->rhs[k] = -Psi_along[i * m + zd_independent_constraint(point, k)];
         zd_complement_particular(complement, point->rhs, T + nq);           /* (14): C dv = -Psi_p dp, with du = 0, */
     }
     for (int j = 0; j < self->size; j++, T += nq + n) {

@@ -84,7 +84,7 @@ const zd_formulation zd_mixed = {
                      "systems, Multibody System Dynamics 7 (2002) 265-284, section 2.3",
     },
     .drifts_from = ZD_PHI,
-    .takes_many_rows = ZD_MANY_ROWS,
+    .many_constraints = ZD_MANY_CONSTRAINTS,
     .state_size = state_size,
     .create = create,
     .lend_workspace = zd_minimal_lend,

@@ -124,7 +124,7 @@ const zd_formulation zd_nullspace = {
         .reference = "W. Blajer, A geometric unification of constrained system dynamics, Multibody System Dynamics 1 (1997) 3-21",
     },
     ZD_DEPENDENT_STATE,
-    .takes_many_rows = ZD_MANY_ROWS,
+    .many_constraints = ZD_MANY_CONSTRAINTS,
     .has_matrices_evaluated = 1,
     .create = create,
     .lend_workspace = lend_workspace,

@@ -96,9 +96,9 @@ ZD_INLINE int factor_rows(const int n, const schur *self) { return ZD_ROWS(facto
 
 /* ---- large systems, whose residual norms show independence ---- */
 
-static int finds_rows(const zd_system *system)
+static int finds_independent(const zd_system *system)
 {
-    return system->structure != NULL || (system->nv > ZD_UNROLLED && zd_constraints(system) > ZD_FEW_ROWS);
+    return system->structure != NULL || (system->nv > ZD_UNROLLED && zd_constraints(system) > ZD_FEW_CONSTRAINTS);
 }
 
 static zd_shares orthogonalize_all(schur *self, zd_point *point, int rows, const double *C)
@@ -123,14 +123,15 @@ static int has_metric(const schur *self, const double *M)
 static int factor_large(schur *self, zd_point *point)
 {
     const zd_rank *rank = point->rank;
-    const int may_show_rank = !(point->known & ZD_RANKED) && rank->max_rank == rank->m && rank->m > ZD_FEW_ROWS && rank->m <= self->most
+    const int may_show_rank = !(point->known & ZD_RANKED) && rank->max_rank == rank->m && rank->m > ZD_FEW_CONSTRAINTS
+        && rank->m <= self->most
                        && !point->layout;
     if (may_show_rank) {
         zd_shares shares = orthogonalize_all(self, point, rank->m, point->terms.C);
         const int is_conclusive = shares.rows == rank->m && shares.least > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;
-        if (is_conclusive && has_metric(self, point->terms.M) && zd_rows_are_long(point)) zd_rows_use_all(point);
+        if (is_conclusive && has_metric(self, point->terms.M) && zd_rows_are_long(point)) zd_use_all_constraints(point);
     }
-    const int failed_index = point->failed_index, is_known = may_show_rank && (point->known & ZD_RANKED), status = zd_rows_find(point);
+    const int failed_index = point->failed_index, is_known = may_show_rank && (point->known & ZD_RANKED), status = zd_find_independent(point);
     if (status || is_known) return status;
     if (may_show_rank && zd_rank_is_full(point)) point->failed_index = failed_index;
     else orthogonalize_all(self, point, point->rows, zd_dense_C(point, self->dense_C));
@@ -142,7 +143,7 @@ static int factor_dense(schur *self, zd_point *point, const double *M)
     point->failed_index = ZD_SIZED(zd_cholesky, self->n, M, self->L);
     if (point->failed_index < self->n) return ZD_NOT_DEFINITE;
     if (self->n > ZD_UNROLLED) return factor_large(self, point);
-    int status = zd_rows_find(point);
+    int status = zd_find_independent(point);
     if (status) return status;
     self->m = point->rows;
     self->C = zd_dense_C(point, self->dense_C);
@@ -170,7 +171,7 @@ static int are_independent(const schur *self, zd_point *point)
 /* The same with redundant constraints: their selection is known beforehand. */
 static int factor_chosen(schur *self, zd_point *point)
 {
-    int status = zd_rows_find(point);
+    int status = zd_find_independent(point);
     self->is_coupled = 0;
     if (status || !self->blocks || point->rank->lost || zd_rank_is_full(point)) return status;
     status = zd_schur_blocks_factor(self->blocks, point);
@@ -188,8 +189,8 @@ static int factor_coupled(schur *self, zd_point *point)
         status = zd_schur_blocks_factor(self->blocks, point);
     if (status && status != ZD_DEPENDENT_ROWS) return status;
     self->is_coupled = !status && self->blocks->share > SMALL_PIVOT;
-    if (self->is_coupled && are_independent(self, point)) zd_rows_use_all(point);
-    status = zd_rows_find(point);
+    if (self->is_coupled && are_independent(self, point)) zd_use_all_constraints(point);
+    status = zd_find_independent(point);
     if (!status) self->is_coupled &= zd_rank_is_full(point);
     return status;
 }
@@ -219,7 +220,7 @@ static int factor(void *memory, zd_point *point)
     schur *self = memory;
     if (self->many) return zd_structured_factor(self->many, point, 1);
     const int status = factor_few(self, point);
-    return status == ZD_DEPENDENT_ROWS && zd_rows_give_up_kept(point) ? factor_few(self, point) : status;
+    return status == ZD_DEPENDENT_ROWS && zd_discard_selection(point) ? factor_few(self, point) : status;
 }
 
 /* x <- L^-T D^-1 (y - Q^T mu), b <- E mu, where y = L^-1 force and b holds z */
@@ -302,10 +303,10 @@ const zd_formulation zd_schur = {
     },
     ZD_DEPENDENT_STATE,
     .inverts_mass = 1,
-    .takes_many_rows = ZD_MANY_ROWS,
+    .many_constraints = ZD_MANY_CONSTRAINTS,
     .has_matrices_evaluated = 1,
     .create = create,
-    .finds_rows = finds_rows,
+    .finds_independent = finds_independent,
     .factor = factor,
     .solve = solve,
 };

@@ -19,15 +19,15 @@ int zd_motion_factor_anew(zd_motion *motion)
     return status;
 }
 
-int zd_motion_find_rows(zd_motion *motion)
+int zd_motion_find_independent(zd_motion *motion)
 {
     zd_point *point = motion->point;
     const zd_formulation *formulation = motion->formulation;
     if (point->known & ZD_RANKED) return ZD_DONE;
-    const int selects_rows = formulation->finds_rows && formulation->finds_rows(&motion->system);
+    const int selects_rows = formulation->finds_independent && formulation->finds_independent(&motion->system);
     /* A failed factorization gives no selection; its error is reported by the caller that needs the factors. */
     if (selects_rows && zd_motion_factor(motion) == ZD_CALLBACK) return ZD_CALLBACK;
-    return zd_rows_find(point);
+    return zd_find_independent(point);
 }
 
 static void solve_reduced(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force,

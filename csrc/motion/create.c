@@ -8,14 +8,15 @@ static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system 
 {
     const zd_formulation *formulation = motion->formulation;
     const zd_system *system = &motion->system;
-    zd_rank *rank = zd_rank_create(arena, system, zd_takes_many_rows(formulation, system));
+    zd_rank *rank = zd_rank_create(arena, system, zd_has_many_constraints(formulation, system));
     zd_rank_monitor *monitor = NULL;
     double *rhs = formulation->update ? zd_arena_doubles(arena, (size_t)zd_constraints(system)) : NULL;
     int lends = formulation->lend_workspace && zd_constraints(independent) == zd_constraints(system) && !system->structure;
     double counted, *Q = lends ? &counted : NULL, *G = Q;
     if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
-    const int are_many = zd_takes_many_rows(formulation, system), is_dense = !system->structure;
-    int has_rank = is_dense ? zd_constraints(system) <= ZD_FEW_ROWS || (formulation->finds_rows && formulation->finds_rows(system))
+    const int are_many = zd_has_many_constraints(formulation, system), is_dense = !system->structure;
+    int has_rank = is_dense ? zd_constraints(system) <= ZD_FEW_CONSTRAINTS || (formulation->finds_independent
+        && formulation->finds_independent(system))
                             : are_many;
     if (!has_rank) monitor = zd_rank_monitor_create(arena, system, Q, G);
     if (!rank) return NULL;
@@ -29,7 +30,8 @@ void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *syste
                     const zd_formulation *formulation, const void *given)
 {
     const int has_products = system->operations && system->operations->add_weighted;
-    const int matrices = has_products && formulation->has_matrices_evaluated && zd_takes_many_rows(formulation, system) ? 0 : ZD_M | ZD_C;
+    const int matrices = has_products && formulation->has_matrices_evaluated && zd_has_many_constraints(formulation, system) ? 0
+        : ZD_M | ZD_C;
     const size_t used = arena->used;
     void *solver = formulation->create(arena, independent, given);
     *motion = (zd_motion){

@@ -95,7 +95,7 @@ static double power_along(const zd_motion *motion, const double *lambda)
 {
     const zd_point *point = motion->point;
     double sum = motion->chain.changes[motion->chain.residuals.power_at];
-    for (int k = 0; k < point->rows && point->terms.Phi_t; k++) sum += lambda[k] * point->terms.Phi_t[zd_rank_row(point, k)];
+    for (int k = 0; k < point->rows && point->terms.Phi_t; k++) sum += lambda[k] * point->terms.Phi_t[zd_independent_constraint(point, k)];
     return sum;
 }
 
@@ -110,7 +110,7 @@ static int differentiate(zd_motion *motion, const double *direction, double incr
     int status = zd_residual_derivatives(&motion->chain.residuals, &along, increment, ZD_FOR_ITERATIONS, chain->changes);
     if (status) return status;
     for (int i = 0; i < nv; i++) right[i] = -chain->changes[i];
-    for (int k = 0; k < point->rows; k++) rhs[k] = -chain->changes[nv + zd_rank_row(point, k)];
+    for (int k = 0; k < point->rows; k++) rhs[k] = -chain->changes[nv + zd_independent_constraint(point, k)];
     motion->statistics.solves++;
     motion->formulation->solve(motion->solver, right, rhs, vdot, lambda);     /* (8) */
     zd_copy_all(nq, has_A ? chain->changes + chain->residuals.pdot_at : along.v, chain->rates);

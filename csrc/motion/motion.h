@@ -240,7 +240,7 @@ static inline int zd_motion_factor_for(zd_motion *motion, const double *force, c
     return status;
 }
 /* Selects the independent constraints at the point, by factoring where the formulation does so. */
-int zd_motion_find_rows(zd_motion *motion);
+int zd_motion_find_independent(zd_motion *motion);
 /* The formulation's solve, with right sides and multipliers of all constraints, redundant ones included. */
 void zd_solve_with(const zd_point *point, const zd_formulation *formulation, void *solver, const double *force, const double *rhs,
                    double *x, double *lambda);
@@ -298,7 +298,7 @@ int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the poin
 void zd_reactions_create(zd_motion *motion, zd_arena *arena);
 /* u (functions,) <- values of the user functions at a state where vdot and lambda are given. Returns ZD_DONE, ZD_SEVERAL_MOTIONS,
  * ZD_NO_MEMORY, or what a user function returns that failed. */
-int zd_reactions_given(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
+int zd_reactions_at(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
                        double *u);
 
 #endif

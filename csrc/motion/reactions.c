@@ -328,7 +328,7 @@ void zd_reactions_create(zd_motion *motion, zd_arena *arena)
 
 /* ---- at given vdot and lambda ---- */
 
-int zd_reactions_given(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
+int zd_reactions_at(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
                        double *u)
 {
     zd_arena counting = {0};

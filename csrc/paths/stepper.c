@@ -82,7 +82,7 @@ int zd_stepper_return(zd_stepper *self)
 
 /* ---- places ---- */
 
-int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *v)
+int zd_stepper_set_state(zd_stepper *self, double t, const double *p, const double *v)
 {
     zd_motion *motion = self->motion;
     self->t = t;
@@ -121,7 +121,7 @@ int zd_stepper_return_to(zd_stepper *self, const zd_state *place)
 {
     const zd_motion *motion = self->motion;
     memcpy(self->y + motion->formulation_size, place->extra, extras(motion) * sizeof(double));
-    return zd_stepper_place(self, place->t, place->p, place->v);
+    return zd_stepper_set_state(self, place->t, place->p, place->v);
 }
 
 /* ---- accelerations at a place ---- */

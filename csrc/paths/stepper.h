@@ -41,7 +41,7 @@ void zd_stepper_begin_end(zd_stepper *self, double t1);
 int zd_stepper_return(zd_stepper *self);
 
 /* Moves point and y to (t, p, v). */
-int zd_stepper_place(zd_stepper *self, double t, const double *p, const double *v);
+int zd_stepper_set_state(zd_stepper *self, double t, const double *p, const double *v);
 zd_state zd_state_create(zd_arena *arena, const zd_motion *motion);
 void zd_stepper_save_state(const zd_stepper *self, zd_state *place);
 int zd_stepper_return_to(zd_stepper *self, const zd_state *place);

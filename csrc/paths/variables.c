@@ -23,7 +23,7 @@ zd_variables zd_variables_of(const zd_motion *motion, const zd_integrator *integ
 {
     int loses = motion->formulation->update && zd_constraints(independent);
     if (!loses || integrator->step_of_motion || !is_held(&motion->target)) return (zd_variables){NULL, NULL, 0};
-    const zd_formulation *used = zd_takes_many_rows(motion->formulation, &motion->system) ? &zd_augmented : &zd_augmented_dense;
+    const zd_formulation *used = zd_has_many_constraints(motion->formulation, &motion->system) ? &zd_augmented : &zd_augmented_dense;
     return (zd_variables){used, NULL, used->state_size(independent)};
 }
 

@@ -14,7 +14,7 @@
 /* ---- terms of a system: all that follows from their list in the public header ---- */
 
 #define ROW(name, bit, member, shape, depends, text) {bit, #name, #member, #shape, offsetof(zd_terms, member), depends, text},
-static const zd_term_row rows[] = {ZD_TERM_LIST(ROW)};
+static const zd_term_entry rows[] = {ZD_TERM_LIST(ROW)};
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
 #define ADD(name, bit, member, shape, depends, text) +(bit)
@@ -22,7 +22,7 @@ enum { ROWS = sizeof rows / sizeof rows[0] };
 _Static_assert((0 ZD_TERM_LIST(ADD)) == (0 ZD_TERM_LIST(UNITE)), "each term has a bit of its own");
 _Static_assert((0 ZD_TERM_LIST(UNITE)) < ZD_MOVED, "the bits of terms are below those that are said besides");
 
-const zd_term_row *zd_term_at(int row) { return row >= 0 && row < ROWS ? &rows[row] : NULL; }
+const zd_term_entry *zd_term_at(int row) { return row >= 0 && row < ROWS ? &rows[row] : NULL; }
 
 #define ZD_NUMBER {0, {1, 1}}
 #define ZD_VECTOR(size) {1, {size, 1}}
@@ -185,11 +185,11 @@ int zd_point_is_finite(const zd_point *point)
     return nq == nv ? ZD_SIZED(are_finite, nv, point->p, point->v) : zd_is_finite(nq, point->p) && zd_is_finite(nv, point->v);
 }
 
-const char *zd_name_row(const zd_system *system, int row, char to[ZD_ROW_NAME])
+const char *zd_name_constraint(const zd_system *system, int row, char to[ZD_CONSTRAINT_NAME])
 {
-    char name[ZD_ROW_NAME - 16] = "";
+    char name[ZD_CONSTRAINT_NAME - 16] = "";
     if (system->name_constraint) system->name_constraint(system->names, row, name, (int)sizeof name);
-    if (*name) snprintf(to, ZD_ROW_NAME, "%d '%s'", row, name);
-    else snprintf(to, ZD_ROW_NAME, "%d", row);
+    if (*name) snprintf(to, ZD_CONSTRAINT_NAME, "%d '%s'", row, name);
+    else snprintf(to, ZD_CONSTRAINT_NAME, "%d", row);
     return to;
 }

@@ -131,10 +131,10 @@ static inline int zd_point_need(zd_point *point, int want)
 
 /* Names of constraints in messages. */
 
-enum { ZD_ROW_NAME = 64 };      /* size of a name, characters */
+enum { ZD_CONSTRAINT_NAME = 64 };      /* size of a name, characters */
 
 /* Index of the constraint, with its name if the system provides one: "3", "3 'B.y'". Returns `to`. */
-const char *zd_name_row(const zd_system *system, int row, char to[ZD_ROW_NAME]);
+const char *zd_name_constraint(const zd_system *system, int row, char to[ZD_CONSTRAINT_NAME]);
 
 /* Characteristic scales, which make tolerances independent of the units of a system. */
 
@@ -224,6 +224,6 @@ static inline void zd_point_normalise(zd_point *point)
  * otherwise all lengths that differ from one by more than 1e-6. */
 int zd_quaternions_wrong_length(const zd_system *system, const double *p, int any_length, double *length);
 /* Index of the first quaternion whose length pdot = A v changes, and the velocity that changes it; -1: none. Requires A. */
-int zd_quaternions_not_kept(const zd_point *point, int *velocity);
+int zd_quaternion_off_unit(const zd_point *point, int *velocity);
 
 #endif

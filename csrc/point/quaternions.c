@@ -60,7 +60,7 @@ static int block_of_coordinate(const zd_layout *layout, int coordinate)
     return low;
 }
 
-int zd_quaternions_not_kept(const zd_point *point, int *velocity)
+int zd_quaternion_off_unit(const zd_point *point, int *velocity)
 {
     const zd_system *system = point->system;
     const zd_layout *layout = point->layout;

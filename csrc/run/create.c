@@ -13,7 +13,7 @@
 #include "arguments/checks.h"
 
 /* Parameters as given, or the default ones. */
-static const void *complete(zd_given *given, const zd_card *card)
+static const void *complete(zd_parameter_values *given, const zd_card *card)
 {
     if (!given->given) *given = zd_initial(card);
     return given->value;
@@ -65,7 +65,7 @@ static zd_run *create_run(zd_arena *arena, const zd_system *system, const zd_set
     run->settings = *settings;
     zd_motion_create(motion, arena, system, independent, formulation, complete(&run->settings.of_formulation, &formulation->card));
     zd_reactions_create(motion, arena);
-    for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
+    for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS); row++)
         if (settings->correction[row].given) zd_motion_enable(motion, arena, zd_correction_of(row), run->settings.correction[row].value);
     if (integrator->takes_jacobian) zd_motion_create_jacobian(motion, arena);
     if (zd_takes_closed_form(settings)) zd_closed_form_create(motion, arena, settings->vector);
@@ -134,7 +134,7 @@ static int find_rank(zd_motion *motion, enum zd_on_singular on_singular)
 {
     if (!zd_constraints(&motion->system)) return ZD_DONE;
     int status = zd_redundancy_prepare(motion->point);
-    if (!status && !motion->point->rank->is_large) status = zd_motion_find_rows(motion);
+    if (!status && !motion->point->rank->is_large) status = zd_motion_find_independent(motion);
     return status == ZD_CALLBACK ? status : zd_redundancy_find(motion->point, on_singular);
 }
 

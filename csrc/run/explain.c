@@ -24,9 +24,9 @@ static void describe_jacobian(const zd_run *run, char *to, size_t size)
     const zd_consistency *found = &run->safeguards.consistency;
     char of[48] = "Phi_t";
     if (found->column < run->motion.system.nv) snprintf(of, sizeof of, "the Jacobian, for velocity %d,", found->column);
-    char row[ZD_ROW_NAME];
+    char row[ZD_CONSTRAINT_NAME];
     snprintf(to, size, "row %s of %s must be the derivative of the constraint: it is %.6g, and differences of the constraint give %.6g",
-             zd_name_row(&run->motion.system, found->row, row), of, found->given, found->found);
+             zd_name_constraint(&run->motion.system, found->row, row), of, found->given, found->found);
 }
 
 /* Describes a failure of the mass matrix or the constraints; returns false for other statuses. */
@@ -34,7 +34,7 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
 {
     const zd_point *point = run->motion.point;
     const int failed_index = point->failed_index;
-    char row[ZD_ROW_NAME];
+    char row[ZD_CONSTRAINT_NAME];
     switch (status) {
     case ZD_NOT_DEFINITE:
         snprintf(to, size, "%s (first seen at velocity %d)%s", zd_sentence(status), failed_index,
@@ -46,7 +46,7 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
     case ZD_NOT_JACOBIAN: describe_jacobian(run, to, size); break;
     case ZD_DEPENDENT_ROWS:
         snprintf(to, size, "the constraints are dependent (row %s follows from those before it)",
-                 zd_name_row(point->system, zd_rank_row(point, failed_index), row));
+                 zd_name_constraint(point->system, zd_independent_constraint(point, failed_index), row));
         break;
     case ZD_BIFURCATION:
         snprintf(to, size, "the constraints do not determine the motion here (a bifurcation: %s from the others); %s", rows,
@@ -59,7 +59,7 @@ static int describe_matrices(const zd_run *run, int status, const char *rows, ch
         break;
     case ZD_CONTRADICTION:
         snprintf(to, size, "the constraints contradict each other (%s from the others, but row %s requires another acceleration at this "
-                 "velocity)", rows, zd_name_row(point->system, failed_index, row));
+                 "velocity)", rows, zd_name_constraint(point->system, failed_index, row));
         break;
     case ZD_SINGULAR:
         snprintf(to, size, "the leading matrix of '%s' is singular (no pivot for velocity %d)", run->motion.formulation->card.name,

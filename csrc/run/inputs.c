@@ -63,7 +63,7 @@ static void set_speed(double *place, double t, double speed, double h)
 static void write(const zd_run *run, double h)
 {
     const zd_inputs *inputs = run->settings.inputs;
-    for (const zd_input_place *place = inputs->place; place < inputs->place + inputs->places; place++) {
+    for (const zd_input_slot *place = inputs->place; place < inputs->place + inputs->places; place++) {
         const double value = run->held.value[place->input];
         if (place->is_speed) set_speed(place->place, run->stepper.t, value, h);
         else *place->place = value;
@@ -107,16 +107,16 @@ void zd_inputs_write(zd_run *run)
 
 /* ---- speeds over several steps ---- */
 
-static int is_followed(const zd_input_place *place) { return place->is_speed && place->place[1] != 0; }
+static int is_followed(const zd_input_slot *place) { return place->is_speed && place->place[1] != 0; }
 
 /* s: end of the ramp of a speed */
-static double end_of(const zd_inputs *inputs, const zd_input_place *place) { return place->place[2] + inputs->ramp; }
+static double end_of(const zd_inputs *inputs, const zd_input_slot *place) { return place->place[2] + inputs->ramp; }
 
 double zd_inputs_next_end(const zd_run *run)
 {
     const zd_inputs *inputs = run->settings.inputs;
     double end = INFINITY;
-    for (const zd_input_place *place = inputs->place; place < inputs->place + inputs->places; place++)
+    for (const zd_input_slot *place = inputs->place; place < inputs->place + inputs->places; place++)
         if (is_followed(place)) end = fmin(end, end_of(inputs, place));
     return end;
 }
@@ -127,7 +127,7 @@ static int follow(const zd_run *run)
     const zd_inputs *inputs = run->settings.inputs;
     const double t = run->stepper.t;
     int is_written = 0;
-    for (const zd_input_place *place = inputs->place; place < inputs->place + inputs->places; place++) {
+    for (const zd_input_slot *place = inputs->place; place < inputs->place + inputs->places; place++) {
         const int begins = run->held.is_new && run->held.has_changed[place->input], ends = is_followed(place) && t >= end_of(inputs, place);
         const double value = run->held.value[place->input];
         if (!place->is_speed) *place->place = value;

@@ -72,14 +72,14 @@ int zd_jump_finish(zd_run *run)
 
 /* ---- speeds that fit a start ---- */
 
-static int is_speed_of(const zd_input_place *place, int input) { return place->is_speed && place->input == input; }
+static int is_speed_of(const zd_input_slot *place, int input) { return place->is_speed && place->input == input; }
 
 static int violation_at(zd_run *run, int input, double speed, double *Psi)
 {
     const zd_inputs *inputs = run->settings.inputs;
     zd_point *point = run->motion.point;
     for (int k = 0; k < inputs->places; k++) {
-        const zd_input_place *place = inputs->place + k;
+        const zd_input_slot *place = inputs->place + k;
         if (!is_speed_of(place, input)) continue;
         place->place[0] = speed;
         place->place[1] = place->place[2] = 0;

@@ -40,7 +40,7 @@ static int place(zd_resample *self, int64_t row)
     const zd_saved *saved = self->saved;
     const double *p = row_of(saved, saved->p, motion->system.nq, row), *v = row_of(saved, saved->v, motion->system.nv, row);
     if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = *row_of(saved, saved->input, 1, row);
-    return zd_stepper_place(stepper, time_of(saved, row), p, v);
+    return zd_stepper_set_state(stepper, time_of(saved, row), p, v);
 }
 
 static int make_step(zd_resample *self, int64_t row)

@@ -73,12 +73,12 @@ int zd_state_begin(zd_run *run, const double *p0, const double *v0)
     memcpy(run->start->base, p0, nq * sizeof *p0);
     memcpy(run->start->base + nq * sizeof *p0, v0, nv * sizeof *v0);
     for (int i = 0; i < count_blocks(run); i++)
-        if (zd_memory_keep(block_of(run, i))) return ZD_NO_MEMORY;
+        if (zd_memory_save(block_of(run, i))) return ZD_NO_MEMORY;
     return ZD_DONE;
 }
 
 /* Words of inputs in the data of the system, which belong to the run's state. */
-static size_t words_of_place(const zd_input_place *place) { return place->is_speed ? 3 : 1; }
+static size_t words_of_place(const zd_input_slot *place) { return place->is_speed ? 3 : 1; }
 
 static size_t words_of_places(const zd_inputs *inputs)
 {
@@ -95,7 +95,7 @@ static uint64_t hash(uint64_t so_far, const void *data, size_t bytes)      /* FN
     return so_far;
 }
 
-static uint64_t hash_given(uint64_t so_far, const zd_given *given)
+static uint64_t hash_given(uint64_t so_far, const zd_parameter_values *given)
 {
     so_far = hash(so_far, &given->given, sizeof given->given);
     return given->given ? hash(so_far, given->value, sizeof given->value) : so_far;

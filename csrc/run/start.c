@@ -86,11 +86,11 @@ static int check_constraints(zd_run *run, double *Psi)
     const violation position = position_violation(point), velocity = velocity_violation(run, Psi);
     if (position.size <= allowed && velocity.size <= allowed) return ZD_DONE;
     if (zd_first_not_finite(system, ZD_PHI | ZD_C | ZD_PHI_T, &point->terms)) return ZD_NOT_FINITE;
-    char row[ZD_ROW_NAME];
+    char row[ZD_CONSTRAINT_NAME];
     snprintf(run->outcome.message, sizeof run->outcome.message,
              "the start violates the constraints: max |Phi| = %.3g, max |Psi| = %.3g of their sizes (allowed: %.3g), most in row %s; "
              "zd.assemble finds a consistent start nearby", position.size, velocity.size, allowed,
-             zd_name_row(system, position.size > allowed ? position.row : velocity.row, row));
+             zd_name_constraint(system, position.size > allowed ? position.row : velocity.row, row));
     return ZD_BAD_START;
 }
 
@@ -167,7 +167,7 @@ static void weigh(const zd_run *run, int rows, double *factor)
 static int check_singular_mass(zd_run *run, double *factor)
 {
     zd_point *point = run->motion.point;
-    int n = run->motion.system.nv, status = zd_rows_find(point);
+    int n = run->motion.system.nv, status = zd_find_independent(point);
     if (status) return status;
     weigh(run, 0, factor);
     for (int i = 0; i < n; i++) factor[i * n + i] += NEGATIVE_MASS;
@@ -218,7 +218,7 @@ static int check_quaternions(zd_run *run)
 {
     zd_point *point = run->motion.point;
     int velocity, status = point->system->quaternions ? zd_point_need(point, ZD_A) : ZD_DONE;
-    int wrong = status ? -1 : zd_quaternions_not_kept(point, &velocity);
+    int wrong = status ? -1 : zd_quaternion_off_unit(point, &velocity);
     if (wrong < 0) return status;
     const int first = point->system->quaternion[wrong];
     snprintf(run->outcome.message, sizeof run->outcome.message,
@@ -232,7 +232,7 @@ static int choose_step(zd_run *run, double *states, const double *p0, const doub
 {
     if (!zd_is_adaptive(&run->loop)) return ZD_DONE;
     int status = zd_adaptive_start(&run->loop, states);
-    return status ? status : zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);     /* it has evaluated other points */
+    return status ? status : zd_stepper_set_state(&run->stepper, run->settings.t0, p0, v0);     /* it has evaluated other points */
 }
 
 static int check(zd_run *run, const workspace *work, const double *p0, const double *v0)
@@ -266,7 +266,7 @@ static int start(zd_run *run, int status, const workspace *work, const double *p
         int violated = check_constraints(run, work->Psi);
         return violated ? violated : status;
     }
-    if (!status) status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);
+    if (!status) status = zd_stepper_set_state(&run->stepper, run->settings.t0, p0, v0);
     if (!status) status = check(run, work, p0, v0);
     if (!status) status = zd_safeguards_begin(&run->safeguards, 1);
     run->motion.in_run = 1;
@@ -327,7 +327,7 @@ int zd_run_start_elsewhere(zd_run *run, void *memory, const void *data, const do
     discard(run, data);
     zd_point_move(point, run->settings.t0, p0, v0);
     int status = zd_point_need(point, ZD_PHI | ZD_C | ZD_PHI_T | ZD_M | ZD_POTENTIAL);      /* all terms needed below, in one call */
-    if (!status) status = zd_stepper_place(&run->stepper, run->settings.t0, p0, v0);
+    if (!status) status = zd_stepper_set_state(&run->stepper, run->settings.t0, p0, v0);
     return status ? status : check_elsewhere(run, &work, p0, v0);
 }
 

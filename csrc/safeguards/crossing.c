@@ -36,7 +36,7 @@ static void *create_memory(zd_arena *arena, const void *of)
 {
     const zd_motion *motion = of;
     const zd_system *system = &motion->system;
-    const int has_turn = !zd_takes_many_rows(motion->formulation, system);
+    const int has_turn = !zd_has_many_constraints(motion->formulation, system);
     size_t m = (size_t)zd_constraints(system), n = (size_t)system->nv, stored = (size_t)zd_size_of_C(system);
     zd_crossing_memory self = {
         .C = zd_arena_doubles(arena, stored),
@@ -51,7 +51,7 @@ static void *create_memory(zd_arena *arena, const void *of)
     return zd_arena_copy(arena, &self, sizeof self);
 }
 
-static int are_few(const zd_system *system) { return zd_constraints(system) <= ZD_FEW_ROWS; }
+static int are_few(const zd_system *system) { return zd_constraints(system) <= ZD_FEW_CONSTRAINTS; }
 
 zd_crossing zd_crossing_create(zd_arena *arena, zd_motion *motion, const zd_last *last)
 {
@@ -126,9 +126,9 @@ static void multiply_row(const zd_point *point, const double *C0, int a, int cou
 {
     const zd_row_of_C now = zd_counted_row(point, a);
     for (int b = 0; b < count; b++) {
-        const int row = b < point->rows ? zd_rank_row(point, b) : point->rank->selection->row[b];
+        const int row = b < point->rows ? zd_independent_constraint(point, b) : point->rank->selection->row[b];
         const zd_row_of_C before = zd_row_in(point, C0, row);
-        x[b] = point->inverse_size[zd_rank_row(point, a)] * point->inverse_size[row] * zd_row_product(&now, &before);
+        x[b] = point->inverse_size[zd_independent_constraint(point, a)] * point->inverse_size[row] * zd_row_product(&now, &before);
     }
 }
 
@@ -148,7 +148,7 @@ static double determinant(const zd_crossing *self, const zd_point *point, const 
 {
     const int n = point->rank->n, rows = point->rows, has_others = !zd_rank_is_full(point) && !point->rank->lost;
     if (rows == 2 && !point->layout && !has_others)
-        return ZD_SIZED(turn_of_two, n, point, C0 + zd_rank_row(point, 0) * n, C0 + zd_rank_row(point, 1) * n);
+        return ZD_SIZED(turn_of_two, n, point, C0 + zd_independent_constraint(point, 0) * n, C0 + zd_independent_constraint(point, 1) * n);
     double *turn = self->memory->turn;
     if (has_others) zd_rank_express_others(point);
     for (int a = 0; a < rows; a++) {        /* the redundant part of row a is overwritten by row a + 1 */
@@ -186,7 +186,7 @@ static int follow(zd_crossing *self, double h, int points, int *is_kept)
         interpolate(self, h, (double)i / points);
         zd_point_move(point, i == points ? t1 : t1 - h * (points - i) / points, i == points ? memory->p1 : memory->p, memory->v1);
         status = zd_point_need(point, ZD_C);
-        if (!status) status = zd_rows_find(point);
+        if (!status) status = zd_find_independent(point);
         *is_kept = status == ZD_DONE && !zd_crossing_is_at_one(point) && determinant(self, point, memory->previous) > 0;
         store_rows(point, memory->previous);
     }
@@ -239,7 +239,8 @@ static void keep(zd_crossing *self)
 static int is_ordinary(const zd_crossing *self, double moved)
 {
     const zd_point *point = self->motion->point;
-    return point->rank->m == ZD_FEW_ROWS && zd_rank_is_full(point) && !point->layout && self->has_begun && self->has_rows && !self->may_pass
+    return point->rank->m == ZD_FEW_CONSTRAINTS && zd_rank_is_full(point) && !point->layout && self->has_begun && self->has_rows
+        && !self->may_pass
         && moved <= LONGEST * LONGEST;
 }
 
@@ -259,7 +260,7 @@ int zd_crossing_step(zd_crossing *self, double h, double moved)
     int is_kept = 1;
     /* All terms that the next step needs at its start are evaluated in the same call. */
     int status = point->known & ZD_C ? ZD_DONE : zd_point_need(point, motion->acceleration_needs);
-    if (!status && !(point->known & ZD_RANKED)) status = zd_motion_find_rows(motion);
+    if (!status && !(point->known & ZD_RANKED)) status = zd_motion_find_independent(motion);
     if (status) return status;
     if (is_ordinary(self, moved) && ZD_SIZED(keep_two, point->rank->n, point, self->memory->C)) return ZD_DONE;
     if (zd_crossing_is_at_one(point)) {

@@ -31,7 +31,7 @@ static int velocities_of(const zd_system *system, int b) { return system->struct
 static int size_of_A(const zd_system *system) { return system->structure ? zd_packed_size(system, ZD_A) : system->nq * system->nv; }
 
 /* Name of a constraint: by the inner system, or "p[i] is held", "v[i] is held". */
-static void name_row(const void *names, int row, char *to, int size)
+static void name_of_constraint(const void *names, int row, char *to, int size)
 {
     const zd_held *held = names;
     const zd_system *inner = held->inner;
@@ -204,7 +204,7 @@ static void *create(zd_arena *arena, const void *of)
                            .size_of_C = rows * inner->nv};
     self->system = *inner;
     self->system.data = self->system.names = &self->held;
-    self->system.name_constraint = name_row;
+    self->system.name_constraint = name_of_constraint;
     self->system.operations = NULL;         /* they do not know the added constraints */
     self->system.follow = inner->follow ? follow : NULL;
     self->system.magnitudes = inner->magnitudes ? magnitudes : NULL;

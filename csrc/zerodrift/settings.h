@@ -49,12 +49,12 @@ typedef struct zd_outputs {
 
 /* ---- inputs: numbers that the caller sets between steps ---- */
 
-typedef struct zd_input_place {
+typedef struct zd_input_slot {
     int input;                  /* index of the input that is written there */
     int is_speed;               /* false: place[0] is the input. True: the speed is place[0] + place[1] (t - place[2]); it follows the
                                  * input linearly, see zd_inputs.ramp, or jumps to it */
     double *place;              /* in the data of the system, which belongs to this run */
-} zd_input_place;
+} zd_input_slot;
 
 typedef struct zd_inputs {
     int count;
@@ -64,7 +64,7 @@ typedef struct zd_inputs {
     int jumps;                  /* true: speeds jump to their inputs, by an impulse, see zd_run_jump() */
     double ramp;                /* s, adaptive steps: time over which a speed follows its input; fixed steps: it is one step */
     int places;
-    const zd_input_place *place;    /* (places,) */
+    const zd_input_slot *place;    /* (places,) */
     int derivations;            /* functions that recompute what the system derives from its data */
     void (*const *derive)(double *data);    /* (derivations,) */
     double *const *data;        /* (derivations,) */
@@ -75,10 +75,10 @@ typedef struct zd_inputs {
 enum { ZD_CORRECTIONS_MAX = 8, ZD_ROW_VALUES = 16 };
 
 /* Parameters of a formulation, an integrator or a correction, in the order of its card. */
-typedef struct zd_given {
+typedef struct zd_parameter_values {
     int given;                      /* 0: the correction is off; a formulation or an integrator has its default parameters */
     double value[ZD_ROW_VALUES];    /* values of all parameters, vectors entry after entry */
-} zd_given;
+} zd_parameter_values;
 
 /* Action at a bifurcation, where constraints that are independent elsewhere become dependent, so that several motions satisfy them: end
  * the run, or continue along the present branch; from rest, along the branch of least acceleration. */
@@ -102,8 +102,8 @@ typedef struct zd_settings {
     const zd_events *events;        /* NULL: none */
     const zd_outputs *outputs;      /* NULL: none */
     const zd_inputs *inputs;        /* NULL: none */
-    zd_given of_formulation, of_integrator;
-    zd_given correction[ZD_CORRECTIONS_MAX];        /* parameters of each correction, in the order of their table */
+    zd_parameter_values of_formulation, of_integrator;
+    zd_parameter_values correction[ZD_CORRECTIONS_MAX];        /* parameters of each correction, in the order of their table */
     enum zd_on_singular on_singular;
     int closed_form;                     /* true: the closed-form path is taken if the system provides applicable closed-form functions */
     enum zd_unit vector;            /* widest vector unit that these may use */
@@ -113,11 +113,11 @@ typedef struct zd_settings {
 } zd_settings;
 
 /* Default parameters of a card. */
-zd_given zd_initial(const zd_card *card);
+zd_parameter_values zd_initial(const zd_card *card);
 /* Pointer to the value of the parameter of that name; NULL: the card has no such parameter. */
-double *zd_value_named(zd_given *given, const zd_card *card, const char *name);
+double *zd_value_named(zd_parameter_values *given, const zd_card *card, const char *name);
 /* Checks the parameters by the rules of their card and of the entry itself; the first violation is described in `message`. */
-int zd_check_given(enum zd_table table, int row, const zd_given *given, char *message, int message_size);
+int zd_check_parameter_values(enum zd_table table, int row, const zd_parameter_values *given, char *message, int message_size);
 
 enum zd_unit zd_processor_unit(void);       /* widest vector unit of this processor */
 int zd_processor_has(enum zd_unit unit);

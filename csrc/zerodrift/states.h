@@ -33,7 +33,7 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
  * accelerations, and where these and the multipliers are given. */
 int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const double *t, const double *p, const double *v, double *u,
                    char *message, int message_size);
-int zd_read_given(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
+int zd_read_states(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
                   const double *multipliers, double *u);
 /* A measure at many states: `first` has the memory of the first, that of the others follows it; scratch of the size that the measures
  * declare. vdot and multipliers may be NULL if the measure does not depend on them. `inputs` are those of the system, in all states the

@@ -19,7 +19,7 @@ const zd_status_row *zd_status_at(int row);     /* NULL: past the last entry */
 
 /* ---- the terms of a system, the entries of ZD_TERM_LIST ---- */
 
-typedef struct zd_term_row {
+typedef struct zd_term_entry {
     int term;               /* its bit */
     const char *symbol;     /* name of the bit: "ZD_M" */
     const char *name;       /* its member of zd_terms: "M" */
@@ -27,14 +27,14 @@ typedef struct zd_term_row {
     size_t offset;          /* offset of the member in zd_terms, bytes */
     enum zd_depends depends;
     const char *text;
-} zd_term_row;
+} zd_term_entry;
 
 typedef struct zd_shape {
     int dimensions;         /* 0: a number, 1: (size[0],), 2: (size[0], size[1]) */
     int size[2];
 } zd_shape;
 
-const zd_term_row *zd_term_at(int row);                         /* NULL: past the last entry */
+const zd_term_entry *zd_term_at(int row);                         /* NULL: past the last entry */
 zd_shape zd_term_shape(const zd_system *system, int row);       /* shape of the dense term in the equations */
 size_t zd_term_size(const zd_system *system, int row);          /* number of doubles that evaluate() writes, packed if structured */
 
@@ -63,10 +63,10 @@ int zd_check_system(const zd_system *system, char *message, int message_size);
 
 enum zd_table { ZD_SYSTEMS, ZD_FORMULATIONS, ZD_INTEGRATORS, ZD_CORRECTIONS };
 
-int zd_rows(enum zd_table table);
-const zd_card *zd_row(enum zd_table table, int row);
-int zd_row_named(enum zd_table table, const char *name);    /* index of the entry of that name; -1: none */
-int zd_default_row(enum zd_table table);        /* index of the default entry */
+int zd_entry_count(enum zd_table table);
+const zd_card *zd_entry_card(enum zd_table table, int row);
+int zd_entry_named(enum zd_table table, const char *name);    /* index of the entry of that name; -1: none */
+int zd_default_entry(enum zd_table table);        /* index of the default entry */
 int zd_correction_requires(int correction);     /* bits of the terms that a system must provide for this correction */
 int zd_suits(const zd_system *system, int integrator);      /* true if the integrator applies to the system */
 int zd_formulation_suits(const zd_system *system, int formulation);     /* likewise for a formulation */

@@ -34,14 +34,14 @@ static double core_run(const zd_system *system, int formulation, int64_t save_ev
                         counts[0], counts[1]};
     zd_settings settings = {
         .formulation = formulation,
-        .integrator = zd_row_named(ZD_INTEGRATORS, "rk4"),
+        .integrator = zd_entry_named(ZD_INTEGRATORS, "rk4"),
         .t1 = STEPS * STEP,
         .step = STEP,
         .save_every = save_every,
     };
-    int projection = zd_row_named(ZD_CORRECTIONS, "projection");
-    settings.correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
-    *zd_value_named(&settings.correction[projection], zd_row(ZD_CORRECTIONS, projection), "tol") = TOLERANCE;
+    int projection = zd_entry_named(ZD_CORRECTIONS, "projection");
+    settings.correction[projection] = zd_initial(zd_entry_card(ZD_CORRECTIONS, projection));
+    *zd_value_named(&settings.correction[projection], zd_entry_card(ZD_CORRECTIONS, projection), "tol") = TOLERANCE;
     int status;
     char message[512];
     zd_run *run = zd_run_create(system, &settings, p, v, &status, message, sizeof message);
@@ -55,9 +55,9 @@ static double core_run(const zd_system *system, int formulation, int64_t save_ev
 
 int main(void)
 {
-    const zd_kind *kind = zd_kind_of(zd_row_named(ZD_SYSTEMS, "four_bar"));
+    const zd_kind *kind = zd_kind_of(zd_entry_named(ZD_SYSTEMS, "four_bar"));
     double parameters[SIZE], constants[SIZE], p[3], v[3], best[CONTESTANTS], end[CONTESTANTS];
-    int formulations = zd_rows(ZD_FORMULATIONS), contestants = FLOORS + 2 * formulations, n = 0;
+    int formulations = zd_entry_count(ZD_FORMULATIONS), contestants = FLOORS + 2 * formulations, n = 0;
     for (int i = 0; i < kind->parameters; i++)
         for (int j = 0; j < kind->parameter[i].size; j++)
             parameters[n++] = kind->parameter[i].initial ? kind->parameter[i].initial[j] : NAN;
@@ -77,7 +77,7 @@ int main(void)
             if (round == 0 || seconds < best[i]) best[i] = seconds;
         }
     for (int i = 0; i < contestants; i++) {
-        const char *name = i < FLOORS ? floor_names[i] : zd_row(ZD_FORMULATIONS, (i - FLOORS) / 2)->name;
+        const char *name = i < FLOORS ? floor_names[i] : zd_entry_card(ZD_FORMULATIONS, (i - FLOORS) / 2)->name;
         printf("%s%s %.1f %.10f\n", name, i >= FLOORS && (i - FLOORS) % 2 ? "+rows" : "", 1e9 * best[i] / STEPS, end[i]);
     }
     return 0;

@@ -96,7 +96,7 @@ static double now(void)
 static int named(enum zd_table table, const char *name)
 {
     int row = 0;
-    while (row < zd_rows(table) && strcmp(zd_row(table, row)->name, name)) row++;
+    while (row < zd_entry_count(table) && strcmp(zd_entry_card(table, row)->name, name)) row++;
     return row;
 }
 
@@ -106,8 +106,8 @@ static void correct(zd_settings *settings) { settings->projection = (zd_projecti
 static void correct(zd_settings *settings)
 {
     int projection = named(ZD_CORRECTIONS, "projection");
-    settings->correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
-    *zd_value_named(&settings->correction[projection], zd_row(ZD_CORRECTIONS, projection), "tol") = TOLERANCE;
+    settings->correction[projection] = zd_initial(zd_entry_card(ZD_CORRECTIONS, projection));
+    *zd_value_named(&settings->correction[projection], zd_entry_card(ZD_CORRECTIONS, projection), "tol") = TOLERANCE;
 }
 #endif
 
@@ -141,7 +141,7 @@ int main(int arguments, char **argument)
     static numbers x;
     double best[MAX_FORMULATIONS] = {0}, end[MAX_FORMULATIONS];
     size_t bytes[MAX_FORMULATIONS], peak[MAX_FORMULATIONS];
-    int rounds = arguments > 1 ? atoi(argument[1]) : 3, formulations = zd_rows(ZD_FORMULATIONS);
+    int rounds = arguments > 1 ? atoi(argument[1]) : 3, formulations = zd_entry_count(ZD_FORMULATIONS);
     const char *only = arguments > 2 ? argument[2] : NULL;
     fill(&x);
     zd_system system = {
@@ -154,7 +154,7 @@ int main(int arguments, char **argument)
     for (int round = 0; round < rounds; round++)
         for (int i = 0; i < formulations; i++) {
             double seconds = INFINITY;
-            if (only && strcmp(only, zd_row(ZD_FORMULATIONS, i)->name)) continue;
+            if (only && strcmp(only, zd_entry_card(ZD_FORMULATIONS, i)->name)) continue;
             settings.formulation = i;
             end[i] = run(&system, &settings, &seconds, bytes + i);
             peak[i] = most;
@@ -162,6 +162,6 @@ int main(int arguments, char **argument)
         }
     for (int i = 0; i < formulations; i++)
         if (best[i] > 0)
-            printf("%s %.1f %zu %zu %.15f\n", zd_row(ZD_FORMULATIONS, i)->name, 1e9 * best[i] / STEPS, bytes[i], peak[i], end[i]);
+            printf("%s %.1f %zu %zu %.15f\n", zd_entry_card(ZD_FORMULATIONS, i)->name, 1e9 * best[i] / STEPS, bytes[i], peak[i], end[i]);
     return 0;
 }

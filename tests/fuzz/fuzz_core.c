@@ -240,10 +240,10 @@ static double value_of(input *in, const zd_parameter *parameter)
     return parameter->rule == ZD_CHOICE || parameter->rule == ZD_SWITCH ? below(in, 2) : fabs(number(in));
 }
 
-static zd_given make_given(input *in, enum zd_table table, int row, int on)
+static zd_parameter_values make_given(input *in, enum zd_table table, int row, int on)
 {
-    const zd_card *card = zd_row(table, row);
-    zd_given given = zd_initial(card);
+    const zd_card *card = zd_entry_card(table, row);
+    zd_parameter_values given = zd_initial(card);
     double *value = given.value;
     given.given = on;
     for (int i = 0; i < card->parameters; value += card->parameter[i++].size)
@@ -254,18 +254,19 @@ static zd_given make_given(input *in, enum zd_table table, int row, int on)
     return given;
 }
 
-static int named(enum zd_table table, int row, const char *name) { return row == zd_row_named(table, name); }
+static int named(enum zd_table table, int row, const char *name) { return row == zd_entry_named(table, name); }
 
 static zd_settings make_settings(input *in, double *times)
 {
     unsigned how = byte(in);
     zd_settings settings = {
-        .formulation = below(in, zd_rows(ZD_FORMULATIONS)), .integrator = below(in, zd_rows(ZD_INTEGRATORS)), .t1 = 0.5, .step = 0.05,
+        .formulation = below(in, zd_entry_count(ZD_FORMULATIONS)), .integrator = below(in, zd_entry_count(ZD_INTEGRATORS)), .t1 = 0.5,
+            .step = 0.05,
         .save_every = 1 + below(in, 3),
     };
     settings.of_formulation = make_given(in, ZD_FORMULATIONS, settings.formulation, 1);
     settings.of_integrator = make_given(in, ZD_INTEGRATORS, settings.integrator, 1);
-    for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++)
+    for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS); row++)
         settings.correction[row] = make_given(in, ZD_CORRECTIONS, row, below(in, 8) < (named(ZD_CORRECTIONS, row, "projection") ? 7 : 3));
     if (how & 1) settings.steps = ZD_ADAPTIVE_STEPS, settings.rtol = 1e-6, settings.atol = 1e-9;
     if (how & 2) settings.t_eval = times, settings.t_evals = TIMES;
@@ -321,11 +322,11 @@ static int are_finite(const double *x, int64_t n)
 static void check_rows(const zd_system *system, const zd_settings *settings, const double *sizes, const zd_record *record, double *last)
 {
     const double rounding = 1 + 0x1p-51, smallest = 0x1p-1074;      /* of the division by the size, and where that underflows */
-    const int row_of_projection = zd_row_named(ZD_CORRECTIONS, "projection");
-    const zd_card *card = zd_row(ZD_CORRECTIONS, row_of_projection);
-    zd_given projection = settings->correction[row_of_projection];
+    const int row_of_projection = zd_entry_named(ZD_CORRECTIONS, "projection");
+    const zd_card *card = zd_entry_card(ZD_CORRECTIONS, row_of_projection);
+    zd_parameter_values projection = settings->correction[row_of_projection];
     int corrected = projection.given && *zd_value_named(&projection, card, "every") == 1 && *zd_value_named(&projection, card, "positions")
-                 && strcmp(zd_row(ZD_FORMULATIONS, settings->formulation)->name, "independent");
+                 && strcmp(zd_entry_card(ZD_FORMULATIONS, settings->formulation)->name, "independent");
     EXPECT(record->rows <= record->capacity);
     EXPECT(are_finite(record->p, record->rows * system->nq));
     EXPECT(are_finite(record->v, record->rows * system->nv));
@@ -404,9 +405,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     input in = {data, size};
     zd_system system;
     linear made;
-    int calls, row = below(&in, 2 * zd_rows(ZD_SYSTEMS));
+    int calls, row = below(&in, 2 * zd_entry_count(ZD_SYSTEMS));
     double constants[LARGEST], p[LARGEST] = {0}, v[LARGEST] = {0}, times[TIMES];
-    if (row < zd_rows(ZD_SYSTEMS)) {
+    if (row < zd_entry_count(ZD_SYSTEMS)) {
         if (!make_kind(&in, row, &system, constants, p, v)) return 0;
     } else {
         make_linear(&in, &made, &calls, p, v);

@@ -9,7 +9,7 @@ import sympy as sp
 import zerodrift as zd
 from support import refused
 from zerodrift.mechanisms.elements.joints import BY_ROW
-from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_BY_ROW
+from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_OF_TABLE
 from zerodrift.mechanisms.files.expressions_json import from_json, to_json
 from zerodrift.mechanisms.files.from_json import MADE
 from zerodrift.mechanisms.files.to_json import WRITTEN
@@ -78,7 +78,7 @@ def test_every_number_is_the_same_to_the_last_bit(layout, tmp_path):
 
 def test_every_kind_of_element_is_there(tmp_path):
     elements = json.loads(everything().save(tmp_path / "m").read_text())["elements"]
-    by_their_rows = {*BY_ROW, *(FORCES_BY_ROW.keys() & ELEMENTS)}       # which test_joint_verbs.py and test_force_verbs.py save
+    by_their_rows = {*BY_ROW, *(FORCES_OF_TABLE.keys() & ELEMENTS)}       # which test_joint_verbs.py and test_force_verbs.py save
     assert {element["kind"] for element in elements} | by_their_rows == set(WRITTEN) == set(MADE)
 
 

@@ -13,7 +13,7 @@ from support import refused
 from zerodrift.mechanisms.building.table_force_verbs import force_verb, sides, words
 from zerodrift.mechanisms.building.table_verbs import FORCES
 from zerodrift.mechanisms.elements.frames import about
-from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_BY_ROW, SPACE_ELEMENTS, WRITTEN, made_force
+from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_OF_TABLE, SPACE_ELEMENTS, WRITTEN, made_force
 from zerodrift.mechanisms.elements.table_forces import parameters as parameters_of
 from zerodrift.mechanisms.elements.table_forces import paths as paths_of
 from zerodrift.mechanisms.files import from_json, to_json
@@ -68,7 +68,7 @@ def by_their_entries(monkeypatch, kind, dimension):
 
 def test_every_kind_has_a_method_and_a_class():
     kinds = {*ELEMENTS, *SPACE_ELEMENTS}
-    assert kinds == {*WRITTEN} | {*FORCES_BY_ROW} == {*FORCES, "force", "torque"}
+    assert kinds == {*WRITTEN} | {*FORCES_OF_TABLE} == {*FORCES, "force", "torque"}
     assert all(callable(getattr(zd.Mechanism, kind)) for kind in kinds)
 
 

@@ -38,7 +38,7 @@ int begin(const zd_system *system, int formulation, double t, const double *p, c
         lay_out(&arena, system, &independent, formulation);
         int status = place(t, p, v);
         if (!status && zd_constraints(system)) status = zd_redundancy_prepare(motion.point);
-        if (!status && zd_constraints(system)) status = zd_motion_find_rows(&motion);
+        if (!status && zd_constraints(system)) status = zd_motion_find_independent(&motion);
         if (!status && zd_constraints(system)) status = zd_redundancy_find(motion.point, ZD_STOP);
         if (status) return status;
         const zd_rank *rank = motion.point->rank;

@@ -75,7 +75,8 @@ static void run(const zd_system *system, const zd_settings *settings, int grant)
     if (it) status = zd_run_advance(it, &record, 1e9);
     if (it) snprintf(message, sizeof message, "%s", zd_run_message(it));
     zd_run_free(it);
-    printf("%s %s %d %d %d %s\n", zd_row(ZD_FORMULATIONS, settings->formulation)->name, zd_row(ZD_INTEGRATORS, settings->integrator)->name,
+    printf("%s %s %d %d %d %s\n", zd_entry_card(ZD_FORMULATIONS, settings->formulation)->name, zd_entry_card(ZD_INTEGRATORS,
+                                                                                                             settings->integrator)->name,
            grant, status, blocks, message);
 }
 
@@ -86,13 +87,13 @@ int main(void)
     };
     static const char *const integrators[] = {"rk4", "euler", "dormand_prince"};
     zd_settings settings = {.t1 = 0.6, .save_every = STEPS, .on_singular = ZD_CONTINUE};
-    const int projection = zd_row_named(ZD_CORRECTIONS, "projection");
-    settings.correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
-    for (int i = 0; i < 3 * zd_rows(ZD_FORMULATIONS); i++) {
+    const int projection = zd_entry_named(ZD_CORRECTIONS, "projection");
+    settings.correction[projection] = zd_initial(zd_entry_card(ZD_CORRECTIONS, projection));
+    for (int i = 0; i < 3 * zd_entry_count(ZD_FORMULATIONS); i++) {
         const int is_chosen = i % 3 == 2;
         int grant = 0;
         settings.formulation = i / 3;
-        settings.integrator = zd_row_named(ZD_INTEGRATORS, integrators[i % 3]);
+        settings.integrator = zd_entry_named(ZD_INTEGRATORS, integrators[i % 3]);
         settings.steps = is_chosen ? ZD_ADAPTIVE_STEPS : ZD_FIXED_STEPS;
         settings.step = settings.t1 / STEPS;
         settings.rtol = settings.atol = is_chosen ? 1e-9 : 0;

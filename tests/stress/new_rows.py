@@ -83,7 +83,7 @@ FORMULATION = r"""
 
 #include "../point/point.h"
 
-extern const zd_formulation zd_augmented;
+extern const zd_formulation zd_augmented_dense;
 
 typedef struct refined {
     void *inner;
@@ -101,7 +101,7 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
 {
     size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system);
     refined self = {
-        .inner = zd_augmented.create(arena, system, NULL), .n = (int)n, .times = (int)*(const double *)given,
+        .inner = zd_augmented_dense.create(arena, system, NULL), .n = (int)n, .times = (int)*(const double *)given,
         .M_memory = zd_arena_doubles(arena, n * n), .C_memory = zd_arena_doubles(arena, m * n),
         .force = zd_arena_doubles(arena, n), .rhs = zd_arena_doubles(arena, m), .dx = zd_arena_doubles(arena, n),
         .lambda = zd_arena_doubles(arena, m), .dlambda = zd_arena_doubles(arena, m),
@@ -112,7 +112,7 @@ static void *create(zd_arena *arena, const zd_system *system, const void *given)
 static int factor(void *memory, zd_point *point)
 {
     refined *self = memory;
-    int status = zd_augmented.factor(self->inner, point);
+    int status = zd_augmented_dense.factor(self->inner, point);
     self->M = zd_dense_M(point, self->M_memory);
     self->C = zd_dense_C(point, self->C_memory);
     self->rows = point->rows;
@@ -131,7 +131,7 @@ static void refine(refined *self, const double *force, const double *rhs, double
         self->rhs[k] = rhs[k];
         for (int j = 0; j < n; j++) self->rhs[k] -= self->C[k * n + j] * x[j];
     }
-    zd_augmented.solve(self->inner, self->force, self->rhs, self->dx, self->dlambda);
+    zd_augmented_dense.solve(self->inner, self->force, self->rhs, self->dx, self->dlambda);
     for (int i = 0; i < n; i++) x[i] += self->dx[i];
     for (int k = 0; k < rows; k++) self->lambda[k] += self->dlambda[k];
 }
@@ -139,7 +139,7 @@ static void refine(refined *self, const double *force, const double *rhs, double
 static void solve(void *memory, const double *force, const double *rhs, double *x, double *lambda)
 {
     refined *self = memory;
-    zd_augmented.solve(self->inner, force, rhs, x, self->lambda);
+    zd_augmented_dense.solve(self->inner, force, rhs, x, self->lambda);
     for (int i = 0; i < self->times; i++) refine(self, force, rhs, x);
     for (int k = 0; lambda && k < self->rows; k++) lambda[k] = self->lambda[k];
 }

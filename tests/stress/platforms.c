@@ -33,9 +33,9 @@ static int run(const zd_kind *kind, int formulation, const char *integrator, int
     kind->start(parameters, p, v);
 
     zd_settings settings = {.t1 = 8.0, .step = 0.01, .save_every = 800, .closed_form = closed_form, .formulation = formulation};
-    settings.integrator = zd_row_named(ZD_INTEGRATORS, integrator);
-    int projection = zd_row_named(ZD_CORRECTIONS, "projection");
-    settings.correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
+    settings.integrator = zd_entry_named(ZD_INTEGRATORS, integrator);
+    int projection = zd_entry_named(ZD_CORRECTIONS, "projection");
+    settings.correction[projection] = zd_initial(zd_entry_card(ZD_CORRECTIONS, projection));
     settings.correction[projection].given = 1;
     char message[512];
     zd_run *made = zd_run_create(&system, &settings, p, v, &status, message, sizeof message);
@@ -43,7 +43,7 @@ static int run(const zd_kind *kind, int formulation, const char *integrator, int
     int counts[2][2];
     zd_record record = {2, 0, t, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], counts[0], counts[1], NULL};
     if (!made || zd_run_advance(made, &record, 1e9) || record.rows != 2) return 1;
-    printf("%s %s %s:", zd_row(ZD_FORMULATIONS, formulation)->name, integrator, closed_form ? "closed_form" : "general");
+    printf("%s %s %s:", zd_entry_card(ZD_FORMULATIONS, formulation)->name, integrator, closed_form ? "closed_form" : "general");
     print_bits("p", system.nq, rows[0] + system.nq);
     print_bits("v", system.nv, rows[1] + system.nv);
     print_bits("lambda", system.mh + system.mn, rows[2] + system.mh + system.mn);
@@ -54,9 +54,9 @@ static int run(const zd_kind *kind, int formulation, const char *integrator, int
 
 int main(void)
 {
-    const zd_kind *kind = zd_kind_of(zd_row_named(ZD_SYSTEMS, "four_bar"));
+    const zd_kind *kind = zd_kind_of(zd_entry_named(ZD_SYSTEMS, "four_bar"));
     const char *integrators[] = {"rk4", "dop853"};
-    for (int formulation = 0; formulation < zd_rows(ZD_FORMULATIONS); formulation++)
+    for (int formulation = 0; formulation < zd_entry_count(ZD_FORMULATIONS); formulation++)
         for (int i = 0; i < 2; i++)
             for (int closed_form = 0; closed_form < 2; closed_form++)
                 if (run(kind, formulation, integrators[i], closed_form)) return 1;

@@ -52,7 +52,7 @@ int main(int count, char **argument)
     if (count != 4) return EXIT_FAILURE;
     number = atoi(argument[1]);
     first = (uintptr_t)strtoull(argument[3], NULL, 16);
-    const zd_kind *kind = zd_kind_of(zd_row_named(ZD_SYSTEMS, "four_bar"));
+    const zd_kind *kind = zd_kind_of(zd_entry_named(ZD_SYSTEMS, "four_bar"));
     double parameters[LARGEST], constants[LARGEST], p[LARGEST], v[LARGEST];
     int n = 0;
     for (int i = 0; i < kind->parameters; i++)
@@ -62,13 +62,13 @@ int main(int count, char **argument)
     kind->start(parameters, p, v);
     zd_system system = kind->system;
     system.data = constants;
-    const int projection = zd_row_named(ZD_CORRECTIONS, "projection"), energy = zd_row_named(ZD_CORRECTIONS, "energy");
+    const int projection = zd_entry_named(ZD_CORRECTIONS, "projection"), energy = zd_entry_named(ZD_CORRECTIONS, "energy");
     zd_settings settings = {
-        .formulation = zd_row_named(ZD_FORMULATIONS, "schur"), .integrator = zd_row_named(ZD_INTEGRATORS, "rk4"),
+        .formulation = zd_entry_named(ZD_FORMULATIONS, "schur"), .integrator = zd_entry_named(ZD_INTEGRATORS, "rk4"),
         .t1 = 0.3, .step = 0.01, .save_every = 1, .closed_form = atoi(argument[2]),
     };
-    settings.correction[projection] = zd_initial(zd_row(ZD_CORRECTIONS, projection));
-    settings.correction[energy] = zd_initial(zd_row(ZD_CORRECTIONS, energy));
+    settings.correction[projection] = zd_initial(zd_entry_card(ZD_CORRECTIONS, projection));
+    settings.correction[energy] = zd_initial(zd_entry_card(ZD_CORRECTIONS, energy));
     settings.correction[projection].given = settings.correction[energy].given = 1;
     run(&system, &settings, p, v);
     for (int i = 0; i < calls; i++) printf("%d %" PRIxPTR "\n", depths[i], called[i]);

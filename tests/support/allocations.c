@@ -35,18 +35,19 @@ static void count(const zd_kind *kind, const zd_system *system, zd_settings sett
     allocations = 0;
     if (run) status = zd_run_advance(run, &record, 1e9);
     printf("allocations %ld %ld %s, %s, %s, status %d, %" PRId64 " rows\n", creating, allocations, kind->card.name,
-           zd_row(ZD_FORMULATIONS, settings.formulation)->name, zd_row(ZD_INTEGRATORS, settings.integrator)->name, status, record.rows);
+           zd_entry_card(ZD_FORMULATIONS, settings.formulation)->name, zd_entry_card(ZD_INTEGRATORS, settings.integrator)->name, status,
+               record.rows);
     zd_run_free(run);
 }
 
 static void count_with_settings(const zd_kind *kind, const zd_system *system, const double *p, const double *v)
 {
     zd_settings settings = {.t1 = 0.5, .step = 0.5 / STEPS, .save_every = 1};
-    for (settings.formulation = 0; settings.formulation < zd_rows(ZD_FORMULATIONS); settings.formulation++)
-        for (settings.integrator = 0; settings.integrator < zd_rows(ZD_INTEGRATORS); settings.integrator++)
+    for (settings.formulation = 0; settings.formulation < zd_entry_count(ZD_FORMULATIONS); settings.formulation++)
+        for (settings.integrator = 0; settings.integrator < zd_entry_count(ZD_INTEGRATORS); settings.integrator++)
             for (int all = 0; all < 2 && zd_suits(system, settings.integrator); all++) {
-                for (int row = 0; row < zd_rows(ZD_CORRECTIONS); row++) {
-                    settings.correction[row] = zd_initial(zd_row(ZD_CORRECTIONS, row));
+                for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS); row++) {
+                    settings.correction[row] = zd_initial(zd_entry_card(ZD_CORRECTIONS, row));
                     settings.correction[row].given = all && !(zd_correction_requires(row) & ~system->provides);
                 }
                 char message[512];
@@ -57,7 +58,7 @@ static void count_with_settings(const zd_kind *kind, const zd_system *system, co
 
 int main(void)
 {
-    for (int row = 0; row < zd_rows(ZD_SYSTEMS); row++) {
+    for (int row = 0; row < zd_entry_count(ZD_SYSTEMS); row++) {
         const zd_kind *kind = zd_kind_of(row);
         double parameters[LARGEST], constants[LARGEST], p[LARGEST], v[LARGEST];
         int n = 0;

@@ -15,9 +15,9 @@ static int64_t position_in(const double *block, int64_t size, const double *plac
 }
 
 /* Source from which lanes read the input of a place; neither: only the run itself reads it. */
-static zd_lane_input_place place_of(const zd_run *run, const double *data, int64_t doubles, const zd_input_place *place)
+static zd_lane_input_slot place_of(const zd_run *run, const double *data, int64_t doubles, const zd_input_slot *place)
 {
-    return (zd_lane_input_place){
+    return (zd_lane_input_slot){
         .input = place->input,
         .in_data = position_in(data, doubles, place->place),
         .in_inputs = position_in(run->motion.point->inputs, run->motion.system.inputs ? 2 * run->motion.system.inputs + 1 : 0, place->place)};
@@ -55,8 +55,8 @@ int zd_lane_inputs_fit(const zd_open_lanes *self, int64_t i)
     if (!inputs) return !common->count;
     if (inputs->count != common->count || inputs->places != common->places) return 0;
     for (int k = 0; k < inputs->places; k++) {
-        const zd_lane_input_place *place = common->place + k;
-        const zd_lane_input_place found = place_of(run, self->runs->data[i], self->runs->doubles, inputs->place + k);
+        const zd_lane_input_slot *place = common->place + k;
+        const zd_lane_input_slot found = place_of(run, self->runs->data[i], self->runs->doubles, inputs->place + k);
         if (found.input != place->input || found.in_data != place->in_data || found.in_inputs != place->in_inputs) return 0;
     }
     for (int k = 0; k < inputs->derivations; k++) {
@@ -85,7 +85,7 @@ int zd_lane_inputs_enter(zd_open_lanes *self, int64_t i)
 void zd_lane_inputs_put_back(zd_open_lanes *self, int64_t i, int has_moved)
 {
     zd_run *run = self->runs->run[i];
-    zd_lane_place *place = self->place + (i - self->first);
+    zd_lane_slot *place = self->place + (i - self->first);
     if (!place->is_behind) return;
     const size_t count = (size_t)self->inputs.count;
     memcpy(run->held.value, self->inputs.held + (size_t)(i - self->first) * count, count * sizeof(double));
@@ -101,7 +101,7 @@ static void write(zd_open_lanes *self, int lane, const double *held)
     zd_lanes *lanes = &self->lanes;
     const zd_lane_inputs *inputs = &self->inputs;
     for (int i = 0; i < inputs->places; i++) {
-        const zd_lane_input_place *place = inputs->place + i;
+        const zd_lane_input_slot *place = inputs->place + i;
         if (place->in_data >= 0) zd_lane_set(lanes, lanes->data, place->in_data, lane, held[place->input]);
         if (place->in_inputs >= 0) zd_lane_set(lanes, lanes->inputs, place->in_inputs, lane, held[place->input]);
     }

@@ -75,7 +75,7 @@ void zd_lane_enter(zd_open_lanes *self, int lane, int64_t i)
     lanes->part_error[lane] = statistics->part_error;
     lanes->part[lane] = (double)statistics->part;
     self->runs->status[i] = ZD_DONE;
-    self->place[i - self->first] = (zd_lane_place){.is_in = 1, .is_behind = (unsigned char)is_behind};
+    self->place[i - self->first] = (zd_lane_slot){.is_in = 1, .is_behind = (unsigned char)is_behind};
 }
 
 static void store_statistics(zd_lanes *lanes, int lane, double steps, zd_run *run)

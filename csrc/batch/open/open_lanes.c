@@ -275,5 +275,5 @@ int zd_open_lanes_update_run(zd_open_lanes *self, int64_t i)
 void zd_open_lanes_discard(zd_open_lanes *self, int64_t i)
 {
     const int64_t k = i - self->first;
-    if (k >= 0 && k < self->count) self->place[k] = (zd_lane_place){0};
+    if (k >= 0 && k < self->count) self->place[k] = (zd_lane_slot){0};
 }

@@ -63,10 +63,10 @@ void zd_opened_explain_reach(struct zd_opened *self)
     if (block && measure) {
         const zd_block_layout *layout = &block->layout;
         for (int i = 0; i < mh; i++) {
-            const zd_row_owner *owner = block->names.owner + i;
+            const zd_constraint_owner *owner = block->names.owner + i;
             measure[i] = owner->owner == ZD_OF_RELATION ? measure_of_drive(layout, owner->index) : -1;
         }
-        const zd_assembly_given given = {.system = &block->system, .t = t, .length = length_of(block)};
+        const zd_assembly_problem given = {.system = &block->system, .t = t, .length = length_of(block)};
         zd_assembly_explain_reach(&given, zd_run_p(self->run), measure, step > 0 ? STEPS_AHEAD * step : AHEAD, self->message,
                                   ZD_OPENED_MESSAGE);
     }
@@ -95,8 +95,8 @@ int zd_opened_find_positions(struct zd_opened *self, double t, const double *p)
     double *residual = zd_allocate(3 * m * sizeof *residual), *size = residual + m;
     if (!residual) return ZD_NO_MEMORY;
     int *row = (int *)(size + m);
-    for (int k = 0; k < block->system.mh; k++) row[k] = block->names.owner[k].owner == ZD_OF_RELATION ? ZD_ROW_OF_DRIVE : ZD_ROW_OF_JOINT;
-    const zd_assembly_given given = {.system = &block->system, .t = t, .length = length_of(block), .row = row, .residual = residual,
+    for (int k = 0; k < block->system.mh; k++) row[k] = block->names.owner[k].owner == ZD_OF_RELATION ? ZD_OWNED_BY_DRIVE : ZD_OWNED_BY_JOINT;
+    const zd_assembly_problem given = {.system = &block->system, .t = t, .length = length_of(block), .row = row, .residual = residual,
                                      .size = size};
     memcpy(self->p, p, (size_t)block->system.nq * sizeof *p);
     const int outcome = zd_assemble_positions(&given, self->p);

@@ -45,7 +45,7 @@ typedef struct zd_partition_sparse {
     double rounding;        /* rounding of Phi, relative to its size */
 } zd_partition_sparse;
 
-/* Returns NULL unless the system exceeds ZD_MAX_DENSE_ROWS. It has the system's sizes with the independent constraints only. */
+/* Returns NULL unless the system exceeds ZD_MAX_DENSE_CONSTRAINTS. It has the system's sizes with the independent constraints only. */
 zd_partition_sparse *zd_partition_sparse_create(zd_arena *arena, const zd_system *system);
 /* Sets v of the point from the stored u. */
 int zd_partition_sparse_update(zd_partition_sparse *self, zd_point *point);

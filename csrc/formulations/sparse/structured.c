@@ -39,7 +39,7 @@ int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass)
 {
     const zd_rank *rank = point->rank;
     int status = ZD_DEPENDENT_ROWS;
-    zd_rows_use_all(point);
+    zd_use_all_constraints(point);
     self->is_coupled = rank->max_rank == rank->m && rank->m <= rank->n;
     if (self->is_coupled) status = zd_schur_blocks_factor(self->blocks, point);
     if (self->is_coupled && (!status || status == ZD_DEPENDENT_ROWS))

@@ -65,7 +65,7 @@ typedef struct zd_schur_blocks {
     double *rhs_of_all, *lambda_of_all;     /* (m,) */
 } zd_schur_blocks;
 
-/* Returns NULL if the system declares no structure, or has redundant constraints and exceeds ZD_MAX_DENSE_ROWS. */
+/* Returns NULL if the system declares no structure, or has redundant constraints and exceeds ZD_MAX_DENSE_CONSTRAINTS. */
 zd_schur_blocks *zd_schur_blocks_create(zd_arena *arena, const zd_system *system);
 /* Factors S; all constraints are independent at the point, or their selection is known, without limits. ZD_DEPENDENT_ROWS: S is singular
  * to rounding. */
@@ -103,7 +103,7 @@ typedef struct zd_structured {
     int is_coupled;             /* 1: blocks were factored; 0: bodywise */
 } zd_structured;
 
-/* Returns NULL unless the system exceeds ZD_MAX_DENSE_ROWS. */
+/* Returns NULL unless the system exceeds ZD_MAX_DENSE_CONSTRAINTS. */
 zd_structured *zd_structured_create(zd_arena *arena, const zd_system *system);
 /* Factors the leading matrix at the point; `inverts_mass`: M must be positive definite. */
 int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass);

@@ -40,7 +40,7 @@ int zd_drives_act(const zd_actions *self, int joint, double t, const double *lam
         self->add(self->readings, self->to, elements->force[i].quantity, value);
     }
     for (int i = 0; i < elements->relations; i++) {
-        const zd_relation *row = elements->row + elements->row_of_relation[i];
+        const zd_relation *row = elements->row + elements->constraint_of_relation[i];
         if (row->joint != joint) continue;
         const int status = zd_drive_force(elements, self->readings, i, 0, t, lambda, &value);
         if (status) return status;

@@ -84,7 +84,7 @@ typedef int zd_law(void *owner, int law, double t, const double *x, const double
 /* Compiled user function, with its own parameters `numbers`. */
 typedef void zd_law_function(const double *numbers, double t, const double *x, const double *xdot, double *out);
 
-/* User functions that are inputs, see zd_input_place: a generalized force, numbers (1,), and the speed of a drive, numbers (3,). */
+/* User functions that are inputs, see zd_input_slot: a generalized force, numbers (1,), and the speed of a drive, numbers (3,). */
 void zd_effort_input(const double *numbers, double t, const double *x, const double *xdot, double *out);
 void zd_speed_input(const double *numbers, double t, const double *x, const double *xdot, double *out);
 
@@ -111,10 +111,10 @@ typedef struct zd_elements {
 /* Origin of a row of C: a joint, or a relation (drive, coupling, user constraint). */
 enum zd_owner { ZD_OF_JOINT, ZD_OF_RELATION };
 
-typedef struct zd_row_owner {
+typedef struct zd_constraint_owner {
     enum zd_owner owner;
     int index;                  /* index of the joint or relation */
     int component;              /* row of the joint, in the order of its kind */
-} zd_row_owner;
+} zd_constraint_owner;
 
 #endif

@@ -97,7 +97,7 @@ static void write_null_vectors(least_reactions *of, int m)
 static int find_largest(const zd_measuring *self, const zd_measured_state *at, int relation, double *size)
 {
     const zd_readings *of = &self->readings;
-    const zd_relation *row = self->elements->row + self->elements->row_of_relation[relation];
+    const zd_relation *row = self->elements->row + self->elements->constraint_of_relation[relation];
     const zd_quantity_term *term = self->elements->term + row->first;
     size[0] = size[1] = 0;
     for (int side = 0; side < 2 * row->terms; side++) {
@@ -130,7 +130,7 @@ static int write_wrenches(const zd_measuring *self, const zd_measured_state *at,
         for (int k = 0; k < self->numerics->torques; k++) to[ZD_WRENCH_FORCE + k] /= elements->length;
     }
     for (int i = 0; i < elements->relations; i++, to += 2) {
-        const int row = elements->row_of_relation[i];
+        const int row = elements->constraint_of_relation[i];
         double size[2] = {0, 0};
         const int status = elements->row[row].joint < 0 ? find_largest(self, at, i, size) : ZD_DONE;
         if (status) return status;

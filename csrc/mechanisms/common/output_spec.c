@@ -54,7 +54,7 @@ int zd_drive_force(const zd_planned_elements *elements, const zd_readings *at, i
                     double *force)
 {
     zd_combined all;
-    const int row = elements->row_of_relation[relation], status = zd_combine(elements, at, elements->row + row, t, &all);
+    const int row = elements->constraint_of_relation[relation], status = zd_combine(elements, at, elements->row + row, t, &all);
     *force = status ? 0 : -lambda[row] * all.factors[term];
     return status;
 }
@@ -63,7 +63,7 @@ int zd_output_drive(const zd_planned_elements *elements, const zd_readings *at, 
                       double *value)
 {
     const int status = zd_drive_force(elements, at, measure->index, measure->term, t, lambda, value);
-    const zd_relation *row = elements->row + elements->row_of_relation[measure->index];
+    const zd_relation *row = elements->row + elements->constraint_of_relation[measure->index];
     if (measure->kind == ZD_DRIVE_POWER) *value *= zd_rate_of(at, elements->term[row->first].quantity);
     return status;
 }

@@ -37,7 +37,7 @@ static int offset_of(const zd_packed *self, int first, int body)
 
 static int is_in_group(const zd_planned_elements *elements, int before, int row)
 {
-    const zd_row_owner *a = elements->owner_of_row + before, *b = elements->owner_of_row + row;
+    const zd_constraint_owner *a = elements->owner_of_constraint + before, *b = elements->owner_of_constraint + row;
     return a->owner == b->owner && a->index == b->index && (before < elements->mh) == (row < elements->mh);
 }
 

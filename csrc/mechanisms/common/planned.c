@@ -11,8 +11,8 @@ void zd_elements_create(zd_element_parts *to, zd_arena *arena, const zd_elements
     TAKE(term, terms);
     TAKE(coefficient, terms);
     TAKE(row, rows);
-    TAKE(owner_of_row, rows);
-    TAKE(row_of_relation, (size_t)elements->relations);
+    TAKE(owner_of_constraint, rows);
+    TAKE(constraint_of_relation, (size_t)elements->relations);
     TAKE(force, (size_t)elements->forces);
     TAKE(output, (size_t)elements->measures);
     TAKE(measure, (size_t)elements->measures);
@@ -32,24 +32,24 @@ void zd_elements_add_term(zd_element_parts *to, int quantity, double coefficient
     to->term[to->terms++] = (zd_quantity_term){quantity, coefficient};
 }
 
-static void add_row(zd_element_parts *to, zd_relation row, zd_row_owner owner)
+static void add_row(zd_element_parts *to, zd_relation row, zd_constraint_owner owner)
 {
     to->row[to->rows] = row;
-    to->owner_of_row[to->rows++] = owner;
+    to->owner_of_constraint[to->rows++] = owner;
 }
 
 void zd_elements_add_joint_row(zd_element_parts *to, int first, int nonholonomic, int joint, int component)
 {
     const zd_relation row = {first, to->terms - first, nonholonomic, -1, 0, 0, joint};
-    add_row(to, row, (zd_row_owner){ZD_OF_JOINT, joint, component});
+    add_row(to, row, (zd_constraint_owner){ZD_OF_JOINT, joint, component});
 }
 
 void zd_elements_add_relations(const zd_elements *elements, int nonholonomic, zd_element_parts *to)
 {
     for (int i = 0; i < elements->relations; i++) {
         if (elements->relation[i].nonholonomic != nonholonomic) continue;
-        to->row_of_relation[i] = to->rows;
-        add_row(to, elements->relation[i], (zd_row_owner){ZD_OF_RELATION, i, 0});
+        to->constraint_of_relation[i] = to->rows;
+        add_row(to, elements->relation[i], (zd_constraint_owner){ZD_OF_RELATION, i, 0});
     }
 }
 
@@ -103,7 +103,8 @@ zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_eleme
         .reading = elements->reading ? *elements->reading : (zd_reading){0},
         .relations = elements->relations, .forces = elements->forces, .mh = mh, .m = from->rows, .longest = longest_of(elements),
         .length = elements->length > 0 ? elements->length : 1, .term = from->term, .coefficient = from->coefficient, .row = from->row,
-        .owner_of_row = from->owner_of_row, .row_of_relation = from->row_of_relation, .force = from->force, .output = from->output,
+        .owner_of_constraint = from->owner_of_constraint, .constraint_of_relation = from->constraint_of_relation, .force = from->force,
+            .output = from->output,
         .law = elements->law, .owner = elements->owner, .has_velocity_forces = forces_know_velocity(elements),
     };
 }

@@ -12,8 +12,8 @@ typedef struct zd_planned_elements {
     const zd_quantity_term *term;
     const double *coefficient;      /* coefficients of the terms, contiguous */
     const zd_relation *row;         /* (m,) rows of joints and relations, holonomic ones first */
-    const zd_row_owner *owner_of_row;   /* (m,) */
-    const int *row_of_relation;     /* (relations,) */
+    const zd_constraint_owner *owner_of_constraint;   /* (m,) */
+    const int *constraint_of_relation;     /* (relations,) */
     const zd_generalized_force *force;
     const zd_output_spec *output;
     zd_law *law;
@@ -28,8 +28,8 @@ typedef struct zd_element_parts {
     zd_quantity_term *term;
     double *coefficient;
     zd_relation *row;
-    zd_row_owner *owner_of_row;
-    int *row_of_relation;
+    zd_constraint_owner *owner_of_constraint;
+    int *constraint_of_relation;
     zd_generalized_force *force;
     zd_output_spec *output;
     zd_measure *measure;

@@ -62,7 +62,7 @@ zd_plane *zd_plane_create(const zd_plane_tables *tables, char *message, int mess
 void zd_plane_free(zd_plane *mechanism);
 /* The system; it refers to the mechanism. */
 const zd_system *zd_plane_system(const zd_plane *mechanism);
-const zd_row_owner *zd_plane_rows(const zd_plane *mechanism);                       /* (m,) */
+const zd_constraint_owner *zd_plane_rows(const zd_plane *mechanism);                       /* (m,) */
 const zd_plane_coordinate_owner *zd_plane_coordinates(const zd_plane *mechanism);         /* (nq,) */
 /* Size in bytes of the data of the system, for a copy of it: see zd_plane_with(). */
 int zd_plane_data_size(void);

@@ -7,7 +7,7 @@
 
 #include "bodies.h"
 
-enum { ZD_POINT_ROWS = 3, ZD_POINT_JOINT_ROWS = 6 };   /* rows of the point, and maximum of all rows */
+enum { ZD_POINT_CONSTRAINTS = 3, ZD_POINT_JOINT_CONSTRAINTS = 6 };   /* rows of the point, and maximum of all rows */
 
 /* The data are split into four arrays: most loops read one or two of them, and large mechanisms are bound by memory bandwidth. */
 typedef struct zd_point_joint {
@@ -23,7 +23,7 @@ typedef struct zd_point_joint_points {
 
 typedef struct zd_directions {
     /* unit vectors of the first and the second body */
-    zd_vector3 a[ZD_POINT_JOINT_ROWS - ZD_POINT_ROWS], b[ZD_POINT_JOINT_ROWS - ZD_POINT_ROWS];
+    zd_vector3 a[ZD_POINT_JOINT_CONSTRAINTS - ZD_POINT_CONSTRAINTS], b[ZD_POINT_JOINT_CONSTRAINTS - ZD_POINT_CONSTRAINTS];
 } zd_directions;
 
 typedef struct zd_point_joint_entries {  /* entries of C */

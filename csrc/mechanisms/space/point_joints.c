@@ -26,19 +26,19 @@ static const zd_space_quantity *quantity_of_row(const zd_space *space,
 
 static int is_of_joint(const zd_space *space, int row, int joint)
 {
-    return row < space->elements.mh && space->elements.owner_of_row[row].owner == ZD_OF_JOINT
-        && space->elements.owner_of_row[row].index == joint;
+    return row < space->elements.mh && space->elements.owner_of_constraint[row].owner == ZD_OF_JOINT
+        && space->elements.owner_of_constraint[row].index == joint;
 }
 
 /* Number of rows of the point joint that begins at `row`; 0 if there is none. */
 static int count_rows(const zd_space *space, int row)
 {
-    const int joint = space->elements.owner_of_row[row].index;
+    const int joint = space->elements.owner_of_constraint[row].index;
     int rows = 0;
     while (row + rows < space->elements.m && is_of_joint(space, row + rows, joint)) rows++;
-    if (rows < ZD_POINT_ROWS || rows > ZD_POINT_JOINT_ROWS) return 0;
+    if (rows < ZD_POINT_CONSTRAINTS || rows > ZD_POINT_JOINT_CONSTRAINTS) return 0;
     for (int k = 0; k < rows; k++) {
-        const int kind = k < ZD_POINT_ROWS ? ZD_SPACE_X + k : ZD_SPACE_COSINE;
+        const int kind = k < ZD_POINT_CONSTRAINTS ? ZD_SPACE_X + k : ZD_SPACE_COSINE;
         if (quantity_of_row(space, row + k)->kind != kind) return 0;
     }
     return rows;
@@ -68,8 +68,8 @@ static void add_socket(zd_point_joints *self, const zd_space *space, int row, in
         .C = space->packed.at[row], .width = space->packed.at[row + 1] - space->packed.at[row],
         .near = space->packed.near[term], .far = space->packed.far[term],
         .near_turns = space->body[point->first].turns, .far_turns = space->body[point->second].turns};
-    for (int i = 0; i < rows - ZD_POINT_ROWS; i++) {
-        const zd_space_quantity *quantity = quantity_of_row(space, row + ZD_POINT_ROWS + i);
+    for (int i = 0; i < rows - ZD_POINT_CONSTRAINTS; i++) {
+        const zd_space_quantity *quantity = quantity_of_row(space, row + ZD_POINT_CONSTRAINTS + i);
         self->directions[k].a[i] = zd_vector3_of(quantity->a);
         self->directions[k].b[i] = zd_vector3_of(quantity->b);
     }
@@ -121,14 +121,14 @@ void zd_point_joints_turn(const zd_point_joints *self, const zd_space_frame *fra
         frame->arms[k] = (zd_arms){zd_rotated3(R1, points->first), zd_rotated3(R2, points->second)};
         turn_point(-1, R1, points->first, first);
         turn_point(1, R2, points->second, second);
-        for (int i = 0; i < rows - ZD_POINT_ROWS; i++) {
+        for (int i = 0; i < rows - ZD_POINT_CONSTRAINTS; i++) {
             const zd_directions *own = self->directions + k;
             zd_directions *now = frame->directions + k;
             now->a[i] = zd_rotated3(R1, own->a[i]);
             now->b[i] = zd_rotated3(R2, own->b[i]);
             const zd_vector3 torque = zd_cross3(now->b[i], now->a[i]);
-            keep(-1, zd_rotated_back3(R1, torque), first + 3 * (ZD_POINT_ROWS + i));
-            keep(1, zd_rotated_back3(R2, torque), second + 3 * (ZD_POINT_ROWS + i));
+            keep(-1, zd_rotated_back3(R1, torque), first + 3 * (ZD_POINT_CONSTRAINTS + i));
+            keep(1, zd_rotated_back3(R2, torque), second + 3 * (ZD_POINT_CONSTRAINTS + i));
         }
     }
 }
@@ -144,7 +144,7 @@ static void write_Phi(const zd_point_joints *self, const zd_space_frame *frame, 
         const zd_vector3 Q = zd_plus3(frame->pose[joint->second].at, arms->second), P = zd_plus3(frame->pose[joint->first].at, arms->first);
         double *own = Phi + joint->row;
         keep(1, zd_minus3(Q, P), own);
-        for (int i = 0; i < joint->rows - ZD_POINT_ROWS; i++) own[ZD_POINT_ROWS + i] = zd_inner3(now->a[i], now->b[i]);
+        for (int i = 0; i < joint->rows - ZD_POINT_CONSTRAINTS; i++) own[ZD_POINT_CONSTRAINTS + i] = zd_inner3(now->a[i], now->b[i]);
     }
 }
 
@@ -166,8 +166,8 @@ static void write_xi(const zd_point_joints *self, const zd_space_frame *frame, d
         const zd_vector3 spin1 = frame->twist[joint->first].spin, spin2 = frame->twist[joint->second].spin;
         double *own = xi + joint->row;
         keep(1, zd_minus3(turned_twice(spin1, arms->first), turned_twice(spin2, arms->second)), own);
-        for (int i = 0; i < joint->rows - ZD_POINT_ROWS; i++)
-            own[ZD_POINT_ROWS + i] = -bias_of_directions(spin1, spin2, now->a[i], now->b[i]);
+        for (int i = 0; i < joint->rows - ZD_POINT_CONSTRAINTS; i++)
+            own[ZD_POINT_CONSTRAINTS + i] = -bias_of_directions(spin1, spin2, now->a[i], now->b[i]);
     }
 }
 
@@ -175,7 +175,7 @@ static void write_xi(const zd_point_joints *self, const zd_space_frame *frame, d
 static void write_body(int rows, int width, double sign, const double *turns, int has_turns, double *C)
 {
     for (int i = 0; i < rows; i++, C += width, turns += 3) {
-        if (i < ZD_POINT_ROWS) C[i] = sign;
+        if (i < ZD_POINT_CONSTRAINTS) C[i] = sign;
         for (int j = 0; has_turns && j < 3; j++) C[3 + j] = turns[j];
     }
 }

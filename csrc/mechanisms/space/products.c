@@ -43,8 +43,8 @@ ZD_INLINE double dot3(const double *a, const double *b) { return a[0] * b[0] + a
 ZD_INLINE void times_joint(const int rows, const zd_point_joint *joint, const double *first, const double *x, double *y)
 {
     const double *a = velocities_of(x, joint->first), *b = velocities_of(x, joint->second), *second = first + 3 * rows;
-    for (int i = 0; i < ZD_POINT_ROWS; i++) y[i] = b[i] - a[i] + (dot3(second + 3 * i, b + 3) + dot3(first + 3 * i, a + 3));
-    for (int i = ZD_POINT_ROWS; i < rows; i++) y[i] = dot3(second + 3 * i, b + 3) + dot3(first + 3 * i, a + 3);
+    for (int i = 0; i < ZD_POINT_CONSTRAINTS; i++) y[i] = b[i] - a[i] + (dot3(second + 3 * i, b + 3) + dot3(first + 3 * i, a + 3));
+    for (int i = ZD_POINT_CONSTRAINTS; i < rows; i++) y[i] = dot3(second + 3 * i, b + 3) + dot3(first + 3 * i, a + 3);
 }
 
 ZD_INLINE void times_all(const int rows, const zd_point_joints *self, const double *turns, const double *x, double *restrict y)
@@ -116,7 +116,7 @@ ZD_INLINE void add_product(const int a, const int b, const double *A, const doub
     const int down = turned ? 1 : b, along = turned ? a : 1;
     for (int i = 0; i < a; i++)
         for (int j = 0; j < b; j++) to[i * down + j * along] += dot3(A + 3 * i, B + 3 * j);
-    for (int i = 0; i < ZD_POINT_ROWS; i++) to[i * (down + along)] += sign * w[i];
+    for (int i = 0; i < ZD_POINT_CONSTRAINTS; i++) to[i * (down + along)] += sign * w[i];
 }
 
 /* The same of one end with itself, of which the lower triangle is read. */
@@ -124,7 +124,7 @@ ZD_INLINE void add_square(const int a, const double *A, const double *B, const d
 {
     for (int i = 0; i < a; i++)
         for (int j = 0; j <= i; j++) to[i * a + j] += dot3(A + 3 * i, B + 3 * j);
-    for (int i = 0; i < ZD_POINT_ROWS; i++) to[i * (a + 1)] += w[i];
+    for (int i = 0; i < ZD_POINT_CONSTRAINTS; i++) to[i * (a + 1)] += w[i];
 }
 
 ZD_INLINE void add_all(const int rows, const zd_space *space, const double *turns, const double *W, const int *at, double *restrict S)
@@ -135,7 +135,7 @@ ZD_INLINE void add_all(const int rows, const zd_space *space, const double *turn
         for (const int first = k, last = end_at[i + 2]; k < last; k++) {
             const int end = ends[k], own = rows_of(rows, self, end);
             const double *G = turns_of(rows, self, turns, end);
-            double weighted[3 * ZD_POINT_JOINT_ROWS];
+            double weighted[3 * ZD_POINT_JOINT_CONSTRAINTS];
             for (int r = 0; r < own; r++)
                 for (int c = 0; c < 3; c++) weighted[3 * r + c] = G[3 * r + c] * W[3 + c];
             for (int j = first; j < k; j++, at++) {

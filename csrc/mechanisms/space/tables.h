@@ -61,7 +61,7 @@ zd_space *zd_space_create(const zd_space_tables *tables, char *message, int mess
 void zd_space_free(zd_space *space);
 /* The system; it refers to the mechanism. */
 const zd_system *zd_space_system(const zd_space *space);
-const zd_row_owner *zd_space_rows(const zd_space *space);       /* (m,) */
+const zd_constraint_owner *zd_space_rows(const zd_space *space);       /* (m,) */
 /* Number of joint angles; place (angles,) <- the index of each in p. NULL: not wanted. */
 int zd_space_angles(const zd_space *space, int *place);
 /* Marker quantity of a coordinate of a joint, which its kind must have; `angles` is the number of angles of the joints before it. */

@@ -65,18 +65,18 @@ static int refuse(const char *wrong, char *message, int size)
 }
 
 /* The first term that the correction requires and the system does not provide; NULL: none. */
-static const zd_term_row *lacking(const zd_system *system, const zd_correction *correction)
+static const zd_term_entry *lacking(const zd_system *system, const zd_correction *correction)
 {
     for (int row = 0; zd_term_at(row); row++)
         if (correction->requires & zd_term_at(row)->term & ~system->provides) return zd_term_at(row);
     return NULL;
 }
 
-static int check_correction(const zd_system *system, int row, const zd_given *given, char *message, int size)
+static int check_correction(const zd_system *system, int row, const zd_parameter_values *given, char *message, int size)
 {
     const zd_correction *correction = zd_correction_of(row);
-    const zd_term_row *lacks = lacking(system, correction);
-    if (!lacks) return zd_check_given(ZD_CORRECTIONS, row, given, message, size);
+    const zd_term_entry *lacks = lacking(system, correction);
+    if (!lacks) return zd_check_parameter_values(ZD_CORRECTIONS, row, given, message, size);
     snprintf(message, (size_t)size, "%s correction needs %s (%s)", correction->card.name, lacks->name, lacks->text);
     return ZD_BAD_ARGUMENT;
 }
@@ -84,9 +84,9 @@ static int check_correction(const zd_system *system, int row, const zd_given *gi
 /* Parameters of the chosen formulation, integrator and corrections. */
 static int check_given(const zd_system *system, const zd_settings *settings, char *message, int size)
 {
-    int status = zd_check_given(ZD_FORMULATIONS, settings->formulation, &settings->of_formulation, message, size);
-    if (!status) status = zd_check_given(ZD_INTEGRATORS, settings->integrator, &settings->of_integrator, message, size);
-    for (int row = 0; row < zd_rows(ZD_CORRECTIONS) && !status; row++)
+    int status = zd_check_parameter_values(ZD_FORMULATIONS, settings->formulation, &settings->of_formulation, message, size);
+    if (!status) status = zd_check_parameter_values(ZD_INTEGRATORS, settings->integrator, &settings->of_integrator, message, size);
+    for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS) && !status; row++)
         if (settings->correction[row].given) status = check_correction(system, row, &settings->correction[row], message, size);
     return status;
 }
@@ -172,7 +172,7 @@ int zd_check_methods_agree(const zd_settings *settings, char *message, int size)
     const size_t room = (size_t)size;
     int said = 0;
     if (!integrator || !integrator->takes_series) return ZD_DONE;
-    for (int row = 0; row < zd_rows(ZD_CORRECTIONS) && !said; row++)
+    for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS) && !said; row++)
         if (settings->correction[row].given && zd_correction_of(row)->stabilize)
             said = snprintf(message, room, "'%s' must be run without '%s', which changes the constraints of its series; 'projection' does "
                             "not", integrator->card.name, zd_correction_of(row)->card.name);
@@ -205,7 +205,7 @@ int zd_check_method(const zd_system *system, const zd_settings *settings, char *
     if (!status) status = check_reactions(system, settings, message, size);
     if (!status) status = check_series(system, settings, message, size);
     const zd_formulation *formulation = status ? NULL : zd_formulation_of(settings->formulation);
-    if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_takes_many_rows(formulation, system)) {
+    if (!status && zd_is_too_large(system) && zd_rank_is_of_many(system) && !zd_has_many_constraints(formulation, system)) {
         snprintf(message, (size_t)size, "'%s' has dense matrices where a kinematic matrix stands between velocities and rates: such a system "
                  "must have at most %d velocities, not %d; 'schur', 'augmented', 'nullspace' and 'mixed' take them at a cost that "
                  "follows the bodies", formulation->card.name, ZD_MAX_IMPLICIT, system->nv);

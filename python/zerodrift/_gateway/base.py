@@ -139,13 +139,13 @@ def strided_doubles(array: np.ndarray, size: int) -> Any:
 
 def cards(table: str) -> tuple[Card, ...]:
     """Entries of a table of the core."""
-    rows = (lib.zd_row(TABLES[table], row) for row in range(lib.zd_rows(TABLES[table])))
+    rows = (lib.zd_entry_card(TABLES[table], row) for row in range(lib.zd_entry_count(TABLES[table])))
     return tuple(map(card_of, rows))
 
 
 def default(table: str) -> str:
     """Name of the default entry of a table of the core."""
-    return cards(table)[lib.zd_default_row(TABLES[table])].name
+    return cards(table)[lib.zd_default_entry(TABLES[table])].name
 
 
 class Status(NamedTuple):
@@ -228,14 +228,14 @@ def parameter_of(c: Any) -> Parameter:
 
 def row_named(table: str, name: str) -> int:
     """Entry of a table of the core, by its name."""
-    return lib.zd_row_named(TABLES[table], name.encode())
+    return lib.zd_entry_named(TABLES[table], name.encode())
 
 
 def clash(table: str, name: str, values: Sequence[float]) -> str:
     """Error message for the parameters of an entry of a table of the core; empty if they are consistent."""
     message = ffi.new("char[]", MESSAGE_SIZE)
-    row, given = row_named(table, name), ffi.new("zd_given *", {"given": 1, "value": values})
-    return text(message) if lib.zd_check_given(TABLES[table], row, given, message, MESSAGE_SIZE) else ""
+    row, given = row_named(table, name), ffi.new("zd_parameter_values *", {"given": 1, "value": values})
+    return text(message) if lib.zd_check_parameter_values(TABLES[table], row, given, message, MESSAGE_SIZE) else ""
 
 
 def required(correction: str) -> int:

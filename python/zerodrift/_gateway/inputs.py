@@ -65,7 +65,7 @@ class Inputs:
         self._bound = tuple(bound)
         places = [place for each in self._bound for place in each.places]
         derivations = [each for bound in self._bound for each in bound.derivations]
-        rows = ffi.new("zd_input_place[]", [(self.names.index(each.name), each.is_speed, each.address) for each in places])
+        rows = ffi.new("zd_input_slot[]", [(self.names.index(each.name), each.is_speed, each.address) for each in places])
         functions = ffi.new("void (*[])(double *)", [ffi.cast("void (*)(double *)", address) for address, _ in derivations])
         data = ffi.new("double *[]", [each for _, each in derivations])
         k = len(names)

@@ -74,7 +74,7 @@ class Kind:
 
 def kinds() -> dict[str, Kind]:
     """The built-in systems by name."""
-    return {kind.card.name: kind for kind in (Kind(lib.zd_kind_of(row)) for row in range(lib.zd_rows(lib.ZD_SYSTEMS)))}
+    return {kind.card.name: kind for kind in (Kind(lib.zd_kind_of(row)) for row in range(lib.zd_entry_count(lib.ZD_SYSTEMS)))}
 
 
 class CoreSystem(Measuring):
@@ -96,7 +96,7 @@ class CoreSystem(Measuring):
     without_lanes: CoreSystem | None = None # system that this one has SIMD lanes besides
     given_jacobian = False                  # whether its C and Phi_t were written down beside Phi, and may be wrong
 
-    def name_rows(self, system: Any) -> None:
+    def names_of_constraints(self, system: Any) -> None:
         """Let the core's messages use the constraint names of the given system."""
         if self.row_names is None:
             names = self.__dict__.setdefault("row_names", ConstraintNames())       # one, whichever thread comes first
@@ -183,7 +183,7 @@ class CoreSystem(Measuring):
         """Values u (k, functions) where vdot (k, nv) and the multipliers (k, m) are given, too; is_own: as of `measure`."""
         core, u = self if is_own else self.for_run(), np.zeros((len(t), self.functions))
         if u.size:
-            status = lib.zd_read_given(core.c, len(t), *(doubles(each, each.size) for each in (t, p, v, vdot, lam)),
+            status = lib.zd_read_states(core.c, len(t), *(doubles(each, each.size) for each in (t, p, v, vdot, lam)),
                                        doubles(u, u.size, writable=True))
             if status:
                 raise core.error or error_of(status, "user functions must have one value at given reactions")

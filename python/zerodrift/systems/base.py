@@ -457,7 +457,7 @@ def core_of(system: Any) -> _gateway.CoreSystem:
     core = getattr(system, "_core", None) if isinstance(system, BaseSystem) else None
     if core is None:
         raise WrongType(f"system must be one of zd.systems, a zd.System or a zd.Mechanism, not {_check.shown(system)}")
-    core.name_rows(system)
+    core.names_of_constraints(system)
     return core
 
 
@@ -469,10 +469,10 @@ def closed_form_core_of(system: Any, vector: str, core_settings: Any) -> _gatewa
     core = core_of(system)
     if _gateway.takes_closed_form(core, core_settings):
         core = system._closed_form_core(vector, _gateway.takes_embeddings(core_settings))
-        core.name_rows(system)
+        core.names_of_constraints(system)
     brought = with_what_it_takes(system, core, vector, core_settings)
     if brought is not core:
-        brought.name_rows(system)
+        brought.names_of_constraints(system)
     return brought
 
 

@@ -56,7 +56,7 @@ static int meet_staying(zd_assembly *self, double *p)
     memcpy(self->found, p, nq * sizeof *p);
     if (!zd_assembly_newton(self, &drawing, self->found)) return 0;
     zd_assembly_approach_drawing(self, &drawing, self->found);
-    zd_assembly_keep(self, self->found);
+    zd_assembly_save(self, self->found);
     memcpy(self->as_drawn, self->found, nq * sizeof *p);
     if (!zd_assembly_track(self, all.roles, self->found)) return 0;
     double *kept = self->drawn;
@@ -81,28 +81,28 @@ static int meet(zd_assembly *self, double *p, int *roles)
     return ZD_ASSEMBLED;
 }
 
-int zd_assemble_positions(const zd_assembly_given *given, double *p)
+int zd_assemble_positions(const zd_assembly_problem *given, double *p)
 {
     zd_assembly self;
     int roles = ZD_HELD | ZD_STAYING | ZD_DRAWN, outcome = zd_assembly_open(&self, given, p);
     if (outcome) return outcome;
     if (!is_closed(&self, p)) outcome = meet(&self, p, &roles);
-    else zd_assembly_keep(&self, p);
+    else zd_assembly_save(&self, p);
     if (!outcome && zd_assembly_has(&self, ZD_TARGET_WISHED, 0)) zd_assembly_approach(&self, roles, ZD_WISHED, p);
     return zd_assembly_close(&self, outcome);
 }
 
-int zd_assembly_lead(const zd_assembly_given *given, double *p)
+int zd_assembly_lead(const zd_assembly_problem *given, double *p)
 {
     zd_assembly self;
     int outcome = zd_assembly_open(&self, given, p);
     if (outcome) return outcome;
-    zd_assembly_keep(&self, p);
+    zd_assembly_save(&self, p);
     if (!zd_assembly_track(&self, ZD_HELD | ZD_STAYING, p)) outcome = report_unmet(&self, ZD_HELD | ZD_STAYING, p);
     return zd_assembly_close(&self, outcome);
 }
 
-int zd_assembly_project(const zd_assembly_given *given, double *p)
+int zd_assembly_project(const zd_assembly_problem *given, double *p)
 {
     const zd_conditions all = {.choice = ZD_OF_ALL};
     zd_assembly self;
@@ -114,7 +114,7 @@ int zd_assembly_project(const zd_assembly_given *given, double *p)
     return zd_assembly_close(&self, outcome);
 }
 
-int zd_assembly_minimize(const zd_assembly_given *given, double *p)
+int zd_assembly_minimize(const zd_assembly_problem *given, double *p)
 {
     const zd_conditions all = {.choice = ZD_OF_ALL};
     zd_assembly self;
@@ -126,7 +126,7 @@ int zd_assembly_minimize(const zd_assembly_given *given, double *p)
     return zd_assembly_close(&self, outcome);
 }
 
-int zd_assembly_check(const zd_assembly_given *given, const double *p)
+int zd_assembly_check(const zd_assembly_problem *given, const double *p)
 {
     zd_assembly self;
     const int outcome = zd_assembly_open(&self, given, p);
@@ -186,7 +186,7 @@ static int find_velocities(zd_assembly *self, int roles, const double *p, double
     return ZD_ASSEMBLED;
 }
 
-int zd_assemble_velocities(const zd_assembly_given *given, const double *p, double *v)
+int zd_assemble_velocities(const zd_assembly_problem *given, const double *p, double *v)
 {
     zd_assembly self;
     int outcome = zd_assembly_open(&self, given, p);

@@ -13,7 +13,7 @@ static const double OF_DENSE = 10, OF_BLOCKS = 500;     /* operations of a step 
 
 /* ---- memory ---- */
 
-static int widest_of(const zd_assembly_given *given)
+static int widest_of(const zd_assembly_problem *given)
 {
     int widest = 1;
     for (int i = 0; i < given->targets; i++) {
@@ -60,7 +60,7 @@ static void create_rows(zd_arena *arena, zd_assembly *self, size_t n, size_t m, 
 
 static void weigh(zd_assembly *self, const double *p);
 
-static zd_assembly create(zd_arena *arena, const zd_assembly_given *given)
+static zd_assembly create(zd_arena *arena, const zd_assembly_problem *given)
 {
     const zd_system *system = given->system;
     const size_t n = (size_t)system->nv, m = (size_t)zd_constraints(system), targets = (size_t)given->targets, most = m + targets;
@@ -81,7 +81,7 @@ static zd_assembly create(zd_arena *arena, const zd_assembly_given *given)
     return self;
 }
 
-int zd_assembly_open(zd_assembly *self, const zd_assembly_given *given, const double *p)
+int zd_assembly_open(zd_assembly *self, const zd_assembly_problem *given, const double *p)
 {
     zd_arena arena = {0};
     create(&arena, given);
@@ -172,7 +172,8 @@ static void choose(zd_assembly *self, enum zd_assembly_choice choice)
     int count = 0;
     for (int k = 0; k < self->rows; k++) {
         const int is_target = self->of[k] >= self->m, owner = is_target ? 0 : self->given->row[self->of[k]];
-        if (!is_target && (owner == ZD_ROW_OF_DRIVE ? choice != ZD_OF_ALL : owner == ZD_ROW_OF_COUPLING && choice == ZD_OF_JOINTS)) continue;
+        if (!is_target && (owner == ZD_OWNED_BY_DRIVE ? choice != ZD_OF_ALL : owner == ZD_OWNED_BY_COUPLING
+            && choice == ZD_OF_JOINTS)) continue;
         self->J[count] = self->J[k];
         self->of[count] = self->of[k];
         self->r[count++] = self->r[k];
@@ -195,7 +196,7 @@ double zd_assembly_find(zd_assembly *self, const zd_conditions *of, const double
     evaluate(self, ZD_PHI | ZD_C, p);
     self->rows = 0;
     for (int k = 0; k < self->system->mh; k++)
-        if (self->given->row[k] != ZD_ROW_LEFT_OUT) add_constraint(self, k, self->terms.Phi[k]);
+        if (self->given->row[k] != ZD_OWNED_BY_UNKNOWN_DRIVE) add_constraint(self, k, self->terms.Phi[k]);
     zd_assembly_add_targets(self, of->roles, 0, p);
     scale_rows(self);
     divide_by_sizes(self, of->roles);
@@ -210,7 +211,8 @@ double zd_assembly_gap(zd_assembly *self, const double *p)
     double gap = 0;
     evaluate(self, ZD_PHI, p);
     for (int k = 0; k < self->system->mh; k++)
-        if (self->given->row[k] != ZD_ROW_LEFT_OUT) gap = fmax(gap, isnan(self->terms.Phi[k]) ? INFINITY : fabs(self->terms.Phi[k]));
+        if (self->given->row[k] != ZD_OWNED_BY_UNKNOWN_DRIVE) gap = fmax(gap, isnan(self->terms.Phi[k]) ? INFINITY
+            : fabs(self->terms.Phi[k]));
     return self->status ? INFINITY : gap;
 }
 

@@ -8,11 +8,11 @@
 #include "../../../include/zerodrift/system.h"
 
 /* Owner of a holonomic constraint */
-enum zd_assembly_row {
-    ZD_ROW_OF_JOINT,
-    ZD_ROW_OF_COUPLING,     /* without a user function, as of gears: part of the reference configuration, as joints are */
-    ZD_ROW_OF_DRIVE,        /* or of a user's constraint: led from where it is to where it must be */
-    ZD_ROW_LEFT_OUT         /* drive whose value at the start is not known yet: ignored in positions */
+enum zd_owner_kind {
+    ZD_OWNED_BY_JOINT,
+    ZD_OWNED_BY_COUPLING,     /* without a user function, as of gears: part of the reference configuration, as joints are */
+    ZD_OWNED_BY_DRIVE,        /* or of a user's constraint: led from where it is to where it must be */
+    ZD_OWNED_BY_UNKNOWN_DRIVE         /* drive whose value at the start is not known yet: ignored in positions */
 };
 
 enum zd_target_role {
@@ -40,11 +40,11 @@ typedef struct zd_many_bodies {
     int width;                  /* velocities of a body, at most */
 } zd_many_bodies;
 
-typedef struct zd_assembly_given {
+typedef struct zd_assembly_problem {
     const zd_system *system;    /* in absolute coordinates, with the measures of the targets */
     const double *inputs;       /* (2 inputs + 1,) or NULL */
     double t, length;           /* s; m: characteristic length */
-    const int *row;             /* (mh,) enum zd_assembly_row */
+    const int *row;             /* (mh,) enum zd_owner_kind */
     int targets;
     const zd_target *target;    /* (targets,) */
     const double *nudge;        /* (nv,) random displacement of about one: at a dead centre no step leads away from it; NULL: none */
@@ -52,7 +52,7 @@ typedef struct zd_assembly_given {
     int (*interrupted)(void *owner);    /* nonzero: the assembly ends with ZD_CALLBACK; NULL: it is not interrupted */
     void *owner;
     double *residual, *size;    /* (m + targets,): of the conditions that are not met, by sizes, and these sizes; NULL: not wanted */
-} zd_assembly_given;
+} zd_assembly_problem;
 
 enum zd_assembly_outcome {
     ZD_ASSEMBLED,
@@ -76,20 +76,20 @@ void zd_displacement(const zd_system *system, const double *p, const double *oth
 /* Each returns an outcome, or a negative status of the core: no memory, or a failed evaluation of the system. p (nq,). */
 
 /* Nearest positions that satisfy all constraints and held targets, and approach wished ones; p: the reference configuration on entry */
-int zd_assemble_positions(const zd_assembly_given *given, double *p);
+int zd_assemble_positions(const zd_assembly_problem *given, double *p);
 /* Positions that satisfy drives and held targets, led there from closed ones, while staying targets keep their values. */
-int zd_assembly_lead(const zd_assembly_given *given, double *p);
+int zd_assembly_lead(const zd_assembly_problem *given, double *p);
 /* Nearest positions that satisfy all constraints, by Newton's method; p is unchanged without these. */
-int zd_assembly_project(const zd_assembly_given *given, double *p);
+int zd_assembly_project(const zd_assembly_problem *given, double *p);
 /* Positions in which the sum of squares of the residuals of all constraints, in m and rad, is least */
-int zd_assembly_minimize(const zd_assembly_given *given, double *p);
+int zd_assembly_minimize(const zd_assembly_problem *given, double *p);
 /* ZD_ASSEMBLED if p satisfies all constraints and held targets */
-int zd_assembly_check(const zd_assembly_given *given, const double *p);
+int zd_assembly_check(const zd_assembly_problem *given, const double *p);
 /* v (nv,) <- minimum-norm velocities that satisfy all constraints and held targets and approach wished ones */
-int zd_assemble_velocities(const zd_assembly_given *given, const double *p, double *v);
+int zd_assemble_velocities(const zd_assembly_problem *given, const double *p, double *v);
 /* message <- sentence on the drives that bring a motion at p to a dead point within a time `ahead` in s; otherwise it is unchanged.
  * measure (mh,): of the coordinate that each constraint drives; -1: none, or it is not known. given->row is ignored. */
-int zd_assembly_explain_reach(const zd_assembly_given *given, const double *p, const int *measure, double ahead, char *message,
+int zd_assembly_explain_reach(const zd_assembly_problem *given, const double *p, const int *measure, double ahead, char *message,
                               int message_size);
 
 #endif

@@ -30,7 +30,7 @@ enum { ZD_HELD = 1 << ZD_TARGET_HELD, ZD_STAYING = 1 << ZD_TARGET_STAYS, ZD_WISH
        ZD_DRAWN = 1 << ZD_TARGET_DRAWN, ZD_ROLE_SETS = 16 };
 
 typedef struct zd_assembly {
-    const zd_assembly_given *given;
+    const zd_assembly_problem *given;
     const zd_system *system;
     void *block;            /* memory of all arrays */
     const zd_assembly_solver *solver;
@@ -89,7 +89,7 @@ typedef struct zd_conditions {
 } zd_conditions;
 
 /* An assembly with its memory, and with the mass metric at p; returns ZD_NO_MEMORY without it. */
-int zd_assembly_open(zd_assembly *self, const zd_assembly_given *given, const double *p);
+int zd_assembly_open(zd_assembly *self, const zd_assembly_problem *given, const double *p);
 int zd_assembly_close(zd_assembly *self, int outcome);      /* releases the memory; returns the outcome, or how the system failed */
 /* r and J of the conditions at p, by their sizes; returns the largest |r|, infinite if the system fails. */
 double zd_assembly_find(zd_assembly *self, const zd_conditions *of, const double *p);
@@ -111,7 +111,7 @@ void zd_assembly_move(zd_assembly *self, const double *p, double longest, double
 /* Residuals and rows (not scaled) of the targets of these roles at p, of positions or of velocities, after those that there are */
 void zd_assembly_add_targets(zd_assembly *self, int roles, int is_rate, const double *p);
 /* Values at p of targets of positions that stay */
-void zd_assembly_keep(zd_assembly *self, const double *p);
+void zd_assembly_save(zd_assembly *self, const double *p);
 
 /* Iterations of an assembly: Newton's method, least squares, continuation, and the nearest positions. Each changes p (nq,). */
 

@@ -20,7 +20,7 @@ enum { MAX_VELOCITIES = 300, SIZE = 400 };
 static const zd_conditions ALL = {.choice = ZD_OF_ALL};
 
 typedef struct reach {
-    zd_assembly_given given;
+    zd_assembly_problem given;
     zd_assembly assembly;
     const int *measure;     /* (mh,): of the driven coordinate; -1: not known */
     int *row;               /* (mh,): of `given` */
@@ -81,9 +81,9 @@ static void explain(reach *self, double ahead, zd_complaint to)
     zd_assembly_find_rates(assembly, 0, self->p);
     for (int k = 0; k < system->mh; k++) {
         if (!(fabs(assembly->start[k]) < STEADY) || assembly->terms.Phi_t[k] == 0) continue;
-        self->row[k] = ZD_ROW_LEFT_OUT;
+        self->row[k] = ZD_OWNED_BY_UNKNOWN_DRIVE;
         const int goes_on = follow(self, t + LATER * ahead, 0, assembly->begun);
-        self->row[k] = ZD_ROW_OF_JOINT;
+        self->row[k] = ZD_OWNED_BY_JOINT;
         if (!goes_on) continue;
         system->name_constraint(system->names, k, name, SIZE);
         zd_append(&name_end, "%s'%s'", name_end.size < SIZE ? " and " : "", name);
@@ -97,7 +97,7 @@ static void explain(reach *self, double ahead, zd_complaint to)
                   "motion go on; end before it, or drive another joint", names, t, limits);
 }
 
-int zd_assembly_explain_reach(const zd_assembly_given *given, const double *p, const int *measure, double ahead, char *message,
+int zd_assembly_explain_reach(const zd_assembly_problem *given, const double *p, const int *measure, double ahead, char *message,
                               int message_size)
 {
     reach self = {.given = *given, .measure = measure, .row = zd_allocate((size_t)given->system->mh * sizeof(int))};

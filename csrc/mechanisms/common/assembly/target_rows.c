@@ -88,7 +88,7 @@ void zd_assembly_add_targets(zd_assembly *self, int roles, int is_rate, const do
     else add_dense_targets(self, roles, is_rate, p);
 }
 
-void zd_assembly_keep(zd_assembly *self, const double *p)
+void zd_assembly_save(zd_assembly *self, const double *p)
 {
     const int roles = 1 << ZD_TARGET_STAYS, is_dense = !self->layout;
     int k = 0;

@@ -60,20 +60,20 @@ static found allocate(zd_arena *arena, const zd_varied *self, const zd_plane *dr
 }
 
 /* Index of the drive of constant speed to which a row of C belongs, by the owner of the row; -1: it belongs to something else. */
-static int drive_of(const zd_varied *self, const zd_row_owner *owner)
+static int drive_of(const zd_varied *self, const zd_constraint_owner *owner)
 {
     for (int i = 0; owner->owner == ZD_OF_RELATION && i < self->drives; i++)
         if (self->drive[i] == owner->index) return i;
     return -1;
 }
 
-static enum zd_assembly_row kind_of(const zd_varied *self, const zd_plane *drawn, int row)
+static enum zd_owner_kind kind_of(const zd_varied *self, const zd_plane *drawn, int row)
 {
-    const zd_row_owner *owner = zd_plane_rows(drawn) + row;
+    const zd_constraint_owner *owner = zd_plane_rows(drawn) + row;
     const zd_relation *relation = zd_plane_planned(drawn).row + row;
-    if (owner->owner == ZD_OF_JOINT) return ZD_ROW_OF_JOINT;
-    if (drive_of(self, owner) >= 0) return ZD_ROW_LEFT_OUT;
-    return relation->law < 0 && relation->slope == 0 && relation->terms > 1 ? ZD_ROW_OF_COUPLING : ZD_ROW_OF_DRIVE;
+    if (owner->owner == ZD_OF_JOINT) return ZD_OWNED_BY_JOINT;
+    if (drive_of(self, owner) >= 0) return ZD_OWNED_BY_UNKNOWN_DRIVE;
+    return relation->law < 0 && relation->slope == 0 && relation->terms > 1 ? ZD_OWNED_BY_COUPLING : ZD_OWNED_BY_DRIVE;
 }
 
 /* Values of the driven coordinates, where the constants of these relations are 0 */
@@ -91,7 +91,7 @@ static void find_places(const zd_varied *self, const zd_plane *drawn, const foun
 static int assemble(const zd_varied *self, int64_t run, const zd_plane *drawn, const found *to)
 {
     const zd_system *system = zd_plane_system(drawn);
-    const zd_assembly_given given = {.system = system, .length = self->length[run], .row = to->row,
+    const zd_assembly_problem given = {.system = system, .length = self->length[run], .row = to->row,
                                      .targets = self->targets, .target = self->target};
     for (int k = 0; k < system->mh; k++) to->row[k] = kind_of(self, drawn, k);
     zd_plane_state(drawn, self->poses + run * 3 * drawn->tree.bodies, NULL, to->p, NULL);
@@ -135,5 +135,5 @@ double zd_varied_place(const void *of, const void *made, int drive)
 {
     const zd_varied *self = of;
     const zd_planned_elements *elements = &((const zd_plane *)made)->elements;
-    return elements->row[elements->row_of_relation[self->drive[drive]]].constant;
+    return elements->row[elements->constraint_of_relation[self->drive[drive]]].constant;
 }

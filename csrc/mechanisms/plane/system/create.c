@@ -209,7 +209,7 @@ static void add_term(const zd_plane_joint *joint, int kind, enum zd_zero zero, d
 }
 
 /* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
-static void plan_rows(const zd_plane_tables *tables, int nonholonomic, parts *to)
+static void plan_constraints(const zd_plane_tables *tables, int nonholonomic, parts *to)
 {
     for (int j = 0; j < tables->joints; j++) {
         const zd_plane_joint_kind *kind = zd_plane_joint_kind_of(to->joint[j].kind);
@@ -267,9 +267,9 @@ static void plan(const zd_plane_tables *tables, parts *all, zd_plane *self)
     plan_joints(tables, all);
     copy_quantities(tables, all);
     zd_elements_copy(&tables->elements, &all->elements);
-    plan_rows(tables, 0, all);
+    plan_constraints(tables, 0, all);
     const int mh = all->elements.rows;
-    plan_rows(tables, 1, all);
+    plan_constraints(tables, 1, all);
     *self = (zd_plane){
         .gravity = {tables->gravity[0], tables->gravity[1]},
         .tree = {tables->bodies, coordinates, all->link, all->angles, all->angle},
@@ -315,7 +315,7 @@ void zd_plane_free(zd_plane *mechanism)
 }
 
 const zd_system *zd_plane_system(const zd_plane *mechanism) { return &mechanism->system; }
-const zd_row_owner *zd_plane_rows(const zd_plane *mechanism) { return mechanism->elements.owner_of_row; }
+const zd_constraint_owner *zd_plane_rows(const zd_plane *mechanism) { return mechanism->elements.owner_of_constraint; }
 const zd_plane_coordinate_owner *zd_plane_coordinates(const zd_plane *mechanism) { return mechanism->coordinate; }
 int zd_plane_data_size(void) { return (int)sizeof(zd_plane); }
 

@@ -40,7 +40,7 @@ int zd_plane_rows_write(const zd_plane *self, const zd_plane_frame *frame, int w
 {
     const zd_packing *packing = self->packing;
     const zd_readings readings = zd_plane_frame_readings(self, frame);
-    const zd_row_numerics numerics = {
+    const zd_constraint_numerics numerics = {
         .elements = &self->elements, .nv = self->tree.nv,
         .at = packing ? packing->packed.at : NULL,
         .is_elsewhere = packing ? packing->is_known : self->hinged.is_complete ? self->hinged.is_closure : NULL,

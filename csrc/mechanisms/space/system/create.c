@@ -102,7 +102,7 @@ static void add_joint_row(parts *to, int j, int component)
 }
 
 /* Rows of all joints outside the tree, and of relations, if they are nonholonomic or not. */
-static void plan_rows(const zd_space_tables *tables, int nonholonomic, parts *to)
+static void plan_constraints(const zd_space_tables *tables, int nonholonomic, parts *to)
 {
     for (int j = 0; j < tables->joints; j++) {
         const zd_space_joint_kind *kind = zd_space_joint_kind_of(to->joint[j].kind);
@@ -165,9 +165,9 @@ static int plan(const zd_space_tables *tables, parts *all)
 {
     plan_bodies(tables, all);
     copy(tables, all);
-    plan_rows(tables, 0, all);
+    plan_constraints(tables, 0, all);
     const int mh = all->elements.rows;
-    plan_rows(tables, 1, all);
+    plan_constraints(tables, 1, all);
     zd_space *self = all->self;
     *self = (zd_space){
         .gravity = zd_vector3_of(tables->gravity),
@@ -215,7 +215,7 @@ void zd_space_free(zd_space *space)
 
 const zd_system *zd_space_system(const zd_space *space) { return &space->system; }
 
-const zd_row_owner *zd_space_rows(const zd_space *space) { return space->elements.owner_of_row; }
+const zd_constraint_owner *zd_space_rows(const zd_space *space) { return space->elements.owner_of_constraint; }
 
 int zd_space_angles(const zd_space *space, int *place)
 {

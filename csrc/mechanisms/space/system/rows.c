@@ -30,7 +30,7 @@ double zd_space_bias(const void *mechanism, const void *frame, int quantity)
 int zd_space_rows_write(const zd_space *self, const zd_space_frame *frame, int want, double t, const zd_terms *out)
 {
     const zd_readings readings = zd_space_frame_readings(self, frame);
-    const zd_row_numerics numerics = {
+    const zd_constraint_numerics numerics = {
         .elements = &self->elements, .nv = self->system.nv,
         .at = self->carrying.act ? NULL : self->packed.at, .is_elsewhere = self->point_joints.has_row, .read = read, .bias = zd_space_bias,
     };

@@ -11,8 +11,8 @@ from ..._core import ffi, lib
 from ..base import MESSAGE_SIZE, doubles, error_of, text
 from ..systems import CoreSystem
 
-ROWS = {"joint": lib.ZD_ROW_OF_JOINT, "coupling": lib.ZD_ROW_OF_COUPLING, "drive": lib.ZD_ROW_OF_DRIVE,
-        "left out": lib.ZD_ROW_LEFT_OUT}
+ROWS = {"joint": lib.ZD_OWNED_BY_JOINT, "coupling": lib.ZD_OWNED_BY_COUPLING, "drive": lib.ZD_OWNED_BY_DRIVE,
+        "left out": lib.ZD_OWNED_BY_UNKNOWN_DRIVE}
 HELD, STAYS, WISHED, DRAWN = (getattr(lib, f"ZD_TARGET_{role}") for role in ("HELD", "STAYS", "WISHED", "DRAWN"))
 ASSEMBLED, JOINTS_OPEN, TARGETS_UNMET = lib.ZD_ASSEMBLED, lib.ZD_JOINTS_OPEN, lib.ZD_TARGETS_UNMET
 
@@ -90,7 +90,7 @@ class CoreAssembly:
         residual, size = np.zeros((2, core.m + len(targets)))
         handle, self.error = ffi.new_handle(self), None
         target, inputs = ffi.new("zd_target[]", list(targets)), core.initial_inputs()
-        given = ffi.new("zd_assembly_given *", {
+        given = ffi.new("zd_assembly_problem *", {
             "system": core.c, "inputs": inputs, "t": self.t, "length": self.length, "row": rows,
             "targets": len(targets), "target": target, "nudge": doubles(self._nudge, core.nv), "many": self._many,
             "interrupted": lib.zd_interrupted_in_python, "owner": handle,

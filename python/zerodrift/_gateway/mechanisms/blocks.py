@@ -84,7 +84,7 @@ def methods(core_settings: Any, texts: Texts) -> list[float]:
                if core_settings.correction[row].given]
     found: list[float] = []
     for table, row, given in chosen:
-        card = lib.zd_row(TABLES[table], row)
+        card = lib.zd_entry_card(TABLES[table], row)
         given = given if given.given else lib.zd_initial(card)
         found += [TABLES[table], texts.offset(text(card.name)), *given.value]
     return found
@@ -94,7 +94,7 @@ def method_names(core_settings: Any) -> dict[str, list[str]]:
     """Names of the formulation, the integrator and the corrections of settings, by table."""
     rows = {"formulations": [core_settings.formulation], "integrators": [core_settings.integrator],
             "corrections": [row for row in range(len(cards("corrections"))) if core_settings.correction[row].given]}
-    return {table: [text(lib.zd_row(TABLES[table], row).name) for row in found] for table, found in rows.items()}
+    return {table: [text(lib.zd_entry_card(TABLES[table], row).name) for row in found] for table, found in rows.items()}
 
 
 def settings(core_settings: Any) -> list[float]:

@@ -94,7 +94,7 @@ class Row(NamedTuple):
 
 
 def rows_of(rows: Any, m: int) -> tuple[Row, ...]:
-    """Origin of each constraint, from a `zd_row_owner *`."""
+    """Origin of each constraint, from a `zd_constraint_owner *`."""
     return tuple(Row("joint" if rows[i].owner == lib.ZD_OF_JOINT else "relation", rows[i].index, rows[i].component)
                  for i in range(m))
 

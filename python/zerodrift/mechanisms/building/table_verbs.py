@@ -14,7 +14,7 @@ from __future__ import annotations
 from ..elements.forces import Bushing, Spring, TorsionSpring
 from ..elements.joints import BY_ROW, Joint, KnifeEdge, Prismatic, Revolute, Rod, Slot, Weld
 from ..elements.space_joints import BY_KIND
-from ..elements.table_forces import FORCES_BY_ROW, TableForce
+from ..elements.table_forces import FORCES_OF_TABLE, TableForce
 from .registry import Elements
 from .table_force_verbs import force_verb
 from .table_joint_verbs import verb
@@ -22,7 +22,7 @@ from .table_joint_verbs import verb
 BY_HAND = ("rolling",)
 PLANE: dict[str, type[Joint]] = {joint.kind: joint for joint in (Revolute, Prismatic, Weld, Rod, Slot, KnifeEdge)} | BY_ROW
 JOINTS = tuple(kind for kind in dict.fromkeys((*PLANE, *BY_KIND)) if kind not in BY_HAND)
-FORCES: dict[str, type[TableForce]] = {force.kind: force for force in (Spring, TorsionSpring, Bushing)} | FORCES_BY_ROW
+FORCES: dict[str, type[TableForce]] = {force.kind: force for force in (Spring, TorsionSpring, Bushing)} | FORCES_OF_TABLE
 
 
 class TableVerbs(Elements):

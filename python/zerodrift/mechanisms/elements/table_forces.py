@@ -200,5 +200,5 @@ def made_force(kind: str) -> type[TableForce]:
 
 
 # Kinds without a class in `forces.py`, by name. They are attributes of this module for pickle and copy.
-FORCES_BY_ROW = {kind: made_force(kind) for kind in ELEMENTS | SPACE_ELEMENTS if kind not in WRITTEN}
-globals().update({force.__name__: force for force in FORCES_BY_ROW.values()})
+FORCES_OF_TABLE = {kind: made_force(kind) for kind in ELEMENTS | SPACE_ELEMENTS if kind not in WRITTEN}
+globals().update({force.__name__: force for force in FORCES_OF_TABLE.values()})

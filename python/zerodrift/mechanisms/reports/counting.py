@@ -109,7 +109,7 @@ def _count_of_many(tables: Any, assembly: Assembly, p: np.ndarray) -> Count:
     """Count by the core, at a cost proportional to the bodies; a singular pose raises the core's error."""
     core = assembly.core
     named = _Named(constraint_names(tables, core))
-    core.name_rows(named)
+    core.names_of_constraints(named)
     v = nearest_velocities(core, assembly.t, p, np.zeros(core.nv))
     redundant = redundant_rows(core, assembly.t, p, v)
     names = [variable.name for variable in named.constraints]

@@ -78,7 +78,7 @@ class Reported(BaseSystem):
     def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str:
         """Sentence on the drive, and the dead point to which it moves the mechanism within a time ahead."""
         core = self._measuring
-        core.name_rows(self)
+        core.names_of_constraints(self)
         driven = {each.name: driven_coordinate(each) for each in self._drawing.of((Motor, Actuator))}
         measures = [self._watching.number.get(driven.get(each.name), -1) for each in self.constraints[:self.mh]]
         return CoreAssembly(core, (), size_of(self._drawing, self._numbers), t).beyond_reach(p, measures, ahead)
