@@ -69,14 +69,14 @@ NUMBER_ARGUMENTS = {
 
 @pytest.mark.parametrize(("name", "call"), VECTOR_ARGUMENTS.values(), ids=VECTOR_ARGUMENTS)
 @pytest.mark.parametrize(("value", "error", "message"), NOT_VECTORS, ids=lambda x: repr(x) if not isinstance(x, type) else "")
-def test_what_is_no_vector(name, call, value, error, message):
+def test_what_is_not_a_vector(name, call, value, error, message):
     with pytest.raises(error, match=f"^{re.escape(name)} {message}"):
         call(value)
 
 
 @pytest.mark.parametrize(("name", "call"), NUMBER_ARGUMENTS.values(), ids=NUMBER_ARGUMENTS)
 @pytest.mark.parametrize(("value", "error"), NOT_NUMBERS, ids=lambda x: repr(x)[:9])
-def test_what_is_no_number(name, call, value, error):
+def test_what_is_not_a_number(name, call, value, error):
     if value is None and name in ("step", "gravity"):
         return      # left out
     says = "must be a real number, not" if error is TypeError else "must be finite, not"

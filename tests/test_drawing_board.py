@@ -147,7 +147,7 @@ def unclosed():
 
 
 @needs_node
-def test_what_cannot_close_is_told_in_the_words_of_python(tmp_path):
+def test_what_cannot_close_is_reported_in_the_words_of_python(tmp_path):
     pytest.importorskip("ziglang")
     m = unclosed()
     (tmp_path / "m.json").write_text(saved(m))

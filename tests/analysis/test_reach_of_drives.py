@@ -79,7 +79,7 @@ def test_samples_that_come_back_into_reach_are_found(space):
     assert found[9:][::-1][there < limit] == pytest.approx(found[:9][there < limit], abs=1e-10)
 
 
-def test_no_drive_is_blamed_within_its_reach():
+def test_no_drive_is_named_within_its_reach():
     """A force that ends a run near no dead point."""
     m = driven(False)
     m.torque("load", "c", value=lambda t: 1 / 0 if t > 0.1 else 0.0)

@@ -105,7 +105,7 @@ def test_a_run_that_fails_keeps_the_rows_it_has():
     assert np.array_equal(rows_of(found, "x")[1], partial["x"])
 
 
-def test_doubtful_runs_are_told_once():
+def test_doubtful_runs_are_reported_once():
     bar = zd.systems.four_bar()
     with pytest.warns(zd.AccuracyWarning, match="2 of 3 runs are doubtful; run 1: "):
         ens = zd.ensemble(bar, 2.0, v0=[bar.v0, 12 * bar.v0, 13 * bar.v0], step=0.02)

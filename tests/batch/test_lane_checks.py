@@ -42,7 +42,7 @@ def test_energy_is_corrected_as_in_a_single_run(kind, options):
                 assert np.abs(getattr(kept, name) - getattr(sol, name)).max() < 1e-10
 
 
-def test_an_energy_correction_that_follows_nothing_takes_the_ordinary_road():
+def test_an_energy_correction_that_follows_nothing_takes_the_matrix_path():
     """Whose speeds lanes do not put back onto the constraints."""
     bar = zd.systems.four_bar()
     ens = zd.ensemble(bar, 0.2, v0=bar.v0[None] * np.ones((3, 1)), step=0.01, stabilization=None, energy=True, threads=1)

@@ -40,7 +40,7 @@ def assert_alike(one, other, bound):
 
 @pytest.mark.parametrize("course", COURSES)
 @pytest.mark.parametrize("events", EVENTS)
-def test_events_are_those_of_simulate_but_for_rounding(events, course):
+def test_events_are_those_of_simulate_up_to_rounding(events, course):
     ens = ensemble(EVENTS[events], **COURSES[course])
     assert (ens._part.paths == LANES).all()
     assert not ens.failed.any()
@@ -103,7 +103,7 @@ def test_what_has_no_finite_value_fails_as_that_run():
     assert not ens.failed.all()
 
 
-def test_what_takes_the_ordinary_road():
+def test_what_takes_the_matrix_path():
     """Callables; and expressions of parameters that vary, which are each run's own."""
     asked = zd.ensemble(BAR, 1.0, v0=STARTS, step=0.01, events=lambda t, p, v: p[0] - 2.0, threads=1)
     gravity = np.array([3.0, 9.81])

@@ -34,7 +34,7 @@ def starts_of(system, count=11):
 
 
 @pytest.mark.pairs(kind=list(KINDS), course=list(COURSES), unit=UNITS)
-def test_runs_are_those_of_simulate_but_for_rounding(kind, course, unit):
+def test_runs_are_those_of_simulate_up_to_rounding(kind, course, unit):
     system, options = KINDS[kind](), COURSES[course] | {"vector": unit}
     starts, names = starts_of(system), names_of(system)
     part = made(plan_of(system, 0.4, v0=starts, names=names, **options))
@@ -135,7 +135,7 @@ def test_runs_that_take_too_many_steps_fail_as_ever():
 @pytest.mark.parametrize("options", [{"stabilization": "baumgarte"}, {"closed_form": False},
                                      {"stabilization": zd.Projection(metric="identity")}, {"integrator": "trapezoidal"}],
                          ids=["baumgarte", "closed_form", "metric", "implicit"])
-def test_what_takes_the_ordinary_road(options):
+def test_what_takes_the_matrix_path(options):
     system = zd.systems.four_bar()
     part = made(plan_of(system, 0.1, v0=starts_of(system, 3), names=["alpha1"], step=0.01, **options))
     assert (part.paths == ALONE).all()

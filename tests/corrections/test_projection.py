@@ -154,7 +154,7 @@ def test_velocities_only(bar):
     assert sol.stats["position_iterations"] == sol.iterations.max() == 0
 
 
-def test_neither_is_no_stabilization(bar):
+def test_neither_means_without_stabilization(bar):
     nothing = motion(bar, 1.0, 20, stabilization=zd.Projection(positions=False, velocities=False))
     assert np.array_equal(nothing.p, motion(bar, 1.0, 20, stabilization=None).p)
 

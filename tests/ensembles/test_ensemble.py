@@ -150,7 +150,7 @@ def test_runs_that_end_by_an_event_have_rows_of_their_own():
     assert "times of their own" in repr(ens)
 
 
-def test_with_times_that_are_asked_for_all_rows_stack():
+def test_with_requested_times_all_rows_stack():
     """A run that an event ends between two of them has its end in `t_events`."""
     times = np.linspace(0, 2, 21)
     falls = zd.Event("link.angle", value=-0.5, terminal=True)

@@ -266,7 +266,7 @@ def test_a_thread_pool_is_an_executor_too():
 
 
 @pytest.mark.parametrize("executor", [3, "threads", ProcessPoolExecutor])
-def test_what_is_no_executor(executor):
+def test_what_is_not_an_executor(executor):
     if isinstance(executor, type):
         executor = executor.__new__(executor).__class__.__name__
     with refused("wrong-type", "executor"):

@@ -65,7 +65,7 @@ def compare(system, parameters, outputs, ens, runs, allowed=1e-11):
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
 @pytest.mark.parametrize("path", PATHS)
-def test_runs_are_those_of_simulate_but_for_rounding(path, layout, in_python):
+def test_runs_are_those_of_simulate_up_to_rounding(path, layout, in_python):
     system = machine().system(layout)
     parameters = {path: system.parameters[path] * FACTORS + (0.01 * FACTORS if system.parameters[path] == 0 else 0)}
     outputs = [*OUTPUTS, system.coordinates[-1].name, system.velocities[0].name, system.constraints[0].name]

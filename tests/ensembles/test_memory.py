@@ -52,7 +52,7 @@ def test_more_than_memory_is_refused_before_anything_runs(scarce, monkeypatch):
     assert len(zd.ensemble(BAR, 1.0, **STUDY)) == RUNS
 
 
-def test_chosen_steps_stop_where_memory_gets_short(scarce):
+def test_adaptive_steps_stop_where_memory_gets_short(scarce):
     """With the runs that are done, as long as these can be joined."""
     whole = zd.ensemble(BAR, 1.0, **CHOSEN)
     size = sum(each.nbytes for each in whole._part.arrays.values()) + whole._part.t.nbytes

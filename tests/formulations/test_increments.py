@@ -89,7 +89,7 @@ def test_a_rod_held_at_its_end(formulation):
 
 
 @pytest.mark.parametrize("method", ["dormand_prince", "dop853"])
-def test_chosen_steps(spinning, formulation, method):
+def test_adaptive_steps(spinning, formulation, method):
     """As many as with any other formulation, and errors of the size asked for."""
     sol = zd.simulate(spinning, 10.0, rtol=1e-8, atol=1e-8, formulation=formulation, integrator=method)
     usual = zd.simulate(spinning, 10.0, rtol=1e-8, atol=1e-8, integrator=method)
@@ -139,7 +139,7 @@ def test_steps_that_turn_too_far_say_so():
         zd.simulate(body(quaternions=[0], v0=[0, 0, 1000.0]), 1.0, step=0.1, formulation="independent")
 
 
-def test_chosen_steps_stay_within_reach():
+def test_adaptive_steps_stay_within_reach():
     sol = zd.simulate(body(quaternions=[0], v0=[0, 0, 50.0]), 2.0, rtol=1e-3, atol=1e-3, formulation="independent",
                       integrator="dop853", first_step=1.0)
     assert sol.stats["rejected"] > 0

@@ -85,5 +85,5 @@ def test_the_column_that_depends_on_others_is_named(linalg, n):
         assert linalg.zd_symmetric_dependent(n, packed, order, step, np.zeros(n)) == last
 
 
-def test_what_is_no_number_is_no_pivot(linalg):
+def test_what_is_not_a_number_is_not_a_pivot(linalg):
     assert linalg.zd_symmetric_factor(3, np.full(6, np.nan), np.zeros(3, np.int32)) == 0

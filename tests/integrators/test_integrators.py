@@ -65,7 +65,7 @@ def test_trapezoidal_satisfies_its_equation(system):
         assert_close(y[k + 1] - y[k], change, tol.IMPLICIT, scale=np.abs(y[k]).max() + np.abs(change).max())
 
 
-def test_trapezoidal_where_something_is_zero_but_for_rounding():
+def test_trapezoidal_where_something_is_zero_up_to_rounding():
     """The rod starts without a turn about its axis, and none begins: what solves leave there has nothing to be compared with."""
     rod = held_at_a_point(0.8, (0.6, 0.6, 1e-3), (0.0, 0.0, -1.5), (0.9, 0.5, 0.0))
     for steps in (128, 216, 256):

@@ -67,7 +67,7 @@ def test_a_step_is_the_sum_of_the_series(linkage):
 
 @pytest.mark.parametrize("equations", zd.formulations())
 @pytest.mark.parametrize("rtol", [1e-4, 1e-7, 1e-10, 1e-13])
-def test_chosen_steps_keep_to_the_tolerance(linkage, equations, rtol):
+def test_adaptive_steps_keep_to_the_tolerance(linkage, equations, rtol):
     """Errors against the built-in four-bar by another method at its finest; the motion amplifies the errors of the steps."""
     exact = zd.simulate(zd.systems.four_bar(), 2.0, rtol=3e-14, atol=3e-14, integrator="dop853").p[-1]
     sol = zd.simulate(linkage, 2.0, rtol=rtol, atol=rtol, integrator="taylor", formulation=equations)
@@ -125,7 +125,7 @@ def test_kinematics_and_nonholonomic_rows(equations):
 
 
 @pytest.mark.parametrize("equations", zd.formulations())
-def test_rows_that_follow_from_others(pendulum, equations):
+def test_redundant_constraints(pendulum, equations):
     """The same circle twice: the motion is that of one of them."""
     twice = swinging(constraints=[x**2 + y**2 - 1, 2 * x**2 + 2 * y**2 - 2])
     found, exact = zd.simulate(twice, 3.0, **FINE, formulation=equations), zd.simulate(pendulum, 3.0, **FINE)

@@ -92,6 +92,6 @@ def test_starts_leave_a_prescribed_length_to_the_actuator():
     assert sol["cylinder.speed"][0] == pytest.approx(0.2)
 
 
-def test_a_length_that_cannot_be_reached_is_told():
+def test_a_length_that_cannot_be_reached_is_reported():
     with pytest.raises(zd.InconsistentStart, match=r"cannot be met together; .* 'cylinder' by"):
         zd.simulate(digger(length=3.0), 0.1, step=0.01)

@@ -30,7 +30,7 @@ def violation(system, t=0.0):
 
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
-def test_lengths_win_over_the_drawing(layout):
+def test_lengths_override_the_drawing(layout):
     system = linkage().system(layout)
     assert max(violation(system)) < 1e-14
 
@@ -304,7 +304,7 @@ def test_redundant_rows_are_named_by_joint():
     assert "singular" not in text
 
 
-def test_a_drawing_that_is_singular_is_told_from_redundancy():
+def test_a_drawing_that_is_singular_is_distinguished_from_redundancy():
     """A four-bar stretched along a line: one row is redundant there, and nowhere near."""
     m = zd.Mechanism("flat", gravity=(0, -1))
     a, b, c = m.link("a", (0, 0), (1, 0), 1.0), m.link("b", (1, 0), (3, 0), 1.0), m.link("c", (3, 0), (4, 0), 1.0)
@@ -391,7 +391,7 @@ def test_a_motor_that_comes_to_a_dead_centre_is_named(layout):
     assert "'drive' must not drive the mechanism beyond its reach" in str(caught.value)
 
 
-def test_no_dead_centre_is_blamed_for_what_fails_elsewhere():
+def test_no_dead_centre_is_named_for_what_fails_elsewhere():
     m = slider_crank(0.5, speed=lambda t: 0.1 / (0.05 - t))     # no number at t = 0.05
     with pytest.raises((zd.ZerodriftError, ZeroDivisionError)) as caught:
         zd.simulate(m, 0.01, step=1e-3, max_steps=None, events=lambda t, p, v: 1 / (t - 0.002))
@@ -406,7 +406,7 @@ def test_at_a_dead_centre_a_drive_is_refused_with_the_names_of_rows_and_what_hel
         zd.simulate(slider_crank(0.0, displacement=lambda t: -0.1 * t * t), 0.1, step=1e-3)
 
 
-def test_a_flat_parallelogram_is_told_by_the_names_of_its_rows_and_starts_beside():
+def test_a_flat_parallelogram_is_reported_by_the_names_of_its_rows_and_starts_beside():
     m = zd.Mechanism("parallelogram", gravity=(0, -9.81))
     a, b, c = (m.link(name, (x, 0), (x + length, 0), mass=1.0) for name, x, length in (("a", 0, 1), ("b", 1, 2), ("c", 2, 1)))
     m.revolute("A", m.ground, a.start)
@@ -419,7 +419,7 @@ def test_a_flat_parallelogram_is_told_by_the_names_of_its_rows_and_starts_beside
     assert zd.simulate(m.system("joint"), 0.1, p, v, step=1e-3).success
 
 
-def test_rows_that_all_but_vanish_in_a_stretched_drawing_are_no_violation():
+def test_rows_that_all_but_vanish_in_a_stretched_drawing_do_not_violate():
     """Two links that just reach: rounding of Phi over a row of 4e-8 m is not a violation. (It is their only pose.)"""
     m = zd.Mechanism("stretched")
     first, second = m.link("a", (0, 0), (0.6, 0.8), mass=1.0), m.link("b", (0.6, 0.8), (2, 0), mass=1.0, length=1.0)

@@ -88,7 +88,7 @@ def test_motions_and_all_measures_are_the_same(name, layout):
         assert np.abs(a - b).max() < MOVED * max(1.0, np.abs(a).max()), energy
 
 
-def test_the_four_bar_takes_direct_functions_and_comes_to_the_same():
+def test_the_four_bar_takes_closed_form_functions_and_comes_to_the_same():
     system = four_bar().system(compiled=True)
     sol, slow = zd.simulate(system, 1.0, step=1e-3), zd.simulate(four_bar(), 1.0, step=1e-3)
     assert "closed form" in repr(sol)
@@ -112,7 +112,7 @@ def test_numbers_stay_numbers_and_zeros_and_ones_are_in_the_code():
             assert difference < TERM_ROUNDING, (changes, term)
 
 
-def test_a_changed_system_keeps_its_direct_functions_and_so_does_one_that_was_sent():
+def test_a_changed_system_keeps_its_closed_form_functions_and_so_does_one_that_was_sent():
     system = four_bar().system(compiled=True)
     changed = system.with_parameters({"coupler.mass": 4.0})
     sent = pickle.loads(pickle.dumps(changed))

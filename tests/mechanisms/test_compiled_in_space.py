@@ -78,7 +78,7 @@ RUN = [("spatial_slider_crank", "joint"), ("heavy_top", "absolute"), ("rolling_d
 
 
 @pytest.mark.parametrize(("name", "layout"), RUN)
-def test_motions_and_all_measures_are_the_same_on_the_direct_road(name, layout, formulation):
+def test_motions_and_all_measures_are_the_same_on_the_closed_form_path(name, layout, formulation):
     """Quaternions, angles that follow them, reactions, rolling: in all formulations."""
     m = IN_SPACE[name]()
     one, other = (zd.simulate(m.system(layout, compiled=written), 0.01, step=1e-3, formulation=formulation, energy=True)
@@ -102,7 +102,7 @@ def driven():
 
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
-def test_angles_count_turns_on_both_roads(layout):
+def test_angles_count_turns_on_both_paths(layout):
     m = driven()
     one, other, general = (zd.simulate(m.system(layout, compiled=written), 4.0, step=1e-2, save_every=40, closed_form=closed_form)
                            for written, closed_form in ((False, None), (True, None), (True, False)))
@@ -133,7 +133,7 @@ def test_callables_are_refused_by_the_name_of_their_element(layout):
         m.system(layout, compiled=True)
 
 
-def test_many_bodies_in_absolute_coordinates_keep_the_road_of_the_tables():
+def test_many_bodies_in_absolute_coordinates_keep_the_path_of_the_tables():
     m = IN_SPACE["chain"](links=generated_code.MAX_VELOCITIES // 6 + 1)
     one, other = (zd.simulate(m.system("absolute", compiled=written), 0.002, step=1e-3) for written in (False, True))
     assert closed_form_writer.TOO_LARGE in repr(other)

@@ -44,7 +44,7 @@ def test_the_least_pivot_is_that_of_dense_factors():
     assert np.linalg.eigvalsh(scaled)[0] <= share <= np.linalg.det(scaled) ** (1 / system.m)
 
 
-def test_rows_that_follow_from_others_and_unequal_bodies_are_seen_in_the_drawing():
+def test_redundant_constraints_and_unequal_bodies_are_seen_in_the_drawing():
     m = four_bars(3)
     m.revolute("again", m.ground, "rod0.start")
     doubled = m.system("absolute")

@@ -76,7 +76,7 @@ def test_a_table_from_a_csv_file(tmp_path, heading):
     ("0;1\n1;2\n2;3\n", "unreadable-file", "line 2"),
     ("", "shape", None),
 ])
-def test_files_that_are_no_tables(tmp_path, text, code, message):
+def test_files_that_are_not_tables(tmp_path, text, code, message):
     (tmp_path / "motion.csv").write_text(text, encoding="utf-8")
     with refused(code, message):
         zd.table(tmp_path / "motion.csv")

@@ -199,7 +199,7 @@ def test_expressions_that_cannot_be_saved(expression, sentence):
     (["/", 1, 0], "law has the operation '/'"), (["cases", 3], "law has the operation 'cases' of 3"),
     (["sin", "t", "t", "t"], "law has the operation 'sin' of t, t, t"), (["<", ["true"], 1], "law has the operation '<'"),
 ], ids=str)
-def test_what_is_no_expression(written, sentence):
+def test_what_is_not_an_expression(written, sentence):
     with refused("unreadable-file", sentence):
         from_json(written, "law")
 

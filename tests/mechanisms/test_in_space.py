@@ -82,7 +82,7 @@ def test_a_mechanism_of_the_plane_in_space(wanted):
     np.testing.assert_allclose((sol.p[:, :21].reshape(-1, 3, 7)[:, :, 3:] ** 2).sum(axis=2), 1, rtol=0, atol=8 * 2.0**-52)
 
 
-def test_three_rows_of_a_four_bar_follow_from_others():
+def test_three_constraints_of_a_four_bar_are_redundant():
     said = str(four_bar(np.eye(3)))
     assert "freedom 1 (Gruebler -2); joint coordinates 3, 5 constraints closing 1 loop at C; absolute 18, 20 constraints" in said
     assert "; 3 of 20 constraints are redundant: " in said

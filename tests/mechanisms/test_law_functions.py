@@ -138,7 +138,7 @@ def test_what_is_pickled_or_saved_is_compiled_again(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("without", [lambda patch: patch.setattr(compilers, "find", lambda: None),
                                      lambda patch: patch.setenv("CC", "false")], ids=["no compiler", "one that fails"])
-def test_without_a_compiler_python_is_asked(without, monkeypatch):
+def test_without_a_compiler_python_decides(without, monkeypatch):
     expected = zd.simulate(scene(effort, 2), 0.2, step=0.01).p
     monkeypatch.setattr(function_code, "_functions", {})
     without(monkeypatch)
@@ -166,7 +166,7 @@ def test_what_c_has_not_is_left_to_python(monkeypatch):
 
 
 @pytest.mark.filterwarnings("ignore:invalid value encountered in log")
-def test_what_has_no_finite_value_is_told_in_the_words_of_the_law():
+def test_what_has_no_finite_value_is_reported_in_the_words_of_the_law():
     m = scene(lambda m, guide: m.motor("drive", guide, force=sp.log(0.15 - t)), 2)
     with pytest.raises((ZerodriftError, ValueError), match=r"force of motor 'drive'"):
         zd.simulate(m, 1.0, step=0.01)

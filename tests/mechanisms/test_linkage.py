@@ -91,7 +91,7 @@ def test_a_plate_has_the_given_sides_and_those_that_are_drawn():
     assert found["D"] == pytest.approx(found["C"] + 6 * drawn / abs(drawn), abs=CLOSED)
 
 
-def test_lengths_may_be_told_in_any_order_of_points():
+def test_lengths_may_be_given_in_any_order_of_points():
     """C follows from D, which comes behind it."""
     m = zd.linkage({"A": (0, 0), "B": (4, 0), "C": (2, 2), "D": (3, -1)}, {"ground": "A", "plate": "ABCD"},
                    lengths={"AB": 4, "AD": 3, "BD": 3, "CD": 3, "BC": 3})
@@ -174,7 +174,7 @@ FOUR = {"A": (0, 0), "B": (0, 1), "C": (2, 1), "D": (2, 0)}
 BARS = {"ground": "AD", "crank": "AB", "coupler": "BC", "rocker": "CD"}
 
 
-def test_links_that_do_not_reach_are_told_with_their_loop_and_what_stays_open():
+def test_links_that_do_not_reach_are_reported_with_their_loop_and_what_stays_open():
     """1, 0.5 and 0.25 m between pins that are 2 m apart: 0.25 m are missing."""
     with pytest.raises(zd.CorrectionFailed, match=r"the loop of ground, crank, coupler, rocker, through A, B, C, D, cannot "
                                                   r"close: it stays open by 0\.25 m at 'C'"):
@@ -185,7 +185,7 @@ def test_links_that_do_not_reach_are_told_with_their_loop_and_what_stays_open():
     ({"XV": 200}, r"the loop of ground, crank, j, bed, through Z, Y bed, X j, V, cannot close: it stays open by 1\.05 m at 'V'"),
     ({"WT": 200}, r"the loop of .*bed, f, .*foot.* cannot close: it stays open by \d\.\d+ m at '[TW]'"),
     ({"YU": 1, "XU": 3}, r"the loop of ground, crank, k, c, .* cannot close: it stays open by 0\.\d+ m at 'U")])
-def test_of_several_loops_the_one_that_stays_open_is_told(change, sentence):
+def test_of_several_loops_the_one_that_stays_open_is_reported(change, sentence):
     """The first: X and V are at most 0.388 + 0.15 + 0.415 m apart, and j, between them, is 2 m long."""
     with pytest.raises(zd.CorrectionFailed, match=sentence):
         zd.linkage(SKETCH, LINKS, lengths={**LENGTHS, **change}, scale=0.01)
@@ -199,7 +199,7 @@ def test_the_gap_is_the_missing_length_wherever_links_are_drawn(angle):
         zd.linkage(places, BARS, lengths={"AB": 1.0, "BC": 0.5, "CD": 0.25})
 
 
-def test_the_loop_that_is_told_cannot_close_alone():
+def test_the_loop_that_is_reported_cannot_close_alone():
     """Crank, coupler and two more links, 6 m in line, from A to a pin that is 10 m away; the four-bar can close."""
     places, links = FOUR | {"E": (6, 0), "F": (10, 0)}, BARS | {"ground": "ADF", "near": "CE", "far": "EF"}
     with pytest.raises(zd.CorrectionFailed, match=r"the loop of ground, .*, cannot close: it stays open by 4 m at "):
@@ -261,12 +261,12 @@ PLATES = [
 
 
 @pytest.mark.parametrize(("lengths", "C", "sentence"), PLATES)
-def test_plates_that_cannot_be_are_told_with_their_lengths(lengths, C, sentence):
+def test_plates_that_cannot_be_are_reported_with_their_lengths(lengths, C, sentence):
     with refused("geometry", sentence):
         plate({"A": (0, 0), "B": (1, 0), "C": C}, lengths)
 
 
-def test_lengths_that_contradict_each_other_are_told():
+def test_lengths_that_contradict_each_other_are_reported():
     with refused("geometry", r"'plate'.*'C' and 'D'.*are 1.*not 1\.5"):
         plate({"A": (0, 0), "B": (1, 0), "C": (1, 1), "D": (0, 1)},
               {"AB": 1, "AC": np.sqrt(2), "BC": 1, "AD": 1, "BD": np.sqrt(2), "CD": 1.5})

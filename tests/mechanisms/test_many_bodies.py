@@ -66,7 +66,7 @@ def test_velocities_of_drives(few):
     assert np.abs(dense).max() > 0.5
 
 
-def test_what_cannot_be_met_is_told(few):
+def test_what_cannot_be_met_is_reported(few):
     few()
     m = four_bars(3)
     m.start({"rod1.angular_velocity": 1.0})         # beside that of rod0, which is parallel to it

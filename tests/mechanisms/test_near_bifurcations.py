@@ -73,7 +73,7 @@ def test_every_formulation_tells_of_a_small_pivot_which_decides_nothing(formulat
     assert off < 1e-10
 
 
-def test_small_pivots_are_watched_where_rows_follow_from_others():
+def test_small_pivots_are_watched_where_constraints_are_redundant():
     """As much is left there as without the pins that are there twice, and the motion is the same."""
     (plain, off), (doubled, off_too) = swung(14), swung(14, doubled=2)
     assert doubled.stats["rank"] == plain.stats["rank"] == 86
@@ -81,7 +81,7 @@ def test_small_pivots_are_watched_where_rows_follow_from_others():
     assert max(off, off_too) < 1e-10
 
 
-def test_a_mechanism_whose_rows_follow_from_others_moves_as_without_these():
+def test_a_mechanism_whose_constraints_are_redundant_moves_as_without_these():
     """All of its joints are revolute, so that C is only evaluated because of these rows: it has to be that of the point."""
     (plain, v), (doubled, _) = parallelograms(14), parallelograms(14, doubled=2)
     v = 3 * v

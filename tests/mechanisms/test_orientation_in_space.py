@@ -45,7 +45,7 @@ def test_a_start_holds_a_quaternion_and_wishes_a_rotation():
     ((1.0, 0.0, 1.0, 0.0), "geometry", r"held\['bar.rotation'\].*length 1"),
     ((1.0, 0.0, 0.0), "shape", r"held\['bar.rotation'\].*3, 3"),
 ])
-def test_what_is_no_rotation_is_refused(value, code, message):
+def test_what_is_not_a_rotation_is_refused(value, code, message):
     m, bar = hung()
     with refused(code, message):
         m.start({bar.rotation: value})

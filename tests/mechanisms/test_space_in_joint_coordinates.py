@@ -60,7 +60,7 @@ def test_accelerations_and_reactions(seed, wanted):
 
 
 @pytest.mark.parametrize(("seed", "on_ground"), spread([(64, None), (124, None), (844, None), (924, None), (299, "disc")], 2))
-def test_rows_that_follow_from_others_do_not_hold_up_independent_coordinates(seed, on_ground):
+def test_redundant_constraints_do_not_hold_up_independent_coordinates(seed, on_ground):
     """Redundant constraints have nearly zero gradients here, so that their rounding is large in units of these."""
     case = Compared(seed, on_ground, loops=3, coordinates="joint")
     assert case.can_be

@@ -260,7 +260,7 @@ def shafts(bend, turned=0.0):
 FLAT = "as the cross of universal joint 'cross' lies in the plane of its shafts, the axes of 'in' and 'out'"
 
 
-def test_a_flat_cross_is_told_apart_from_redundancy():
+def test_a_flat_cross_is_distinguished_from_redundancy():
     """Rows that follow anywhere are redundant; the one that follows where both arms lie along the shafts is a singular pose."""
     said = str(shafts(90, turned=90))
     assert "freedom 1 (" in said

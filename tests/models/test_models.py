@@ -88,7 +88,7 @@ def arguments(name):
 
 
 @pytest.mark.parametrize("name", MECHANISMS)
-def test_what_is_no_number_is_named_by_its_argument(name):
+def test_what_is_not_a_number_is_named_by_its_argument(name):
     for argument in arguments(name):
         for wrong in ("much", np.nan, [1.0, 2.0, 3.0, 4.0, 5.0], True):
             with pytest.raises((ValueError, TypeError), match=argument):
@@ -107,7 +107,7 @@ def test_what_cannot_be_negative_is_named(name):
 
 
 @pytest.mark.parametrize("name", [name for name in MECHANISMS if name != "andrews"])
-def test_arguments_that_nobody_knows_are_named(name):
+def test_unknown_arguments_are_named(name):
     with refused("wrong-type", rf"{name}\(\): got an unexpected keyword argument 'colour'"):
         MECHANISMS[name](colour="red")
 

@@ -93,7 +93,7 @@ def test_where_a_row_moves_by_more_the_farther_out(core, kind):
 
 @both
 @pytest.mark.parametrize("seed", [0, 1, 2, 8])
-def test_where_a_row_follows_from_others(core, kind, seed):
+def test_where_a_constraint_is_redundant(core, kind, seed):
     system = random_system(seed, apart=0.0)
     for t, p, v in consistent_states(system, count=1):
         Integrated(core, system, kind, t, p, v).assert_is_exact()

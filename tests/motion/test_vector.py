@@ -26,7 +26,7 @@ def run(name, **options):
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("vector", UNITS)
-def test_it_is_told_and_a_run_made_again_has_the_same_bits(name, vector):
+def test_it_is_reported_and_a_run_made_again_has_the_same_bits(name, vector):
     sol = run(name, vector=vector)
     assert sol.settings["vector"] == vector
     assert sol.stats["closed_form_steps"] == sol.stats["steps"]
@@ -44,7 +44,7 @@ def test_units_differ_in_rounding_from_the_baseline_and_not_among_each_other(nam
         assert np.array_equal(sol.p, units[0].p)
 
 
-def test_the_environment_is_asked_where_the_argument_says_nothing(monkeypatch):
+def test_the_environment_is_read_where_the_argument_says_nothing(monkeypatch):
     for vector in UNITS:
         monkeypatch.setenv("ZERODRIFT_VECTOR", vector)
         assert run("built in").settings["vector"] == vector
@@ -70,7 +70,7 @@ def test_what_there_is_not_is_refused(monkeypatch):
 
 
 @pytest.mark.parametrize("vector", UNITS[1:])
-def test_where_the_compiler_has_no_vectors_the_baseline_is_told(vector):
+def test_where_the_compiler_has_no_vectors_the_baseline_is_reported(vector):
     system = symbolic_counterparts.four_bar()
     plain = system._closed_form.library_of("0x40000000")     # no set that a compiler could write
     system._closed_form._libraries[f"ZD_SET_{vector.upper()}_1"] = plain
@@ -88,6 +88,6 @@ def test_solutions_of_before_used_none():
     assert settings.core_settings((0.0, 1.0), {k: v for k, v in run("built in").settings.items() if k != "vector"}).vector == 0
 
 
-def test_all_other_roads_have_the_same_bits_with_all_units():
+def test_all_other_paths_have_the_same_bits_with_all_units():
     general = [run("built in", closed_form=False, vector=vector).p for vector in UNITS]
     assert all(np.array_equal(each, general[0]) for each in general)

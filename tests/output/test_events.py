@@ -82,7 +82,7 @@ TURN = 2.0      # of the four-bar's crank, passed after 0.27 s
 
 @pytest.mark.parametrize("method", POLYNOMIAL)
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-9])
-def test_the_pendulum_in_closed_form_by_chosen_steps(method, tolerance):
+def test_the_pendulum_in_closed_form_by_adaptive_steps(method, tolerance):
     """Lowest points and turning points in turn, a quarter of a period apart: to some tens of the tolerance, as steps end."""
     amplitude, L, g = 2.0, 1.3, 9.81
     pendulum = zd.systems.pendulum(length=L, gravity=g, angle=amplitude)
@@ -274,7 +274,7 @@ def test_the_earlier_of_two_terminal_events_ends_the_run(bar):
     assert "ended by event 1" in sol.message
 
 
-def test_what_is_zero_at_the_start_is_no_event():
+def test_what_is_zero_at_the_start_is_not_an_event():
     oscillator = zd.systems.oscillator(x0=0.0, v0=1.0)
     sol = zd.simulate(oscillator, 1.0, events=event(position, 0, True), **DENSE)
     assert_close(sol.t_events[0], [np.pi / np.sqrt(10)], tol.STEPPED)

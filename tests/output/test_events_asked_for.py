@@ -68,7 +68,7 @@ def test_states_may_be_kept(bar):
     (None, TypeError, "must be a real number, not None"), ("up", TypeError, "must be a real number, not 'up'"),
     (True, TypeError, "must be a real number, not True"), ([0.5], TypeError, r"must be a real number, not \[0.5\]"),
 ], ids=str)
-def test_values_that_are_no_numbers(bar, value, error, shown):
+def test_values_that_are_not_numbers(bar, value, error, shown):
     with pytest.raises(error, match=r"value of events at t = 0 " + shown):
         zd.simulate(bar, 1.0, step=0.1, events=lambda t, p, v: value)
     with pytest.raises(error, match=r"value of events\[1\] at t = 0\.5 " + shown) as caught:

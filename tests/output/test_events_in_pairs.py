@@ -59,7 +59,7 @@ def test_close_pairs_of_smooth_functions(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_a_touch_is_no_event(method):
+def test_a_touch_is_not_an_event(method):
     """The height of a thrown particle at its apex, off by rounding; and functions whose double zero is exact."""
     rng = np.random.default_rng(11)
     for speed in rng.uniform(0.6, 0.9, 6) * GRAVITY:

@@ -109,6 +109,6 @@ def test_ensembles_have_the_events_of_single_runs():
         assert np.array_equal(times[0], zd.simulate(system, 1.0, start, step=0.01, events=FORMS["measure"]).t_events[0])
 
 
-def test_what_is_no_scalar_is_refused():
+def test_what_is_not_a_scalar_is_refused():
     with pytest.raises(ValueError, match=r"must be a scalar measure, and 'pin.force' has 2 components: 'pin.force.x'"):
         zd.simulate(rod(), 1.0, step=0.01, events="pin.force")

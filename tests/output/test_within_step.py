@@ -43,7 +43,7 @@ def test_order_is_kept_between_steps(bar, method):
     assert np.log2(errors[0] / errors[2]) / 2 > declared - 0.5
 
 
-def test_a_run_stops_when_all_that_is_asked_for_is_saved(bar):
+def test_a_run_stops_when_all_that_is_requested_is_saved(bar):
     sol = zd.simulate(bar, 8.0, step=0.01, t_eval=[0.5])
     assert sol.success
     assert sol.stats["steps"] == 50
@@ -189,7 +189,7 @@ def test_the_same_bits_where_an_event_has_ended_the_run(bar, method):
 
 
 @pytest.mark.parametrize("method", INTERPOLATED)
-def test_a_value_does_not_depend_on_what_else_is_asked_for(bar, method):
+def test_a_value_does_not_depend_on_what_else_is_requested(bar, method):
     """One time of a step, or many."""
     options = {"integrator": method, "rtol": 1e-5, "atol": 1e-6}
     every = zd.simulate(bar, 2.0, t_eval=np.linspace(0, 2, 481), **options)

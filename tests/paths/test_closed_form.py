@@ -55,7 +55,7 @@ def assert_same_motion(general, closed_form, error=tol.STEPPED):
 
 @pytest.mark.parametrize("stabilization", STABILIZATIONS)
 @pytest.mark.parametrize("name", SYSTEMS)
-def test_both_roads_lead_to_the_same_place(name, stabilization):
+def test_both_paths_lead_to_the_same_place(name, stabilization):
     options = {"step": 0.01, "stabilization": STABILIZATIONS[stabilization]}
     if stabilization == "projection" and name != "arm":     # all of whose motion is enforced
         options["energy"] = True
@@ -151,7 +151,7 @@ def moving(name):
 @pytest.mark.parametrize("stabilization", ["none", "projection", "seldom", "identity", "baumgarte", "integral"])
 @pytest.mark.parametrize("equations", INDEPENDENT)
 @pytest.mark.parametrize("name", MOVING)
-def test_both_roads_integrate_the_same_independent_velocities(name, equations, stabilization):
+def test_both_paths_integrate_the_same_independent_velocities(name, equations, stabilization):
     """And choose others at the same steps, each of which the matrix path makes."""
     options = {"step": 0.01, "stabilization": STABILIZATIONS[stabilization], "formulation": equations}
     if stabilization == "projection" and name not in ("arm", 4):     # where all motion is enforced, or nearly
@@ -222,7 +222,7 @@ def with_a_row_apart(seed, apart):
 @pytest.mark.parametrize("apart", [1.0, 0.1, 1e-3, 0.0])
 @pytest.mark.parametrize("equations", [*DEPENDENT, *INDEPENDENT])
 @pytest.mark.parametrize("seed", [0, 18, 20])       # driven, with a nonholonomic row and one held by time; one; the other
-def test_both_roads_agree_however_far_rows_are_apart(seed, equations, apart):
+def test_both_paths_agree_however_far_rows_are_apart(seed, equations, apart):
     """Constraints that are equal, or nearly equal, are ranked on the matrix path."""
     of = with_a_row_apart(seed, apart)
     general, closed_form = both(of, 0.3, step=0.01, formulation=equations)
@@ -288,7 +288,7 @@ def test_a_step_too_long_to_be_known_from_its_ends_leaves_it():
     assert closed_form.stats["closed_form_steps"] < closed_form.stats["steps"]
 
 
-def test_a_light_part_that_its_coupling_makes_singular_leaves_it():
+def test_a_low_inertia_component_that_its_coupling_makes_singular_leaves_it():
     """D^T M D loses all but 1e-8 of a pivot."""
     x, y, vx, vy, share = sp.symbols("x y vx vy share")
     made = zd.symbolic([x, y], speeds=[vx, vy], kinetic=(vx**2 + vy**2) / 2 + (1 - share) * vx * vy, potential=x**2 + y**2,

@@ -84,7 +84,7 @@ def test_forces_of_zero_have_no_scale(dimension):
     assert [each for each in [*ax.texts, *ax.collections] if each.get_label() == "_scale"] == []
 
 
-def test_a_load_that_is_to_scale_is_no_symbol_any_more(loaded):
+def test_a_load_that_is_to_scale_is_a_number(loaded):
     assert len(outlines(zd.plot.mechanism(loaded, t=0.0), "load")) == 1
     assert not [each for each in zd.plot.mechanism(loaded, t=0.0, forces="wind").collections if each.get_label() == "_load"]
 

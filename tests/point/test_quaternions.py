@@ -128,7 +128,7 @@ def test_a_start_of_another_length_is_refused(length):
             call(np.r_[system.p0[:3], q])
 
 
-def test_a_quaternion_of_no_length_is_no_attitude():
+def test_a_quaternion_of_zero_length_is_not_an_attitude():
     with pytest.raises(zd.InconsistentStart, match=r"p\[0\] to p\[3\] must be a quaternion of positive length, not 0"):
         zd.project(about_a_point(*TOP), np.zeros(4), np.zeros(3))
 

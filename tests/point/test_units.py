@@ -40,7 +40,7 @@ def test_powers_of_ten_change_round_off(name, formulation, integrator, u):
 
 
 @pytest.mark.parametrize("u", POWERS_OF_TEN.values(), ids=POWERS_OF_TEN)
-def test_chosen_steps_in_other_units(formulation, u):
+def test_adaptive_steps_in_other_units(formulation, u):
     one, other = (run("four_bar", units, formulation=formulation, **CHOSEN) for units in (Units(), u))
     assert len(one["t"]) == len(other["t"])
     assert_close(other["p"], one["p"], STEPS_CHOSEN)

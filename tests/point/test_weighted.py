@@ -119,7 +119,7 @@ def test_redundant_rows_are_found_on_a_body_of_many_joints():
 @needs_compiler
 @pytest.mark.parametrize("away", [0.0, 3e4])
 @pytest.mark.parametrize(("n", "every"), [(14, 14), (30, 2), (150, 3)])
-def test_redundant_rows_are_told_from_a_bifurcation_in_long_rows_far_away(n, every, away):
+def test_redundant_rows_are_distinguished_from_a_bifurcation_in_long_rows_far_away(n, every, away):
     """Every so many parallelograms have a second bar, a row of which follows; `away` from the origin, in lengths of a rod."""
     rods = four_bars(n, middle=every)
     rods.p0[::3] += away
@@ -156,7 +156,7 @@ def _pendulum(angle, pull, terms):
 
 
 @needs_compiler
-def test_rows_that_only_follow_from_others_where_a_large_structure_begins_are_not_taken_for_redundant(formulation):
+def test_constraints_that_are_only_dependent_where_a_large_structure_begins_are_not_taken_for_redundant(formulation):
     flat = four_bars(14, angle=0.0)
     with pytest.raises(zd.Bifurcation, match=r"rows .* and 6 others follow from the others\); among so many rows no branch"):
         zd.simulate(flat.system(), 0.01, formulation=formulation, **STEP)
@@ -225,7 +225,7 @@ def test_thousands_of_bodies_keep_their_energy_and_constraints():
 
 
 @needs_compiler
-def test_a_small_pivot_is_told_with_its_row_and_decides_nothing():
+def test_a_small_pivot_is_reported_with_its_row_and_decides_nothing():
     angle = 0.0501
     rods, sine, cosine = four_bars(14, angle=angle), np.sin(angle), np.cos(angle)
     velocity = np.zeros(3 * len(rods.masses))

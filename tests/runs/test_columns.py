@@ -82,7 +82,7 @@ def test_the_multiplier_of_a_drive_is_not_taken_for_its_torque():
     assert np.allclose(sol["drive.torque"], -sol.multipliers[:, constraint])
 
 
-def test_without_step_and_integrator_steps_are_chosen():
+def test_without_step_and_integrator_steps_are_adaptive():
     sol = zd.simulate(zd.systems.pendulum(), 2.0)
     assert (sol.settings["integrator"], sol.settings["step"]) == ("dop853", None)
     assert (sol.settings["rtol"], sol.settings["atol"]) == (1e-6, 1e-9)

@@ -91,7 +91,7 @@ def stiff(omega):
 
 
 @pytest.mark.parametrize("method", ["dormand_prince", "dop853"])
-def test_stiffness_is_noticed_by_chosen_steps(method):
+def test_stiffness_is_noticed_by_adaptive_steps(method):
     with pytest.warns(zd.StabilityWarning, match=f"stiff for '{method}'"):
         held = zd.simulate(stiff(1e3), 3.0, rtol=1e-5, atol=1e-8, integrator=method)
     assert held.stats["stiff"] > 0
@@ -110,7 +110,7 @@ def test_a_stiff_spring_in_a_mechanism():
     assert not said
 
 
-def test_what_blows_up_is_told_why():
+def test_what_blows_up_is_reported_why():
     with pytest.raises(zd.Diverged, match=r"too long for 'rk4' to be stable \(omega h = 10, stable below 2\.7\d\)"):
         zd.simulate(zd.systems.oscillator(stiffness=1e6), 10.0, step=0.01)
 

@@ -182,7 +182,7 @@ def test_a_start_that_is_inconsistent_names_the_row(cells):
 
 
 @pytest.mark.parametrize("cells", CELLS)
-def test_rows_that_follow_from_others_are_named(cells):
+def test_redundant_constraints_are_named(cells):
     system = in_line(cells)
     with refused("bifurcation", r"rows \d+ '[ABC]\d+\.[xy]'(, \d+ '[ABC]\d+\.[xy]')* and .* follow") as caught:
         zd.simulate(system, 0.1, step=0.01)

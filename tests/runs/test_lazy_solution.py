@@ -36,7 +36,7 @@ def test_every_field_may_be_the_first(bar, name):
 
 @pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, lambda sol: pickle.loads(pickle.dumps(sol)), dataclasses.replace],
                          ids=["copy", "deepcopy", "pickle", "replace"])
-def test_copies_of_what_nobody_has_looked_at(bar, copied):
+def test_copies_of_what_was_not_read(bar, copied):
     sol = copied(fresh(bar))
     assert_same_bits(sol, fresh(bar))
     assert not any(getattr(sol, name).flags.writeable for name in ROWS)
@@ -67,7 +67,7 @@ def test_several_threads_may_ask_at_once(bar):
         assert seen == [seen[0]] * 4
 
 
-def test_events_are_read_only_before_anything_is_asked_for(bar):
+def test_events_are_read_only_before_anything_is_requested(bar):
     sol = fresh(bar, events=lambda t, p, v: t - 0.25)
     assert not any(array.flags.writeable for group in (sol.t_events, sol.p_events, sol.v_events) for array in group)
 

@@ -94,7 +94,7 @@ def test_a_million_steps_are_as_good_as_the_first(bar, energy):
 # ---- the start ----
 
 
-def test_a_run_starts_where_it_is_told(system):
+def test_a_run_starts_at_the_given_time(system):
     p, v = zd.assemble(system, system.p0, 0.5 * system.v0, t=2.0)
     sol = zd.simulate(system, (2.0, 2.1), p, v, step=0.05)
     assert np.array_equal(sol.p[0], p)
@@ -142,7 +142,7 @@ def test_energy_correction_needs_no_further_matrix(bar):
     assert stats["energy_corrections"] == 800
 
 
-def test_cost_of_a_direct_step(bar):
+def test_cost_of_a_closed_form_step(bar):
     """A step starts with the accelerations at the end of the last one; a correction's last call includes the velocities."""
     stats = motion(bar, 8.0, 800, save_every=800).stats
     assert stats["closed_form_steps"] == stats["velocity_corrections"] == 800

@@ -445,7 +445,7 @@ def test_sizes_in_words(size, words):
     assert memory.in_words(size) == words
 
 
-def test_more_than_half_of_memory_is_told_before_anything_runs(bar, monkeypatch):
+def test_more_than_half_of_memory_is_reported_before_anything_runs(bar, monkeypatch):
     monkeypatch.setattr("zerodrift.runs.recording.UNCHECKED_BYTES", 1000)
     monkeypatch.setattr(memory, "free_memory", lambda: 20000)
     with pytest.warns(zd.CostWarning, match=r"101 samples take 14\.5 kB, and 20 kB of memory are free: save fewer") as told:
@@ -458,7 +458,7 @@ def test_more_than_half_of_memory_is_told_before_anything_runs(bar, monkeypatch)
     assert len(zd.simulate(bar, 2.0, step=0.01).t) == 201
 
 
-def test_chosen_steps_stop_where_no_more_rows_have_room(bar, monkeypatch):
+def test_adaptive_steps_stop_where_no_more_rows_have_room(bar, monkeypatch):
     monkeypatch.setattr("zerodrift.runs.recording.UNCHECKED_BYTES", 1000)
     monkeypatch.setattr("zerodrift.runs.recording.FIRST_BLOCK", 16)
     monkeypatch.setattr(memory, "free_memory", lambda: 20000)

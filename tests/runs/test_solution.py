@@ -119,7 +119,7 @@ def test_a_solution_file_needs_no_pickle(bar, tmp_path):
         assert json.loads(str(file["zerodrift"]))["message"] == "done"
 
 
-def test_a_system_nobody_knows_any_more_is_described(bar, tmp_path):
+def test_a_forgotten_system_is_described(bar, tmp_path):
     """A file from another version: enough for tables and plots."""
     path = motion(bar, 0.1, 1).save(tmp_path / "a")
     with np.load(path) as file:
@@ -150,7 +150,7 @@ def write_one_array(path):
 
 @pytest.mark.parametrize("write", [write_text, write_other_arrays, write_one_array, lambda path: path.touch()],
                          ids=["text", "npz", "npy", "empty"])
-def test_a_file_that_is_no_solution(write, tmp_path):
+def test_a_file_that_is_not_a_solution(write, tmp_path):
     path = tmp_path / "file.npz"
     write(path)
     with refused("unreadable-file", r"file\.npz"):
@@ -192,7 +192,7 @@ def test_names_that_say_nothing_or_too_much_are_refused():
             sol[nothing]
 
 
-def test_of_many_names_the_closest_are_told():
+def test_of_many_names_the_closest_are_reported():
     names = [f"rocker{i}" for i in range(9)]
     sol = zd.simulate(zd.System(names, mass=np.eye(9), p0=np.zeros(9)), 0.1, step=0.1)
     with refused("wrong-name", r"is called 'Roker3'; the closest of 18 names are rocker3, (rocker., ){3}rocker. \[zd:"):

@@ -45,7 +45,7 @@ def place_on_other_branch(sol, other, k):
 
 
 @pytest.mark.parametrize("angle", [-2.0, 0.4, 1.5])
-def test_samples_of_two_branches_are_told_apart(angle):
+def test_samples_of_two_branches_are_distinguished(angle):
     """A crank-rocker and its other assembly: the motion from one cannot reach the other."""
     shape = (0.5, 1.5, 1.2, 1.4)
     sol, _ = run(four_bar(*shape, angle, 1, 3.0), "absolute", step=0.02)
@@ -102,7 +102,7 @@ ELSEWHERE = [
 
 
 @pytest.mark.parametrize(("drawing", "options"), ELSEWHERE)
-def test_a_run_on_another_branch_is_no_success_in_silence(drawing, options):
+def test_a_run_on_another_branch_is_reported(drawing, options):
     """Either the run stops or stays on its branch, or the step in which it left is named."""
     sol, said = run(four_bar(*drawing), "absolute", **options)
     side = sides(sol)

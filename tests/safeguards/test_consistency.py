@@ -38,7 +38,7 @@ def test_symmetry_that_is_lost_later_stops_the_run(formulation, way):
 
 
 @pytest.mark.parametrize("scale", [1.0, 1e-6, 1e6])
-def test_rounding_is_no_asymmetry_and_a_light_part_may_have_none(scale):
+def test_rounding_is_not_an_asymmetry_and_a_low_inertia_component_may_have_none(scale):
     """1e-10 of an entry is rounding, a thousandth is not, however light the part is that the entry belongs to."""
     def mass(t, relative):
         light = 1e-6 * scale
@@ -84,7 +84,7 @@ ROUGH = {
 
 
 @pytest.mark.parametrize("rough", ROUGH)
-def test_rough_functions_are_no_contradiction(rough, way):
+def test_rough_functions_do_not_contradict(rough, way):
     jacobian, constraints = ROUGH[rough]
     projection = zd.Projection(tol=1e-6)
     options = {"xi": lambda v: np.array([-v @ v]), "stabilization": projection}

@@ -289,7 +289,7 @@ def test_a_choice_that_comes_back_reversed_hides_no_bifurcation(off, formulation
 
 
 @pytest.mark.parametrize("ground", [1.000001, 1.0001, 1.01, 0.9999])
-def test_chosen_steps_follow_a_sharp_turn(ground, formulation):
+def test_adaptive_steps_follow_a_sharp_turn(ground, formulation):
     """With the longer ground the crank, which the system itself takes for independent, turns back."""
     exact = parallelogram(integrator="dop853", rtol=1e-11, atol=1e-11, ground=ground, end=0.5).p[-1]
     sol = parallelogram(integrator="dormand_prince", rtol=1e-9, atol=1e-9, ground=ground, end=0.5, formulation=formulation)

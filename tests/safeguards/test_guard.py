@@ -69,7 +69,7 @@ def test_a_branch_that_would_be_left_is_named():
 
 
 @pytest.mark.filterwarnings("ignore::zerodrift.StabilityWarning")
-def test_chosen_steps_do_not_change_branch_either():
+def test_adaptive_steps_do_not_change_branch_either():
     for rate in (1.0, 20.0, -35.0):
         bar = zd.systems.four_bar(crank_rate=rate)
         sol = zd.simulate(bar, 2.0, rtol=0.5, atol=0.5, first_step=1.0, integrator="dormand_prince", on_failure="return")

@@ -42,7 +42,7 @@ def test_a_spring_that_stiffens_late_is_noticed_soon(method):
 
 
 @pytest.mark.parametrize("method", ["heun", "trapezoidal"])
-def test_a_light_part_that_is_hit_late_is_named(method):
+def test_a_low_inertia_component_that_is_hit_late_is_named(method):
     """It weighs too little for the energy balance, and swings at 0.6 / STEP: steps miss its phase."""
     def hit(t, x, v):
         return 1e-9 * (-(0.6 / STEP) ** 2 * x + (4e4 if LATE * STEP < t <= (LATE + 1) * STEP else 0.0))

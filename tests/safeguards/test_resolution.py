@@ -189,7 +189,7 @@ def test_tumbling_that_steps_follow_is_not_doubted(formulation):
 
 
 @pytest.mark.parametrize("calls", range(8, 40))
-def test_kinematics_that_fail_are_told_of_wherever_they_are_called(calls):
+def test_kinematics_that_fail_are_reported_wherever_they_are_called(calls):
     """Also where a step began, when its rotation is looked at."""
     left = [calls]
 

@@ -105,7 +105,7 @@ def test_a_motion_that_ends_is_followed_to_its_end():
     assert np.abs(sol.p[early, 0] - 1 / (1 - sol.t[early])).max() < 1e-6
 
 
-def test_chosen_steps_survive_saving_and_serve_again(bar, tmp_path):
+def test_adaptive_steps_survive_saving_and_serve_again(bar, tmp_path):
     sol = adaptive(bar, 0.5, t_eval=[0.1, 0.2])
     again = zd.load(sol.save(tmp_path / "motion"))
     assert again.settings["t_eval"].tolist() == [0.1, 0.2]

@@ -95,7 +95,7 @@ def test_a_reference_is_that_of_runs_one_by_one(name, monkeypatch):
     assert found.solution.p.tobytes() == alone.solution.p.tobytes()
 
 
-def test_what_a_run_raises_is_raised_when_it_is_asked_for(monkeypatch):
+def test_what_a_run_raises_is_raised_when_it_is_requested(monkeypatch):
     motion, way = motion_of(SYSTEMS["four_bar"]), reference_runs.Way(30, "hamilton", "rk4")
     motion.run_side_by_side([way], 30)
     with refused("unknown-choice"):

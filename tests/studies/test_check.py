@@ -54,7 +54,7 @@ def test_an_indefinite_mass_is_said():
     assert "M is singular, even where" in repr(zd.check(four_bar(mass=np.zeros((3, 3)))))
 
 
-def test_a_balance_that_closes_in_another_split_is_no_mistake():
+def test_a_balance_that_closes_in_another_split_is_not_a_mistake():
     """Forces may as well stand in bias, with the opposite sign."""
     moved = four_bar(force=None, bias=lambda p, v, L, m, g: bias(p, v, L, m) - force(p, L, m, g))
     assert zd.check(moved)

@@ -171,7 +171,7 @@ def test_a_system_without_expressions_has_double_precision_alone():
         zd.reference(spring, 0.5, precision="double-double")
 
 
-def test_a_motion_that_cannot_be_computed_is_refused_where_it_was_asked_for(monkeypatch):
+def test_a_motion_that_cannot_be_computed_is_refused_where_it_was_requested(monkeypatch):
     from zerodrift.studies import precise_motion
 
     monkeypatch.setattr(precise_motion, "MAX_STEPS", 1)

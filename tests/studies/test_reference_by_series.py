@@ -80,7 +80,7 @@ def test_its_evidence_is_from_another_method_and_formulation(pendulum):
     assert method.p > 0
 
 
-def test_it_is_asked_only_where_others_are_not_enough(pendulum):
+def test_it_is_called_only_where_others_are_not_enough(pendulum):
     assert zd.reference(pendulum, 2.0, error=1e-9).solution.settings["integrator"] == "dop853"
 
 

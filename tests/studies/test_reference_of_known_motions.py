@@ -29,7 +29,7 @@ def test_nor_beyond_double_precision(name):
 
 @pytest.mark.parametrize("error", [1e-4, 1e-8])
 @pytest.mark.parametrize("name", ["linear", "kepler", "wire"])
-def test_nor_is_one_that_was_asked_for(name, error):
+def test_nor_is_one_that_was_requested(name, error):
     outcome = compare(name, 0, error=error)
     assert outcome.true[0] <= outcome.certified[0] <= error
     assert outcome.true[1] <= outcome.certified[1]

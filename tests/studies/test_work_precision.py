@@ -75,7 +75,7 @@ def test_references_of_other_kinds(reference):
     assert np.isnan(result.reference_error)
 
 
-def test_what_the_reference_does_not_exclude_is_told():
+def test_what_the_reference_does_not_exclude_is_reported():
     """A system that depends on time may change between two evaluated steps, unseen by both."""
     driven = zd.System(1, mass=[[1.0]], force=lambda t: np.array([np.sin(t)]), p0=[0.0], v0=[0.0])
     few = {"formulations": ["schur"], "integrators": ["rk4"]}

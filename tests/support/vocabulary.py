@@ -24,7 +24,7 @@ class Text:
 
     file: str
     line: int
-    kind: str       # docstring, description, comment, message or page
+    kind: str       # docstring, description, comment, message, page or test name
     owner: str      # the function or class that is documented, the exception that a message belongs to, or ""
     text: str
 
@@ -37,6 +37,8 @@ def python_texts(path):
     source, file = path.read_text(encoding="utf-8"), str(path.relative_to(ROOT))
     docstrings = set()
     for node in ast.walk(ast.parse(source)):
+        if getattr(node, "name", None) and node.name.startswith("test_"):
+            yield Text(file, node.lineno, "test name", node.name, node.name.replace("_", " "))
         if isinstance(node, DESCRIBED) and (found := ast.get_docstring(node)):
             where = file, getattr(node, "lineno", 1)
             docstrings.add(ast.get_docstring(node, clean=False))

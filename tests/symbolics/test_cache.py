@@ -28,7 +28,7 @@ def test_the_second_process_neither_derives_nor_compiles(cache_folder, compiler,
     assert compiler.calls == 1
 
 
-def test_values_and_the_start_are_no_part_of_what_is_compiled(cache_folder, compiler):
+def test_values_and_the_start_are_not_part_of_what_is_compiled(cache_folder, compiler):
     made()
     zd.symbolic([Q], **(GIVEN | {"parameters": {A: 3.0}, "p0": [1.0], "name": "other"}))
     assert compiler.calls == 1
@@ -194,7 +194,7 @@ def test_on_windows_libraries_are_loaded_from_where_they_are_kept(as_windows, mo
     assert all(path.parent == as_windows for path in loaded)
 
 
-def test_on_windows_what_somebody_has_loaded_is_not_replaced(as_windows, monkeypatch):
+def test_on_windows_what_is_loaded_is_not_replaced(as_windows, monkeypatch):
     def refusing(*paths, **folders):
         raise PermissionError(13, "Access is denied")
 
@@ -216,7 +216,7 @@ def test_where_the_cache_is_on_windows(as_windows, tmp_path, monkeypatch):
     assert kept._chosen() == Path.home() / "AppData" / "Local" / "zerodrift"
 
 
-def test_direct_functions_are_written_once(cache_folder, monkeypatch):
+def test_closed_form_functions_are_written_once(cache_folder, monkeypatch):
     """Their text is found by what it depends on: the operations, numbers at which orders were chosen, and the limits."""
     system = made()
     source = system._closed_form.source

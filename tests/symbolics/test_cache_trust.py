@@ -152,7 +152,7 @@ def test_links_in_the_folder_are_not_followed(tmp_path, cache_folder, compiler, 
     assert not [path for path in cache_folder.iterdir() if path.is_symlink()]
 
 
-def test_a_pipe_in_place_of_a_file_stops_nobody(cache_folder, compiler):
+def test_a_pipe_in_place_of_a_file_stops_nothing(cache_folder, compiler):
     made()
     for path in list(cache_folder.iterdir()):
         path.unlink()

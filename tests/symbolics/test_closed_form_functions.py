@@ -119,7 +119,7 @@ def assert_finishes(closed_form, i, t, p, v, corrected):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_direct_functions_solve_the_equations(seed):
+def test_closed_form_functions_solve_the_equations(seed):
     system = random_system(seed)
     if not system._closed_form.source:
         C = system.evaluate().C

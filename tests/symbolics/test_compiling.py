@@ -105,7 +105,7 @@ def test_an_empty_name_is_none(cache_folder, monkeypatch, said):
     ("cc --no-such-flag", "cc refused the C source: .*no-such-flag.*; CC=cc --no-such-flag, it was run as"),
     ("cat", "cat refused the C source: "),
 ])
-def test_what_is_no_compiler_is_refused_by_name(cache_folder, monkeypatch, said, why):
+def test_what_is_not_a_compiler_is_refused_by_name(cache_folder, monkeypatch, said, why):
     monkeypatch.setenv("CC", said)
     with pytest.raises(zd.CompilationFailed, match=why):
         made()

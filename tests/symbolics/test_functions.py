@@ -91,7 +91,7 @@ LOST = [sp.Max(sp.log(X), 0), sp.Min(sp.sqrt(X), 3, X), sp.sign(sp.log(X)), sp.H
 
 
 @pytest.mark.parametrize("expression", LOST, ids=str)
-def test_what_is_no_number_is_not_lost_in_a_comparison(expression):
+def test_what_is_not_a_number_is_not_lost_in_a_comparison(expression):
     """At -2, where a part of each is complex, or has no case."""
     for evaluate in forces([X], [DX], [expression]):
         assert not math.isfinite(evaluate([-2.0])[0])

@@ -86,7 +86,7 @@ def swinging(**more):
         **more})
 
 
-def test_a_row_that_follows_from_others():
+def test_a_redundant_constraint():
     """The same circle twice: the motion is that of one of them, and so are its derivatives along it."""
     once, twice = swinging(), swinging(constraints=[x**2 + y**2 - 1, 2 * x**2 + 2 * y**2 - 2])
     of_once, of_twice = (jacobian_of(system, 0.0, once.p0, once.v0) for system in (once, twice))

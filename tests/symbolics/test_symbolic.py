@@ -206,7 +206,7 @@ def test_parameters_are_changed_without_deriving_or_compiling(monkeypatch):
         system.with_parameters(m2=np.inf)
 
 
-def test_the_start_can_be_changed_and_is_asked_for():
+def test_the_start_can_be_changed_and_is_requested():
     system = bar()
     with refused("missing-argument"):
         zd.simulate(system, 1.0, step=0.01)

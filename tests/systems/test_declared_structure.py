@@ -57,7 +57,7 @@ def test_a_structure_is_equal_to_its_like_prints_and_pickles():
     ({"blocks": [3], "mass": "light"}, "unknown-choice", "^mass must.*'', 'constant', 'diagonal', 'constant diagonal'"),
     ({"blocks": [3], "mass": ["", ""]}, "declared-structure", "^mass must.*or 1.*not 2"),
 ])
-def test_what_is_no_structure_is_refused(arguments, code, sentence):
+def test_what_is_not_a_structure_is_refused(arguments, code, sentence):
     with refused(code, sentence):
         zd.Structure(**arguments)
 

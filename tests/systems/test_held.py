@@ -51,7 +51,7 @@ def test_thousands_of_bodies_are_assembled_with_some_of_them_held(rods):
 
 
 @needs_compiler
-def test_what_cannot_be_held_is_told():
+def test_what_cannot_be_held_is_reported():
     rods = chain(60, closed=True)
     system = rods.system()
     guess = rods.p0 + 0.1

@@ -130,7 +130,7 @@ def test_a_term_that_is_not_finite_is_named(term, library, formulation):
 
 
 @pytest.mark.parametrize("term", ["M", "f", "C", "Phi_t", "xi", "A"])
-def test_where_steps_are_chosen_too(term, library, integrator):
+def test_where_steps_are_adaptive_too(term, library, integrator):
     if not zd.integrators()[integrator].error_order:
         return
     with refused("term-not-finite", rf"^at t = 1(\.\d+)? .* {term} "):

@@ -60,7 +60,7 @@ def test_a_symbolic_parameter_has_a_name_of_its_own(name):
     ({"m": np.array(["2.0"])}, "wrong-type", "'m'"),
     ({"m": MASKED}, "not-finite", "'m'"),
 ])
-def test_what_are_no_parameters(parameters, code, message):
+def test_what_parameters_cannot_be(parameters, code, message):
     with refused(code, message):
         bead(parameters=parameters)
 

@@ -102,7 +102,7 @@ def test_independent_coordinates_say_what_they_need():
         zd.simulate(body(), 1.0, step=0.1, formulation="independent")
 
 
-def test_independent_coordinates_need_a_velocity_for_each_that_is_no_surplus():
+def test_independent_coordinates_need_a_velocity_for_each_of_the_rest():
     """A rotor in the body, whose angle is not a coordinate: as many coordinates as velocities, and one of them is surplus."""
     system = zd.System(["e0", "e1", "e2", "e3"], mass=np.eye(4), quaternions=[0],
                        kinematics=lambda p: np.hstack([half_turns(p), np.zeros((4, 1))]), p0=[1.0, 0, 0, 0], v0=[1.0, 2, 3, 4])
@@ -216,7 +216,7 @@ def test_a_quaternion_has_no_unit():
         body(quaternions=[0], units=["", "", "", "m", "rad/s", "rad/s", "rad/s"])
 
 
-def test_rates_of_a_quaternion_are_no_velocities():
+def test_rates_of_a_quaternion_are_not_velocities():
     with refused("missing-argument"):
         zd.System(4, mass=np.eye(4), quaternions=[0])
 

@@ -176,7 +176,7 @@ def off_four_bars(formulation, units=0, **options):
 @pytest.mark.parametrize(("method", "tolerance", "allowed", "steps"), [
     ("dop853", 1e-7, 5e-4, 400), ("dop853", 1e-10, 3e-7, 900), ("dop853", 1e-13, 2e-8, 2000),
     ("dormand_prince", 1e-7, 2e-3, 500), ("dormand_prince", 1e-10, 1e-6, 1600), ("dormand_prince", 1e-13, 2e-8, 7000)])
-def test_a_row_of_four_bars_by_chosen_steps(method, tolerance, allowed, steps, formulation):
+def test_a_row_of_four_bars_by_adaptive_steps(method, tolerance, allowed, steps, formulation):
     """Ten passages of bifurcations. Every formulation keeps the digits, and none creeps: bounds are some ten times the error, and
     twice the steps, of those in dependent variables over eight speeds.
     """

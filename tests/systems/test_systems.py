@@ -88,7 +88,7 @@ def test_terms_are_absent_or_have_their_shapes(system):
     assert f"M {terms.M.shape}" in repr(terms)
 
 
-def test_what_is_asked_for_does_not_depend_on_what_was_asked_before(system):
+def test_what_is_requested_does_not_depend_on_earlier_requests(system):
     """Terms are pure: the same at the same place, whatever came between."""
     (t, p, v), (_, q, w) = consistent_states(system, 2)
     first, _, again = (numbers(system, t, *state) for state in ((p, v), (q, w), (p, v)))

@@ -102,7 +102,7 @@ def test_what_is_handed_out_cannot_be_made_writable():
 
 
 @pytest.mark.filterwarnings("ignore:Setting the shape:DeprecationWarning")      # by NumPy 2.5 and later
-def test_an_array_that_is_given_another_shape_is_so_for_nobody_else():
+def test_an_array_that_is_given_another_shape_is_not_so_for_others():
     def force(p, v, m, pull):
         p.shape = v.shape = pull.shape = (2, 1)
         return (m * pull)[:, 0]
@@ -172,7 +172,7 @@ def test_arrays_that_change_later_do_not_change_the_system():
     (lambda *p: p, "user-function", r"'\*p'"),
     (lambda p, **other: p, "user-function", r"'\*\*other'"),
 ])
-def test_what_is_no_force(force, code, message):
+def test_what_is_not_a_force(force, code, message):
     with refused(code, message):
         bead(force=force)
 
@@ -277,7 +277,7 @@ class Stop(BaseException):
 
 @pytest.mark.parametrize("error", [SystemExit(3), GeneratorExit(), Stop()], ids=repr)
 @pytest.mark.parametrize("on_failure", ["raise", "return"])
-def test_an_order_to_stop_is_no_failed_run(error, on_failure):
+def test_an_order_to_stop_is_not_a_failed_run(error, on_failure):
     action = At(60, throw(error))
 
     def force(pull):

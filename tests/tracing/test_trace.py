@@ -295,7 +295,7 @@ def test_other_arguments_that_are_wrong(arguments, options, code, said):
         zd.trace(linkage(*NOT_GRASHOF), *arguments, **options)
 
 
-def test_what_is_no_mechanism():
+def test_what_is_not_a_mechanism():
     with refused("wrong-type", "system"):
         zd.trace(zd.systems.four_bar(), "alpha1")
 

@@ -98,7 +98,7 @@ def test_it_is_checked_drawn_pickled_and_says_what_it_is(name):
 
 
 @pytest.mark.parametrize("name", IN_SPACE)
-def test_what_is_no_number_or_negative_is_named_by_its_argument(name):
+def test_what_is_not_a_number_or_negative_is_named_by_its_argument(name):
     for argument in inspect.signature(IN_SPACE[name]).parameters:
         for wrong in ("much", np.nan, [1.0, 2.0], True):
             with pytest.raises((ValueError, TypeError), match=argument):
