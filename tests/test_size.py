@@ -1,6 +1,7 @@
 """The sum of the sources, in tokens: names, numbers, strings and operators, without comments, docstrings and line breaks.
 
-``python tests/test_size.py`` prints it by room. Generated files and tests are counted apart. `CHANGELOG.md` has the ceiling.
+``PYTHONPATH=tests/support python tests/test_size.py`` prints it by room. Generated files and tests are counted apart.
+`CHANGELOG.md` has the ceiling.
 """
 
 import ast

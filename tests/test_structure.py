@@ -204,6 +204,15 @@ def test_folders_of_tests_are_named_after_rooms():
     assert {folder for folder in folders - rooms if folder.count("/") == 0 or folder.startswith("mechanisms/")} == set()
 
 
+def test_scripts_that_are_started_by_hand_find_what_they_import():
+    """Pytest has the path of shared helpers by itself; a script sets it, or its first lines say with which one it is started."""
+    helpers = {path.stem for path in (ROOT / "tests" / "support").glob("*.py")}
+    for path in [*(ROOT / "tests" / "stress").glob("*.py"), *(ROOT / "tests" / "bench").rglob("*.py")]:
+        source = path.read_text(encoding="utf-8")
+        if helpers & set(re.findall(r"^(?:from|import) (\w+)", source, re.MULTILINE)):
+            assert re.search(r'/ "support"\)|tests/support', source), path
+
+
 def test_the_gateway_has_small_rooms():
     """The room of the core's systems and runs, and within it those of mechanisms and of compiled functions."""
     rooms = {path.parent.name: len(list(path.parent.glob("*.py"))) for path in (PACKAGE / "_gateway").rglob("*.py")}

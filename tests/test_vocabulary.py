@@ -2,7 +2,7 @@
 Identifiers that were replaced stand in `older_identifiers.csv`: * for any end of a name, and the files in which a short word
 is refused.
 
-``python tests/test_vocabulary.py [file or folder ...]`` lists what is refused there.
+``PYTHONPATH=tests/support python tests/test_vocabulary.py [file or folder ...]`` lists what is refused there.
 """
 
 import csv

@@ -14,7 +14,7 @@ from pathlib import Path
 import zerodrift as zd
 from measuring import RESULTS
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 import known_motions
 from reference_files import table
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import zerodrift as zd
 from measuring import least, record
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from native_systems import GIVEN, PENDULUM, built_in, compile_four_bar, compile_library, pendulum
 
 ROUNDS = 60

@@ -18,7 +18,7 @@ import numpy as np
 import zerodrift as zd
 from measuring import record
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from browser import Browser
 from zerodrift import _gateway
 from zerodrift.ensembles.plan import checked

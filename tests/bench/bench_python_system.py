@@ -12,7 +12,7 @@ from pathlib import Path
 import zerodrift as zd
 from measuring import least, record, timed
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from four_bar_in_python import DERIVED, GIVEN, bias, constraints, force, four_bar, jacobian, mass, potential, xi
 
 CALLABLES = {"mass": mass, "bias": bias, "force": force, "constraints": constraints, "jacobian": jacobian, "xi": xi,

@@ -9,7 +9,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
 import zerodrift as zd
 from random_networks import MAX_ROUNDINGS, check_accelerations, check_motion

@@ -13,7 +13,7 @@ import numpy as np
 import zerodrift as zd
 
 TESTS = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(TESTS))
+sys.path[:0] = [str(TESTS), str(TESTS / "support")]
 from rotating_bodies import about_a_point, held_at_a_point  # noqa: E402
 
 TOP = (15.0, (0.5, 0.5, 0.25), (0.0, 0.0, 0.5), (0.3, 0.0, 30.0))       # mass, inertia, arm, angular velocity
