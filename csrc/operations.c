@@ -76,12 +76,13 @@ int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const
 }
 
 int zd_read_states(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
-                  const double *multipliers, double *u)
+                  const double *multipliers, const zd_efforts *efforts, double *u)
 {
     int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system), k = system->reading->functions;
     int status = ZD_DONE;
     for (int64_t i = 0; i < rows && !status; i++)
-        status = zd_reactions_at(system, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m, u + i * k);
+        status = zd_reactions_at(system, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m, efforts ? efforts + i : NULL,
+                                    u + i * k);
     return status;
 }
 
@@ -97,6 +98,7 @@ int zd_measure_states(const zd_system *system, const double *inputs, int measure
         status = all->evaluate(system->data, inputs ? inputs + i * k : NULL, measure, t[i], p + i * nq, v + i * nv,
                                vdot ? vdot + i * nv : NULL, multipliers ? multipliers + i * m : NULL, &at, scratch);
         if (at.value) at.value += size;
+        if (at.efforts) at.efforts++;
         if (at.least) at.least += m;
         if (at.redundant) at.redundant += size * m;
     }

@@ -34,6 +34,7 @@ typedef struct zd_state_read {
     zd_motion *motion;      /* NULL: vdot and lambda are given */
     double t;
     const double *p, *v, *vdot, *lambda;
+    const zd_efforts *efforts;
 } zd_state_read;
 
 /* ---- R(u) ---- */
@@ -57,7 +58,7 @@ static int measure(zd_reactions *self, const zd_state_read *at)
     if (at->motion) zd_rank_find_multipliers(at->motion->point);
     for (int i = 0; i < self->reading->count; i++) {
         const zd_read_reaction *of = self->reading->reaction + i;
-        const zd_measured out = {.value = self->measured, .is_least = 1};
+        const zd_measured out = {.value = self->measured, .is_least = 1, .efforts = at->efforts};
         const int failed = measures->evaluate(at->system->data, self->u, of->measure, at->t, at->p, at->v, at->vdot, at->lambda, &out,
                                               self->scratch);
         if (failed) return ZD_CALLBACK;
@@ -292,7 +293,7 @@ static int solve(zd_reactions *self, const zd_state_read *at)
 static int accelerate(zd_motion *motion)
 {
     zd_point *point = motion->point;
-    const zd_state_read at = {&motion->system, motion, point->t, point->p, point->v, point->vdot, point->lambda};
+    const zd_state_read at = {&motion->system, motion, point->t, point->p, point->v, point->vdot, point->lambda, NULL};
     int status = solve(&motion->reactions, &at);
     if (!status) status = solve_with(motion);
     if (status) point->known &= ~(ZD_FORCE | ZD_POWER | ZD_ACCELERATED);
@@ -329,7 +330,7 @@ void zd_reactions_create(zd_motion *motion, zd_arena *arena)
 /* ---- at given vdot and lambda ---- */
 
 int zd_reactions_at(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
-                       double *u)
+                       const zd_efforts *efforts, double *u)
 {
     zd_arena counting = {0};
     create(&counting, system);
@@ -337,7 +338,7 @@ int zd_reactions_at(const zd_system *system, double t, const double *p, const do
     if (!memory) return ZD_NO_MEMORY;
     zd_arena arena = zd_arena_in(memory);
     zd_reactions self = create(&arena, system);
-    const zd_state_read at = {system, NULL, t, p, v, vdot, lambda};
+    const zd_state_read at = {system, NULL, t, p, v, vdot, lambda, efforts};
     const int status = solve(&self, &at);
     memcpy(u, self.u, (size_t)system->reading->functions * sizeof *u);
     zd_memory_free(memory);

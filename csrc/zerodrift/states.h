@@ -30,11 +30,11 @@ int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singul
                      const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, char *message,
                      int message_size);
 /* Values u (rows, functions) of the user functions of a system that read reactions, see zd_reading, as they are solved for with the
- * accelerations, and where these and the multipliers are given. */
+ * accelerations, and where these, the multipliers and efforts (rows,), NULL for none, are given. */
 int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const double *t, const double *p, const double *v, double *u,
                    char *message, int message_size);
 int zd_read_states(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
-                  const double *multipliers, double *u);
+                  const double *multipliers, const zd_efforts *efforts, double *u);
 /* A measure at many states: `first` has the memory of the first, that of the others follows it; scratch of the size that the measures
  * declare. vdot and multipliers may be NULL if the measure does not depend on them. `inputs` are those of the system, in all states the
  * same, or (rows, functions) of zd_reading; so in the two functions that follow. */

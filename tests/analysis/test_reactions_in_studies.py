@@ -4,6 +4,10 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from zerodrift.analysis.flow import Flow
+from zerodrift.analysis.retraction import near_to
+from zerodrift.analysis.state import state
+from zerodrift.analysis.steady import with_speeds
 
 MASS, C, G = 1.3, 0.5, 9.81
 INERTIA = MASS / 3
@@ -132,3 +136,81 @@ def test_a_run_reads_reactions_that_no_law_reads(layout):
     assert np.allclose([run[name] for name in names], [sol[name][-1] for name in names], rtol=1e-12)
     assert np.allclose(runs["root.force.y"], run["root.force.y"], rtol=1e-12)
     assert np.allclose(sol["drive.torque"], -0.1 * sol["elbow.force.y"], rtol=1e-12)
+
+
+M1, M2 = 2.0, 1.0
+
+
+def two_links(dimension, layout):
+    """A hanging link at the end of another; a torque between them reads the force at the first pin, smooth and not linear."""
+    m = zd.Mechanism("two links", dimension=dimension, gravity=(0, -G, 0)[:dimension])
+    about = {"axis": (0, 0, 1)} if dimension == 3 else {}
+    first, second = (m.link(name, a[:dimension], b[:dimension], mass=mass) for name, a, b, mass in (
+        ("first", (0, 0, 0), (1, 0, 0), M1), ("second", (1, 0, 0), (1, -1, 0), M2)))
+    m.revolute("pin", m.ground, first.start, **about)
+    elbow = m.revolute("elbow", first.end, second.start, **about)
+    m.motor("drive", elbow, torque=lambda y, w: of_force(y) - 0.1 * w * y, of={"y": "pin.force.y", "w": "elbow.speed"})
+    return m.system(layout)
+
+
+def of_force(y):
+    return 0.02 * y + 0.001 * y * y
+
+
+BOTH = [(dimension, layout) for dimension in (2, 3) for layout in ("joint", "absolute")]
+
+
+@pytest.mark.parametrize(("dimension", "layout"), BOTH)
+def test_a_held_coordinate_changes_what_a_law_reads(dimension, layout):
+    """Vertical forces and moments of both links by hand, for an effort at a pin and one at a point."""
+    system, a = two_links(dimension, layout), 0.4
+    eq = zd.equilibrium(system, near={"pin.angle": a}, hold=["pin.angle"])
+    torque, R = of_force((M1 + M2) * G), (M1 + M2) * G
+    assert eq["pin.force"][1] == pytest.approx(R, rel=1e-10)
+    assert eq.effort["pin.angle"] == pytest.approx((M1 / 2 + M2) * G * np.cos(a) + torque, rel=1e-10)
+    turned = eq["pin.angle"] + eq["elbow.angle"]        # of the second link, from the vertical
+    assert np.sin(turned) == pytest.approx(torque / (M2 * G / 2), rel=1e-10)
+    if dimension == 2:      # a link in space has a thickness
+        inertia = M2 / 3 - (0.02 + 0.002 * R) * M2 / 2 * np.sin(turned)
+        expected = np.sort_complex(np.roots([inertia, 0.1 * R, M2 * G / 2 * np.cos(turned)]))
+        assert np.sort_complex(eq.eigenvalues) == pytest.approx(expected, rel=1e-8)
+
+    eq = zd.equilibrium(system, near={"pin.angle": a}, hold=["first.end.position.y"])
+    R = M1 * G / 2
+    for _ in range(60):
+        R = M1 * G / 2 - of_force(R) / np.cos(a)
+    assert eq["pin.force"][1] == pytest.approx(R, rel=1e-10)
+    assert eq["drive.torque"] == pytest.approx(of_force(R), rel=1e-9)
+    assert eq.effort["first.end.position.y"] == pytest.approx((M1 + M2) * G - R, rel=1e-10)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_efforts_at_points_are_in_the_reactions_of_the_tree(dimension):
+    """Absolute coordinates have these reactions from multipliers."""
+    found, end = [], "second.end.position.y"
+    for layout in ("joint", "absolute"):
+        eq = zd.equilibrium(two_links(dimension, layout), near={"pin.angle": 0.4, "elbow.angle": 1.0}, hold=["pin.angle", end])
+        lin = zd.linearize(eq.system, at=eq, inputs=[end, "pin.torque"], outputs=["pin.force.y", "drive.torque"])
+        inv = zd.inverse_dynamics(eq.system, 0.0, eq.p, eq.v, eq.vdot, efforts=["pin.angle", end])
+        found.append(np.hstack([eq["pin.force"], eq["elbow.force"], lin.D.ravel(), np.sort(lin.eigenvalues.real),
+                                inv["pin.angle"], inv[end], *inv["pin.force"]]))
+    assert found[0] == pytest.approx(found[1], rel=1e-7, abs=1e-9)
+    assert inv["pin.force.y"][0] == pytest.approx((M1 + M2) * G - inv[end][0], rel=1e-10)
+
+
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_a_held_steady_motion_with_a_law_that_reads_a_reaction(layout):
+    """A rod on a turning shaft: gravity, the centrifugal moment and a torque by the weight on the hinge."""
+    m, a, w = zd.Mechanism("turntable", dimension=3, gravity=(0, 0, -G)), 0.5, 3.0
+    post, arm = m.body("post", 1.0, (0.1, 0.1, 0.1)), m.body("arm", MASS, (0.01, 0.2, 0.2), at=(C, 0, 0))
+    m.revolute("shaft", m.ground, post, at=(0, 0, 0), axis=(0, 0, 1))
+    hinge = m.revolute("hinge", post, arm, at=(0, 0, 0), axis=(0, -1, 0))
+    m.motor("drive", hinge, torque=lambda z: 0.05 * z + 0.001 * z * z, of={"z": "hinge.force.z"})
+    weight = MASS * G
+    effort = weight * C * np.cos(a) + w * w * (MASS * C * C + 0.19) * np.sin(a) * np.cos(a) - 0.05 * weight - 0.001 * weight**2
+    system = m.system(layout)
+    at = state(system, 0.0, near_to(system, {"hinge.angle": a}, 0.0), np.zeros(system.nv))
+    at = with_speeds(at, {"shaft.speed": w, "hinge.speed": 0.0})
+    flow = Flow(at, efforts={"hinge.angle": effort})
+    assert flow.instant["hinge.acceleration"] == pytest.approx(0, abs=1e-9)
+    assert flow.instant["drive.torque"] == pytest.approx(0.05 * weight + 0.001 * weight**2, rel=1e-9)

@@ -44,6 +44,13 @@ typedef struct zd_measure {
     enum zd_depends depends;
 } zd_measure;
 
+/* Constant forces and torques along measures of positions or velocities, besides the forces of the system, which do not contain them */
+typedef struct zd_efforts {
+    int count;
+    const int *along;       /* (count, 2) index and component of a measure */
+    const double *effort;   /* (count,) N or N m, conjugate to its rate */
+} zd_efforts;
+
 typedef struct zd_measured {    /* memory for the results; NULL: not requested */
     double *value;          /* (size,) */
     double *rate;           /* (size,) time derivative of a measure of positions: jacobian v + explicit time derivative */
@@ -53,6 +60,7 @@ typedef struct zd_measured {    /* memory for the results; NULL: not requested *
     double *redundant;      /* (size, m) changes by redundant multipliers, a column each, relative to the norm of those of all wrenches */
     int is_least;           /* 1: the multipliers given are taken for those of the least reactions */
     int is_same_state;      /* 1: all but measure and results as in the previous call, so that values in scratch may be reused */
+    const zd_efforts *efforts;      /* efforts that act at the state, for a measure of accelerations; NULL: none */
 } zd_measured;
 
 typedef struct zd_measures {

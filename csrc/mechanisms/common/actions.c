@@ -1,8 +1,6 @@
 /* Sums over terms of rows and generalized forces: what plane and space share. Their numerics are functions of the caller. */
 #include "actions.h"
 
-#include "output_spec.h"
-
 /* Adds the terms of a row, `scale` times their factors. */
 static void add_row(const zd_actions *self, const zd_relation *row, const double *factors, double scale, void *to)
 {
@@ -10,13 +8,18 @@ static void add_row(const zd_actions *self, const zd_relation *row, const double
     for (int i = 0; i < row->terms; i++) self->add(self->readings, to, term[i].quantity, scale * factors[i]);
 }
 
-int zd_rows_act(const zd_actions *self, double t, const double *lambda)
+int zd_rows_act(const zd_actions *self, const zd_measured_state *at)
 {
+    const zd_efforts none = {0}, *efforts = at->efforts ? at->efforts : &none;
     for (int i = 0; i < self->elements->m; i++) {
         zd_combined all;
-        const int status = zd_combine(self->elements, self->readings, self->elements->row + i, t, &all);
+        const int status = zd_combine(self->elements, self->readings, self->elements->row + i, at->t, &all);
         if (status) return status;
-        add_row(self, self->elements->row + i, all.factors, -lambda[i], self->to);
+        add_row(self, self->elements->row + i, all.factors, -at->lambda[i], self->to);
+    }
+    for (int i = 0; i < efforts->count; i++) {
+        const zd_output_spec *along = self->elements->output + efforts->along[2 * i];
+        self->add(self->readings, self->to, along->index + efforts->along[2 * i + 1], along->scale * efforts->effort[i]);
     }
     return ZD_DONE;
 }

@@ -4,7 +4,7 @@
 #define ZD_COMMON_ACTIONS_H
 
 #include "../../linalg/small.h"
-#include "planned.h"
+#include "output_spec.h"
 
 typedef struct zd_actions {
     const zd_planned_elements *elements;
@@ -14,7 +14,7 @@ typedef struct zd_actions {
 } zd_actions;
 
 /* Statuses are those of planned.h. With the sign of (2), a row acts with -lambda times its factors. */
-int zd_rows_act(const zd_actions *self, double t, const double *lambda);        /* all rows */
+int zd_rows_act(const zd_actions *self, const zd_measured_state *at);  /* all rows, and the efforts of the state */
 void zd_joint_rows_act(const zd_actions *self, int count, const int *rows, const double *lambda);  /* rows (count,) of a joint */
 /* Drives of a joint, by rows and, if `all`, by generalized forces, and its damping. */
 int zd_drives_act(const zd_actions *self, int joint, double t, const double *lambda, int all);

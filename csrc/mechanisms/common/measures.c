@@ -125,7 +125,7 @@ static int find_changes(const zd_measuring *self, const zd_output_spec *measure,
     memset(redundant, 0, (size_t)size * (size_t)m * sizeof *redundant);
     int status = zd_redundant_multipliers(self, at, N, &count, &total);
     for (int j = 0; j < count && total > 0 && !status; j++) {
-        status = measure_force(self, measure, &(zd_measured_state){at->t, at->p, at->v, NULL, N + j * m, 1}, change);
+        status = measure_force(self, measure, &(zd_measured_state){at->t, at->p, at->v, NULL, N + j * m, 1, NULL}, change);
         for (int k = 0; k < size; k++) redundant[k * m + j] = change[k] / (unit * total);
     }
     zd_release(N);

@@ -52,7 +52,7 @@ static int evaluate(const void *data, const double *inputs, int measure, double 
     OF(frame) frame = OF(frame_of)(self, scratch);
     frame.inputs = inputs;
     const zd_measuring measuring = measuring_of(self, &frame);
-    return zd_measures_evaluate(&measuring, measure, &(zd_measured_state){t, p, v, vdot, lambda, 0}, out);
+    return zd_measures_evaluate(&measuring, measure, &(zd_measured_state){t, p, v, vdot, lambda, 0, out->efforts}, out);
 }
 
 int OF(read)(const void *data, int law, double t, const double *p, const double *v, const double *r, int is_same_state, double *u,
@@ -61,7 +61,7 @@ int OF(read)(const void *data, int law, double t, const double *p, const double 
     const MECHANISM *self = data;
     const OF(frame) frame = OF(frame_of)(self, scratch);
     const zd_measuring measuring = measuring_of(self, &frame);
-    return zd_measures_read(&measuring, law, &(zd_measured_state){t, p, v, NULL, NULL, 0}, r, is_same_state, u);
+    return zd_measures_read(&measuring, law, &(zd_measured_state){t, p, v, NULL, NULL, 0, NULL}, r, is_same_state, u);
 }
 
 zd_measures OF(measures)(const MECHANISM *self, zd_measure *measure)

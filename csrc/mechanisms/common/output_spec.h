@@ -10,6 +10,7 @@ typedef struct zd_measured_state {
     double t;
     const double *p, *v, *vdot, *lambda;    /* vdot NULL, for reactions: without inertia and given forces, those of lambda alone */
     int is_of_constraints;      /* 1: given forces at a joint, such as its damping, are left out of its reaction */
+    const zd_efforts *efforts;  /* NULL: none */
 } zd_measured_state;
 
 /* Numerics of plane or space. `frame` is zd_plane_frame or zd_space_frame. */

@@ -39,7 +39,7 @@ from .base import (
 from .callbacks import CALLBACK_CODE, PythonCore, Watcher
 from .inputs import Following, Inputs
 from .known_events import KnownEvent
-from .measures import MAX_LEAST, Outputs
+from .measures import MAX_LEAST, Acting, Outputs
 from .packed_layout import CONSTANT, DIAGONAL, PACKED, Packing
 from .perturbation import PerturbedCore, perturbed
 from .runs import (
@@ -96,6 +96,7 @@ __all__ = [
     "TERMS",
     "VERSION",
     "WARNING_LIMITS",
+    "Acting",
     "Card",
     "CoreSystem",
     "Following",

@@ -24,6 +24,14 @@ class Named(NamedTuple):
     size: int
 
 
+class Acting:
+    """Efforts (k, n) at k states along n components of measures: index and component of each."""
+
+    def __init__(self, along: Sequence[tuple[int, int]], efforts: np.ndarray) -> None:
+        self._along, self._efforts = ffi.new("int[]", list(sum(along, ()))), np.ascontiguousarray(efforts)
+        self.c = ffi.new("zd_efforts[]", [(len(along), self._along, doubles(each, each.size)) for each in self._efforts])
+
+
 class Measuring:
     """Measures of a `CoreSystem`, identified by their indices."""
 
@@ -45,7 +53,7 @@ class Measuring:
         """The system for one run."""
         raise NotImplementedError
 
-    def read_given(self, *state: np.ndarray, is_own: bool) -> np.ndarray:
+    def read_given(self, *state: np.ndarray, acting: Acting | None, is_own: bool) -> np.ndarray:
         """Values of user functions that read reactions."""
         raise NotImplementedError
 
@@ -63,23 +71,25 @@ class Measuring:
 
     def measure(self, index: int, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray | None = None,
                 multipliers: np.ndarray | None = None, *, is_own: bool = False, wanted: str = "value",
-                is_least: bool = False) -> np.ndarray:
+                is_least: bool = False, acting: Acting | None = None) -> np.ndarray:
         """A measure at many states: t (k,), p (k, nq), v (k, nv), vdot (k, nv), multipliers (k, m) give values (k, size).
 
         vdot and multipliers may be None where the measure depends on positions or velocities alone (`measure_depends`).
         is_own: the system's data belong to the caller. wanted: "value"; "least", multipliers (k, m) of the least reactions; or
         "redundant", changes (k, size, m) by redundant multipliers, relative to the norm of those of all wrenches. is_least:
-        the multipliers given are those of the least reactions.
+        the multipliers given are those of the least reactions. acting: efforts besides the forces of the system.
         """
         core, k, size = self if is_own else self.for_run(), len(t), self.measure_size(index)
         values = np.zeros((k, size, self.m) if wanted == "redundant" else (k, size))
         if wanted == "least":
             values = np.array(multipliers)
         scratch = np.zeros(max(1, self.c.measures.scratch))
-        out = ffi.new("zd_measured *", {wanted: doubles(values, values.size, writable=True), "is_least": is_least})
+        out = ffi.new("zd_measured *", {wanted: doubles(values, values.size, writable=True), "is_least": is_least,
+                                        "efforts": acting.c if acting else ffi.NULL})
         inputs = core.initial_inputs()
         if self.functions and vdot is not None and wanted != "redundant":
-            u = core.read_given(t, p, v, vdot, np.zeros((k, 0)) if multipliers is None else multipliers, is_own=True)
+            u = core.read_given(t, p, v, vdot, np.zeros((k, 0)) if multipliers is None else multipliers, acting=acting,
+                                is_own=True)
             inputs = doubles(u, u.size)
         status = lib.zd_measure_states(core.c, inputs, index, k, doubles(t, k),
                                        doubles(p, k * self.nq), doubles(v, k * self.nv),

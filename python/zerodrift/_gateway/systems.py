@@ -14,7 +14,7 @@ from ..errors import WrongValue
 from .base import MESSAGE_SIZE, TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, row_named, text
 from .compiled.precise import Precise
 from .constraint_names import ConstraintNames
-from .measures import Measuring
+from .measures import Acting, Measuring
 from .packed_layout import PACKED, Packing
 
 MAX_ROWS = 1000        # of a matrix that is made dense where it is packed
@@ -172,6 +172,8 @@ class CoreSystem(Measuring):
 
     def forces_of_functions(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
         """Generalized forces (nv, functions) of unit values of the user functions."""
+        if not self.functions:
+            return np.zeros((self.nv, 0))
         k, shape = self.functions, (self.functions + 1, -1)
         u = np.vstack([np.eye(k), np.zeros((1, k))])
         t, p, v = (np.ascontiguousarray(np.broadcast_to(each, (k + 1, np.size(each)))) for each in (t, p, v))
@@ -179,12 +181,12 @@ class CoreSystem(Measuring):
         return (f[:-1] - f[-1]).T
 
     def read_given(self, t: np.ndarray, p: np.ndarray, v: np.ndarray, vdot: np.ndarray, lam: np.ndarray, *,
-                   is_own: bool = False) -> np.ndarray:
-        """Values u (k, functions) where vdot (k, nv) and the multipliers (k, m) are given, too; is_own: as of `measure`."""
+                   acting: Acting | None = None, is_own: bool = False) -> np.ndarray:
+        """Values u (k, functions) where vdot (k, nv) and the multipliers (k, m) are given, too; the others: as of `measure`."""
         core, u = self if is_own else self.for_run(), np.zeros((len(t), self.functions))
         if u.size:
             status = lib.zd_read_states(core.c, len(t), *(doubles(each, each.size) for each in (t, p, v, vdot, lam)),
-                                       doubles(u, u.size, writable=True))
+                                       acting.c if acting else ffi.NULL, doubles(u, u.size, writable=True))
             if status:
                 raise core.error or error_of(status, "user functions must have one value at given reactions")
         return u
@@ -313,7 +315,7 @@ class CoreSystem(Measuring):
                 else array.reshape(k, *self.layout[name]) for name, array in arrays.items()}
 
     def residuals_along(self, parts: str, at: tuple[float, np.ndarray, np.ndarray], vdot: np.ndarray, lam: np.ndarray,
-                        directions: tuple[np.ndarray, ...], *, is_rough: bool = False) -> np.ndarray:
+                        directions: tuple[np.ndarray, ...], *, u: np.ndarray | None = None, is_rough: bool = False) -> np.ndarray:
         """Derivatives (k, entries of the parts) of residuals at (t, p, v) along k directions, with vdot, lambda and u frozen.
 
         Parts are "r" of (2) (nv,), "s" of (6) (m,), or both, or "Psi" of (5) (m,). Directions are dt (k,), dp (k, nq),
@@ -324,7 +326,7 @@ class CoreSystem(Measuring):
         bits, width = {"r": r, "s": s, "rs": (r[0] | s[0], self.nv + self.m), "Psi": Psi}[parts]
         k = len(dt)
         found = np.zeros((k, width))
-        u = self.read_solved(np.array([float(t)]), p, v)
+        u = self.read_solved(np.array([float(t)]), p, v) if u is None else u
         status = lib.zd_residuals_along(
             core.c, doubles(u, u.size), bits, t, doubles(p, self.nq), doubles(v, self.nv), doubles(vdot, self.nv),
             doubles(lam, self.m), is_rough, k, doubles(dt, k), doubles(dp, k * self.nq), doubles(dv, k * self.nv),

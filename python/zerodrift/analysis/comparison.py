@@ -11,8 +11,8 @@ from ..runs.operations import acceleration, project
 from ..runs.settings import Projection
 from ..systems.base import BaseSystem
 from . import differences
-from .derivatives import Derivatives, Direction, residuals
-from .state import State, scales, state
+from .derivatives import Derivatives, residuals
+from .state import State, sizes_of, state
 from .tangent import Tangent
 
 TIGHT = Projection(tol=1e-13, max_iterations=50)
@@ -76,7 +76,7 @@ def derivatives_of_accelerations(system: BaseSystem, t: float, p: np.ndarray, v:
             there = project(system, p + h * dp, v + h * dv, t, projection=TIGHT, formulation="augmented")
             return acceleration(system, *there, t, "augmented")[0]
 
-        size = Direction(dp=dp, dv=dv).size(scales(system, p), at)
+        size = float(sizes_of(at, dp[None], dv[None])[0])
         small = _small(derivatives.vdot) * size
         found.append(Compared(derivatives.of_accelerations(dp, dv), *differences.with_error(along, size, small), small))
     return found

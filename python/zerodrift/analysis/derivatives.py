@@ -9,44 +9,16 @@ the same function that gives Radau's method its Jacobian.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ..systems.base import BaseSystem, core_of
-from . import differences, read_forces
-from .quantities import rates_of
-from .state import Scales, State, scales, state
+from . import read_forces
+from .state import State, sizes_of
 from .tangent import Tangent, multipliers
 
-
-class Direction(NamedTuple):
-    """A direction: dt, dp (nq,), dv (nv,), and rates of parameters by name; None: zero."""
-
-    dt: float = 0.0
-    dp: np.ndarray | None = None
-    dv: np.ndarray | None = None
-    dparameters: Mapping[str, float] | None = None
-
-    def size(self, scale: Scales, at: State) -> float:
-        """Largest entry of the direction in characteristic scales."""
-        speed = np.maximum(scale.v, np.abs(at.v))
-        sizes = [abs(self.dt), *(np.abs(each / by).max(initial=0.0) for each, by in ((self.dp, scale.p), (self.dv, speed))
-                                 if each is not None)]
-        for name, rate in (self.dparameters or {}).items():
-            sizes.append(abs(rate) / (abs(float(at.system.parameters[name])) or 1.0))
-        return float(max(sizes))
-
-    def step(self, at: State, h: float) -> State:
-        """Terms of the system at (t, p, v) and parameters moved by h times the direction."""
-        p = at.p if self.dp is None else at.p + h * self.dp
-        v = at.v if self.dv is None else at.v + h * self.dv
-        system = at.system
-        if self.dparameters:
-            system = system.with_parameters({name: float(system.parameters[name]) + h * rate
-                                             for name, rate in self.dparameters.items()})
-        return state(system, at.t + h * self.dt, p, v)
+FREE = read_forces.Held((), np.zeros(0))
 
 
 def residuals(at: State, vdot: np.ndarray, lam: np.ndarray) -> np.ndarray:
@@ -54,36 +26,23 @@ def residuals(at: State, vdot: np.ndarray, lam: np.ndarray) -> np.ndarray:
     return np.concatenate([at.M @ vdot - at.force + lam @ at.C, at.C @ vdot - at.xi])
 
 
-def of_residuals(at: State, vdot: np.ndarray, lam: np.ndarray, direction: Direction) -> tuple[np.ndarray, np.ndarray]:
-    """Directional derivatives of r (nv,) and s (m,), with vdot and the multipliers frozen."""
-    if direction.dparameters:
-        size = direction.size(scales(at.system, at.p), at)
-        found = differences.along(lambda h: residuals(direction.step(at, h), vdot, lam), size)
-    else:
-        dp, dv = (np.zeros((1, n)) if each is None else each[None] for each, n in ((direction.dp, at.system.nq),
-                                                                                  (direction.dv, at.system.nv)))
-        found = of_residuals_along(at, vdot, lam, dp, dv, direction.dt)[:, 0]
-    return found[:at.system.nv], found[at.system.nv:]
-
-
 def of_residuals_along(at: State, vdot: np.ndarray, lam: np.ndarray, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0,
-                       parts: str = "rs", *, is_rough: bool = False) -> np.ndarray:
-    """Derivatives (nv + m, k) of r and s, or of other parts, along k directions dp (k, nq), dv (k, nv), all with dt."""
+                       parts: str = "rs", *, is_rough: bool = False, held: read_forces.Held = FREE) -> np.ndarray:
+    """Derivatives (nv + m, k) of r and s, or of other parts, along k directions dp (k, nq), dv (k, nv), all with dt.
+
+    The efforts of `held`, which stay as they are, act besides the forces of the system.
+    """
     directions = (np.full(len(dp), float(dt)), dp, dv, sizes_of(at, dp, dv, dt))
     p, v, vdot, lam = (np.ascontiguousarray(each, dtype=float) for each in (at.p, at.v, vdot, lam))
     core = core_of(at.system)
-    found = core.residuals_along(parts, (float(at.t), p, v), vdot, lam, tuple(map(np.ascontiguousarray, directions)),
+    u, _, motion = held.motion(at) if held.names else (None, None, None)
+    found = core.residuals_along(parts, (float(at.t), p, v), vdot, lam, tuple(map(np.ascontiguousarray, directions)), u=u,
                                  is_rough=is_rough).T
+    if motion:
+        found[:at.system.nv] -= held.along(at, motion[2], dp, dt, is_rough=is_rough)
     if core.functions and "r" in parts:
-        found[:at.system.nv] -= read_forces.rows(at) @ read_forces.along(at, dp, dv, dt, is_rough=is_rough)
+        found[:at.system.nv] -= read_forces.rows(at) @ read_forces.along(at, dp, dv, dt, is_rough=is_rough, held=held)
     return found
-
-
-def sizes_of(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> np.ndarray:
-    """The sizes (k,) of directions dp (k, nq), dv (k, nv), dt in characteristic scales."""
-    scale = scales(at.system, at.p)
-    speed = np.maximum(scale.v, np.abs(at.v))
-    return np.abs(np.hstack([dp / scale.p, dv / speed, np.full((len(dp), 1), dt)])).max(axis=1)
 
 
 class Derivatives:
@@ -95,13 +54,13 @@ class Derivatives:
         The tangent space there.
     vdot, lam : ndarray (nv,), (m,)
         Accelerations and multipliers there.
-    efforts : dict of str to float, optional
+    held : Held, optional
         Constant efforts along quantities, which act in addition to the system's forces.
     """
 
-    def __init__(self, tangent: Tangent, vdot: np.ndarray, lam: np.ndarray, efforts: Mapping[str, float] | None = None) -> None:
-        self.tangent, self.at, self.vdot, self.lam, self._efforts = tangent, tangent.at, vdot, lam, efforts or {}
-        self._jacobian = None if efforts else jacobian(self.at)
+    def __init__(self, tangent: Tangent, vdot: np.ndarray, lam: np.ndarray, held: read_forces.Held = FREE) -> None:
+        self.tangent, self.at, self.vdot, self.lam, self.held = tangent, tangent.at, vdot, lam, held
+        self._jacobian = None if held.names else jacobian(self.at)
 
     @property
     def is_exact(self) -> bool:
@@ -121,17 +80,7 @@ class Derivatives:
         return (dvdot, dlam) if dp.ndim > 1 else (dvdot[:, 0], dlam[:, 0])
 
     def _of_residuals(self, dp: np.ndarray, dv: np.ndarray, dt: float) -> np.ndarray:
-        found = of_residuals_along(self.at, self.vdot, self.lam, dp, dv, dt)
-        return found - np.vstack([self._of_efforts(dp, dt), np.zeros((self.at.system.m, len(dp)))]) if self._efforts else found
-
-    def _of_efforts(self, dp: np.ndarray, dt: float) -> np.ndarray:
-        """Derivatives (nv, k) of the generalized forces of the efforts."""
-        at, names, u = self.at, tuple(self._efforts), np.array(list(self._efforts.values()))
-
-        def force(which: np.ndarray, h: np.ndarray) -> np.ndarray:
-            return u @ rates_of(at.system, names, "hold", at.t + h * dt, at.p + h[:, None] * dp[which])["row"]
-
-        return differences.each(force, sizes_of(at, dp, np.zeros((len(dp), at.system.nv)), dt), at.system.nv).T
+        return of_residuals_along(self.at, self.vdot, self.lam, dp, dv, dt, held=self.held)
 
     def solve(self, r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Changes of vdot and lambda that make up for changes r (nv,), s (m,) of the residuals, or (nv, k), (m, k)."""

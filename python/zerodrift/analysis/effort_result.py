@@ -17,7 +17,7 @@ class Efforts:
     """Efforts of a motion; ``inv["crank.angle"]`` is that at a prescribed quantity, ``inv["A.force"]`` any measure, (k,) or (k,
     size).
 
-    Efforts act besides the forces of the system: reactions of joints do not contain them.
+    Efforts act from outside: the reaction of a joint carries them, and does not contain those along its own coordinate.
 
     Attributes
     ----------
@@ -36,8 +36,10 @@ class Efforts:
     """
 
     def __init__(self, system: BaseSystem, samples: tuple[np.ndarray, ...], multipliers: np.ndarray,
-                 efforts: dict[str, np.ndarray], *, residual: np.ndarray, power: np.ndarray, rank: np.ndarray) -> None:
+                 efforts: dict[str, np.ndarray], acting: tuple[list[str], np.ndarray], *,
+                 residual: np.ndarray, power: np.ndarray, rank: np.ndarray) -> None:
         self.system, self.multipliers, self.efforts = system, multipliers, efforts
+        self._acting = acting
         self.t, self.p, self.v, self.vdot = samples
         self.residual, self.power, self.rank = residual, power, rank
 
@@ -50,7 +52,7 @@ class Efforts:
                 base, _, quantity = known.rpartition(".")
                 if quantity in ALIASES and name == f"{base}.{ALIASES[quantity]}":
                     return values
-        return read(self.system, name, self.t, (self.p, self.v, self.vdot, self.multipliers))
+        return read(self.system, name, self.t, (self.p, self.v, self.vdot, self.multipliers), self._acting)
 
     def __repr__(self) -> str:
         lines = [f"<efforts of a motion of {self.system.name}: {len(self.t)} samples, t = {self.t[0]:g} ... {self.t[-1]:g} s>"]

@@ -11,7 +11,7 @@ from .. import _check
 from ..errors import EquilibriumFailed, WrongValue, ZerodriftError
 from ..runs.operations import project
 from ..runs.settings import Projection
-from ..systems.base import BaseSystem, core_of, system_of
+from ..systems.base import BaseSystem, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion, of_many
 from .large import MANY, blocks_that_meet, found
 from .quantities import components, find, names_of, values_of
@@ -78,9 +78,6 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
     (-1.570796327, 19.62, True)
     """
     system, t = system_of(system), _check.number("t", t)
-    if hold != () and core_of(system).functions:
-        raise WrongValue(f"hold must be left out where user functions read reactions, as those of {system.name}: what holds adds "
-                         "to them; give the joint a motor", "not-available")
     _check.choice("stability", stability, ("stable", "any"))
     if hold == () and v is None and (meet := blocks_that_meet(system)) is not None:
         return of_many(*found(system, t, _first(system, near), meet))

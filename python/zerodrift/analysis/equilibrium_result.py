@@ -65,6 +65,7 @@ class Equilibrium(Reading):
         self.system, self.t, self.effort = system, t, effort
         self.p, self.v, self.vdot, self.multipliers = state
         self.stiffness, self.damping, self.basis = found["stiffness"], found["damping"], found["basis"]
+        self._acting = system._watching.acting(effort, np.array([list(effort.values())]))
         self.stable, self.residual, self._named_free = found["stable"], found["residual"], found["free"]
         self.iterations, self.how = found["iterations"], found["how"]
         spectrum: Spectrum = found["spectrum"]

@@ -9,8 +9,8 @@ the constraint manifold near the state, with F = (A v, vdot) and, A^+ the left i
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -19,11 +19,11 @@ from .._rotations import rotation_of, turn
 from ..runs import settings
 from ..runs.instant import KnownInstant
 from ..systems.base import core_of
-from . import differences, read_forces
+from . import differences
 from .derivatives import Derivatives, sizes_of
 from .frames import STEADY, frame_of
 from .orbit import Orbit, changed
-from .quantities import find
+from .read_forces import Held
 from .state import State, scales, state
 from .tangent import Tangent, row_lengths
 
@@ -36,18 +36,11 @@ def accelerate(at: State) -> tuple[np.ndarray, np.ndarray]:
                         np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
 
 
-class Rest(NamedTuple):
-    """Multipliers (m,) of a position of rest in which drives stand still, and constant efforts by what they hold."""
-
-    lam: np.ndarray
-    efforts: Mapping[str, float]
-
-
 class DerivativesAtRest(Derivatives):
     """Derivatives of accelerations at rest, with drives that stand still: C vdot = 0."""
 
-    def __init__(self, tangent: Tangent, rest: Rest) -> None:
-        super().__init__(tangent, np.zeros(tangent.at.system.nv), rest.lam, rest.efforts)
+    def __init__(self, tangent: Tangent, lam: np.ndarray, held: Held) -> None:
+        super().__init__(tangent, np.zeros(tangent.at.system.nv), lam, held)
         self._jacobian = None
 
     def _of_residuals(self, dp: np.ndarray, dv: np.ndarray, dt: float) -> np.ndarray:
@@ -59,31 +52,23 @@ class DerivativesAtRest(Derivatives):
 class Flow:
     """The linearized flow at a state, parts of which are computed when they are first read.
 
-    z are coordinates on the tangent space, (p, v) = (p0, v0) + N z. `rest` is given where drives stand still and efforts hold
-    the system, otherwise the state moves on by its own equations, and by constant efforts that are given.
+    z are coordinates on the tangent space, (p, v) = (p0, v0) + N z. Constant efforts act. Multipliers of rest are given where
+    drives stand still, otherwise the state moves on by its own equations.
     """
 
-    def __init__(self, at: State, rest: Rest | None = None, efforts: Mapping[str, float] | None = None) -> None:
+    def __init__(self, at: State, rest: np.ndarray | None = None, efforts: Mapping[str, float] | None = None) -> None:
         self.at, self.tangent, self.frame = at, Tangent(at), frame_of(at.system)
-        self.is_at_rest, self.efforts = rest is not None, efforts
+        self.is_at_rest, self.efforts = rest is not None, efforts or {}
+        held = Held(self.efforts, np.array(list(self.efforts.values())), is_moving=rest is None)
         if rest is None:
-            self.vdot, self.lam = accelerate(at)
-            self.derivatives = Derivatives(self.tangent, self.vdot, self.lam, efforts)
-            if efforts:
-                self._accelerate_by(efforts)
+            self.vdot, self.lam = held.motion(at)[2][:2] if held.names else accelerate(at)
+            self.derivatives = Derivatives(self.tangent, self.vdot, self.lam, held)
         else:
-            self.vdot, self.lam = np.zeros(at.system.nv), rest.lam
+            self.vdot, self.lam = np.zeros(at.system.nv), rest
             self.tangent.followed = np.zeros_like(self.tangent.displacements)
-            self.derivatives = DerivativesAtRest(self.tangent, rest)
+            self.derivatives = DerivativesAtRest(self.tangent, rest, held)
         self.w = self.frame.rates(at)
         self.acc = self.frame.rows(at) @ self.vdot + self.frame.bias(at)
-
-    def _accelerate_by(self, efforts: Mapping[str, float]) -> None:
-        """Adds what efforts cause to the accelerations and multipliers."""
-        force = sum(find(self.at, name, "hold").row.T @ [u] for name, u in efforts.items())
-        _, vdot, lam = self.response(force[:, None])
-        self.vdot, self.lam = self.vdot + vdot[:, 0], self.lam + lam[:, 0]
-        self.derivatives.vdot, self.derivatives.lam = self.vdot, self.lam
 
     @functools.cached_property
     def jerk(self) -> np.ndarray:
@@ -139,7 +124,7 @@ class Flow:
     @property
     def instant(self) -> KnownInstant:
         """Any quantity there, with these accelerations."""
-        return KnownInstant(self.at.system, self.at.t, self.at.p, self.at.v, self.vdot, self.lam)
+        return self.held().instant(self.at, self.at.p, self.at.v, self.vdot, self.lam)
 
     @functools.cached_property
     def _stiffness(self) -> float:
@@ -218,22 +203,22 @@ class Flow:
 
         return at.A @ dv + differences.each(rates, sizes_of(at, dp.T, np.zeros(dv.T.shape)), nq).T
 
-    def response(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Changes of z' (k, j), vdot (nv, j) and of lambda (m, j), by generalized forces (nv, j)."""
-        V = self.tangent.velocities
-        if core_of(self.at.system).functions:
-            force = force + read_forces.added(self.at, self.vdot, self.lam, force, self._changes_by_forces)
-        vdot, lam = self._changes_by_forces(force)
+    def response(self, names: Sequence[str], j: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Changes of z' (k, j), vdot (nv, j) and of lambda (m, j), by unit efforts along quantities of j components."""
+        V, nv = self.tangent.velocities, self.at.system.nv
         n = V.shape[1]
-        z = np.zeros((self.tangent.quasi.shape[1], force.shape[1]))
-        z[-n:] = V.T @ force if n else z[-n:]
-        return z, vdot, lam
 
-    def _changes_by_forces(self, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Changes of vdot (nv, j) and of lambda (m, j) by generalized forces (nv, j), all of them included."""
-        V = self.tangent.velocities
-        lam = self.derivatives.solve(-force, np.zeros((self.at.system.m, force.shape[1])))[1]
-        return V @ (V.T @ force), lam
+        def motions(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+            return np.array([np.concatenate(self.held(names, efforts).motion(self.at)[2][:2])
+                             for efforts in h[:, None] * np.eye(j)[which]])
+
+        vdot, lam = np.split(differences.each(motions, np.ones(j), nv + self.at.system.m).T, [nv])
+        return np.vstack([np.zeros((self.tangent.quasi.shape[1] - n, j)), V.T @ self.at.M @ vdot]), vdot, lam
+
+    def held(self, names: Sequence[str] = (), efforts: Any = ()) -> Held:
+        """Efforts along quantities, after those that act here."""
+        held = self.derivatives.held
+        return Held((*held.names, *names), np.concatenate([held.efforts, efforts]), is_moving=not self.is_at_rest)
 
 
 def flow_at(system: Any, t: float, p: np.ndarray, v: np.ndarray) -> Flow:

@@ -15,7 +15,7 @@ from . import read_forces
 from .effort_result import Efforts
 from .kinematic_result import Kinematics
 from .names import dominant
-from .quantities import components, effort, names_of, values_of
+from .quantities import components, conjugate, find, names_of, values_of
 from .state import State, scales, state
 from .tangent import DEPENDENT, Tangent, multipliers
 
@@ -134,7 +134,7 @@ def _weights(given: Any, names: list[str]) -> dict[str, float]:
 def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str], weights: Mapping[str, float]) -> Efforts:
     """Efforts and multipliers at all samples."""
     t, p, v, vdot = samples
-    k, found, undriven = len(t), [], {}
+    k, found, undriven, along = len(t), [], {}, [conjugate(system, name) for name in names]
     lam, residual, rank, power = np.full((k, system.m), np.nan), np.full(k, np.nan), np.zeros(k, dtype=int), np.full(k, np.nan)
     for i in range(k):
         if not (np.isfinite(p[i]).all() and np.isfinite(v[i]).all() and np.isfinite(vdot[i]).all()):
@@ -142,9 +142,9 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
             continue
         at = state(system, float(t[i]), p[i], v[i])
         _check_motion(at, vdot[i])
-        rows, weighted = [effort(at, name, "efforts") for name in names], [weights.get(name, 1.0) for name in names]
+        rows, weighted = [find(at, name, "efforts").row for name in along], [weights.get(name, 1.0) for name in names]
         if core_of(system).functions:
-            at = _with_reactions(at, vdot[i], rows, weighted)
+            at = _with_reactions(at, vdot[i], along, rows, weighted)
         u, lam[i], left, rank[i] = _at(at, vdot[i], rows, weighted)
         residual[i], power[i] = np.linalg.norm(left), float(u @ (np.vstack(rows) @ v[i])) if rows else 0.0
         if residual[i] > UNDRIVEN * _size(at, vdot[i]):
@@ -155,7 +155,9 @@ def _solved(system: BaseSystem, samples: tuple[np.ndarray, ...], names: list[str
         warnings.warn(f"{subject} this motion of {system.name}: a force of up to "
                       f"{max(undriven.values()):.3g} N/sqrt(kg) in the mass metric is missing at {', '.join(undriven)}",
                       AccuracyWarning, stacklevel=3)
-    return Efforts(system, samples, lam, _by_name(names, found, k), residual=residual, power=power, rank=rank)
+    efforts = _by_name(names, found, k)
+    acting = along, np.column_stack([np.zeros((k, 0)), *(efforts[name] for name in names)])
+    return Efforts(system, samples, lam, efforts, acting, residual=residual, power=power, rank=rank)
 
 
 def _at(at: State, vdot: np.ndarray, rows: list[np.ndarray],
@@ -178,9 +180,13 @@ def _at(at: State, vdot: np.ndarray, rows: list[np.ndarray],
     return u, multipliers(at, G.T @ u - wanted), left, rank
 
 
-def _with_reactions(at: State, vdot: np.ndarray, rows: list[np.ndarray], weights: list[float]) -> State:
+def _with_reactions(at: State, vdot: np.ndarray, along: list[str], rows: list[np.ndarray], weights: list[float]) -> State:
     """The state with the forces of user functions that read the reactions of this motion."""
-    return at._replace(force=read_forces.at_motion(at, vdot, lambda force: _at(at._replace(force=force), vdot, rows, weights)[1]))
+    def respond(force: np.ndarray) -> read_forces.Motion:
+        u, lam, *_ = _at(at._replace(force=force), vdot, rows, weights)
+        return vdot, lam, u
+
+    return at._replace(force=read_forces.solved(at, along, respond)[1])
 
 
 def _sizes(at: State, V: np.ndarray, G: np.ndarray) -> np.ndarray:

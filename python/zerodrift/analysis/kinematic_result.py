@@ -56,8 +56,9 @@ class Kinematics:
 FORCES = ("force", "torque", "tension", "power")
 
 
-def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray, ...]) -> np.ndarray:
-    """A quantity at samples: t (k,), and p, v, vdot, multipliers; NaN where these are."""
+def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray, ...],
+         acting: Any = ((), None)) -> np.ndarray:
+    """A quantity at samples: t (k,), p, v, vdot, multipliers; NaN where these are. acting: efforts (k, j) along quantities."""
     place, watching = system._watching.find(name), system._watching
     if place is not None:
         depends = watching.core.measure_depends(place.number)
@@ -66,7 +67,8 @@ def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray,
         rows = [np.ascontiguousarray(np.where(good[:, None], np.nan_to_num(each), 0.0)[good]) for each in states]
         values = np.full((len(t), watching.core.measure_size(place.number)), np.nan)
         if good.any():
-            values[good] = watching.core.measure(place.number, np.ascontiguousarray(t[good]), *rows)
+            efforts = watching.acting(acting[0], acting[1][good]) if len(acting[0]) else None
+            values[good] = watching.core.measure(place.number, np.ascontiguousarray(t[good]), *rows, acting=efforts)
         return place.pick(values)
     for variables, values in zip((system.coordinates, system.velocities, system.constraints), (states[0], states[1], states[3]),
                                  strict=True):

@@ -10,12 +10,11 @@ import numpy as np
 from .. import _check
 from ..errors import WrongValue
 from . import differences
-from .derivatives import Direction
 from .flow import Flow
 from .names import dominant, labelled, pivots
 from .quantities import find, names_of
 from .spectrum import complement, of_matrix
-from .state import State, scales, state
+from .state import State, sizes_of, state
 
 EIGENVALUE_ROUNDING = 1e-12  # of an eigenvalue: a smaller real part is printed as zero
 
@@ -157,8 +156,8 @@ class Linearization:
     def _rates(self, names: list[str]) -> np.ndarray:
         """Changes of the rows of these quantities along the basis, times v: zero at rest."""
         at, columns = self._at, []
-        for dp in self.basis[:self.system.nq].T:
-            size = Direction(dp=dp).size(scales(at.system, at.p), at)
+        basis = self.basis[:self.system.nq].T
+        for dp, size in zip(basis, sizes_of(at, basis, np.zeros((len(basis), self.system.nv))), strict=True):
             columns.append(differences.along(lambda h, dp=dp: np.concatenate([
                 _row(state(at.system, at.t, at.p + h * dp, at.v), name) @ at.v for name in names]), size))
         return np.array(columns).T
@@ -168,7 +167,7 @@ class Linearization:
         at, (vdot, dvdot), nq, columns = self._at, self._instant, self.system.nq, []
         for direction, change in zip(self.basis.T, dvdot.T, strict=True):
             dp, dv = direction[:nq], direction[nq:]
-            size = Direction(dp=dp, dv=dv).size(scales(at.system, at.p), at)
+            size = float(sizes_of(at, dp[None], dv[None])[0])
 
             def rates(h: float, dp: np.ndarray = dp, dv: np.ndarray = dv, change: np.ndarray = change) -> np.ndarray:
                 there = state(at.system, at.t, at.p + h * dp, at.v + h * dv)

@@ -9,16 +9,14 @@ import numpy as np
 
 from .. import _check
 from ..errors import AccuracyWarning, InconsistentStart, WrongType, WrongValue
-from ..runs.instant import names_of_quantities
 from ..systems.base import BaseSystem, core_of, system_of
 from . import differences
-from .derivatives import Direction
 from .equilibrium import equilibrium
 from .equilibrium_result import Equilibrium
-from .flow import Flow, Rest
+from .flow import Flow
 from .linearization_result import Linearization
-from .quantities import components, effort, names_of
-from .state import State, scales, state
+from .quantities import components, conjugate, find, names_of
+from .state import State, scales, sizes_of, state
 
 VIOLATION = 1e-6        # of characteristic scales: a state that violates its constraints by more is refused
 
@@ -113,68 +111,39 @@ def _state(system: BaseSystem, at: Any, v: Any) -> State:
     return here
 
 
-def _rest(at: Any) -> Rest | None:
-    """Multipliers and efforts of an equilibrium at rest; None for other states."""
-    return Rest(at.multipliers, at.effort) if isinstance(at, Equilibrium) and not at.v.any() else None
+def _rest(at: Any) -> np.ndarray | None:
+    """Multipliers of an equilibrium at rest; None for other states."""
+    return at.multipliers if isinstance(at, Equilibrium) and not at.v.any() else None
 
 
 def _with_ports(flow: Flow, inputs: list[str], outputs: list[str]) -> Linearization:
     """The linearization with its inputs and outputs."""
-    at, nv = flow.at, flow.at.system.nv
-    rows = [effort(at, name, "inputs") for name in inputs]
-    force = np.vstack(rows).T if rows else np.zeros((nv, 0))
-    B, dvdot_u, dlam_u = flow.response(force)
+    at, k = flow.at, flow.A.shape[0]
+    along = [conjugate(at.system, name) for name in inputs]
+    sizes = [len(find(at, name, "inputs").value) for name in along]
+    j = sum(sizes)
+    B, dvdot_u, dlam_u = flow.response(along, j)
     _, _, dvdot, dlam = flow.columns
-    lines, direct, labels = [], [], []
-    for name in outputs:
-        output = _Output(flow, name)
-        lines.append(np.array([output.along(dp, dv, a, b) for dp, dv, a, b in zip(
-            flow.tangent.basis[:at.system.nq].T, flow.tangent.basis[at.system.nq:].T, dvdot.T, dlam.T, strict=True)]).T)
-        direct.append(np.array([output.along(None, None, a, b) for a, b in zip(dvdot_u.T, dlam_u.T, strict=True)]).T)
-        lines[-1] = lines[-1].reshape(output.size, -1)
-        direct[-1] = direct[-1].reshape(output.size, -1)
-        labels += components(name, output.size)
-    k = flow.A.shape[0]
-    C = np.vstack(lines) if lines else np.zeros((0, k))
-    D = np.vstack(direct) if direct else np.zeros((0, force.shape[1]))
-    named = [each for name, row in zip(inputs, rows, strict=True) for each in components(name, len(row))]
+    dp, dv = np.split(np.pad(flow.tangent.basis, ((0, 0), (0, j))), [at.system.nq])
+    changes = dp, dv, np.hstack([dvdot, dvdot_u]), np.hstack([dlam, dlam_u]), np.eye(j, k + j, k)
+    found = [_derivatives(flow, name, along, changes) for name in outputs]
+    C, D = np.split(np.vstack([np.zeros((0, k + j)), *found]), [k], axis=1)
+    named = [each for name, size in zip(inputs, sizes, strict=True) for each in components(name, size)]
+    labels = [each for name, rows in zip(outputs, found, strict=True) for each in components(name, len(rows))]
     return Linearization(flow, B, C, D, tuple(named), tuple(labels))
 
 
-class _Output:
-    """Derivatives of a quantity along directions of the state, of accelerations and of multipliers."""
+def _derivatives(flow: Flow, name: str, inputs: list[str], changes: tuple[np.ndarray, ...]) -> np.ndarray:
+    """Derivatives (size, j) of a quantity along changes of p, v, vdot, multipliers and inputs, (..., j)."""
+    at, scale = flow.at, scales(flow.at.system, flow.at.p)
+    start = at.p, at.v, flow.vdot, flow.lam, np.zeros(len(changes[4]))
 
-    def __init__(self, flow: Flow, name: str) -> None:
-        self.flow, self.name = flow, name
-        self._place = flow.at.system._watching.find(name)
-        self.size = len(self._value(flow.at.p, flow.at.v, flow.vdot, flow.lam))
+    def values(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+        moved = [[each + by * change[:, i] for each, change in zip(start, changes, strict=True)]
+                 for i, by in zip(which, h, strict=True)]
+        return np.array([np.atleast_1d(flow.held(inputs, u).instant(at, *moving)[name]) for *moving, u in moved])
 
-    def along(self, dp: Any, dv: Any, dvdot: np.ndarray, dlam: np.ndarray) -> np.ndarray:
-        """The derivative (size,) along one direction."""
-        flow, at = self.flow, self.flow.at
-        dp = np.zeros(at.system.nq) if dp is None else dp
-        dv = np.zeros(at.system.nv) if dv is None else dv
-        scale = scales(at.system, at.p)
-        size = Direction(dp=dp, dv=dv).size(scale, at)
-        size = max(size, float(np.abs(dvdot / np.maximum(scale.v, np.abs(flow.vdot))).max(initial=0.0)),
-                   float(np.abs(dlam).max(initial=0.0) / max(np.abs(flow.lam).max(initial=0.0), 1.0)))
-
-        def value(h: float) -> np.ndarray:
-            return self._value(at.p + h * dp, at.v + h * dv, flow.vdot + h * dvdot, flow.lam + h * dlam)
-
-        return differences.along(value, size)
-
-    def _value(self, p: np.ndarray, v: np.ndarray, vdot: np.ndarray, lam: np.ndarray) -> np.ndarray:
-        system, t = self.flow.at.system, self.flow.at.t
-        if self._place is not None:
-            states = [np.ascontiguousarray(each)[None] for each in (p, v, vdot, lam)]
-            values = system._watching.core.measure(self._place.number, np.array([float(t)]), *states)
-            return np.atleast_1d(self._place.pick(values)[0])
-        for variables, values in ((system.coordinates, p), (system.velocities, v), (system.constraints, lam)):
-            for variable, value in zip(variables, values, strict=True):
-                if variable.name == self.name:
-                    return np.array([value])
-        raise WrongValue(f"outputs names {self.name!r}, and nothing in {system.name} is called that; "
-                         f"{_check.closest(self.name, names_of_quantities(system))}", "wrong-name")
-
-
+    units = np.maximum(scale.v, np.abs(flow.vdot))[:, None], max(np.abs(flow.lam).max(initial=0.0), 1.0), 1.0
+    sizes = [np.abs(change / unit).max(axis=0, initial=0.0) for change, unit in zip(changes[2:], units, strict=True)]
+    return differences.each(values, np.max([sizes_of(at, changes[0].T, changes[1].T), *sizes], axis=0),
+                            values(np.zeros(1, dtype=int), np.zeros(1)).shape[1]).T

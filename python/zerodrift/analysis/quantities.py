@@ -126,19 +126,19 @@ def _coordinate(at: State, i: int) -> Found:
     return Found(at.p[[i]], pdot[[i]], row, bias, False)
 
 
-def effort(at: State, name: str, what: str) -> np.ndarray:
-    """Rows (size, nv) along which an effort acts: its generalized force is ``row.T @ effort``.
+def conjugate(system: BaseSystem, name: str) -> str:
+    """The quantity along whose rate an effort acts.
 
     The name is that of a measure or variable, whose rate the effort multiplies to a power, or ``joint.torque``, ``joint.force``,
     ``motor.torque``: the effort along the coordinate of that joint, or of the joint that the motor drives.
     """
     owner, _, quantity = name.rpartition(".")
-    for conjugate in EFFORTS.get(quantity, ()):
-        for base in (owner, _driven(at.system, owner)):
-            along = f"{base}.{conjugate}"
-            if at.system._watching.find(along) is not None and at.system._watching.unit(along) in UNITS[quantity]:
-                return find(at, along, what).row
-    return find(at, name, what).row
+    for rate in EFFORTS.get(quantity, ()):
+        for base in (owner, _driven(system, owner)):
+            along = f"{base}.{rate}"
+            if system._watching.find(along) is not None and system._watching.unit(along) in UNITS[quantity]:
+                return along
+    return name
 
 
 def _driven(system: BaseSystem, motor: str) -> str:

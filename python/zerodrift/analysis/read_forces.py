@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
 from ..errors import NoUniqueMotion
+from ..runs.instant import KnownInstant
 from ..systems.base import core_of
 from . import differences
-from .state import State, scales
+from .quantities import find, rates_of
+from .state import State, sizes_of, state
+from .tangent import Tangent, multipliers
 
 ITERATIONS = 30
 LEFT = 1e-14        # of the largest value: Newton's method ends
 
-Linear = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+Motion = tuple[np.ndarray, ...]             # accelerations (nv,), multipliers (m,) and efforts (j,)
 
 
 def rows(at: State) -> np.ndarray:
@@ -22,60 +25,81 @@ def rows(at: State) -> np.ndarray:
     return core_of(at.system).forces_of_functions(at.t, np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
 
 
-def along(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0, *, is_rough: bool = False) -> np.ndarray:
+class Held:
+    """Efforts along quantities, besides the forces of the system: those that keep them at rest, or constant ones (j,).
+
+    `is_moving`: accelerations are those of the constraints, C vdot = xi; drives stand still otherwise.
+    """
+
+    def __init__(self, names: Iterable[str], efforts: np.ndarray | None = None, *, is_moving: bool = False) -> None:
+        self.names, self.efforts, self._is_moving = tuple(names), efforts, is_moving
+
+    def motion(self, at: State) -> tuple[np.ndarray, np.ndarray, Motion]:
+        """Values (k,) of the user functions, the generalized force of the system (nv,) and the motion with them."""
+        m, efforts = at.system.m, self.efforts
+        G = np.vstack([np.zeros((0, at.system.nv)), *(find(at, name, "hold").row for name in self.names)])
+        tangent, C = (Tangent(at, G), np.vstack([at.C, G])) if efforts is None else (Tangent(at), at.C)
+        V, x = tangent.velocities, tangent.solve_rows(at.xi) if self._is_moving and m else np.zeros(at.system.nv)
+
+        def respond(force: np.ndarray) -> Motion:
+            force = force if efforts is None else force + G.T @ efforts
+            vdot = x + V @ (V.T @ (force - at.M @ x))
+            lam = multipliers(at, force - at.M @ vdot, C)
+            return vdot, lam[:m], -lam[m:] if efforts is None else efforts
+
+        return solved(at, self.names, respond)
+
+    def instant(self, at: State, *moving: np.ndarray) -> KnownInstant:
+        """Any quantity at p, v, vdot and the multipliers with constant efforts."""
+        return KnownInstant(at.system, at.t, *moving, at.system._watching.acting(self.names, self.efforts[None]))
+
+    def along(self, at: State, efforts: np.ndarray, dp: np.ndarray, dt: float, *, is_rough: bool) -> np.ndarray:
+        """Derivatives (nv, k) of the generalized forces of efforts, along directions dp (k, nq) with dt."""
+        def force(which: np.ndarray, h: np.ndarray) -> np.ndarray:
+            return efforts @ rates_of(at.system, self.names, "hold", at.t + h * dt, at.p + h[:, None] * dp[which])["row"]
+
+        sizes = sizes_of(at, dp, np.zeros((len(dp), at.system.nv)), dt)
+        return (differences.each_roughly if is_rough else differences.each)(force, sizes, at.system.nv).T
+
+
+def along(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0, *, is_rough: bool, held: Held) -> np.ndarray:
     """Derivatives (k, j) of their values in the motion, along directions dp (j, nq), dv (j, nv) of its state, all with dt."""
-    core, scale = core_of(at.system), scales(at.system, at.p)
-
-    def values(which: np.ndarray, h: np.ndarray) -> np.ndarray:
-        return core.read_solved(at.t + h * dt, at.p + h[:, None] * dp[which], at.v + h[:, None] * dv[which])
-
-    sizes = np.abs(np.hstack([dp / scale.p, dv / np.maximum(scale.v, np.abs(at.v)), np.full((len(dp), 1), dt)])).max(axis=1)
-    return (differences.each_roughly if is_rough else differences.each)(values, sizes, core.functions).T
-
-
-def _along_reactions(at: State, vdot: np.ndarray, lam: np.ndarray, dvdot: np.ndarray, dlam: np.ndarray) -> np.ndarray:
-    """Derivatives (k, j) along changes (nv, j) of the accelerations and (m, j) of the multipliers."""
     core = core_of(at.system)
-    j = dvdot.shape[1]
-    of_lam, of_vdot = (max(float(np.abs(each).max(initial=0.0)), 1.0) for each in (lam, vdot))
 
     def values(which: np.ndarray, h: np.ndarray) -> np.ndarray:
-        state = [np.repeat(np.asarray(each, dtype=float)[None], len(h), axis=0) for each in (at.t, at.p, at.v)]
-        moved = (vdot + h[:, None] * dvdot.T[which], lam + h[:, None] * dlam.T[which])
-        return core.read_given(*state, *map(np.ascontiguousarray, moved))
+        states = at.t + h * dt, at.p + h[:, None] * dp[which], at.v + h[:, None] * dv[which]
+        if not held.names:
+            return core.read_solved(*states)
+        return np.array([held.motion(state(at.system, float(t), p, v))[0] for t, p, v in zip(*states, strict=True)])
 
-    sizes = np.maximum(np.abs(dvdot).max(axis=0, initial=0.0) / of_vdot, np.abs(dlam).max(axis=0, initial=0.0) / of_lam)
-    return differences.each(values, sizes.reshape(j), core.functions).T
-
-
-def added(at: State, vdot: np.ndarray, lam: np.ndarray, force: np.ndarray, respond: Linear) -> np.ndarray:
-    """Generalized forces (nv, j) that the user functions add to small ones (nv, j).
-
-    `respond` gives changes of accelerations and multipliers by generalized forces, those of the user functions included.
-    """
-    B = rows(at)
-    slopes = [_along_reactions(at, vdot, lam, *respond(each)) for each in (force, B)]
-    return B @ np.linalg.solve(np.eye(B.shape[1]) - slopes[1], slopes[0])
+    return (differences.each_roughly if is_rough else differences.each)(values, sizes_of(at, dp, dv, dt), core.functions).T
 
 
-def at_motion(at: State, vdot: np.ndarray, multipliers: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-    """The generalized force (nv,) of a motion with these accelerations.
-
-    `multipliers` gives those of a generalized force, in which they are affine.
-    """
+def solved(at: State, names: Sequence[str], respond: Callable[[np.ndarray], Motion]) -> tuple[np.ndarray, np.ndarray, Motion]:
+    """As `Held.motion`; `respond` gives the motion by the generalized forces of the system, in which it is affine."""
     core, B = core_of(at.system), rows(at)
-    state = tuple(np.ascontiguousarray(each, dtype=float)[None] for each in (at.t, at.p, at.v))
-    here = core.read_solved(*state)[0]
-    u = here.copy()
-    lam = multipliers(at.force)
-    slopes = np.column_stack([multipliers(at.force + each) - lam for each in B.T]) if B.size else np.zeros((len(lam), 0))
+    where = [np.ascontiguousarray(each, dtype=float)[None] for each in (at.t, at.p, at.v)]
+    u = here = core.read_solved(*where)[0]
+    start = respond(at.force)
+    ends = [respond(at.force + column) for column in B.T]
+    slopes = [np.array([end[i] - each for end in ends]).reshape(len(u), each.size) for i, each in enumerate(start)]
+
+    def motions(u: np.ndarray) -> list[np.ndarray]:
+        return [each + (u - here) @ slope for each, slope in zip(start, slopes, strict=True)]
+
+    def left(u: np.ndarray) -> np.ndarray:
+        vdot, lam, efforts = motions(u)
+        return u - core.read_given(*(np.repeat(each, len(u), axis=0) for each in where), np.ascontiguousarray(vdot),
+                                   np.ascontiguousarray(lam), acting=at.system._watching.acting(names, efforts))
+
     for _ in range(ITERATIONS):
-        now = lam + slopes @ (u - here)
-        left = u - core.read_given(*state, np.ascontiguousarray(vdot)[None], now[None])[0]
-        if np.abs(left).max(initial=0.0) <= LEFT * max(float(np.abs(u).max(initial=0.0)), 1e-300):
+        off = left(u[None])[0]
+        if np.abs(off).max(initial=0.0) <= LEFT * max(float(np.abs(u).max(initial=0.0)), 1e-300):
             break
-        matrix = np.eye(len(u)) - _along_reactions(at, vdot, now, np.zeros((len(vdot), len(u))), slopes)
+        unit = np.diag(np.maximum(np.abs(u), np.abs(off)))
+        matrix = differences.each_roughly(lambda which, h, u=u, unit=unit: left(u + h[:, None] * unit[which]), np.ones(len(u)),
+                                          len(u))
         if not np.linalg.det(matrix) > 0:
             raise NoUniqueMotion(f"{at.system.name} must have one force that makes this motion, and friction has several or none")
-        u = u - np.linalg.solve(matrix, left)
-    return at.force + B @ (u - here)
+        u = u - unit @ np.linalg.solve(matrix.T, off)
+    return u, at.force + B @ (u - here), tuple(motions(u))

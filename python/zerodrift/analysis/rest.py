@@ -16,10 +16,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..errors import ZerodriftError
-from ..systems.base import BaseSystem
-from . import differences
-from .derivatives import of_residuals_along, sizes_of
-from .quantities import rates_of
+from ..systems.base import BaseSystem, core_of
+from .derivatives import FREE, of_residuals_along
+from .read_forces import Held
 from .retraction import moved, onto, rows_of
 from .state import scales, state
 from .tangent import Tangent, multipliers
@@ -46,6 +45,9 @@ class Balance:
         self.held = rows_of(self.at, held)[1]
         self.rows = np.vstack([self.at.C, self.held])
         self.tangent = Tangent(self.at, self.held)
+        self.hold = Held(held) if held else FREE
+        if held and core_of(system).functions:
+            self.at = self.at._replace(force=self.hold.motion(self.at)[1])
 
     @functools.cached_property
     def V(self) -> np.ndarray:
@@ -120,19 +122,7 @@ class Balance:
         i, j = displacements.shape[1], velocities.shape[1]
         dp, dv = np.zeros((i + j, system.nq)), np.zeros((i + j, system.nv))
         dp[:i], dv[i:] = (at.A @ displacements).T, velocities.T
-        found = of_residuals_along(at, at.v, lam[:m], dp, dv, parts="r", is_rough=self.is_rough)
-        return self.V.T @ (found + self._of_held(dp, dv) if self.names else found)
-
-    def _of_held(self, dp: np.ndarray, dv: np.ndarray) -> np.ndarray:
-        """Derivatives (nv, k) of the generalized forces that hold quantities."""
-        at, lam = self.at, self.multipliers[self.at.system.m:]
-
-        def force(which: np.ndarray, h: np.ndarray) -> np.ndarray:
-            t, p = np.full(len(h), at.t), at.p + h[:, None] * dp[which]
-            return lam @ rates_of(at.system, tuple(self.names), "hold", t, p)["row"]
-
-        differentiate = differences.each_roughly if self.is_rough else differences.each
-        return differentiate(force, sizes_of(at, dp, dv), at.system.nv).T
+        return self.V.T @ of_residuals_along(at, at.v, lam[:m], dp, dv, parts="r", is_rough=self.is_rough, held=self.hold)
 
     def family(self) -> np.ndarray:
         """Displacements (nv, j) along which a balance stays one, beyond what nonholonomic constraints allow."""

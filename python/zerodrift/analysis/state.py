@@ -87,6 +87,13 @@ def scales(system: BaseSystem, p: np.ndarray) -> Scales:
     return found
 
 
+def sizes_of(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0) -> np.ndarray:
+    """The sizes (k,) of directions dp (k, nq), dv (k, nv), dt in characteristic scales."""
+    scale = scales(at.system, at.p)
+    speed = np.maximum(scale.v, np.abs(at.v))
+    return np.abs(np.hstack([dp / scale.p, dv / speed, np.full((len(dp), 1), dt)])).max(axis=1)
+
+
 def arguments(given: Any, p: Any, v: Any, t: Any) -> tuple[BaseSystem, float, np.ndarray, np.ndarray]:
     """The system of an argument and a checked state of it; what is left out is its start."""
     system, t = system_of(given), _check.number("t", t)

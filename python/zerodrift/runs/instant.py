@@ -33,13 +33,14 @@ class Reading:
     v: np.ndarray
     vdot: Any
     multipliers: Any
+    _acting: Any = None     # efforts besides the forces of the system, see `CoreSystem.measure`
     _least: np.ndarray | None = None        # (1, m) multipliers of the least reactions
 
     def __getitem__(self, given: Any) -> Any:
         name, of = getattr(given, "name", given), self.system
         if (place := of._watching.find(name)) is not None:
             states = self._state_for(place.number)
-            value = place.pick(of._watching.core.measure(place.number, *states, is_least=True))[0]
+            value = place.pick(of._watching.core.measure(place.number, *states, is_least=True, acting=self._acting))[0]
             return float(value) if np.ndim(value) == 0 else value
         for variables, values in ((of.coordinates, "p"), (of.velocities, "v"), (of.constraints, "multipliers")):
             for i, variable in enumerate(variables):
@@ -55,16 +56,17 @@ class Reading:
         states.append(_sample(self.vdot))
         if self._least is None:
             given = _sample(self.multipliers)
-            self._least = core.measure(number, *states, given, wanted="least") if self.system.m else given
+            self._least = core.measure(number, *states, given, wanted="least", acting=self._acting) if self.system.m else given
         return [*states, self._least]
 
 
 class KnownInstant(Reading):
-    """A state whose accelerations and multipliers are given."""
+    """A state whose accelerations and multipliers are given; acting: as of `CoreSystem.measure`."""
 
     def __init__(self, system: BaseSystem, t: float, p: np.ndarray, v: np.ndarray, vdot: np.ndarray,
-                 multipliers: np.ndarray) -> None:
+                 multipliers: np.ndarray, acting: Any = None) -> None:
         self.system, self.t, self.p, self.v, self.vdot, self.multipliers = system, t, p, v, vdot, multipliers
+        self._acting = acting
 
 
 class Instant(Reading):

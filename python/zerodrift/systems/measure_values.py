@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .. import _check, _gateway
-from .._gateway import CoreSystem
+from .._gateway import Acting, CoreSystem
 from ..errors import WrongName, WrongValue
 
 AXES = {"x": 0, "y": 1, "z": 2}     # names of components
@@ -54,6 +54,15 @@ class Watching:
         """Unit of a measure or of a component by its name, or None."""
         found = self.find(name)
         return None if found is None else self._measures[found.number].unit
+
+    def acting(self, names: Iterable[str], efforts: np.ndarray) -> Acting:
+        """Efforts (k, n) along quantities. Those along coordinates of joints, which are not measures, act in no reaction."""
+        along: list[tuple[int, int]] = []
+        for place in map(self.find, names):
+            size = 1 if place is None or place.component is not None else self._measures[place.number].size
+            along += [(place.number, place.component or i) if place else (-1, i) for i in range(size)]
+        used = [i for i, (number, _) in enumerate(along) if number >= 0]
+        return Acting([along[i] for i in used], efforts[:, used])
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Watching, (self.core,)       # what is known of solutions is found again

@@ -29,7 +29,7 @@ static int write_needs(const zd_plane *self, const zd_plane_frame *frame, const 
     const zd_actions actions = {&self->elements, &readings, zd_plane_add_force, NULL};
     if (!at->vdot) memset(frame->wrench, 0, (size_t)(self->tree.bodies + 1) * sizeof *frame->wrench);
     else if (zd_plane_forces_apply(self, frame, at->t)) return ZD_CALLBACK;
-    if (zd_rows_act(&actions, at->t, at->lambda)) return ZD_CALLBACK;
+    if (zd_rows_act(&actions, at)) return ZD_CALLBACK;
     if (at->vdot) zd_plane_tree_accelerate(&self->tree, frame->pose, frame->twist, at->vdot, frame->spin);
     for (int i = 1; i <= self->tree.bodies; i++) {
         const zd_plane_link *link = self->tree.link + i;
