@@ -43,10 +43,11 @@ CASES = [(driven, np.arccos(0.625) - 0.5, "A.angle", np.arccos(0.625) - 0.5, "'d
 
 @pytest.mark.parametrize(("build", "t", "measure", "limit", "drive"), CASES, ids=["rocker", "boom"])
 @pytest.mark.parametrize("space", [False, True], ids=["plane", "space"])
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
 @pytest.mark.parametrize("settings", SETTINGS, ids=["fixed", "adaptive", "radau", "continue"])
-def test_a_run_beyond_the_reach_of_a_drive_names_it_and_its_limit(build, t, measure, limit, drive, space, settings):
+def test_a_run_beyond_the_reach_of_a_drive_names_it_and_its_limit(build, t, measure, limit, drive, space, layout, settings):
     with pytest.raises(zd.CorrectionFailed) as caught:
-        zd.simulate(build(space), 3.0, **settings)
+        zd.simulate(build(space).system(layout), 3.0, **settings)
     said = str(caught.value)
     assert said.startswith(f"{drive} must not drive")
     assert f"dead point, {measure} = {limit:.6f}"[:-1].rstrip("0").rstrip(".") in said

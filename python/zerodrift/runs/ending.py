@@ -119,19 +119,25 @@ def finished(solution: Solution, run, results, outcome, on_failure, keyboard) ->
 def _raise_failure(run: _gateway.Run, solution: Solution) -> None:
     if solution.status == _gateway.INTERRUPTED:
         raise Interrupted(solution.message, solution) from None
-    error, note = failure_of(solution.system, run, solution.status, solution.settings, solution.t_span)
+    error, note = failure_of(solution.system, run, solution.status, solution.settings, solution.t_span,
+                             solution)
     raise with_solution(error, solution, note)
 
 
 def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dict[str, Any],
-               span: tuple[float, float]) -> tuple[BaseException, str | None]:
-    """Error of a failed run, and advice on it; beyond the reach of a drive it is one error for all methods and steps."""
+               span: tuple[float, float], solution: Solution | None = None) -> tuple[BaseException, str | None]:
+    """Error of a failed run, and advice on it; beyond the reach of a drive it is one error for all methods and steps.
+
+    It is told from the state that could not be corrected, which may be far off, and from the last sample of a solution.
+    """
     t, p, _ = run.place()
     if status == _gateway.CALLBACK:
         return run.error(status), run.message
     ahead = STEPS_AHEAD * settings["step"] if settings.get("step") else SHARE_AHEAD * (span[1] - span[0])
-    if said := system._beyond_reach(t, p, ahead):
-        return CorrectionFailed(said), None
+    samples = zip(solution.t[-1:], solution.p[-1:], strict=True) if solution else ()
+    for of, at in ((t, p), *samples):
+        if said := system._beyond_reach(float(of), np.array(at), t - of + ahead):
+            return CorrectionFailed(said), None
     note = on_collapse(system, run) if status == _gateway.COLLAPSED else system._advice_on_failure(t, p)
     return run.error(status), note
 
