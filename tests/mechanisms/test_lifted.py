@@ -127,3 +127,14 @@ def test_what_cannot_be_lifted_is_named(monkeypatch):
         m.lifted()
     with refused("wrong-dimension", "'chain'"):
         zd.models.chain(2).lifted()
+
+
+def test_the_start_of_a_group_that_hangs_nowhere_is_that_in_the_plane():
+    """A drive between two free bodies turns the lighter one, which is drawn first; the heavier one is kept in the plane."""
+    m = zd.Mechanism("adrift")
+    light, heavy = m.body("light", 1.0, 0.1, at=(0, 0)), m.body("heavy", 2.0, 0.1, at=(1, 0))
+    m.motor("drive", m.revolute("hinge", light, heavy, at=(0.5, 0)), speed=3.0)
+    for each, layout in ((m, "joint"), (m, "absolute"), (m.lifted(), "joint"), (m.lifted(), "absolute")):
+        run = zd.Run(each.system(layout), step=0.01)
+        assert run["heavy.velocity"][:2] == pytest.approx([0, 0], abs=1e-12)
+        assert run["light.velocity"][:2] == pytest.approx([0, 1.5], abs=1e-12)

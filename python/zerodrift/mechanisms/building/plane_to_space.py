@@ -44,10 +44,10 @@ def _kind(element: Any) -> str:
 
 
 def _free(drawing: Drawing) -> list[str]:
-    """Bodies that no joint keeps in the plane: one of each group that keep each other there."""
+    """Bodies that no joint keeps in the plane: of each group that keep each other there the root of its tree, the heaviest."""
     kept, free = {"ground"}, []
     joints = drawing.of(Joint)
-    for body in sorted(drawing.parts(), key=lambda body: not body.turns):      # particles last, as bodies may hold them
+    for body in sorted(drawing.parts(), key=lambda body: (body.turns, body.mass), reverse=True):    # bodies may hold particles
         _spread(joints, kept)
         if body.name not in kept:
             free.append(body.name)
