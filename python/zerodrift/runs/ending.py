@@ -128,7 +128,7 @@ def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dic
                span: tuple[float, float], solution: Solution | None = None) -> tuple[BaseException, str | None]:
     """Error of a failed run, and advice on it; beyond the reach of a drive it is one error for all methods and steps.
 
-    It is told from the state that could not be corrected, which may be far off, and from the last sample of a solution.
+    Drives are checked at the state that could not be corrected, which may be far off, and at the last sample of a solution.
     """
     t, p, _ = run.place()
     if status == _gateway.CALLBACK:
