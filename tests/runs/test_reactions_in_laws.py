@@ -6,7 +6,7 @@ import sympy as sp
 
 import friction_loops as loops
 import zerodrift as zd
-from friction_chains import accelerations, beyond, mechanism, random_chain, reference
+from friction_chains import accelerations, critical, mechanism, random_chain, reference
 
 X, SPEED = sp.Symbol("pin.force.x"), sp.Symbol("pin.speed")
 LAW = -0.1 * X - 0.02 * SPEED * abs(X)
@@ -72,11 +72,16 @@ def test_the_motion_of_chains_is_that_of_newton_and_euler(seed, dimension, layou
 
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])
-@pytest.mark.parametrize(("seed", "dimension"), [(3, 2), (4, 2), (5, 2)])
-def test_friction_beyond_painleve_is_refused(seed, dimension, layout):
-    chain = beyond(random_chain(seed, dimension))
+@pytest.mark.parametrize(("seed", "dimension"), [(3, 2), (4, 2), (5, 2), (1, 3), (2, 3)])
+def test_friction_of_long_arms_up_to_painleve_is_solved_and_beyond_refused(seed, dimension, layout):
+    """Lever arms of 0.2 to 1 m: half of the friction with which the motion has no continuation, and 1.2 times that."""
+    strong = critical(random_chain(seed, dimension))
+    half = strong._replace(c=0.5 * strong.c)
+    run = zd.Run(mechanism(half).system(layout), step=1e-3)
+    expected, _ = accelerations(half, 0 * half.speeds, half.speeds)
+    assert [run[f"pin{i}.acceleration"] for i in range(len(half.c))] == pytest.approx(expected, rel=1e-9, abs=1e-9)
     with pytest.raises(zd.NoUniqueMotion, match="friction has no unique solution"):
-        zd.Run(mechanism(chain).system(layout)).step(1)
+        zd.Run(mechanism(strong._replace(c=1.2 * strong.c)).system(layout)).step(1)
 
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])

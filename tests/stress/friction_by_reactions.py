@@ -3,8 +3,8 @@
     python tests/stress/friction_by_reactions.py [FIRST] [LAST]
 
 For each number a chain and a closed loop, in the plane and in space, with friction up to half of that with which it has no unique
-solution at the start, of arms of at most 0.1 m: the error of an angle must be below 1e-8, in joint and absolute coordinates by
-turns. With more friction `NoUniqueMotion` must be raised. The exit code is 1 otherwise.
+solution at the start, arms of a metre included: the error of an angle must be below 1e-8, in joint and absolute coordinates by
+turns. With 1.2 times that friction `NoUniqueMotion` must be raised. The exit code is 1 otherwise.
 """
 
 import sys
@@ -21,18 +21,15 @@ import zerodrift as zd
 END = 0.02          # s
 LARGEST = 1e-8      # rad
 BEYOND = 5          # numbers of which more friction is tried, too
-LARGEST_ARM = 0.1   # m: of friction that is integrated; longer arms than links have several solutions within the half, too
 
 
 def scenes(seed, dimension):
     """Name, module, scene with its friction, and one with too much or None"""
     share = np.random.default_rng(1000 + seed).uniform(0.05, 0.5)
     chain, loop = chains.random_chain(seed, dimension), loops.random_loop(seed, dimension)
-    for name, module, scene, beyond in (("chain", chains, chain, chains.beyond), ("loop", loops, loop, loops.critical)):
-        more = beyond(scene)
-        c = scene.c if more is None else share * more.c
-        stronger = more and more._replace(c=1.1 * more.c)
-        yield name, module, scene._replace(c=c * min(1, LARGEST_ARM / c.max())), stronger
+    for name, module, scene in (("chain", chains, chain), ("loop", loops, loop)):
+        more = module.critical(scene)
+        yield name, module, scene if more is None else scene._replace(c=share * more.c), more and more._replace(c=1.2 * more.c)
 
 
 def last_angle(module, scene, layout):
@@ -52,9 +49,13 @@ def is_refused(module, scene):
 def compared(seed, dimension):
     """Kind of mechanism, error in rad, least determinant, and whether more friction is refused; None: not tried"""
     for name, module, scene, more in scenes(seed, dimension):
-        angle, least = module.reference(scene, END)
         try:
-            error = abs(last_angle(module, scene, ("joint", "absolute")[seed % 2]) - np.ravel(angle)[0])
+            angle, least = module.reference(scene, END)
+        except ValueError:      # the motion comes to Painleve's friction on its way
+            angle, least = np.nan, 0.0
+        try:
+            found = last_angle(module, scene, ("joint", "absolute")[seed % 2])
+            error = np.inf if least <= 0 else abs(found - np.ravel(angle)[0])
         except zd.NoUniqueMotion:       # wrong, unless the determinant is negative on the way
             error = 0.0 if least <= 0 else np.inf
         yield f"{name}, {dimension}D", error, least, is_refused(module, more) if more and seed < BEYOND else None

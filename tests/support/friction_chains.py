@@ -95,22 +95,45 @@ def recursion(chain, q, w, qdd, gravity):
     return moments, forces
 
 
-def accelerations(chain, q, w):
-    """Qdd (n,), and det(I - G du/dr) there"""
-    n, zero, E = len(q), np.zeros(len(q)), np.eye(len(q))
+def equations(chain, q, w):
+    """Moments A qdd + b (n,), and joint forces e + qdd B (n, 3)."""
+    zero = np.zeros(len(q))
     b, e = recursion(chain, q, w, zero, chain.gravity)
-    columns = [recursion(chain, q, zero, E[i], np.zeros(3)) for i in range(n)]
-    A, B = np.array([each[0] for each in columns]).T, np.array([each[1] for each in columns])      # (n, n), (of qdd, joint, 3)
-    qdd = -np.linalg.solve(A, b)
+    columns = [recursion(chain, q, zero, row, np.zeros(3)) for row in np.eye(len(q))]
+    return np.array([each[0] for each in columns]).T, b, np.array([each[1] for each in columns]), e
+
+
+def slopes(c, speeds, of, qdd):
+    """Sizes (n,) of the joint forces, and the derivative (n, n) of all moments, friction included, by qdd"""
+    A, _, B, e = of
+    F = e + np.einsum("i,ijk->jk", qdd, B)
+    size = np.sqrt((F * F).sum(axis=1) + SMOOTHING**2)
+    return size, A + (c * speeds / size)[:, None] * np.einsum("jk,ijk->ji", F, B)
+
+
+def solved(c, speeds, of, qdd):
+    """Newton's method from qdd (n,) with the friction c: qdd, and det(I - G du/dr) there; None where it does not converge"""
+    A, b = of[:2]
     for _ in range(50):
-        F = e + np.einsum("i,ijk->jk", qdd, B)
-        size, sign = np.sqrt((F * F).sum(axis=1) + SMOOTHING**2), np.tanh(w / chain.width)
-        J = A + (chain.c * sign / size)[:, None] * np.einsum("jk,ijk->ji", F, B)
-        change = np.linalg.solve(J, A @ qdd + b + chain.c * size * sign)
+        size, J = slopes(c, speeds, of, qdd)
+        change = np.linalg.solve(J, A @ qdd + b + c * size * speeds)
         qdd = qdd - change
         if np.abs(change).max() < 1e-13 * (1 + np.abs(qdd).max()):
-            break
-    return qdd, np.linalg.det(J) / np.linalg.det(A)
+            return qdd, np.linalg.det(J) / np.linalg.det(A)
+    return None
+
+
+def accelerations(chain, q, w):
+    """Qdd (n,), and det(I - G du/dr) there; where Newton's method does not converge, friction grows in parts."""
+    of, speeds = equations(chain, q, w), np.tanh(w / chain.width)
+    qdd = -np.linalg.solve(of[0], of[1])
+    found = solved(chain.c, speeds, of, qdd)
+    for share in () if found and found[1] > 0 else np.linspace(0.05, 1, 20):
+        found = solved(share * chain.c, speeds, of, qdd)
+        if found is None:
+            raise ValueError("friction has no unique solution")
+        qdd = found[0]
+    return found
 
 
 def reference(chain, end):
@@ -128,19 +151,24 @@ def reference(chain, end):
     return found.y[:n, -1], least[0]
 
 
-def determinant(chain, q, w, qdd):
-    """det(I - G du/dr) at the joint forces of these accelerations"""
-    columns = [recursion(chain, q, 0 * w, row, np.zeros(3)) for row in np.eye(len(q))]
-    A, B = np.array([each[0] for each in columns]).T, np.array([each[1] for each in columns])
-    F = recursion(chain, q, w, qdd, chain.gravity)[1]
-    size = np.sqrt((F * F).sum(axis=1) + SMOOTHING**2)
-    slopes = (chain.c * np.tanh(w / chain.width) / size)[:, None] * np.einsum("jk,ijk->ji", F, B)
-    return np.linalg.det(A + slopes) / np.linalg.det(A)
+def critical(chain):
+    """The chain with Painleve's friction at the start, or None if it is more than 1000 times its own.
 
-
-def beyond(chain):
-    """The chain with so much friction that the determinant without it is negative at the start; None: not found"""
-    q, w = 0 * chain.speeds, chain.speeds
-    qdd = accelerations(chain._replace(c=0 * chain.c), q, w)[0]
-    stronger = (chain._replace(c=chain.c * factor) for factor in np.geomspace(2, 1e4, 60))
-    return next((each for each in stronger if determinant(each, q, w, qdd) < -0.1), None)
+    With more, the motion that goes over from that without friction has no continuation, or the determinant is not positive
+    between the joint forces of both.
+    """
+    of, speeds = equations(chain, 0 * chain.speeds, chain.speeds), np.tanh(chain.speeds / chain.width)
+    free = qdd = -np.linalg.solve(of[0], of[1])
+    factor, ratio = 0.01, 1.3
+    while ratio > 1.003:
+        c = factor * ratio * chain.c
+        found = solved(c, speeds, of, qdd)
+        between = [] if found is None else [np.linalg.det(slopes(c, speeds, of, free + part * (found[0] - free))[1])
+                                            for part in np.linspace(0, 1, 5)]
+        if found is None or min(between) <= 0.02 * np.linalg.det(of[0]):
+            ratio = np.sqrt(ratio)
+        else:
+            qdd, factor = found[0], factor * ratio
+        if factor > 1000:
+            return None
+    return chain._replace(c=factor * chain.c)
