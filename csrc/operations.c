@@ -6,11 +6,11 @@
 #include "linalg/small.h"
 #include "motion/derivatives.h"
 #include "motion/motion.h"
-#include "paths/stepper.h"
 #include "point/point.h"
 #include "registry.h"
 #include "run/arguments/checks.h"
 #include "run/run.h"
+#include "state/stepper.h"
 #include "systems/held.h"
 
 static int finish(zd_run *run, int status, char *message, int size)

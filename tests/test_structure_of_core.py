@@ -94,11 +94,13 @@ def test_rooms_depend_downward(uses):
 
 
 def test_the_step_knows_no_closed_form_beyond_its_paths():
-    """The step, the motion, integrators, corrections, checks, output and samples do not ask which path a step is on."""
+    """The step, the motion, integrators, corrections, checks, output and samples do not ask which path a step is on; a saved
+    state has the accelerations of one elimination order.
+    """
     asking = {unit_of(path) for path in CSRC.rglob("*.[ch]")
               if re.search(r"path\.(is_short|lands|embeds|order)\b", path.read_text())}
     assert len(asking) > 5
-    assert {unit.split("/")[0] for unit in asking} == {"paths"}
+    assert {unit.split("/")[0] for unit in asking} == {"paths", "state"}
 
 
 @pytest.mark.parametrize("room", ["integrators", "corrections"])

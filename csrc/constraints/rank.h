@@ -24,7 +24,7 @@ struct zd_rank {
     int is_started;         /* 1: redundant constraints have been determined */
     int was_deficient;      /* 1: fewer were independent at some point of this step */
     int was_doubtful;       /* 1: possible dependence at a point of this step required an orthogonalization */
-    int was_ill_conditioned;    /* 1: v = D u lost digits in this step, as a residual norm was small: see paths/variables.c */
+    int was_ill_conditioned;    /* 1: v = D u lost digits in this step, as a residual norm was small: see state/variables.c */
     int was_turned;         /* 1: the row space of C may have reversed, as beyond a bifurcation, since the flag was cleared */
     int lost;               /* number of constraints replaced by limits: the last holonomic rows of point->C */
     int is_auxiliary;           /* 1: points belong to auxiliary steps; the selection kept from step to step is not changed */
@@ -71,7 +71,7 @@ struct zd_selection {
 #define ZD_LIMITS_REGION 0x1p-13
 /* Relative residual norm in the plain metric above which rows are certainly independent. */
 #define ZD_DOUBTFUL 0x1p-10
-/* Relative residual norm below which a constraint determines velocities with noticeably fewer digits: see paths/variables.c. */
+/* Relative residual norm below which a constraint determines velocities with noticeably fewer digits: see state/variables.c. */
 #define ZD_ILL_CONDITIONED 0x1p-6
 
 /* Largest number of constraints and of velocities of a declared structure for which dense matrices are formed. Beyond, they would

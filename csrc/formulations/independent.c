@@ -1,5 +1,5 @@
 /* (19) and (22): independent coordinates q and independent velocities. Nothing can be violated.
- * Near a bifurcation, where q and u lose digits, a run integrates (p, v) instead: paths/variables.c.
+ * Near a bifurcation, where q and u lose digits, a run integrates (p, v) instead: state/variables.c.
  *
  * Where all constraints are holonomic and pdot = v, the velocities are qdot and this is (19); otherwise they are the u' of (22). With unit
  * quaternions, q are increments about where the step begins, and the velocities are their rates there.

@@ -1,5 +1,5 @@
 /* (17): dependent coordinates p and independent velocities u. The velocities satisfy (5) by v = D u; only (3) is violated.
- * Near a bifurcation, where D loses digits, a run integrates (p, v) instead: paths/variables.c. */
+ * Near a bifurcation, where D loses digits, a run integrates (p, v) instead: state/variables.c. */
 #include <string.h>
 
 #include "../point/point.h"

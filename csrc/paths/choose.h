@@ -2,8 +2,8 @@
 #ifndef ZD_CHOOSE_H
 #define ZD_CHOOSE_H
 
+#include "../state/stepper.h"
 #include "path.h"
-#include "stepper.h"
 
 /* create.c: closed-form functions for a single trajectory, of the widest vector unit up to this one; NULL: the system has none for this
  * formulation. */

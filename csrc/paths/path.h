@@ -6,7 +6,7 @@
 
 #include "../motion/motion.h"
 #include "../safeguards/safeguards.h"
-#include "stepper.h"
+#include "../state/stepper.h"
 
 typedef struct zd_evaluation_path {
     const char *name;

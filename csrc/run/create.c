@@ -6,9 +6,9 @@
 #include "../constraints/rank.h"
 #include "../motion/motion.h"
 #include "../paths/choose.h"
-#include "../paths/stepper.h"
 #include "../point/point.h"
 #include "../registry.h"
+#include "../state/stepper.h"
 #include "../step/step_loop.h"
 #include "arguments/checks.h"
 

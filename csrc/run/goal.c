@@ -7,7 +7,7 @@
 
 #include "../constraints/rank.h"
 #include "../paths/choose.h"
-#include "../paths/stepper.h"
+#include "../state/stepper.h"
 
 static int is_fixed(const zd_run *run) { return run->settings.steps == ZD_FIXED_STEPS; }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "../paths/choose.h"
-#include "../paths/stepper.h"
+#include "../state/stepper.h"
 #include "../step/step_loop.h"
 
 /* One sample of an array with `size` numbers per sample. */

@@ -6,8 +6,8 @@
 #include "../output/reading.h"
 #include "../output/watch.h"
 #include "../output/within_step.h"
-#include "../paths/stepper.h"
 #include "../safeguards/safeguards.h"
+#include "../state/stepper.h"
 #include "../step/step_loop.h"
 #include "../zerodrift.h"
 

@@ -13,7 +13,7 @@
  *  8. accept the step; or return to its start and repeat it, in this order: through a bifurcation; by matrices; in (p, v), if the
  *     integrated variables lost digits; with a shorter step, fixed steps in equal parts
  *
- * Progress of the run and control of its next step: step_loop.h; integrated state y, and its return to a start: paths/stepper.h;
+ * Progress of the run and control of its next step: step_loop.h; integrated state y, and its return to a start: state/stepper.h;
  * redundant constraints, and those at a bifurcation: constraints/rank.h.
  *
  * zd_substep(): a step to a sample or an event within the last one is the same without 3 and 7, with all corrections, due or not.

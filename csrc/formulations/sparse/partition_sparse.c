@@ -41,7 +41,7 @@ static int need_speeds(zd_partition_sparse *self, zd_point *point)
     return begins ? zd_partition_begin(self->of_v, point->rank->store, point, zd_constraints(point->system)) : status;
 }
 
-/* Flags v = D u as ill-conditioned if a pivot is small: see paths/variables.c. */
+/* Flags v = D u as ill-conditioned if a pivot is small: see state/variables.c. */
 static void note_condition(const zd_partition *of, const zd_point *point)
 {
     point->rank->was_ill_conditioned |= !(of->share > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED);

@@ -1,6 +1,6 @@
 /* The integrated state of a run: integrate it, save it, return to it. */
-#ifndef ZD_PATHS_STEPPER_H
-#define ZD_PATHS_STEPPER_H
+#ifndef ZD_STATE_STEPPER_H
+#define ZD_STATE_STEPPER_H
 
 #include "../constraints/rank.h"
 #include "../integrators/integrator.h"
@@ -86,17 +86,5 @@ void zd_checkpoint_set(zd_checkpoint *self, const zd_stepper *stepper);
 void zd_checkpoint_set_variables(zd_checkpoint *self, const zd_stepper *stepper);
 /* Restores it, at the state `end` */
 int zd_checkpoint_return(zd_checkpoint *self, zd_stepper *stepper, const zd_state *end);
-
-/* Dense output within the last step, if its method has a polynomial. */
-
-/* Allocates the copy of the formulation's choice of variables that values within a step need where that choice may change at its end. To be
- * called before the first step. ZD_NO_MEMORY */
-int zd_dense_output_create(zd_stepper *stepper);
-/* The first: true if there is a polynomial for the last step, from t0. The second prepares it, with the motion at the end of the step; it
- * is valid until the next step. */
-int zd_has_dense_output(const zd_stepper *stepper, double t0);
-int zd_dense_output_prepare(zd_stepper *stepper);
-/* Moves the point to time t within the step: the value of the polynomial, with all corrections. y (size,) receives the state there. */
-int zd_dense_output_move(zd_stepper *stepper, double t, double *y);
 
 #endif

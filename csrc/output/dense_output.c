@@ -4,12 +4,11 @@
  * formulation's choice at the start of the step is copied, and restored while values within the step are computed. On the closed-form path
  * the variables do not change within a step.
  */
-#include "stepper.h"
+#include "within_step.h"
 
 #include <string.h>
 
-#include "choose.h"
-#include "path.h"
+#include "../paths/choose.h"
 
 static void *take_chosen(zd_arena *arena, const void *of)
 {
