@@ -185,7 +185,7 @@ def test_corrections_are_given_once():
 
 
 def test_a_system_that_is_only_described_is_not_simulated(bar):
-    from zerodrift.runs.saving import Described
+    from zerodrift.runs.samples.saving import Described
 
     description = Described(bar._described())
     with refused("wrong-type", "system.*zd.systems.*four_bar"):

@@ -42,13 +42,13 @@ from .errors import (
     WrongState,
     ZerodriftError,
 )
-from .runs.control import every
-from .runs.events import Event
-from .runs.instant import Instant
-from .runs.methods import corrections, formulations, integrators
-from .runs.operations import acceleration, assemble, project
+from .runs.arguments.events import Event
+from .runs.arguments.methods import corrections, formulations, integrators
+from .runs.open.control import every
+from .runs.samples.solution import Solution
 from .runs.simulate import simulate
-from .runs.solution import Solution
+from .runs.states.instant import Instant
+from .runs.states.operations import acceleration, assemble, project
 from .systems.structure import Structure
 
 __version__ = "0.1.0"
@@ -67,9 +67,9 @@ __all__ = [
     "work_precision",
 ]
 _LATER = {      # imported, or made, at first use
-    "Baumgarte": "runs.methods", "EnergyCorrection": "runs.methods", "ManyRuns": "runs.many_runs",
+    "Baumgarte": "runs.arguments.methods", "EnergyCorrection": "runs.arguments.methods", "ManyRuns": "runs.open.many_runs",
     "Mechanism": "mechanisms.mechanism",
-    "Projection": "runs.methods", "Run": "runs.run", "System": "systems.callables", "bias": "analysis.matrices",
+    "Projection": "runs.arguments.methods", "Run": "runs.open.run", "System": "systems.callables", "bias": "analysis.matrices",
     "block": "export.block", "c_source": "export.c_source", "check": "studies.check",
     "ensemble": "ensembles.ensemble", "fmu": "export.fmu",
     "equilibria": "analysis.equilibria", "equilibrium": "analysis.equilibrium", "explore": "player.explore",
@@ -77,7 +77,7 @@ _LATER = {      # imported, or made, at first use
     "inverse_dynamics": "analysis.inverse_dynamics", "jacobian": "analysis.matrices", "kinematics": "analysis.kinematics",
     "linearize": "analysis.linearize", "linkage": "mechanisms.linkage", "load": "files", "mass_matrix": "analysis.matrices",
     "native": "systems.native", "numba_signature": "systems.native", "reach": "tracing.trace",
-    "record_size": "runs.record_size", "reference": "studies.reference", "stability_map": "studies.stability_map",
+    "record_size": "runs.samples.record_size", "reference": "studies.reference", "stability_map": "studies.stability_map",
     "symbolic": "symbolics.define", "table": "mechanisms.elements.interpolation", "trace": "tracing.trace",
     "transmission_angle": "tracing.transmission", "tune": "studies.tune", "view": "player.view",
     "work_precision": "studies.work_precision",

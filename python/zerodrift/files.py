@@ -9,9 +9,9 @@ from typing import Any
 
 from . import _check
 from .errors import WrongValue
-from .runs import mapped_samples
-from .runs.saving import read
-from .runs.solution import Solution
+from .runs.samples import mapped_samples
+from .runs.samples.saving import read
+from .runs.samples.solution import Solution
 
 
 def load(path: str | Path) -> Any:

@@ -9,7 +9,7 @@ import zerodrift as zd
 from lanes import ALONE, LANES
 from symbolic_counterparts import arm
 from zerodrift import _gateway
-from zerodrift.runs.diagnosis import unwarned
+from zerodrift.runs.open.diagnosis import unwarned
 
 pytestmark = pytest.mark.skipif(not _gateway.has_lanes("baseline"), reason="the compiler has no vectors")
 TIMES = np.linspace(0.05, 1.0, 11)

@@ -31,7 +31,7 @@ from zerodrift.ensembles.batch import batch_of, batch_range
 from zerodrift.ensembles.plan import checked
 from zerodrift.ensembles.run_range import run_range
 from zerodrift.ensembles.runs import Runs
-from zerodrift.runs.threads import Threads
+from zerodrift.runs.open.threads import Threads
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "peers"))
 FLAGS = {"avx2": ["-mavx2", "-mfma", "-DLANES=4"], "avx512": ["-mavx512f", "-mavx512dq", "-mavx512vl", "-mfma", "-DLANES=8",

@@ -12,7 +12,7 @@ from unittest import mock
 
 import zerodrift as zd
 from measuring import record
-from zerodrift.runs import threads
+from zerodrift.runs.open import threads
 from zerodrift.studies.bench import Bench
 from zerodrift.studies.reference_runs import Motion
 

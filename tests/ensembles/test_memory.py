@@ -6,7 +6,7 @@ import pytest
 import zerodrift as zd
 from support import refused
 from zerodrift.ensembles import memory
-from zerodrift.runs import memory as free_space
+from zerodrift.runs.samples import memory as free_space
 
 BAR = zd.systems.four_bar()
 RUNS, ROWS = 20, 101

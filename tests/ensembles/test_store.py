@@ -19,7 +19,7 @@ from small_studies import lowest, pendulum, slow, waits
 from support import environment_of_tests, refused
 from zerodrift import _writing
 from zerodrift.ensembles import store as module
-from zerodrift.runs.identity import Identity
+from zerodrift.runs.open.identity import Identity
 
 GRAVITIES = np.linspace(5.0, 10.0, 12)
 STUDY = {"parameters": {"gravity": GRAVITIES}, "step": 0.01, "outputs": ["link.angle"], "reduce": lowest}

@@ -8,7 +8,7 @@ import tolerances as tol
 import zerodrift as zd
 from rotating_bodies import held_at_a_point
 from support import assert_close, observed_order, rate
-from zerodrift.runs.settings import STABILIZATIONS
+from zerodrift.runs.arguments.settings import STABILIZATIONS
 
 
 @pytest.mark.pairs(stabilization=[None, *STABILIZATIONS])

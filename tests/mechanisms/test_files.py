@@ -13,7 +13,7 @@ from zerodrift.mechanisms.elements.table_forces import ELEMENTS, FORCES_OF_TABLE
 from zerodrift.mechanisms.files.expressions_json import from_json, to_json
 from zerodrift.mechanisms.files.from_json import MADE
 from zerodrift.mechanisms.files.to_json import WRITTEN
-from zerodrift.runs.saving import Described
+from zerodrift.runs.samples.saving import Described
 
 t, x = sp.symbols("t x")
 

@@ -11,7 +11,7 @@ import tolerances as tol
 import zerodrift as zd
 from native_systems import needs_compiler
 from support import refused
-from zerodrift.runs import settings
+from zerodrift.runs.arguments import settings
 
 UNITS = settings.VECTOR_UNITS[: lib.zd_processor_unit() + 1]
 SYSTEMS = {"built in": zd.systems.four_bar, "symbolic": symbolic_counterparts.four_bar}

@@ -13,7 +13,7 @@ import zerodrift as zd
 from four_bar_in_python import four_bar as bar_in_python
 from support import SYSTEMS, assert_close
 from zerodrift.runs import simulate as simulation
-from zerodrift.runs.diagnosis import unwarned
+from zerodrift.runs.open.diagnosis import unwarned
 
 OSCILLATOR = zd.systems.oscillator(x0=0.1, v0=0.05)
 DENSE = {"step": 1 / 100, "integrator": "dop853"}      # in a hundredth of a second it leaves nothing but round-off

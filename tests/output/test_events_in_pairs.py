@@ -6,7 +6,7 @@ import pytest
 import zerodrift as zd
 from lanes import LANES
 from timed_events import GRAVITY, STEPS, check, draw, times_of
-from zerodrift.runs.diagnosis import unwarned
+from zerodrift.runs.open.diagnosis import unwarned
 
 OSCILLATOR = zd.systems.oscillator(x0=0.1, v0=0.05)
 QUARTERS = {"rtol": 0.9, "atol": 1e3, "first_step": 0.25, "max_step": 0.25}     # steps of this size whatever their error

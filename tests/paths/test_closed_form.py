@@ -14,7 +14,7 @@ from native_systems import needs_compiler
 from random_symbolic import random_system
 from support import INTEGRATORS, assert_close, refused
 from zerodrift import _gateway
-from zerodrift.runs.settings import VECTOR_UNITS
+from zerodrift.runs.arguments.settings import VECTOR_UNITS
 
 sp = pytest.importorskip("sympy")
 pytestmark = needs_compiler

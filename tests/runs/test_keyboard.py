@@ -129,7 +129,7 @@ def pressed_everywhere(call, monkeypatch, samples):
 @pytest.mark.parametrize("on_failure", ["raise", "return"])
 def test_ctrl_c_before_any_bytecode_leaves_what_was_computed(written, on_failure, monkeypatch):
     monkeypatch.setattr(simulation, "SLICE", 0.0)
-    monkeypatch.setattr("zerodrift.runs.recording.FIRST_BLOCK", 8)
+    monkeypatch.setattr("zerodrift.runs.samples.recording.FIRST_BLOCK", 8)
 
     def call():
         return zd.simulate(written, 0.2, rtol=1e-7, integrator="dormand_prince", on_failure=on_failure, progress=lambda part: 0)

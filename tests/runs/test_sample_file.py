@@ -21,7 +21,7 @@ from covering import draws
 from support import assert_same_bits, refused
 from watched import At, throw
 from zerodrift._gateway import runs
-from zerodrift.runs import mapped_samples, memory, sample_file
+from zerodrift.runs.samples import mapped_samples, memory, sample_file
 
 not_on_windows = pytest.mark.skipif(os.name == "nt", reason="Windows removes no file that is mapped into memory")
 linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits and kills as Linux does")
@@ -446,7 +446,7 @@ def test_sizes_in_words(size, words):
 
 
 def test_more_than_half_of_memory_is_reported_before_anything_runs(bar, monkeypatch):
-    monkeypatch.setattr("zerodrift.runs.recording.UNCHECKED_BYTES", 1000)
+    monkeypatch.setattr("zerodrift.runs.samples.recording.UNCHECKED_BYTES", 1000)
     monkeypatch.setattr(memory, "free_memory", lambda: 20000)
     with pytest.warns(zd.CostWarning, match=r"101 samples take 14\.5 kB, and 20 kB of memory are free: save fewer") as told:
         zd.simulate(bar, 1.0, step=0.01)
@@ -459,8 +459,8 @@ def test_more_than_half_of_memory_is_reported_before_anything_runs(bar, monkeypa
 
 
 def test_adaptive_steps_stop_where_no_more_rows_have_room(bar, monkeypatch):
-    monkeypatch.setattr("zerodrift.runs.recording.UNCHECKED_BYTES", 1000)
-    monkeypatch.setattr("zerodrift.runs.recording.FIRST_BLOCK", 16)
+    monkeypatch.setattr("zerodrift.runs.samples.recording.UNCHECKED_BYTES", 1000)
+    monkeypatch.setattr("zerodrift.runs.samples.recording.FIRST_BLOCK", 16)
     monkeypatch.setattr(memory, "free_memory", lambda: 20000)
     with pytest.warns(zd.CostWarning), refused("no-memory") as caught:
         zd.simulate(bar, 20.0, rtol=1e-8, integrator="dop853")

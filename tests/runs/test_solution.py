@@ -11,7 +11,7 @@ import pytest
 
 import zerodrift as zd
 from support import ROWS, assert_same_bits, motion, refused
-from zerodrift.runs.saving import Described
+from zerodrift.runs.samples.saving import Described
 from zerodrift.systems.builtin import BuiltIn
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from zerodrift.runs import branches
+from zerodrift.runs.states import branches
 
 
 def four_bar(a, b, c, d, angle, bend, speed):

@@ -77,7 +77,7 @@ def test_first_and_largest_step_are_kept(bar):
 
 def test_records_grow_as_long_as_they_have_to(bar, monkeypatch):
     whole = adaptive(bar, 2.0)
-    monkeypatch.setattr("zerodrift.runs.recording.FIRST_BLOCK", 3)
+    monkeypatch.setattr("zerodrift.runs.samples.recording.FIRST_BLOCK", 3)
     pieces = adaptive(bar, 2.0)
     assert pieces.p.tobytes() == whole.p.tobytes()
     assert pieces.iterations.tobytes() == whole.iterations.tobytes()

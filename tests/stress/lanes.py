@@ -44,7 +44,7 @@ def options_of(chance, end):
         options["stabilization"] = zd.Projection(every=int(chance.integers(2, 8)))
     if chance.random() < 1 / 3:
         options["energy"] = zd.EnergyCorrection(every=int(chance.integers(1, 4)))
-    return options | {"vector": str(chance.choice(zd.runs.settings.VECTOR_UNITS[:zd._gateway.PROCESSOR_UNIT + 1]))}
+    return options | {"vector": str(chance.choice(zd.runs.arguments.settings.VECTOR_UNITS[:zd._gateway.PROCESSOR_UNIT + 1]))}
 
 
 def events_of(system, chance, end):

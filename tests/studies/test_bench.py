@@ -10,7 +10,7 @@ import zerodrift as zd
 from mechanisms.random_mechanisms import Maker
 from support import SYSTEMS, refused
 from watched import pendulum
-from zerodrift.runs import settings
+from zerodrift.runs.arguments import settings
 from zerodrift.studies import reference_runs
 from zerodrift.studies.bench import Bench, Setting
 

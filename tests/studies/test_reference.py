@@ -192,7 +192,7 @@ def test_a_formulation_that_cannot_follow_is_left_for_another(monkeypatch):
     system = zd.System(["x", "y"], mass=np.diag([1.0, 0.0]), force=lambda p: np.array([-p[0], 0.0]), p0=[1.0, 1.0],
                        constraints=lambda p: np.array([p[1] - p[0]**2]))
     names = ("augmented", "nullspace", "schur")
-    monkeypatch.setattr("zerodrift.runs.settings.formulations", lambda system=None: dict.fromkeys(names))
+    monkeypatch.setattr("zerodrift.runs.arguments.methods.formulations", lambda system=None: dict.fromkeys(names))
     ref = zd.reference(system, 0.2)
     assert [d.formulation for d in ref.differences] == ["augmented", "augmented", "nullspace", "nullspace", "nullspace"]
     assert np.abs(ref.solution.p[:, 0] - np.cos(ref.solution.t)).max() <= ref.error < 1e-12

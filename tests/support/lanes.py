@@ -8,7 +8,7 @@ from zerodrift.ensembles.part import BY_CORE, IN_LANES
 from zerodrift.ensembles.plan import checked
 from zerodrift.ensembles.run_range import run_range
 from zerodrift.ensembles.runs import Runs
-from zerodrift.runs.settings import VECTOR_UNITS
+from zerodrift.runs.arguments.settings import VECTOR_UNITS
 
 UNITS = VECTOR_UNITS[:_gateway.PROCESSOR_UNIT + 1]
 LANES, ALONE = IN_LANES, BY_CORE

@@ -18,7 +18,7 @@ import zerodrift as zd
 from every_model import IN_SPACE, MECHANISMS, MODELS
 from random_symbolic import random_system
 from zerodrift import _gateway
-from zerodrift.runs import settings
+from zerodrift.runs.arguments import settings
 from zerodrift.systems.base import closed_form_core_of
 
 OPTIONS = {name: parameter.default for name, parameter in inspect.signature(zd.simulate).parameters.items()

@@ -13,7 +13,7 @@ import zerodrift as zd
 from native_systems import ROOT, own_systems  # noqa: F401  (ROOT: of tests)
 from zerodrift import _gateway
 from zerodrift.explanations import codes
-from zerodrift.runs.methods import evaluating_integrators
+from zerodrift.runs.arguments.methods import evaluating_integrators
 
 FORMULATIONS = list(zd.formulations())
 INTEGRATORS = list(evaluating_integrators(zd.systems.four_bar()))   # and not those that need series, which few systems have

@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 import zerodrift as zd
 from support import FORMULATIONS, assert_same_bits
 from watched import At, pendulum, throw
-from zerodrift.runs import branches
+from zerodrift.runs.states import branches
 from zerodrift.systems import autodiff
 
 EXAMPLES = int(os.environ.get("ZERODRIFT_EXAMPLES", "40"))

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import WrongValue, ZerodriftError, sentence
-from ..runs.operations import acceleration, project
-from ..runs.settings import Projection
+from ..runs.arguments.methods import Projection
+from ..runs.states.operations import acceleration, project
 from ..systems.base import BaseSystem
 from . import differences
 from .derivatives import Derivatives, residuals

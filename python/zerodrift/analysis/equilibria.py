@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import EquilibriumFailed, WrongValue
-from ..runs.instant import KnownInstant
+from ..runs.states.instant import KnownInstant
 from ..systems.base import BaseSystem, core_of, system_of
 from .equilibrium import equilibrium
 from .path import FIRST_STEP, LARGEST_STEP, Curve, Knot

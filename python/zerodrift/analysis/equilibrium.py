@@ -9,8 +9,8 @@ import numpy as np
 
 from .. import _check
 from ..errors import EquilibriumFailed, WrongValue, ZerodriftError
-from ..runs.operations import project
-from ..runs.settings import Projection
+from ..runs.arguments.methods import Projection
+from ..runs.states.operations import project
 from ..systems.base import BaseSystem, system_of
 from .equilibrium_result import Equilibrium, at_rest, in_motion, of_many
 from .large import MANY, blocks_that_meet, found

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import CorrectionFailed
-from ..runs.instant import Reading
+from ..runs.states.instant import Reading
 from ..systems.base import BaseSystem
 from .flow import Flow
 from .large import SparseBalance

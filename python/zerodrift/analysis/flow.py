@@ -16,8 +16,8 @@ import numpy as np
 
 from .._gateway import acceleration
 from .._rotations import rotation_of, turn
-from ..runs import settings
-from ..runs.instant import KnownInstant
+from ..runs.arguments import methods, settings
+from ..runs.states.instant import KnownInstant
 from ..systems.base import core_of
 from . import differences
 from .derivatives import Derivatives, sizes_of
@@ -32,7 +32,7 @@ POSITION_ROUNDING = 1e-12    # of characteristic scales: displacements from a st
 
 def accelerate(at: State) -> tuple[np.ndarray, np.ndarray]:
     """Accelerations and multipliers, by the formulation that takes redundant constraints."""
-    return acceleration(core_of(at.system), settings.formulation_row("augmented"), settings.on_singular_row("stop"), at.t,
+    return acceleration(core_of(at.system), methods.row_of("formulations", "augmented"), settings.on_singular_row("stop"), at.t,
                         np.ascontiguousarray(at.p), np.ascontiguousarray(at.v))
 
 

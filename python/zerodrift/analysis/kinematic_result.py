@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import WrongName
-from ..runs.instant import names_of_quantities
+from ..runs.states.instant import names_of_quantities
 from ..systems.base import BaseSystem
 
 

@@ -21,9 +21,8 @@ import numpy as np
 
 from .._gateway import acceleration
 from ..errors import EquilibriumFailed, ZerodriftError
-from ..runs import settings
-from ..runs.operations import project
-from ..runs.settings import Projection
+from ..runs.arguments import methods, settings
+from ..runs.states.operations import project
 from ..systems.base import BaseSystem, core_of
 from .retraction import consistent
 from .state import scales
@@ -79,7 +78,8 @@ class SparseBalance:
         self.system, self.t, self.core = system, t, core_of(system)
         self.p, self.rest = np.ascontiguousarray(p), np.zeros(system.nv)
         self.terms = self.core.evaluate_stored(t, self.p, self.rest)
-        self.vdot, self.lam = acceleration(self.core, settings.formulation_row("augmented"), settings.on_singular_row("stop"), t,
+        self.vdot, self.lam = acceleration(self.core, methods.row_of("formulations", "augmented"),
+                                           settings.on_singular_row("stop"), t,
                                            self.p, self.rest)
         self.unbalanced = self.core.times("M", self.terms["M"], self.vdot, t, self.p, self.rest)     # f - C^T lambda
         self.residual = float(np.sqrt(self.vdot @ self.unbalanced))
@@ -96,7 +96,8 @@ class SparseBalance:
     def moved(self, z: np.ndarray) -> np.ndarray:
         """The position (nq,) on the constraints after a displacement (nv,) in quasi-coordinates."""
         guess = consistent(self.system, self.p + self._along(z))
-        return project(self.system, guess, self.rest, self.t, projection=Projection(tol=1e-13), formulation="augmented")[0]
+        tight = methods.Projection(tol=1e-13)
+        return project(self.system, guess, self.rest, self.t, projection=tight, formulation="augmented")[0]
 
     def _along(self, z: np.ndarray) -> np.ndarray:
         return self.core.times("A", self.terms["A"], z, self.t, self.p, self.rest) if "A" in self.terms else z
@@ -179,7 +180,7 @@ def found(system: BaseSystem, t: float, p: np.ndarray, meet: list[set[int]]) -> 
     EquilibriumFailed
     """
     pattern = pattern_of(system, meet)
-    here = SparseBalance(system, t, project(system, p, np.zeros(system.nv), t, projection=Projection(tol=1e-13))[0])
+    here = SparseBalance(system, t, project(system, p, np.zeros(system.nv), t, projection=methods.Projection(tol=1e-13))[0])
     iterations = 0
     while iterations < ITERATIONS:
         if here.residual <= BALANCED * here.magnitude():

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from .._rotations import product, rotation_of, turn
-from ..runs.instant import Reading
+from ..runs.states.instant import Reading
 from ..systems.base import core_of
 from .frames import BodyFrame, Frame
 from .state import State, scales, state

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import WrongType, WrongValue
-from ..runs.instant import names_of_quantities
+from ..runs.states.instant import names_of_quantities
 from ..systems.base import BaseSystem
 from . import differences
 from .state import State, scales, state

@@ -7,8 +7,8 @@ import warnings
 import numpy as np
 
 from ..errors import ZerodriftError
-from ..runs.operations import acceleration
 from ..runs.simulate import simulate
+from ..runs.states.operations import acceleration
 from ..systems.base import BaseSystem
 from .state import scales, state
 

@@ -8,12 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _check, _gateway
-from ..runs import diagnosis, settings
-from ..runs import events as events_of
-from ..runs.ending import solution_of_rows
-from ..runs.operations import assembly
+from ..runs.arguments import events as events_of
+from ..runs.arguments import settings
+from ..runs.open import diagnosis
+from ..runs.open.ending import solution_of_rows
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
+from ..runs.states.operations import assembly
 from ..systems.base import BaseSystem, closed_form_core_of, core_of, with_what_it_takes
 from ..systems.parameter_tables import NumberTables
 from .part import BY_CORE, IN_LANES, Part, nothing

@@ -14,9 +14,9 @@ import numpy as np
 
 from .. import _check, _gateway, _webassembly
 from ..errors import DrawingWarning, Interrupted, NoMemory, WorkerLost, WrongValue
-from ..runs.progress import progress_of
-from ..runs.solution import Solution
-from ..runs.threads import Threads, processors
+from ..runs.open.keyboard import progress_of
+from ..runs.open.threads import Threads, processors
+from ..runs.samples.solution import Solution
 from . import executors, memory
 from . import store as stores
 from .batch import batch_of

@@ -16,9 +16,9 @@ from typing import Any
 
 from .. import _check, _gateway, _webassembly
 from ..errors import WorkerLost, WrongType, described, sentence
-from ..runs.identity import version
-from ..runs.settings import VECTOR_UNITS
-from ..runs.threads import LOOK
+from ..runs.arguments.settings import VECTOR_UNITS
+from ..runs.open.identity import version
+from ..runs.open.threads import LOOK
 from .part import Part
 from .plan import Plan
 from .run_range import never, run_range

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import CostWarning, NoMemory, NoSpace, WrongName
-from ..runs import memory as free_space
-from ..runs.recording import UNCHECKED_BYTES
-from ..runs.saving import read_arrays
+from ..runs.samples import memory as free_space
+from ..runs.samples.recording import UNCHECKED_BYTES
+from ..runs.samples.saving import read_arrays
 
 IN_STORE = 0.5      # outputs that take more than this part of the free memory stay in the files of a store
 LESS = "keep fewer outputs or times (outputs, t_eval, save_every), or a value of each run (reduce)"

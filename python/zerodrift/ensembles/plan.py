@@ -13,10 +13,10 @@ import numpy as np
 from .. import _check, _gateway
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
-from ..runs import events as events_of
-from ..runs import settings
+from ..runs.arguments import events as events_of
+from ..runs.arguments import settings
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
 from ..systems.base import BaseSystem, core_of
 from .runs import NoSystem, Runs, named
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from .. import _gateway
 from ..errors import described
-from ..runs import diagnosis
-from ..runs.solution import Solution
+from ..runs.open import diagnosis
+from ..runs.samples.solution import Solution
 from .batch import Batch, batch_of, batch_range
 from .part import Part, joined, nothing, single
 from .plan import Plan

@@ -13,7 +13,7 @@ from .. import _check
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..mechanisms.elements.measures import name_of
 from ..mechanisms.system import MechanismSystem
-from ..runs.operations import assemble
+from ..runs.states.operations import assemble
 from ..systems.base import BaseSystem, core_of, system_of
 from ..systems.parameter_tables import NumberTables
 

@@ -14,7 +14,7 @@ import numpy as np
 from .. import _check
 from .._writing import write_atomically
 from ..errors import WrongType, ZerodriftError
-from ..runs import saving
+from ..runs.samples import saving
 from ..systems.base import BaseSystem
 from .part import Part
 from .plan import Plan

@@ -15,9 +15,9 @@ from .. import _check, _gateway
 from .._locking import Lock
 from .._writing import is_temporary, sweep, write_atomically
 from ..errors import WrongValue
-from ..runs.identity import Identity, differences, version
-from ..runs.saving import read_arrays
-from ..runs.settings import VECTOR_UNITS
+from ..runs.arguments.settings import VECTOR_UNITS
+from ..runs.open.identity import Identity, differences, version
+from ..runs.samples.saving import read_arrays
 from ..systems.base import BaseSystem
 from . import memory, saving
 from .part import Part

@@ -15,9 +15,9 @@ from ..errors import WrongType, WrongValue
 from ..mechanisms.equations.measure_tables import read
 from ..mechanisms.equations.space_tables import tables_of
 from ..mechanisms.system import MechanismSystem
-from ..runs import outputs as _outputs
-from ..runs import settings
-from ..runs.start import start_of
+from ..runs.arguments import outputs as _outputs
+from ..runs.arguments import settings
+from ..runs.states.instant import start_of
 from ..systems.base import core_of, system_of
 from . import parameters as _parameters
 from .grip import Grip

@@ -9,7 +9,7 @@ from .._gateway import known_events
 from .._gateway.known_events import Reading
 from .._gateway.mechanisms import blocks
 from ..errors import WrongValue
-from ..runs import events as _events
+from ..runs.arguments import events as _events
 from ..systems.base import BaseSystem
 from .block import Chosen, written
 

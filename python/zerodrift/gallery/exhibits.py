@@ -14,8 +14,8 @@ import numpy as np
 from .. import _check, models
 from ..mechanisms.elements.forces import Motor
 from ..mechanisms.mechanism import Mechanism
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
 
 
 class Exhibit(NamedTuple):

@@ -13,7 +13,7 @@ from PIL import Image
 from .. import _check
 from ..plot import animate
 from ..plot.drawing import moments_of
-from ..runs.solution import Solution
+from ..runs.samples.solution import Solution
 from .exhibits import Exhibit
 
 COLOURS = 24            # of a film's palette

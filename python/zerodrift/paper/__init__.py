@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from .. import systems
-from ..runs.diagnosis import unwarned
-from ..runs.settings import Baumgarte, Projection
+from ..runs.arguments.methods import Baumgarte, Projection
+from ..runs.open.diagnosis import unwarned
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
 from ..systems.builtin import BuiltIn
 
 __all__ = ["FOUR_BAR", "FOUR_BAR_REFERENCE", "OSCILLATOR", "ROUND_OFF", "STEP", "Example", "run"]

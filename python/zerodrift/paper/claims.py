@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ..runs.diagnosis import unwarned
-from ..runs.settings import Projection
+from ..runs.arguments.methods import Projection
+from ..runs.open.diagnosis import unwarned
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
 from ..studies.compare import difference
 from . import FOUR_BAR, reference
 

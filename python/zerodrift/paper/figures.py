@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from .. import plot
-from ..runs.diagnosis import unwarned
+from ..runs.open.diagnosis import unwarned
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
 from . import FOUR_BAR, STEP, reference
 from .claims import Runs, energy_errors, largest, link_1_error
 

@@ -17,10 +17,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from .. import plot, systems
-from ..runs.diagnosis import unwarned
-from ..runs.operations import project
+from ..runs.open.diagnosis import unwarned
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
+from ..runs.states.operations import project
 
 PENDULUM = systems.pendulum(length=1.0, mass=1.0, gravity=9.81, angle=1.5, rate=0.0)
 SPAN, STEP = 0.5, 0.1           # s: steps of Euler's method that are visibly too long

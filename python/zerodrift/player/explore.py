@@ -10,8 +10,8 @@ from typing import Any
 
 from .. import _check
 from ..errors import MissingPackage, WrongType, WrongValue, ZerodriftError
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
 from .scene import Wanted
 from .view import View
 

@@ -28,9 +28,9 @@ from ..export.block import choose, table_words, written
 from ..mechanisms.assembly.drive_starts import driven_coordinate
 from ..mechanisms.elements.forces import Actuator, Motor
 from ..mechanisms.system import MechanismSystem
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
-from ..runs.start import start_of
+from ..runs.states.instant import start_of
 from .body_points import BodyPoints, body_points, moved
 from .scene import Wanted, scene
 

@@ -19,8 +19,8 @@ from ..errors import WrongValue
 from ..plot.dense_samples import dense
 from ..plot.drawing import is_upside_down, moments_of, paths_of
 from ..plot.glyphs import GLYPHS
-from ..runs.columns import columns
-from ..runs.solution import Solution
+from ..runs.samples.columns import columns
+from ..runs.samples.solution import Solution
 from ..systems.shapes import Shape
 from .rigid import carried
 

@@ -17,7 +17,7 @@ from typing import Any
 from .. import _check
 from .._writing import write_atomically
 from ..errors import WrongType, WrongValue, ZerodriftError
-from ..runs.solution import A_SOLUTION, Solution
+from ..runs.samples.solution import A_SOLUTION, Solution
 from ..systems.base import Makes
 from .scene import Wanted, scene
 

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from .. import _check
 from .._gateway import Variable
 from ..errors import WrongValue
-from ..runs.columns import columns
-from ..runs.solution import A_SOLUTION, Solution
+from ..runs.samples.columns import columns
+from ..runs.samples.solution import A_SOLUTION, Solution
 from ..studies.compare import difference, signals
 from ..studies.reference import Reference
 from . import style as _style

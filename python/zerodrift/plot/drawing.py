@@ -13,7 +13,7 @@ from matplotlib.ticker import MaxNLocator
 
 from .. import _check
 from ..errors import WrongType, WrongValue
-from ..runs.solution import A_SOLUTION, Solution
+from ..runs.samples.solution import A_SOLUTION, Solution
 from ..studies.compare import nearest
 from ..systems.base import BaseSystem, system_of
 from ..systems.shapes import Shape

@@ -14,8 +14,8 @@ from matplotlib.lines import Line2D
 
 from .. import _check
 from ..errors import WrongValue
-from ..runs import methods
-from ..runs.settings import Projection
+from ..runs.arguments import methods
+from ..runs.arguments.methods import Projection
 from ..studies.stability_map import StabilityMap
 from ..studies.work_precision import Row, Setting, WorkPrecision
 from . import style as _style

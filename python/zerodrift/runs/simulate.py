@@ -8,15 +8,15 @@ from typing import Any
 
 from .. import _check, _gateway
 from ..systems.base import BaseSystem
-from . import recording, settings
-from .control import called, controls
-from .ending import Outcome, finish_file, finished, solution_of
-from .inputs import Speeds
-from .keyboard import Keyboard
-from .opening import prepared
-from .progress import progress_of
-from .run import Run
-from .solution import Solution
+from .arguments import methods, settings
+from .arguments.inputs import Speeds
+from .open.beginning import prepared
+from .open.control import called, controls
+from .open.ending import Outcome, finish_file, finished, solution_of
+from .open.keyboard import Keyboard, progress_of
+from .open.run import Run
+from .samples import recording
+from .samples.solution import Solution
 
 SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
 
@@ -39,7 +39,7 @@ def simulate(
     formulation: str | None = None,
     integrator: str | None = None,
     stabilization: str | settings.Stabilization = settings.STABILIZATION,
-    energy: bool | settings.EnergyCorrection | None = None,
+    energy: bool | methods.EnergyCorrection | None = None,
     correction: Any = None,
     save_every: int = 1,
     progress: bool | Callable[[float], None] = False,

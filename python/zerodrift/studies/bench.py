@@ -10,11 +10,11 @@ import numpy as np
 
 from .. import _gateway
 from ..errors import WrongValue
-from ..runs import settings
-from ..runs.diagnosis import instability, unwarned
+from ..runs.arguments import methods, settings
+from ..runs.open.diagnosis import instability, unwarned
+from ..runs.open.threads import processors, side_by_side
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
-from ..runs.threads import processors, side_by_side
 from ..systems.base import BaseSystem, closed_form_core_of, core_of
 from . import reference as certified
 from .compare import states_of
@@ -34,8 +34,8 @@ class Setting(NamedTuple):
     integrator: str
     step: float | None
     tolerance: float | None
-    stabilization: settings.Stabilization = settings.Projection()
-    energy: settings.EnergyCorrection | None = None
+    stabilization: settings.Stabilization = methods.Projection()
+    energy: methods.EnergyCorrection | None = None
 
     @property
     def settings(self) -> dict[str, Any]:

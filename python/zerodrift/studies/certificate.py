@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import _check
 from ..errors import WrongValue
-from ..runs.solution import Solution
+from ..runs.samples.solution import Solution
 from .precise_values import EventTimes, Quantity, Runs, Samples, located, value_of
 from .reference_runs import Difference
 

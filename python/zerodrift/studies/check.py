@@ -11,8 +11,8 @@ import numpy as np
 from .. import _check
 from ..analysis.comparison import Compared, derivatives_by_parameters, derivatives_of_accelerations
 from ..errors import ZerodriftError
-from ..runs.operations import acceleration, project
-from ..runs.settings import Projection
+from ..runs.arguments.methods import Projection
+from ..runs.states.operations import acceleration, project
 from ..systems.base import BaseSystem, Terms, core_of, system_of
 
 STEP = np.finfo(float).eps ** (1 / 3)   # of a central difference, relative to the varied quantity

@@ -10,7 +10,7 @@ import numpy as np
 from .. import _check
 from .._gateway import Variable
 from ..errors import WrongType, WrongValue
-from ..runs.solution import A_SOLUTION, Solution
+from ..runs.samples.solution import A_SOLUTION, Solution
 from .reference import Reference
 
 __all__ = ["difference", "signals"]

@@ -18,9 +18,9 @@ from .. import _check
 from .._gateway import known_events
 from .._gateway.known_events import Reading
 from ..errors import UnreachableTolerance, WrongType, WrongValue
-from ..runs.events import Event
+from ..runs.arguments.events import Event
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
 from ..systems.base import BaseSystem
 from . import double_double as dd
 from .decimal_programs import DIGITS, Decimals, Program, context, decimals, pair
@@ -191,7 +191,7 @@ def _expression(what: str, given: Any, system: BaseSystem, of: Mapping[str, Any]
     import mpmath  # slow to import, as SymPy is
     import sympy
 
-    from ..runs import expressions
+    from ..runs.arguments import expressions
 
     found = expressions.read(what, given, system, of)
     readers = [_reader(what, reading, system) for reading in found.readings]

@@ -9,7 +9,7 @@ from typing import Any
 from .. import _check
 from .._gateway.compiled.precise import Precise
 from ..errors import UnreachableTolerance, WrongValue, ZerodriftError
-from ..runs import settings
+from ..runs.arguments import methods, settings
 from ..systems.base import BaseSystem, system_of
 from .certificate import Reference
 from .reference_precise import PRECISIONS, PreciseSearch, functions_of
@@ -170,11 +170,11 @@ def _in_double(motion: Motion, pairs: list[tuple[str, str]], wanted: float | Non
 def _pairs(system: BaseSystem, formulations: Any) -> list[tuple[str, str]]:
     """Pairs of formulations (motion, check): the given one, or candidates in the order in which they are tried."""
     if formulations is None:
-        first, *others = settings.formulations(system)
+        first, *others = methods.formulations(system)
         return [(first, other) for other in reversed(others)] if system.m and others else [(first, first)]
     names = tuple(formulations)
     if len(names) != 2 or names[0] == names[1]:
         raise WrongValue(f"formulations must be two different formulations, not {formulations!r}")
     for name in names:
-        settings.formulation_row(name)
+        methods.row_of("formulations", name)
     return [names]

@@ -12,11 +12,11 @@ import numpy as np
 
 from .. import _gateway
 from ..errors import ZerodriftError
-from ..runs import settings
-from ..runs.diagnosis import unwarned
+from ..runs.arguments import methods, settings
+from ..runs.open.diagnosis import unwarned
+from ..runs.open.threads import side_by_side
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
-from ..runs.threads import side_by_side
 from ..systems.base import BaseSystem, core_of
 
 SERIES = "taylor"   # integrator of arbitrary order
@@ -84,7 +84,7 @@ class Motion:
         self.is_plain = system._has_plain_laws
         self.elsewhere = system._in_other_coordinates() if p0 is None and v0 is None else None
         self.elsewhere_failed = False
-        taken = settings.evaluating_integrators(system)
+        taken = methods.evaluating_integrators(system)
         cards = sorted(taken.values(), key=lambda card: -card.order)    # stable: table order for equal orders
         self.method, self.other = cards[0].name, cards[1].name
         with unwarned():

@@ -39,8 +39,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..errors import UnreachableTolerance, ZerodriftError
-from ..runs import settings
-from ..runs.solution import Solution
+from ..runs.arguments import methods
+from ..runs.samples.solution import Solution
 from ..systems.base import core_of
 from .certificate import Reference
 from .reference_runs import EPS, UNIT, Difference, Motion, Way
@@ -173,7 +173,7 @@ class Search:
     def _in_other_coordinates(self, fine: Solution, steps: int) -> list[Difference]:
         """The difference of a run in other coordinates; none where these cannot follow the motion, which is a caveat then."""
         motion = self.motion
-        way = Way(steps, next(iter(settings.formulations(motion.elsewhere))), motion.method, is_elsewhere=True)
+        way = Way(steps, next(iter(methods.formulations(motion.elsewhere))), motion.method, is_elsewhere=True)
         with contextlib.suppress(ZerodriftError):
             found = motion.difference(way, fine, steps)
             if math.isfinite(found.p):
@@ -244,7 +244,7 @@ class Search:
             yield PLACE.format(apart=apart * motion.speed)
         ratios = [a / b for a, b in ((previous, halved), (halved, finer)) if b]      # the finer run differs by the error itself
         if not self._is_rounding(found) and min(ratios, default=math.inf) < SMOOTH_RATIO:
-            yield SMOOTH.format(ratio=min(ratios), most=2.0**settings.integrators()[motion.method].order)
+            yield SMOOTH.format(ratio=min(ratios), most=2.0**methods.integrators()[motion.method].order)
         own = EPS * motion.size + motion.shift[0]
         if rounded > GROWTH * own:
             yield SENSITIVE.format(growth=rounded / own)

@@ -10,9 +10,9 @@ import numpy as np
 
 from .. import _check, _gateway
 from ..errors import Interrupted, WrongValue
-from ..runs import settings
-from ..runs.progress import progress_of
-from ..runs.threads import side_by_side
+from ..runs.arguments import methods, settings
+from ..runs.open.keyboard import progress_of
+from ..runs.open.threads import side_by_side
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
@@ -24,7 +24,7 @@ OPTIONS = {"formulation": settings.FORMULATION, "integrator": settings.INTEGRATO
 
 
 def _critically_damped(gain: float) -> dict[str, Any]:
-    return {"stabilization": settings.Baumgarte(gain, gain**2 / 4)}
+    return {"stabilization": methods.Baumgarte(gain, gain**2 / 4)}
 
 
 WAYS = {"nothing": {"stabilization": None}, "Baumgarte": _critically_damped, "projection": {},

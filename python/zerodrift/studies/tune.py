@@ -10,7 +10,7 @@ from typing import Any
 
 from .. import _check
 from ..errors import Interrupted, UnreachableTolerance, WrongValue
-from ..runs.settings import FINEST_RTOL
+from ..runs.arguments.settings import FINEST_RTOL
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting

@@ -16,11 +16,11 @@ import numpy as np
 from .. import _check
 from .._writing import write_atomically
 from ..errors import Interrupted, MissingPackage, SingularSystem, WrongType, WrongValue
-from ..runs import settings
-from ..runs.operations import acceleration
-from ..runs.progress import progress_of
+from ..runs.arguments import methods, settings
+from ..runs.open.keyboard import progress_of
+from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
-from ..runs.solution import Solution
+from ..runs.states.operations import acceleration
 from ..systems.base import BaseSystem, system_of
 from . import reference as certified
 from .bench import Bench, Row, Setting
@@ -143,7 +143,7 @@ def work_precision(
     steps: Iterable[float] | None = None,
     tolerances: Iterable[float] | None = None,
     stabilizations: Iterable[str | settings.Stabilization] = (settings.STABILIZATION,),
-    energy: Iterable[bool | settings.EnergyCorrection | None] = (None,),
+    energy: Iterable[bool | methods.EnergyCorrection | None] = (None,),
     reference: certified.Reference | Solution | Callable[[float], Any] | None = None,
     closed_form: bool | None = False,
     progress: bool | Callable[[float], None] = False,
@@ -201,9 +201,9 @@ def work_precision(
     True
     """
     system, span = system_of(system, p0, v0), _check.span(t_span)
-    taken, able = settings.integrators(system), _able(system, span, p0, v0) if formulations is None else formulations
-    formulations = _names("formulations", settings.formulations(), able)
-    integrators = _names("integrators", settings.integrators(), taken if integrators is None else integrators)
+    taken, able = methods.integrators(system), _able(system, span, p0, v0) if formulations is None else formulations
+    formulations = _names("formulations", methods.formulations(), able)
+    integrators = _names("integrators", methods.integrators(), taken if integrators is None else integrators)
     stabilizations, energy = map(settings.stabilization, stabilizations), map(settings.energy, energy)
     steps = default_steps(system, span, p0, v0) if steps is None else [
         _check.number("steps", each, above=0, code="step-size") for each in steps]
@@ -253,7 +253,7 @@ def _able(system: BaseSystem, span: tuple[float, float], p0: Any, v0: Any) -> li
             return False
         return True
 
-    return [name for name in settings.formulations(system) if can(name)]
+    return [name for name in methods.formulations(system) if can(name)]
 
 
 def _names(table: str, available: Iterable[str], chosen: Iterable[str] | None) -> list[str]:
@@ -265,13 +265,13 @@ def _names(table: str, available: Iterable[str], chosen: Iterable[str] | None) -
 
 def _steps_and_tolerances(integrator: str, steps: Iterable[float], tolerances: Iterable[float]) -> list[tuple[Any, Any]]:
     """Pairs (step, tolerance), one of them None."""
-    chooses = settings.integrators()[integrator].error_order
+    chooses = methods.integrators()[integrator].error_order
     return [(step, None) for step in steps] + [(None, tolerance) for tolerance in tolerances if chooses]
 
 
 def default_steps(system, span, p0, v0) -> list[float]:
     """Default fixed steps in s: multiples of the mean adaptive step of an accurate run."""
-    method = max(settings.evaluating_integrators(system).values(), key=lambda card: card.order).name
+    method = max(methods.evaluating_integrators(system).values(), key=lambda card: card.order).name
     probe = simulate(system, span, p0, v0, rtol=PROBE, atol=PROBE, integrator=method,
-                     formulation=next(iter(settings.formulations(system))))
+                     formulation=next(iter(methods.formulations(system))))
     return [factor * (span[1] - span[0]) / probe.stats["steps"] for factor in STEPS]

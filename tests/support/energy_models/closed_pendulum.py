@@ -4,8 +4,8 @@ import numpy as np
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
-from zerodrift.runs.operations import project
-from zerodrift.runs.settings import Projection
+from zerodrift.runs.arguments.methods import Projection
+from zerodrift.runs.states.operations import project
 from zerodrift.symbolics.define import symbolic
 
 LEAN = np.radians(75.0)     # initial inclination of the first link in rad

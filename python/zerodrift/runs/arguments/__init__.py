@@ -1,0 +1,1 @@
+"""Arguments of a run, read and checked: methods, settings, inputs, outputs and events."""

@@ -1,0 +1,190 @@
+"""Events: functions of the motion whose zeros are located, with SciPy's attributes, and measures that reach a value."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ... import _check, _gateway
+from ..._gateway.known_events import Reading
+from ...errors import WrongType, WrongValue
+from ...systems.base import BaseSystem
+
+
+@dataclass(frozen=True)
+class Event:
+    """A measure that reaches a value, or a function that does, for the argument `events` of `simulate`.
+
+    Parameters
+    ----------
+    what : measure, str, SymPy expression or callable
+        A scalar measure, or a coordinate or velocity of the system, by name; or an expression of these, of ``t``, of parameters,
+        and of what `of` binds, in symbols of their names; or a function of Python that names what it wants: ``t``, ``p``, ``v``,
+        parameters, and what `of` binds. The core evaluates all but the last itself, in nanoseconds; in ensembles, runs with
+        these alone take vector lanes, unless they read reactions or accelerations.
+    value : float
+        Which it reaches, in the unit of the measure.
+    direction : {-1, 0, 1}
+        1: from below only, -1: from above only.
+    terminal : bool or int
+        True: the run ends at the first occurrence; an integer n: at the n-th.
+    of : dict of str to measure, optional
+        Measures that the function receives, by argument name, or that symbols of the expression stand for.
+
+    Notes
+    -----
+    The event is evaluated at 16 points of each step, and near extremes towards zero: zeros further apart than a tenth of a step
+    are found. Set `max_step` for those of a function that changes faster. A touch of zero, to rounding, is not an event,
+    except exactly at the end of a step.
+
+    Reactions and accelerations are those of the state at which the event is evaluated. Where an input jumps, they jump with
+    it: the event happens there, and the state after the jump is reported.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+    >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+    >>> pin = m.revolute("pin", m.ground, link.start)
+    >>> sol = zd.simulate(m, 2.0, step=0.01, events=zd.Event(link.end.position.y, value=-0.5, terminal=True))
+    >>> sol[link.end.position][-1].round(9).tolist()
+    [0.866025404, -0.5]
+
+    The pin bears 10 N: the force along the link is 5/2 m g times the sine of its angle below the horizontal, and the one across
+    m g / 4 times the cosine:
+
+    >>> load = zd.Event(lambda x, y: (x**2 + y**2)**0.5 - 10, of={"x": pin.force.x, "y": pin.force.y}, terminal=True)
+    >>> sol = zd.simulate(m, 2.0, step=0.01, events=load)
+    >>> float(round(sol[pin.angle][-1], 6))
+    -0.408558
+
+    The crank and the rocker of a four-bar at right angles, compiled:
+
+    >>> import numpy as np
+    >>> import sympy
+    >>> bar = zd.systems.four_bar()
+    >>> across = sympy.cos(sympy.Symbol("alpha1") - sympy.Symbol("alpha3"))
+    >>> sol = zd.simulate(bar, 8.0, step=0.01, events=zd.Event(across, direction=1))
+    >>> bool(abs(np.cos(sol.p_events[0][:, 0] - sol.p_events[0][:, 2])).max() < 1e-12)
+    True
+    """
+
+    what: Any
+    value: float = 0.0
+    direction: int = 0
+    terminal: bool | int = False
+    of: Mapping[str, Any] | None = None
+
+    def watched(self, name: str, system: BaseSystem) -> Watched:
+        """The event, checked for a system; error messages call it `name`, such as ``events[1]``."""
+        level, function, known = _check.number(f"value of {name}", self.value), None, None
+        if hasattr(self.what, "free_symbols"):
+            function, known = _expression(name, self.what, system, dict(self.of or {}), level)
+        elif callable(self.what):
+            function = _Called(name, self.what, system, tuple(self.of or {}), level)
+            bound = [_reading(f"of[{key!r}] of {name}", measure, system) for key, measure in (self.of or {}).items()]
+            known = _called(bound, level)
+        elif self.of:
+            raise WrongValue(f"of must be left out of {name}: it binds measures to names in a function or an expression, and "
+                             f"{_check.shown(self.what)} is a measure", "conflicting-arguments")
+        else:
+            known = _gateway.KnownEvent((_reading(name, self.what, system),), level)
+        return _watched(name, function, self.direction, self.terminal, known)
+
+
+def _expression(name: str, what: Any, system: BaseSystem, of: dict[str, Any],
+                level: float) -> tuple[Callable[..., float] | None, _gateway.KnownEvent | None]:
+    """The function that an expression is: one of Python, or where there is a compiler, one that the core knows."""
+    from ...symbolics.compile import scalar_function  # slow to import, as SymPy is
+    from . import expressions
+
+    found = expressions.read(name, what, system, of, is_dynamic=True)
+    compiled = scalar_function.compiled(name, found.expression, found.atoms) if found.readings else None
+    if compiled is None:
+        value = expressions.in_python(found)
+        return lambda t, p, v, x: value(*x) - level, _called(found.readings, level)
+    return None, _gateway.KnownEvent(tuple(found.readings), level, compiled, found.parameters)
+
+
+def _called(readings: list[Reading], level: float) -> _gateway.KnownEvent | None:
+    """Measures that the core reads for a function in Python; None: none."""
+    return _gateway.KnownEvent(tuple(readings), level, is_called=True) if readings else None
+
+
+class _Called:
+    """A function called with the arguments that it names, of which `bound` are read."""
+
+    def __init__(self, name: str, function: Callable[..., Any], system: BaseSystem, bound: Sequence[str], level: float) -> None:
+        from ...systems.callables import arguments  # slow to import
+
+        parameters = {key: value for key, value in system.parameters.items() if key.isidentifier()}
+        names = arguments(name, function, [*_check.STATE, *parameters, *bound])
+        self._function, self._level = function, level
+        self._fixed = {key: parameters[key] for key in names if key in parameters and key not in bound}
+        self._read = {key: i for i, key in enumerate(bound) if key in names}
+        self._state = [key for key in names if key in _check.STATE]
+
+    def __call__(self, t: float, p: np.ndarray, v: np.ndarray, x: Sequence[float]) -> float:
+        state = {"t": t, "p": p, "v": v}
+        asked = {key: state[key] for key in self._state} | {key: x[i] for key, i in self._read.items()}
+        return self._function(**asked, **self._fixed) - self._level
+
+
+def _reading(what: str, measure: Any, system: BaseSystem) -> Reading:
+    """Description of a scalar measure by which the core evaluates it."""
+    name = getattr(measure, "name", measure)
+    if not isinstance(name, str):
+        raise WrongType(f"{what} must be a measure, the name of one, an expression or a callable, not {_check.shown(measure)}")
+    return system._reading(name, what, is_dynamic=True)
+
+
+class Watched(NamedTuple):
+    """Event function, checked; `value(t, p, v, x)` is a finite number."""
+
+    name: str
+    function: Callable[..., float] | None   # of (t, p, v, x), x as `known` has it; None if the core evaluates the event
+    direction: int
+    terminal: int
+    known: _gateway.KnownEvent | None   # what the core reads, or None
+
+    def value(self, t: float, p: np.ndarray, v: np.ndarray, x: Sequence[float]) -> float:
+        """Value of the event function, checked to be a finite number."""
+        try:
+            value = self.function(t, p, v, x)
+        except BaseException as error:
+            _check.tell(error, f"in {self.name}, called at t = {t:g}")
+            raise
+        if type(value) is float and abs(value) < np.inf:
+            return value
+        return _check.number(f"value of {self.name} at t = {t:g}", value)
+
+
+def events(given: Any, system: BaseSystem) -> tuple[Watched, ...] | None:
+    """Check the argument `events` of `simulate`: None, one event or several; each a callable, an `Event` or a measure."""
+    if given is None:
+        return None
+    if not isinstance(given, Sequence) or isinstance(given, str):
+        return (_event("events", given, system),)
+    return tuple(_event(f"events[{i}]", each, system) for i, each in enumerate(given))
+
+
+def _event(name: str, given: Any, system: BaseSystem) -> Watched:
+    if hasattr(given, "free_symbols") or ((isinstance(given, str) or hasattr(given, "name")) and not callable(given)):
+        given = Event(given)
+    if isinstance(given, Event):
+        return given.watched(name, system)
+    if not callable(given):
+        raise WrongType(f"{name} must be a callable event(t, p, v), a zd.Event or a measure, or a list of these, not {given!r}")
+    return _watched(name, lambda t, p, v, x: given(t, p, v), getattr(given, "direction", 0), getattr(given, "terminal", False))
+
+
+def _watched(name: str, function: Any, direction: Any, terminal: Any, known: _gateway.KnownEvent | None = None) -> Watched:
+    """An event, checked."""
+    if _check.number(f"{name}.direction", direction) not in (-1, 0, 1):
+        raise WrongValue(f"{name}.direction must be -1, 0 or 1, not {direction!r}", "unknown-choice")
+    if not isinstance(terminal, bool | np.bool_):
+        _check.count(f"{name}.terminal, where it is not True or False,", terminal, least=0)
+    return Watched(name, function, int(direction), int(terminal), known)

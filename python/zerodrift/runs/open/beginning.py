@@ -1,0 +1,127 @@
+"""Beginning of a run: its arguments, checked, and the core's run and record that are made from them."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ... import _check, _gateway
+from ...errors import CostWarning, DrawingWarning, SingularSystem, WrongType, advised
+from ...systems.base import BaseSystem, closed_form_core_of, core_of
+from ..arguments import events as _events
+from ..arguments import outputs as _outputs
+from ..arguments import settings
+from ..arguments.inputs import FOLLOWED, Declared, Speeds
+from ..arguments.inputs import declared as declared_inputs
+from ..arguments.settings import ARGUMENTS_OF_PLAN
+from ..samples import recording
+from ..states.instant import start_of
+
+NOMINAL_STEPS = 1000    # of the span that serves the checks of the start as a scale of time, with fixed steps
+NOMINAL_SPAN = 1.0      # s: the same with adaptive steps
+
+
+class Prepared(NamedTuple):
+    """Arguments of a run, checked and translated for the core."""
+
+    system: BaseSystem              # as given; that of the run has inputs in the place of numbers
+    span: tuple[float, float]       # s
+    settings: dict[str, Any]        # by name, as in `Solution.settings`
+    core_settings: Any              # the same as a `zd_settings`
+    core: _gateway.CoreSystem
+    measured: _gateway.CoreSystem | None    # the system that has the measures
+    rows: int | None                # number of samples; None: not known in advance
+    p0: np.ndarray
+    v0: np.ndarray
+    events: Any
+    watcher: _gateway.Watcher | None
+    recorded: _outputs.Recorded | None
+    path: Any                       # of the file that samples are written to; None: memory
+    declared: Declared | None       # inputs
+    inputs: _gateway.Inputs | None
+    source: _gateway.CoreSystem             # core and measured before they became those of one run
+    source_measured: _gateway.CoreSystem | None
+
+    @property
+    def outputs(self) -> _gateway.Outputs | None:
+        """Measures that are recorded."""
+        return self.recorded.core if self.recorded else None
+
+    def created(self, kind: Any = _gateway.Run, saved: Any = None) -> Any:
+        """The core's run; the error of a singular system is extended by the system's advice."""
+        try:
+            return kind(self.core, self.core_settings, self.p0, self.v0, self.watcher, self.outputs, self.inputs, saved)
+        except SingularSystem as error:
+            advice = self.system._advice(error)
+            if advice is None:
+                raise
+            raise advised(error, advice) from None
+
+    def record(self) -> Any:
+        """New record for the samples, in memory or in the file."""
+        return recording.record_of(self.core, self.outputs, self.rows, self.path)
+
+
+def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: Any, outputs: Any, save_to: Any,
+             arguments: dict[str, Any], *, inputs: Any = None, speeds: Speeds = FOLLOWED, is_open: bool = False,
+             stacklevel: int = 2) -> Prepared:
+    """Check the arguments of a run; `arguments` are those of `settings.plan` from `t_eval` on.
+
+    `is_open`: the run has no end; `span` only serves the checks of its start.
+    """
+    system, p0, v0 = start_of(system, p0, v0, span[0])
+    core_of(system)
+    declared = declared_inputs(inputs, system, speeds, arguments["step"])
+    of = declared.of.system if declared else system
+    plan = settings.plan(of, span, **arguments)
+    plan.core_settings.is_open = is_open
+    core = closed_form_core_of(of, plan.settings["vector"], plan.core_settings)
+    unit = _gateway.closed_form_unit(core, plan.core_settings)
+    plan.settings["vector"] = None if unit is None else settings.VECTOR_UNITS[unit]
+    if declared:
+        plan.settings.update(speeds.settings())
+        if declared.names:
+            plan.settings["inputs"] = list(declared.names)
+    if outputs is not None:
+        plan.settings["outputs"] = _outputs.names(outputs, of)
+    starts_as_drawn = p0 is None and v0 is None
+    p0, v0 = of._state_or_start(p0, v0, t=span[0])
+    if starts_as_drawn and (said := of._drawn_open()):
+        warnings.warn(said, DrawingWarning, stacklevel=stacklevel + 1)
+    path = None if save_to is None else recording.file_of_samples().checked(save_to)
+    if not is_open and (told := system._what_it_costs(plan.steps)):
+        warnings.warn(told, CostWarning, stacklevel=stacklevel + 1)
+    rows = None if is_open else plan.rows
+    watched = _events.events(events, of)
+    ready = Prepared(system, span, plan.settings, plan.core_settings, core, of._watching.core, rows, p0, v0, watched, None, None,
+                     path, declared, None, core, of._watching.core)
+    return with_own(ready, of)
+
+
+def with_own(ready: Prepared, of: BaseSystem, values: np.ndarray | None = None) -> Prepared:
+    """Arguments with the memory of one run: inputs, in `values` if given, and records of events and outputs."""
+    core, measured, inputs = ready.core, ready.measured, None
+    if ready.declared:
+        inputs, (core, measured) = ready.declared.bound(core, measured, values=values)
+    names, recorded = ready.settings.get("outputs"), None
+    if names is not None:
+        recorded = _outputs.Recorded(names, of, core, measured if inputs else None)
+    watcher = None
+    if ready.events is not None:
+        watcher = _gateway.Watcher(core, ready.events, measured, is_own=inputs is not None)
+    return ready._replace(core=core, measured=measured, inputs=inputs, recorded=recorded, watcher=watcher)
+
+
+def nominal_span(t0: float, step: Any) -> tuple[float, float]:
+    """Time span of a run without an end, which serves the checks of its start."""
+    return t0, t0 + (NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0, code="step-size"))
+
+
+def known_settings(settings: dict[str, Any]) -> dict[str, Any]:
+    """All settings of `simulate` besides the step: given ones, and the defaults."""
+    for name in settings:
+        if name not in ARGUMENTS_OF_PLAN:
+            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}", "wrong-name")
+    return {"t_eval": None, **ARGUMENTS_OF_PLAN, **settings}

@@ -1,0 +1,185 @@
+"""End of a run: its outcome, its solution, and the error or the warnings that it ends with."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import itertools
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ... import _check, _gateway
+from ...errors import CorrectionFailed, Interrupted
+from ...systems.base import BaseSystem, core_of
+from ..arguments import outputs as _outputs
+from ..arguments.inputs import History
+from ..arguments.methods import name_of
+from ..arguments.settings import core_settings
+from ..samples.saving import EVENTS
+from ..samples.solution import Solution
+from . import diagnosis
+from .beginning import Prepared
+
+EXPLICIT = "rk4"        # an integrator that uses closed-form functions wherever the formulation does
+STEPS_AHEAD = 4         # steps of fixed size in which a dead point may be the cause of a failure
+SHARE_AHEAD = 1e-3      # of the time span, with adaptive steps
+
+
+class Outcome(NamedTuple):
+    """Outcome of a run: status, duration, error."""
+
+    status: int
+    seconds: float
+    error: BaseException | None     # exception in Python that stopped the run: memory, Ctrl-C, or from the callable for progress
+
+
+def solution_of(ready: Prepared, run: _gateway.Run, record: Any, results: _gateway.Results, outcome: Outcome,
+                span: tuple[float, float] | None = None, history: History | None = None) -> Solution:
+    """Solution of a run that has ended, with its arrays made at first use."""
+    record.join()
+    return Solution._of_run(
+        functools.partial(_arrays_and_stats, record, results, outcome.seconds, ready.recorded, ready.system, ready.settings,
+                          history),
+        status=outcome.status, success=outcome.status in (_gateway.DONE, _gateway.EVENT), message=message_of(run, outcome),
+        settings=ready.settings, system=ready.system, t_span=span or ready.span, **events_found(ready.watcher))
+
+
+def solution_of_rows(system: BaseSystem, span: tuple[float, float], chosen: dict[str, Any], record: _gateway.Record,
+                     results: _gateway.Results, seconds: float, status: int, message: str,
+                     events: tuple[tuple[np.ndarray, ...], ...] | None) -> Solution:
+    """Solution of a completed run that the core made in a batch; `events` are the t, p and v of its events."""
+    return Solution._of_run(functools.partial(_arrays_and_stats, record, results, seconds, None, system, chosen),
+                            status=status, success=True, message=message, settings=chosen, system=system, t_span=span,
+                            **({} if events is None else dict(zip(EVENTS, events, strict=True))))
+
+
+def _arrays_and_stats(record: _gateway.Record, results: _gateway.Results, seconds: float,
+                      recorded: _outputs.Recorded | None, system: BaseSystem, chosen: dict[str, Any],
+                      history: History | None = None) -> dict[str, Any]:
+    """Arrays, statistics and outputs of a run under the names of the fields of `Solution`."""
+    arrays, stats = record.take(), results.as_stats() | {"seconds": seconds}
+    outputs = recorded.columns(arrays["outputs"]) if recorded and recorded.core else {}
+    if history is not None:
+        outputs |= history.columns(chosen["inputs"], arrays["t"])
+    return {
+        "t": arrays["t"], "p": arrays["p"], "v": arrays["v"], "multipliers": arrays["multipliers"],
+        "position_violation": arrays["position_violation"], "velocity_violation": arrays["velocity_violation"],
+        "kinetic_energy": arrays["kinetic"], "potential_energy": arrays.get("potential"), "energy_input": arrays.get("input"),
+        "energy_violation": arrays.get("energy_violation"), "iterations": arrays["iterations"],
+        "energy_skipped": arrays["energy_skipped"], "position_size": results.sizes,
+        "stats": stats | {"matrix_path_reason": _matrix_path_reason(system, chosen, stats)},
+        "outputs": outputs}
+
+
+def _matrix_path_reason(system: BaseSystem, settings: dict[str, Any], stats: dict[str, Any]) -> str | None:
+    """Reason why no step used the closed form; None if some did, or if systems of this kind have no closed form."""
+    translated, core = core_settings((0.0, 0.0), settings), core_of(system)
+    lacks = system._why_no_closed_form(_gateway.takes_embeddings(translated))
+    if stats["closed_form_steps"] or not stats["steps"] or lacks is None:
+        return None
+    if settings["closed_form"] is False:
+        return "closed_form=False"
+    if not _gateway.takes_closed_form(core, translated):
+        explicit = core_settings((0.0, 0.0), settings | {"integrator": EXPLICIT})
+        table = "integrator" if _gateway.takes_closed_form(core, explicit) else "formulation"
+        return f"{table} {name_of(f'{table}s', settings[table])!r} has none" + " for such a system" * (table == "formulation")
+    if lacks:
+        return lacks
+    return "some constraints are redundant" if stats["redundant"] else "the elimination order is unsuitable at every step"
+
+
+def message_of(run: _gateway.Run, outcome: Outcome) -> str:
+    """Message of a run: "done", or the reason for its end."""
+    match outcome.status:
+        case _gateway.DONE:
+            return "done"
+        case _gateway.INTERRUPTED if not isinstance(outcome.error, KeyboardInterrupt):
+            return f"stopped by {_shown(outcome.error)}"
+        case _gateway.INTERRUPTED:
+            return "interrupted from the keyboard"
+        case _gateway.CALLBACK if run.has_raised:
+            return "; ".join([f"{run.message}: {_shown(run.error(outcome.status))}", *run.notes])
+        case _:
+            return run.message
+
+
+def _shown(error: BaseException) -> str:
+    """The `repr` of an error, or the name of its class if that fails."""
+    try:
+        return repr(error)
+    except Exception:
+        return type(error).__name__
+
+
+def events_found(watcher: _gateway.Watcher | None) -> dict[str, tuple[np.ndarray, ...]]:
+    """Fields `t_events`, `p_events` and `v_events`, each with one array per event; empty without events."""
+    if watcher is None:
+        return {}
+    arrays = [watcher.arrays(event) for event in range(len(watcher.events))]
+    for array in itertools.chain(*arrays):
+        array.setflags(write=False)
+    return dict(zip(EVENTS, tuple(zip(*arrays, strict=True)) or ((), (), ()), strict=True))
+
+
+def finished(solution: Solution, run, results, outcome, on_failure, keyboard) -> Solution:
+    """Return the solution, with warnings where it is doubtful; or raise an error that has it as an attribute."""
+    interrupted = isinstance(outcome.error, KeyboardInterrupt)
+    if keyboard.pressed and not interrupted:    # Ctrl-C came after the last slice, or while something else failed
+        raise Interrupted(f"interrupted from the keyboard, and: {solution.message}", solution) from outcome.error
+    if outcome.error is not None and not interrupted:
+        raise with_solution(outcome.error, solution)
+    if on_failure == "raise" and not solution.success:
+        _raise_failure(run, solution)
+    if not diagnosis.is_beyond_doubt(results):
+        diagnosis.warn(solution, stacklevel=3)      # at the line that calls `simulate`
+    return solution
+
+
+def _raise_failure(run: _gateway.Run, solution: Solution) -> None:
+    if solution.status == _gateway.INTERRUPTED:
+        raise Interrupted(solution.message, solution) from None
+    error, note = failure_of(solution.system, run, solution.status, solution.settings, solution.t_span,
+                             solution)
+    raise with_solution(error, solution, note)
+
+
+def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dict[str, Any],
+               span: tuple[float, float], solution: Solution | None = None) -> tuple[BaseException, str | None]:
+    """Error of a failed run, and advice on it; beyond the reach of a drive it is one error for all methods and steps.
+
+    Drives are checked at the state that could not be corrected, which may be far off, and at the last sample of a solution.
+    """
+    t, p, _ = run.place()
+    if status == _gateway.CALLBACK:
+        return run.error(status), run.message
+    ahead = STEPS_AHEAD * settings["step"] if settings.get("step") else SHARE_AHEAD * (span[1] - span[0])
+    samples = zip(solution.t[-1:], solution.p[-1:], strict=True) if solution else ()
+    for of, at in ((t, p), *samples):
+        if said := system._beyond_reach(float(of), np.array(at), t - of + ahead):
+            return CorrectionFailed(said), None
+    note = on_collapse(system, run) if status == _gateway.COLLAPSED else system._advice_on_failure(t, p)
+    return run.error(status), note
+
+
+def on_collapse(system: BaseSystem, run: _gateway.Run) -> str:
+    """Velocity and forces that jump where the step size of a run has collapsed."""
+    return system._advice_on_collapse(*run.place(), run.results().statistics.part)
+
+
+def with_solution(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:
+    """The error with the solution as an attribute, if its class allows attributes."""
+    with contextlib.suppress(Exception):
+        error.solution = solution
+    if note:
+        _check.tell(error, note)
+    return error
+
+
+def finish_file(record: Any, solution: Solution, outcome: Outcome | None) -> None:
+    """Write the remaining fields of the solution to the file; a full disk is an error unless the run already has one."""
+    try:
+        record.finish(solution)
+    except OSError as error:
+        if outcome is None or outcome.error is None:
+            raise with_solution(error, solution) from None

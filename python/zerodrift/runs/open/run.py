@@ -1,0 +1,609 @@
+"""`Run`: a run that stays open: it is stepped, read, and goes on."""
+
+from __future__ import annotations
+
+import math
+import time
+import warnings
+from typing import Any
+
+import numpy as np
+
+from ... import _check, _gateway
+from ...errors import InUse, StateWarning, WrongName, WrongState, WrongValue
+from ...systems.base import BaseSystem
+from ..arguments.inputs import Drives, History, Jump, Speeds
+from ..samples import recording
+from ..samples.solution import Solution
+from ..samples.summary import run_summary
+from ..states.reading import Reading
+from . import diagnosis
+from .beginning import Prepared, known_settings, nominal_span, prepared, with_own
+from .control import Sampling, controls
+from .ending import Outcome, failure_of, finish_file, solution_of, with_solution
+from .run_state import restored, saved, unpacked
+
+SLICE = 0.03            # seconds that the core runs between two looks at the keyboard
+
+
+class Run:
+    """A run that stays open: advance it, read it, and go on.
+
+    Parameters
+    ----------
+    system : system
+        As of `simulate`.
+    p0, v0 : array_like (nq,), (nv,), optional
+        Start; by default that of the system.
+    t0 : float
+        Time of the start, in s.
+    step : float, optional
+        Size of fixed steps in s; left out: adaptive steps.
+    inputs : sequence of str or measures, or dict, optional
+        Numbers that are set between steps, by ``run[name] = value`` or ``run.inputs[:] = values``: torques, forces and speeds of
+        motors, actuators and loads of a mechanism, such as "drive.torque"; declared symbols of `symbolic`; numbers and arrays
+        among the parameters of a `System`, as "u", or entries of them, as "u[0]"; parameters of a `native` system, which are
+        numbers. An array is set as a whole, ``run["u"] = [1.0, 2.0]``, or by entries. A dict has
+        limits (lower, upper) of each, or None; no step is made with an input beyond them. Inputs begin with the number that the
+        system has. Forces are constant within a step, and their work is part of the energy balance. A speed is followed linearly,
+        from the one before: over one fixed step, or over the time `ramp` in adaptive steps.
+    hold : bool
+        True: speeds that are inputs are constant in a step, too, and jump at its start. A jump is an impulse: velocities are
+        projected onto the constraints with the new speeds, orthogonally in the mass metric, (25b). Its work is part of the
+        energy balance, and `jump` has both. A start whose velocities do not fit a speed jumps to it in the first step, too;
+        without `hold`, it is an error that names the number that fits.
+    ramp : float, optional
+        Adaptive steps: time in s over which a speed goes linearly to its input, so that the motion does not depend on step sizes;
+        one step ends with the ramp. If the input changes meanwhile, a new ramp begins at the present speed.
+    control : Every, or list of these, optional
+        Controllers, see `every`: each is called before the step that begins at one of its instants.
+    record : bool
+        True: every sample is kept in memory, for `solution`. A run that records nothing needs the same memory however long it is.
+    save_to : str or Path, optional
+        File to which samples are written, as of `simulate`; includes `record`.
+    **settings
+        As of `simulate`: `rtol`, `atol`, `first_step`, `max_step`, `max_move`, `max_steps`, `events`, `formulation`,
+        `integrator`, `stabilization`, `energy`, `correction`, `save_every`, `outputs`, `on_singular`, `closed_form`, `vector`.
+
+    Attributes
+    ----------
+    system : system
+    settings : dict
+        Settings by name.
+    inputs : ndarray (k,)
+        Inputs in the order of their names, in N m, N, m/s or rad/s; writable. They hold from the next step on.
+    jump : Jump or None
+        With `hold`: the last jump of speeds; its time `t`, the dicts `impulses` (N m s, N s) and `works` (J) by the names of
+        motors, and `work`, that of all motors (J). The samples are those before it. A recorded solution has the sums since the
+        sample before, by ``sol["drive.impulse"]`` and ``sol["drive.impulse_work"]``.
+
+    Raises
+    ------
+    ZerodriftError, ValueError, TypeError
+        As `simulate` does for a start or an argument that is wrong.
+
+    See Also
+    --------
+    simulate : the shortest use of a run: to a given end, with a record of all samples.
+    ManyRuns : many runs of one system.
+
+    Notes
+    -----
+    Chained advances have the bits of one: ``run.step(2); run.step(3)`` is ``run.step(5)``, and with fixed steps the k-th one ends
+    at ``t0 + k * step``, whatever the calls.
+
+    A step that fails raises the error that `simulate` raises, and leaves the run at the start of that step: it can be read and go
+    on, for example after another input. The same holds for Ctrl-C, and for what events and controllers raise.
+
+    Forces of a mechanism may read reactions and accelerations by name, see `Mechanism.motor`.
+
+    Examples
+    --------
+    >>> import zerodrift as zd
+    >>> run = zd.Run(zd.models.slider_crank(), step=0.001)
+    >>> run.step(100)
+    >>> run.advance_to(0.25)
+    >>> round(run.t, 9), round(run["crank.angle"], 4)
+    (0.25, 1.5548)
+
+    A motor whose torque is set between steps:
+
+    >>> m = zd.Mechanism("arm")
+    >>> arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    >>> drive = m.motor("drive", m.revolute("pin", m.ground, arm.start), torque=0.0)
+    >>> run = zd.Run(m, step=0.001, inputs=["drive.torque"])
+    >>> run["drive.torque"] = 2.0
+    >>> run.advance_to(0.5)
+    >>> run["drive.torque"] = 0.0
+    >>> run.advance_to(1.0)
+    >>> round(run["pin.speed"], 6)
+    1.0
+
+    A motor whose speed jumps, for an arm with the moment of inertia 1 kg m^2:
+
+    >>> m = zd.Mechanism("arm")
+    >>> arm = m.link("arm", (0, 0), (1, 0), mass=3.0)
+    >>> drive = m.motor("drive", m.revolute("pin", m.ground, arm.start), speed=2.0)
+    >>> run = zd.Run(m, step=0.001, inputs=["drive.speed"], hold=True)
+    >>> run["drive.speed"] = 5.0
+    >>> run.step()
+    >>> round(run.jump.impulses["drive"], 9), round(run.jump.work, 9)      # I dw, and I dw (w + dw / 2)
+    (3.0, 10.5)
+    """
+
+    def __init__(self, system: Any, p0: Any = None, v0: Any = None, *, t0: float = 0.0, step: float | None = None,
+                 inputs: Any = None, hold: bool = False, ramp: float | None = None, control: Any = None, record: bool = False,
+                 save_to: Any = None, events: Any = None, outputs: Any = None, **settings: Any) -> None:
+        t0 = _check.number("t0", t0)
+        arguments = {"step": step, **known_settings(settings)}
+        ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to, arguments, inputs=inputs,
+                         speeds=Speeds(hold, ramp), is_open=True)
+        self._begin(ready, controls(control))
+        self._lock = recording.locked(ready.path)
+        self._lock.__enter__()
+        if _check.instance("record", record, bool, "True or False") or ready.path:
+            self._begin_record()
+
+    def _begin(self, ready: Prepared, of: Any) -> None:
+        """Create the core's run at the start of `ready`, without a record."""
+        self._ready, self.system, self.settings = ready, ready.system, ready.settings
+        self._controllers, self._is_controlled = of, False
+        self._sampling = Sampling(of, ready.span[0], ready.settings["step"]) if of else None
+        self._record, self._c_record, self._history, self._seconds = None, _gateway.NO_RECORD, None, 0.0
+        self._drives = Drives(ready.declared) if ready.declared and ready.declared.follows.jumps else None
+        self.inputs = ready.inputs.values if ready.inputs else np.empty(0)
+        self._places = ready.declared.places() if ready.declared else {}
+        self._open(ready.created(_gateway.OpenRun))
+
+    def _open(self, core: _gateway.OpenRun) -> None:
+        self._core, self._c = core, core.c
+        self.jump: Jump | None = None
+        self._jumps = core.jumps
+        self._reading = Reading(self._of, core, self._ready.measured)
+
+    @classmethod
+    def of(cls, ready: Prepared, controllers: Any) -> Run:
+        """The run that controllers of `simulate` receive, which `simulate` advances and records."""
+        run = object.__new__(cls)
+        run._begin(ready, controllers)
+        if ready.inputs:
+            run._history = History(run.t, run.inputs, run._places)
+        return run
+
+    def _control(self) -> None:
+        """Call the controllers that are due, and aim at the next instant of one."""
+        core, sampling = self._core, self._sampling
+        if sampling is not None:
+            sampling.call(self)
+            steps, instant = sampling.next(self)
+            core.set_goal(_gateway.MAX_STEPS if steps is None else steps, instant)
+        if self._history is not None:
+            self._history.note(core.t, self.inputs)
+
+    def _goes_on(self) -> bool:
+        """True if a run with an end has reached an instant of a controller, not its end."""
+        ready = self._ready
+        requested = ready.settings.get("t_eval", ()) if ready.events is None else ()
+        end = requested[-1] if len(requested) else ready.span[1]
+        return self._sampling is not None and self._core.t < end and self.event is None
+
+    @property
+    def _of(self) -> BaseSystem:
+        """The system that is run, with inputs in the place of numbers."""
+        return self._ready.declared.of.system if self._ready.declared else self.system
+
+    def _begin_record(self) -> None:
+        ready = self._ready
+        self._record = ready.record()
+        self._c_record = self._record.c
+        if ready.inputs:
+            self._history = History(self.t, self.inputs, self._places)
+        if ready.path:
+            recording.begin_file(self._record, self._core, ready.system, ready.span, ready.settings, ready.recorded)
+
+    # ---- advance ----
+
+    def step(self, steps: int = 1) -> None:
+        """Make steps: fixed ones, or as many as the integrator chooses.
+
+        Parameters
+        ----------
+        steps : int
+            Their number, at least 0. A terminal event stops earlier, see `event`; the next call goes on from there, and the
+            event is terminal again.
+
+        Raises
+        ------
+        ZerodriftError
+            As `simulate` does; the run is then at the start of the step that failed.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> run = zd.Run(zd.systems.oscillator(), step=0.01)
+        >>> run.step(3)
+        >>> run.t, run.steps
+        (0.03, 3)
+        """
+        if self._sampling is not None:
+            self._require_idle()
+            self._sample(self.steps + _check.count("steps", steps, least=0), math.inf)
+        elif self._record is not None or self._drives is not None:
+            self._go(_check.count("steps", steps, least=0), math.inf)
+        elif status := _gateway.STEP(self._c, steps, self._c_record):
+            self._attend(status)
+
+    def advance_to(self, t: float) -> None:
+        """Advance to a time.
+
+        With fixed steps, a time within rounding of a whole number of steps is reached by these alone. Otherwise the last step is
+        shortened, and further steps are counted from there. Adaptive steps end at the time.
+
+        Parameters
+        ----------
+        t : float
+            In s, not before the present time.
+
+        Raises
+        ------
+        ValueError
+            If the time has passed.
+        ZerodriftError
+            As `step`.
+        """
+        t = _check.number("t", t, least=self.t)
+        if self._sampling is not None:
+            self._require_idle()
+            self._sample(_gateway.MAX_STEPS, t)
+        else:
+            self._go(_gateway.MAX_STEPS, t)
+
+    def _require_idle(self) -> None:
+        """Raise an error if a controller of this run is being called."""
+        if self._is_controlled:
+            raise InUse("a controller must not step, advance, reset, restore or close the run that it is given: it sets inputs; "
+                        "run.copy() is another run, which it may move")
+
+    def _sample(self, last: int, t: float) -> None:
+        """Advance to a number of steps or to a time, with calls of the controllers that are due."""
+        sampling = self._sampling
+        while self._is_before(last, t):
+            sampling.call(self)
+            steps, instant = sampling.next(self)
+            made = self.steps
+            self._go(last - made if steps is None else min(steps, last - made), min(t, instant))
+            if self.event is not None or self.steps == made:    # none is made to a time within rounding
+                return
+
+    def _is_before(self, last: int, t: float) -> bool:
+        step, now = self.settings["step"], self.t
+        rounding = 0.0 if step is None else 1e-9 * step
+        return self.steps < last and t - now > rounding
+
+    def _go(self, steps: int, t: float) -> None:
+        """Advance by a number of steps or to a time, whichever comes first."""
+        core, begin = self._core, time.perf_counter()
+        if self._history is not None:
+            self._history.note(core.t, self.inputs)
+        status = core.set_goal(steps, t) or core.advance(self._record, SLICE)
+        self._note_jump()
+        self._attend(status)
+        self._seconds += time.perf_counter() - begin
+
+    def _note_jump(self) -> None:
+        """Note the jump of speeds in the first step of the last advance, if there was one."""
+        core = self._core
+        if self._drives is None or core.jumps == self._jumps:
+            return
+        self._jumps, self.jump = core.jumps, self._drives.jump(*core.jump())
+        if self._history is not None:
+            self._history.jumps.append(self.jump)
+
+    def _attend(self, status: int) -> None:
+        """Go on after a pause or with more memory; raise the error of a failure."""
+        core, record = self._core, self._record
+        while status in (_gateway.PAUSED, _gateway.FULL):
+            if status == _gateway.FULL:
+                recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
+                record.grow()
+                self._c_record = record.c
+            status = core.advance(record, SLICE)
+        if record is not None:
+            record.keep()
+        if status not in (_gateway.DONE, _gateway.EVENT):
+            self._fail(status)
+
+    def _fail(self, status: int) -> None:
+        """Raise the error of a failed step; the core has returned to its start."""
+        core = self._core
+        if status == _gateway.BAD_ARGUMENT:
+            raise WrongValue("steps must be at least 0", "out-of-range")
+        error, note = core.error(status), None
+        if status != _gateway.BAD_INPUT:
+            error, note = failure_of(self._of, core, status, self.settings, self._ready.span)
+        core.forget_errors()
+        if self._record is not None and self._ready.path is None and isinstance(error, Exception):
+            with_solution(error, self._solution(Outcome(status, self._seconds, None)))
+        if note:
+            _check.tell(error, note)
+        raise error
+
+    # ---- read ----
+
+    @property
+    def t(self) -> float:
+        """Present time, in s."""
+        return self._core.t
+
+    @property
+    def p(self) -> np.ndarray:
+        """Coordinates (nq,) at the present time, in their units; a copy."""
+        return self._core.p
+
+    @property
+    def v(self) -> np.ndarray:
+        """Velocities (nv,) at the present time, in their units; a copy."""
+        return self._core.v
+
+    @property
+    def steps(self) -> int:
+        """Number of steps made."""
+        return self._core.steps
+
+    @property
+    def event(self) -> int | None:
+        """Index of the terminal event at which the last advance stopped; None: it reached its goal."""
+        ended = self._core.ended_by
+        return None if ended < 0 else ended
+
+    @property
+    def vdot(self) -> np.ndarray:
+        """Accelerations (nv,) at the present state, with which the next step begins."""
+        return self._core.accelerations()[0]
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """Constraint reactions (m,) at the present state, with the sign of (7)."""
+        return self._core.accelerations()[1]
+
+    def __getitem__(self, name: Any) -> Any:
+        """Value of an input, coordinate, velocity, measure, or multiplier of a constraint at the present state, by name.
+
+        Parameters
+        ----------
+        name : str or measure
+            As of `Solution`.
+
+        Returns
+        -------
+        float, or ndarray (2,) or (3,) of a measure that is a vector, or of the shape of an input that is an array
+
+        Raises
+        ------
+        KeyError
+            If nothing has this name, or several variables have.
+        """
+        place = self._places.get(name)
+        if place is None:
+            return self._reading(name)
+        return float(self.inputs[place]) if type(place) is int else self.inputs[place]
+
+    def __setitem__(self, name: Any, value: Any) -> None:
+        """Set an input, from the next step on: a number; or an array of its shape, or a number for all of its entries.
+
+        Raises
+        ------
+        KeyError
+            If the run has no input of this name.
+        """
+        try:
+            self.inputs[self._places[name]] = value
+        except KeyError:
+            self.inputs[self._place_of(name)] = value
+        except ValueError:
+            raise WrongValue(f"input {name!r} must be set to real numbers of shape {np.shape(self._places[name])}, not "
+                             f"{_check.shown(value)}", "shape") from None
+
+    def _place_of(self, name: Any) -> int:
+        """Index of an input, by its name or its measure."""
+        name = getattr(name, "name", name)
+        if name in self._places:
+            return self._places[name]
+        if name in self.system._names_of_inputs():
+            raise WrongName(f"{name!r} must be declared as an input before it can be set: inputs=[{name!r}]", "wrong-name")
+        known = f"; {_check.closest(name, self._places)}" if self._places else ""
+        raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}", "wrong-name")
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self._places, *self._reading.names()]
+
+    def __repr__(self) -> str:
+        return run_summary(self)
+
+    # ---- state ----
+
+    def save(self) -> bytes:
+        """The present state: everything that the next bit depends on.
+
+        A run that is made alike, here or in another process with the same build on a processor with the same vector unit,
+        continues from it with the same bits. Controllers with the methods ``state()`` and ``restore(state)`` are included;
+        others keep what they have, and are named in a warning. Samples are not.
+
+        Returns
+        -------
+        bytes
+
+        Warns
+        -----
+        StateWarning
+            If a controller has no methods ``state()`` and ``restore(state)``.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> run = zd.Run(zd.systems.four_bar(), step=0.01)
+        >>> run.step(10)
+        >>> state = run.save()
+        >>> run.step(5)
+        >>> p = run.p
+        >>> run.restore(state)
+        >>> run.step(5)
+        >>> bool((run.p == p).all())
+        True
+        """
+        if others := [repr(each) for each in self._controllers if not _has_state(each.call)]:
+            warnings.warn(f"a saved state has nothing of the control {', '.join(others)}: what it keeps between calls is "
+                          "restored only if it has the methods state() and restore(state)", StateWarning, stacklevel=2)
+        return self._saved()
+
+    def _saved(self) -> bytes:
+        return saved(self._ready, self._core, [each.state() for each in self._keeping()], self.system)
+
+    def restore(self, state: bytes) -> None:
+        """Go back, or on, to a saved state; a record begins anew there, in memory or in its file.
+
+        Parameters
+        ----------
+        state : bytes
+            From `save` of this run, or of one that was made alike.
+
+        Raises
+        ------
+        WrongState
+            If it is damaged, or of another system, other settings or another version; the run stays as it was. Systems are
+            compared by their names, parameters, geometry, tables, expressions and code of functions; functions in C are not.
+        """
+        self._require_idle()
+        found, keeping = unpacked(state), self._keeping()
+        if len(found.inputs) != len(self.inputs) or len(found.controllers) != len(keeping):
+            raise WrongState("a state must be of a run with the same inputs and controllers")
+        ready = self._renewed()
+        core = restored(ready, found.core, self.system)
+        if ready.inputs:
+            ready.inputs.restore(found.inputs, found.places)
+        self._become(ready, core)
+        for each, kept in zip(keeping, found.controllers, strict=True):
+            each.restore(kept)
+
+    def copy(self) -> Run:
+        """Another run at the present state, which goes on by itself; controllers are shared.
+
+        Returns
+        -------
+        Run
+            Without a record.
+        """
+        twin = object.__new__(type(self))
+        twin._begin(self._renewed(), self._controllers)
+        twin._lock = recording.locked(None)
+        twin.restore(self._saved())
+        return twin
+
+    def reset(self, p0: Any = None, v0: Any = None) -> None:
+        """Go back to the start at t0, with the first inputs; a record begins anew, in memory or in its file.
+
+        Parameters
+        ----------
+        p0, v0 : array_like (nq,), (nv,), optional
+            Another start; left out: the one of this run.
+
+        Raises
+        ------
+        InconsistentStart
+            If the start violates the constraints.
+        """
+        self._require_idle()
+        ready = self._renewed()
+        if p0 is not None or v0 is not None:
+            p, v = self._of._state_or_start(p0, v0, t=ready.span[0])
+            ready = ready._replace(p0=p, v0=v)
+        self._become(ready, ready.created(_gateway.OpenRun))
+
+    def _renewed(self) -> Prepared:
+        """Arguments with memory of their own for inputs, events and outputs."""
+        ready = self._ready
+        return with_own(ready._replace(core=ready.source, measured=ready.source_measured), self._of)
+
+    def _become(self, ready: Prepared, core: _gateway.OpenRun) -> None:
+        """Go on as another run of the core."""
+        if ready.inputs:        # the array that the caller may hold stays the one that is read
+            ready.inputs.adopt(self.inputs)
+        self._ready = ready
+        self._open(core)
+        if self._sampling is not None:
+            self._sampling.begin()
+        if self._record is not None:
+            if ready.path:
+                self._record.close()
+            self._begin_record()
+
+    def _keeping(self) -> list[Any]:
+        """Controllers with a state of their own."""
+        return [each.call for each in self._controllers if _has_state(each.call)]
+
+    # ---- record ----
+
+    def solution(self) -> Solution:
+        """The samples recorded so far, as `simulate` returns them.
+
+        With `save_to`, the file is finished and closed, and further steps are not recorded.
+
+        Returns
+        -------
+        Solution
+
+        Raises
+        ------
+        ValueError
+            If the run does not record.
+
+        Warns
+        -----
+        AccuracyWarning, StabilityWarning, CorrectionWarning, LockedWarning
+            As `simulate` does.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> run = zd.Run(zd.systems.four_bar(), step=0.05, record=True)
+        >>> run.step(20)
+        >>> run.solution().p.shape
+        (21, 3)
+        """
+        if self._record is None:
+            raise WrongValue("a solution needs samples: Run(..., record=True) keeps them, and save_to= writes them to a file",
+                             "not-available")
+        if self._ready.path:
+            self._require_idle()
+        outcome = Outcome(_gateway.DONE if self.event is None else _gateway.EVENT, self._seconds, None)
+        solution = self._solution(outcome)
+        if self._ready.path:
+            finish_file(self._record, solution, outcome)
+            self.close()
+        diagnosis.warn(solution, stacklevel=2)
+        return solution
+
+    def _solution(self, outcome: Outcome) -> Solution:
+        record = self._record if self._ready.path else self._record.snapshot()
+        span = self._ready.span[0], self.t
+        return solution_of(self._ready, self._core, record, self._core.results(), outcome, span, self._history)
+
+    def close(self) -> None:
+        """Stop recording, and let go of the file of `save_to`."""
+        self._require_idle()
+        self._record, self._c_record = None, _gateway.NO_RECORD
+        self._lock.__exit__(None, None, None)
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(self, *exception: Any) -> None:
+        self._require_idle()
+        if self._record is not None and self._ready.path:
+            finish_file(self._record, self._solution(Outcome(_gateway.DONE, self._seconds, None)), None)
+        self.close()
+
+
+def _has_state(controller: Any) -> bool:
+    """True if a state of the controller can be saved."""
+    return hasattr(controller, "state") and hasattr(controller, "restore")

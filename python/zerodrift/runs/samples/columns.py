@@ -1,0 +1,91 @@
+"""Columns of a solution with names and units: for files of other programs, and for plots."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..._gateway import Variable
+from ..._writing import write_atomically
+from ...errors import MissingPackage
+
+AXES = "xyz"
+
+
+def columns(solution: Any, names: Any = None) -> list[tuple[Variable, np.ndarray]]:
+    """Coordinates, velocities, multipliers and measures by name, a component each; left out: all but measures.
+
+    Raises
+    ------
+    KeyError
+        If nothing has a name.
+    """
+    if names is None:
+        return [(_told_apart(solution, variable), array[:, i])
+                for array, variables in solution._named() for i, variable in enumerate(variables)]
+    names = [names] if isinstance(names, str) or not isinstance(names, Sequence) else names
+    return [column for name in names for column in _components(solution, getattr(name, "name", name))]
+
+
+def _told_apart(solution: Any, variable: Variable) -> Variable:
+    """The variable, or that of a multiplier which has the name of an element, whose force has the opposite sign."""
+    return Variable(f"multiplier of {variable.name}", variable.unit) if solution._force_of(variable.name) else variable
+
+
+def _components(solution: Any, name: str) -> list[tuple[Variable, np.ndarray]]:
+    values, unit = np.asarray(solution[name], dtype=float), unit_of(solution, name)
+    if values.ndim == 1:
+        return [(Variable(name, unit), values)]
+    if values.ndim == 2 and values.shape[1] <= len(AXES):
+        return [(Variable(f"{name}.{AXES[i]}", unit), values[:, i]) for i in range(values.shape[1])]
+    entries = values.reshape(len(values), -1)
+    places = (", ".join(map(str, place)) for place in np.ndindex(values.shape[1:]))
+    return [(Variable(f"{name}[{place}]", unit), entries[:, i]) for i, place in enumerate(places)]
+
+
+def unit_of(solution: Any, name: str) -> str:
+    """The unit of a coordinate, a velocity, a multiplier or a measure; "" where it has none."""
+    for _, variables in solution._named():
+        for variable in variables:
+            if variable.name == name:
+                return variable.unit
+    return solution.system._unit_of_measure(name)
+
+
+def to_csv(solution: Any, path: str | Path, names: Any = None) -> Path:
+    """Write measures of a solution to a CSV file, see `Solution.to_csv`."""
+    path = Path(path)
+    heading, values = _table(solution, names)
+
+    def write(file: Any) -> None:
+        file.write((",".join(f'"{each}"' if "," in each else each for each in heading) + "\n").encode())
+        file.writelines((",".join(map(repr, row)) + "\n").encode() for row in values.tolist())
+
+    write_atomically(path, write)
+    return path
+
+
+def to_excel(solution: Any, path: str | Path, names: Any = None) -> Path:
+    """Write measures of a solution to an Excel file, see `Solution.to_excel`."""
+    pandas, _ = (_imported(name) for name in ("pandas", "openpyxl"))
+    path = Path(path)
+    heading, values = _table(solution, names)
+    write_atomically(path, lambda file: pandas.DataFrame(values, columns=heading).to_excel(file, index=False, engine="openpyxl"))
+    return path
+
+
+def _imported(name: str) -> Any:
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        raise MissingPackage(f"to_excel needs {name}, which is not installed: pip install 'zerodrift[excel]'") from None
+
+
+def _table(solution: Any, names: Any) -> tuple[list[str], np.ndarray]:
+    found = [(Variable("t", "s"), solution.t), *columns(solution, names)]
+    return [f"{variable.name} [{variable.unit}]" if variable.unit else variable.name for variable, _ in found], np.column_stack(
+        [column for _, column in found])

@@ -1,0 +1,476 @@
+"""`Solution`: the result of a run."""
+
+from __future__ import annotations
+
+import bisect
+import itertools
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ... import _check, _gateway
+from ...errors import WrongName, WrongValue
+from ...systems.base import BaseSystem
+from ...systems.measure_values import AXES
+from ..states.instant import Instant
+from .between_samples import states_between
+from .columns import to_csv, to_excel
+from .saving import write
+from .stats import Stats
+from .summary import summary
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+A_SOLUTION = "a Solution, as zd.simulate returns it"      # for error messages
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Solution:
+    """Result of a run: the motion at sampled times, constraint violation, energies, and statistics.
+
+    The first axis of every array is time (k samples); arrays are read-only. ``sol["name"]`` is the column of the coordinate,
+    velocity, constraint (its multiplier) or measure of that name. ``sol(t)`` interpolates.
+
+    Attributes
+    ----------
+    t : ndarray (k,)
+        Times in s.
+    p, v : ndarray (k, nq), (k, nv)
+        Coordinates and velocities, in the units of `system`.
+    multipliers : ndarray (k, m)
+        Constraint reactions with the sign of (7), ``M vdot + d = f - C.T @ multipliers``.
+    position_violation : ndarray (k, mh)
+        Position constraint residual Phi of (3), in the units of the constraints.
+    velocity_violation : ndarray (k, m)
+        Velocity constraint residual Psi of (5).
+    kinetic_energy : ndarray (k,)
+        T in J.
+    potential_energy, energy_input, energy_violation : ndarray (k,) or None
+        V, the integral of the energy input rate, and the residual Psi_E of the energy balance (28), in J; None if the system
+        declares no potential.
+    iterations : ndarray (k,)
+        Largest number of iterations of a position projection since the previous sample.
+    energy_skipped : ndarray (k,)
+        Number of energy corrections skipped since the previous sample, as no bounded factor (29) would have removed the error.
+    position_size : ndarray (mh,)
+        Characteristic size of each component of Phi, by which `Projection` scales its tolerance.
+    stats : dict
+        Statistics of the run; empty for a killed run.
+
+        * `steps`, `evaluations`, `factorizations`, ...: counts; `seconds`: time spent in the core.
+        * `omega_h`: largest product of the motion's angular frequency and a fixed step, small if an explicit method is accurate.
+        * `largest_kinetic`: in J; it and `omega_h` are evaluated every few steps.
+        * `energy_corrected`: largest error of the energy balance that a single correction removed, in J.
+        * `part_error`: estimated error that about a thousand successive fixed steps make in the motion of one coordinate (with
+          `kinematics`, one velocity or rotation), in rad or relative to the mechanism's length; `part`: the coordinate with the
+          largest one, or the velocity whose rate jumps where the step size has collapsed. `unresolved`: number of checks at
+          which it exceeded 0.03 and a thousandth of the distance moved; `unresolved_time`: time of the first, in s.
+        * `rank`: number of independent constraints; `redundant`: indices of linearly dependent ones; `rank_drops`: number of
+          steps in which the rank was temporarily lower.
+        * `smallest_pivot`: for a declared structure with more than 40 constraints, smallest relative pivot (square of the
+          residual norm in the mass metric) of a constraint after elimination of others; `smallest_pivot_time`: its time in s;
+          `smallest_pivot_row`: the constraint. Near a bifurcation it is small, and accelerations lose digits.
+        * `matrix_path_reason`: reason why no step was evaluated in closed form; None if some were, or if systems of this kind
+          have no closed form.
+    status : int
+        0: done, positive: ended early, negative: failed. All samples are valid in each case.
+    success : bool
+        True if the end or a terminal event was reached.
+    message : str
+        "done", or the reason for the end of the run.
+    settings : dict
+        Arguments of `simulate`: ``simulate(system, t_span, **settings)`` repeats the run. Events are not included, as they are
+        functions. `vector` is the vector unit of the closed-form functions, None if the run used none.
+    system : system
+        The simulated system.
+    t_span : tuple of float
+        Requested (t0, t1) in s.
+    t_events : tuple of ndarray, or None
+        Times of each event in s; None without `events`.
+    p_events, v_events : tuple of ndarray (k, nq), (k, nv), or None
+        Coordinates and velocities at those times.
+    outputs : dict of str to ndarray (k,) or (k, size)
+        Recorded measures by name.
+    """
+
+    t: np.ndarray
+    p: np.ndarray
+    v: np.ndarray
+    multipliers: np.ndarray
+    position_violation: np.ndarray
+    velocity_violation: np.ndarray
+    kinetic_energy: np.ndarray
+    potential_energy: np.ndarray | None
+    energy_input: np.ndarray | None
+    energy_violation: np.ndarray | None
+    iterations: np.ndarray
+    energy_skipped: np.ndarray
+    position_size: np.ndarray
+    stats: dict[str, Any]
+    status: int
+    success: bool
+    message: str
+    settings: dict[str, Any]
+    system: BaseSystem
+    t_span: tuple[float, float]
+    t_events: tuple[np.ndarray, ...] | None = None
+    p_events: tuple[np.ndarray, ...] | None = None
+    v_events: tuple[np.ndarray, ...] | None = None
+    outputs: dict[str, np.ndarray] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        vars(self)["stats"] = Stats(self.stats)
+        for value in list(vars(self).values()):
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        for array in itertools.chain(self.t_events or (), self.p_events or (), self.v_events or (), self.outputs.values()):
+            array.setflags(write=False)
+
+    @classmethod
+    def _of_run(cls, others: Callable[[], dict[str, Any]], **values: Any) -> Solution:
+        """Solution with some fields given and a function that makes the others at first use.
+
+        Making all fields and assigning them individually, as a frozen dataclass does, takes longer than a short run.
+        """
+        made = object.__new__(cls)
+        vars(made).update(values, _others=others)
+        return made
+
+    def __getattr__(self, name: str) -> Any:
+        values = vars(self)
+        if (others := values.get("_others")) and name in FIELDS:    # other threads may do the same and get equal values
+            values.update(others())
+            self.__post_init__()
+            values["_others"] = None
+        if name in FIELDS and name in values:
+            return values[name]
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *FIELDS})
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Copies and pickles are made by __init__, so that their arrays are read-only, too.
+        return Solution, tuple(getattr(self, name) for name in FIELDS)
+
+    def __repr__(self) -> str:
+        return summary(self)
+
+    def __getitem__(self, name: Any) -> np.ndarray:
+        """Values of a coordinate, velocity, measure, or multiplier of a constraint at all samples, by name.
+
+        Parameters
+        ----------
+        name : str or measure, or (that, body)
+            A measure of a mechanism, such as ``crank.angle`` or ``"C.force"``; or a name in ``system.coordinates``,
+            ``system.velocities`` or ``system.constraints``. ``sol["C.force", "crank"]`` gives a vector in the axes of that
+            body.
+
+        Returns
+        -------
+        ndarray (k,), or (k, 2) of a measure that is a vector
+            In the unit of the coordinate, velocity or measure; for a constraint, its column of `multipliers`.
+
+        Raises
+        ------
+        KeyError
+            If the name is unknown or ambiguous.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> sol = zd.simulate(zd.systems.pendulum(), 1.0, step=0.01)
+        >>> bool((sol["y"] == sol.p[:, 1]).all() and (sol["rod"] == sol.multipliers[:, 0]).all())
+        True
+        """
+        if isinstance(name, tuple) and len(name) == 2:
+            return self._in_axes_of(*name)
+        measured = self._recorded(getattr(name, "name", name))
+        if measured is None:
+            measured = self.system._measured(name, self)
+        if measured is not None:
+            return measured
+        groups = [array for array, _ in self._named()]
+        columns = [groups[group][:, column] for group, column in self.system._columns_of.get(name, ())]
+        if len(columns) == 1:
+            self._check_sign(name)
+            return columns[0]
+        if columns:
+            raise WrongName(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
+                           "take the column of p, v or multipliers", "duplicate-name")
+        if why := self.system._why_unknown(getattr(name, "name", name)):
+            raise WrongName(why, "not-available")
+        known = self._ipython_key_completions_()
+        raise WrongName(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}",
+                        "wrong-name")
+
+    def _check_sign(self, name: str) -> None:
+        """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
+        if measure := self._force_of(name):
+            quantity = measure.rpartition(".")[2]
+            raise WrongName(f"{name!r} names an element, whose {quantity} is sol[{measure!r}], and a constraint, whose "
+                            "multiplier is in sol.multipliers and has the opposite sign, by (7)", "duplicate-name")
+
+    def _force_of(self, name: str) -> str | None:
+        """Name of the scalar force or torque of a drive or coupling of that name; None if there is none."""
+        measures = (f"{name}.{quantity}" for quantity in ("force", "torque"))
+        return next((measure for measure in measures if self.system._is_scalar_measure(measure)), None)
+
+    def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
+        """Values of a vector measure in the axes of a body."""
+        name, body = (getattr(each, "name", each) for each in (name, body))
+        base, _, axis = name.rpartition(".") if isinstance(name, str) else ("", "", "")
+        if axis in AXES:
+            return self._in_axes_of(base, body)[:, AXES[axis]]
+        values = self[name]
+        if values.ndim == 1 or body == "ground":
+            return values
+        if values.shape[1:] == (3,):
+            return np.einsum("kji,kj->ki", self[f"{body}.rotation"], values)
+        angle = self[f"{body}.angle"]
+        c, s = np.cos(angle), np.sin(angle)
+        return np.column_stack([c * values[:, 0] + s * values[:, 1], c * values[:, 1] - s * values[:, 0]])
+
+    def _axes_of(self, body: str, size: int) -> np.ndarray:
+        """Unit vectors (k, size, size) along the axes of a body, one of each row."""
+        if size == 3:
+            return self[f"{body}.rotation"].transpose(0, 2, 1)
+        angle = self[f"{body}.angle"]
+        return np.moveaxis(np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]), 2, 0)
+
+    def _recorded(self, name: Any) -> np.ndarray | None:
+        """A recorded measure or a component of one; None if it was not recorded."""
+        if not self.outputs or not isinstance(name, str):
+            return None
+        if name in self.outputs:
+            return self.outputs[name].reshape(-1, 3, 3) if name.endswith(".rotation") else self.outputs[name]
+        base, _, axis = name.rpartition(".")
+        vector, component = self.outputs.get(base), AXES.get(axis, -1)
+        return vector[:, component] if vector is not None and vector.ndim == 2 and 0 <= component < vector.shape[1] else None
+
+    def unique(self, name: str, body: Any = None) -> Any:
+        """Return whether a measure of a mechanism is determined uniquely, although constraints are redundant.
+
+        With redundant constraints, the motion of rigid bodies does not determine all reactions. The least ones are reported then:
+        those with the smallest sum, over all joints and other constraint elements, of force^2 + (moment / L)^2, with L the
+        largest distance between ends of joints in the drawing. With more than 200 constraints, they depend on the coordinates.
+        A component is unique if redundant multipliers change it by at most 1e-9 of the change of all these forces together.
+
+        Parameters
+        ----------
+        name : str or measure
+            Such as ``"A.force"``.
+        body : str or body, optional
+            Components are along the axes of this body at each sample. Default: along those of the drawing.
+
+        Returns
+        -------
+        bool, or ndarray of bool
+            For each component, True if it is unique at all samples.
+
+        Raises
+        ------
+        KeyError
+            If there is no measure or body of that name.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, link.start)
+        >>> zd.simulate(m, 0.1, step=0.01).unique(pin.force)
+        array([ True,  True])
+        """
+        return self.system._unique(name, self, body)
+
+    def _named(self) -> tuple[tuple[np.ndarray, tuple[_gateway.Variable, ...]], ...]:
+        """Arrays with named columns, each with the variables of its columns."""
+        system = self.system
+        return (self.p, system.coordinates), (self.v, system.velocities), (self.multipliers, system.constraints)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.system._names_of_measures(),
+                *(variable.name for _, variables in self._named() for variable in variables)]
+
+    def __call__(self, t: Any) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates and velocities at any times between the first and the last sample.
+
+        With adaptive steps, the step around each time is repeated and its dense output evaluated, if the method has one: of
+        order 4 in `dormand_prince`, 7 in `dop853` and 3 in `radau`, one less than the step itself (two in `radau`). Otherwise
+        one shorter step is made from the previous sample, with the order of the method. All values satisfy the constraints.
+
+        Values are bitwise those of `t_eval` if a step depends on its initial state alone. Otherwise they differ by a small part
+        of the error of the run: `radau` starts its iteration from the previous step, the integral term of `Baumgarte`
+        restarts from zero, and `mixed` and `independent` may select other independent velocities.
+
+        Parameters
+        ----------
+        t : float or array_like
+            Times in s.
+
+        Returns
+        -------
+        p, v : ndarray (..., nq), (..., nv)
+
+        Raises
+        ------
+        ValueError
+            For times outside the samples, if not every step was saved, or if speeds are inputs.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> sol = zd.simulate(zd.systems.oscillator(), 1.0, step=0.1)
+        >>> p, v = sol([0.25, 0.5])
+        >>> p.shape
+        (2, 1)
+        """
+        if self.settings["save_every"] != 1 or "t_eval" in self.settings:
+            raise WrongValue("values between samples need every step saved: save_every must be 1, and t_eval left out",
+                             "not-available")
+        if not len(self.t):
+            raise WrongValue("a solution must have samples to be evaluated between them, and this one has none", "not-available")
+        times = _check.times("t", t, self.t[0], self.t[-1])
+        each, places = np.unique(times, return_inverse=True)
+        p, v = self._states_at(each)
+        places = places.reshape(times.shape)
+        return p[places], v[places]
+
+    def at(self, t: float) -> Instant:
+        """The state at a time between the first and the last sample, from which any measure is read by its name.
+
+        It is a start of `simulate` and a state of `linearize`.
+
+        Parameters
+        ----------
+        t : float
+            Time in s.
+
+        Returns
+        -------
+        Instant
+
+        Raises
+        ------
+        ValueError
+            As a call of the solution.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> sol = zd.simulate(zd.systems.oscillator(), 1.0, step=0.1)
+        >>> bool(abs(sol.at(0.25)["x"] - sol(0.25)[0][0]) < 1e-15)
+        True
+        """
+        t = _check.number("t", t)
+        now = Instant(self.system, t, *self(t))
+        now._inputs = self.settings.get("inputs") or ()
+        return now
+
+    def _states_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Coordinates and velocities at increasing times (k,)."""
+        rows = _rows_before(self.t, times)
+        p, v = self.p[rows], self.v[rows]
+        between = times > self.t[rows]
+        if between.any():
+            p[between], v[between] = states_between(self, rows[between], times[between])
+        return p, v
+
+    @property
+    def _last_time(self) -> float:
+        return float(self.t[-1]) if len(self.t) else self.t_span[0]
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Names of all measures that `sol[name]` reads, such as "pin.force"; none of a system that is not a mechanism."""
+        return tuple(self.system._names_of_measures())
+
+    def to_csv(self, path: str | Path, names: Any = None) -> Path:
+        """Write columns to a CSV file: the time, and what is named, a component each, with names and units in the first line.
+
+        Parameters
+        ----------
+        path : str or Path
+        names : str, measure, or sequence of these, optional
+            Coordinates, velocities, constraints and measures, as in ``sol[name]``. Left out: all coordinates, velocities and
+            multipliers. The multiplier of a drive or coupling is named so, as its force has the opposite sign.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        KeyError
+            If nothing has a name.
+
+        Examples
+        --------
+        >>> import tempfile, zerodrift as zd
+        >>> sol = zd.simulate(zd.models.slider_crank(), 0.1, step=0.01)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     path = sol.to_csv(folder + "/crank.csv", ["crank.angle", "slide.force"])
+        ...     path.read_text().splitlines()[0]
+        't [s],crank.angle [rad],slide.force.x [N],slide.force.y [N]'
+        """
+        return to_csv(self, path, names)
+
+    def to_excel(self, path: str | Path, names: Any = None) -> Path:
+        """Write the same to an Excel file; pandas and openpyxl have to be installed: ``pip install 'zerodrift[excel]'``.
+
+        Parameters
+        ----------
+        path : str or Path
+        names : str, measure, or sequence of these, optional
+            As in `to_csv`.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        ImportError
+            If one of these packages is missing.
+        KeyError
+            If nothing has a name.
+        """
+        return to_excel(self, path, names)
+
+    def save(self, path: str | Path) -> Path:
+        """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it into memory.
+
+        What the run recorded is kept, and a mechanism with it unless it has callables; so measures are read from it as from this.
+
+        Parameters
+        ----------
+        path : str or Path
+            The suffix ``.npz`` is added where it is missing.
+
+        Returns
+        -------
+        Path
+            Path of the written file.
+        """
+        from pathlib import Path  # slow to import
+
+        path = Path(path)
+        path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
+        write(path, {name: getattr(self, name) for name in FIELDS})
+        return path
+
+
+def _rows_before(t: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """Indices of the samples at or before times; if t is mapped from a file, bisection reads few of its entries."""
+    if t.flags.c_contiguous:
+        return np.searchsorted(t, times, side="right") - 1
+    return np.array([bisect.bisect_right(t, time) - 1 for time in times], dtype=np.intp)
+
+
+FIELDS = tuple(each.name for each in fields(Solution))

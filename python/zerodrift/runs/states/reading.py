@@ -1,0 +1,91 @@
+"""Values of a run by name, at its present state: inputs, coordinates, velocities, multipliers and measures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ... import _check, _gateway
+from ..._gateway.measure_reader import MeasureReader
+from ...errors import WrongName
+from ...systems.base import BaseSystem
+from ...systems.measure_values import Place
+
+
+class Reading:
+    """Functions that read values by name; each is found once.
+
+    Parameters
+    ----------
+    system : BaseSystem
+    core : OpenRun
+        The run.
+    measured : CoreSystem or None
+        The system whose measures are read.
+    """
+
+    def __init__(self, system: BaseSystem, core: _gateway.OpenRun, measured: Any) -> None:
+        self._system, self._core, self._measured = system, core, measured
+        self._known: dict[Any, Callable[[], Any]] = {}
+        self._reader: MeasureReader | None = None
+
+    def __call__(self, name: Any) -> Any:
+        """Value of that name: a float, or an array of a vector."""
+        read = self._known.get(name)
+        if read is None:
+            read = self._known[name] = self._found(getattr(name, "name", name))
+        return read()
+
+    def _found(self, name: Any) -> Callable[[], Any]:
+        place = self._system._watching.find(name)
+        if place is not None:
+            return self._measure(place)
+        if (orientation := self._orientation(name)) is not None:
+            return orientation
+        found = self._system._columns_of.get(name, ()) if isinstance(name, str) else ()
+        if len(found) == 1:
+            return self._entry(*found[0])
+        if found:
+            raise WrongName(f"a name must be unique in {self._system.name}, but {name!r} names {len(found)} variables: take the "
+                           "entry of p, v or multipliers", "duplicate-name")
+        if why := self._system._why_unknown(name):
+            raise WrongName(why, "not-available")
+        raise WrongName(f"nothing in {self._system.name} is called {name!r}; {_check.closest(name, self.names())}", "wrong-name")
+
+    def names(self) -> list[str]:
+        """All names that can be read."""
+        system = self._system
+        variables = (variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group)
+        return list(dict.fromkeys([*system._names_of_measures(), *variables]))
+
+    def _entry(self, group: int, column: int) -> Callable[[], float]:
+        core = self._core
+        if group == 2:
+            return lambda: float(core.accelerations()[1][column])
+        return core.entry_of_p(column) if group == 0 else core.entry_of_v(column)
+
+    def _measure(self, place: Place) -> Callable[[], Any]:
+        self._reader = self._reader or MeasureReader(self._core, self._measured, is_own=self._core.inputs is not None)
+        return self._reader.function(place.number, place.component)
+
+    def _orientation(self, name: Any) -> Callable[[], Any] | None:
+        """Orientation of a body in space, which is computed from its rotation as for a solution; None: there is none."""
+        try:
+            known = self._system._measured(name, OneSample(self._core))
+        except (KeyError, AttributeError):
+            return None
+        return None if known is None else lambda: _single(self._system._measured(name, OneSample(self._core))[0])
+
+
+def _single(value: Any) -> Any:
+    return float(value) if np.ndim(value) == 0 else value
+
+
+class OneSample:
+    """The present state as the only sample of a solution."""
+
+    def __init__(self, core: _gateway.OpenRun) -> None:
+        self.t, self.p, self.v = np.array([core.t]), core.p[None], core.v[None]
+        self.multipliers = np.empty((1, core.sizes[2]))
