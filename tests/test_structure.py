@@ -158,6 +158,12 @@ def test_rooms_are_small_and_import_each_other_in_no_circle(files, folder, expec
     assert max(sizes.values()) <= 15
 
 
+def test_no_file_is_long():
+    """The files of the core have their limit in `test_structure_of_core.py`."""
+    lengths = {module: path.read_text(encoding="utf-8").count("\n") for module, path in FILES.items()}
+    assert {module: lines for module, lines in lengths.items() if lines > 400} == {}
+
+
 def test_no_public_function_has_the_name_of_a_module():
     """A module `zerodrift.NAME` would replace the function `zerodrift.NAME` when it is first imported."""
     modules = {module.split(".")[1] for module in FILES if module != "zerodrift"}

@@ -176,7 +176,7 @@ def test_what_is_drawn():
         m, P, Q = two_bodies()
         added(m, P, Q, kind)
         system = m.system()
-        assert [shape.kind for shape in system._shapes(system.p0) if shape.name == "F"] == drawn
+        assert [shape.kind for shape in system._sketches([system.p0])[0] if shape.name == "F"] == drawn
         assert f"1 {kind.replace('_', ' ')}" in repr(m)
 
 

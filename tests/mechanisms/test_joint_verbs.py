@@ -56,7 +56,7 @@ def test_a_verb_from_the_row_makes_what_the_verb_by_hand_makes(kind):
     assert repr(other) == repr(joint)
     assert public(joint) - {"radius", "normal"} == public(other)
     p = hand[0].system("absolute").p0
-    for one, same in zip(*(m.system("absolute")._shapes(p) for m in (hand[0], row[0])), strict=True):
+    for one, same in zip(*(m.system("absolute")._sketches([p])[0] for m in (hand[0], row[0])), strict=True):
         assert (one.kind, one.name) == (same.kind, same.name)
         np.testing.assert_array_equal(one.points, same.points)
 

@@ -29,6 +29,10 @@ LOOKS = {"revolute": {"pin"}, "weld": {"weld"}, "rod": {"rod"}, "rolling": {"roa
          "torsion_spring": {"spiral"}}
 
 
+def shapes_at(system, p):
+    return system._sketches([p])[0]
+
+
 def planetary():
     """The ring is the ground, the sun turns against the carrier, as the planet does."""
     m = zd.Mechanism("planetary")
@@ -69,14 +73,14 @@ def sol():
 
 
 def kinds(system, name):
-    return {shape.kind for shape in system._shapes(system.p0) if shape.name == name}
+    return {shape.kind for shape in shapes_at(system, system.p0) if shape.name == name}
 
 
 # ---- what is drawn ----
 
 
 def test_every_glyph_is_drawn():
-    made = {shape.kind for m in (sorts(), planetary(), steering(), valve()) for shape in m.system()._shapes(m.system().p0)}
+    made = {shape.kind for m in (sorts(), planetary(), steering(), valve()) for shape in shapes_at(m.system(), m.system().p0)}
     assert made == set(GLYPHS) - {"curve", "load_symbol"}     # of systems that are drawn from points; beside arrows to scale
 
 
@@ -160,7 +164,7 @@ def test_a_hull_is_as_scipy_has_it():
 
 
 def test_gears_touch_and_their_radii_are_as_their_ratio(sol):
-    first, second = (shape for shape in sol.system._shapes(sol.p[0]) if shape.kind == "gear")
+    first, second = (shape for shape in shapes_at(sol.system, sol.p[0]) if shape.kind == "gear")
     assert first.number == pytest.approx(3 * second.number)
     assert first.number + second.number == pytest.approx(1.0)
     widths = [np.ptp(points[:, 0]) for points in outlines(zd.plot.mechanism(sol), "gear")]
@@ -172,14 +176,14 @@ def test_inner_gears_touch_from_inside():
     pins = [m.revolute(f"pin{i}", m.ground, m.body(f"b{i}", 1.0, 0.1, at=(0.3 * i, 0)).point((0, 0))) for i in range(2)]
     m.gear("mesh", *pins, ratio=3.0)
     system = m.system()
-    found = {shape.kind: shape.number for shape in system._shapes(system.p0) if shape.kind in ("gear", "ring")}
+    found = {shape.kind: shape.number for shape in shapes_at(system, system.p0) if shape.kind in ("gear", "ring")}
     assert found["ring"] - found["gear"] == pytest.approx(0.3)
     assert found["ring"] == pytest.approx(3 * found["gear"])
 
 
 def test_a_planetary_gear_has_its_radii_from_the_carriers_view():
     system = planetary().system()
-    found = {(shape.kind, round(shape.number, 9)) for shape in system._shapes(system.p0) if shape.kind in ("gear", "ring")}
+    found = {(shape.kind, round(shape.number, 9)) for shape in shapes_at(system, system.p0) if shape.kind in ("gear", "ring")}
     assert found == {("ring", 0.6), ("gear", 0.3), ("gear", 0.15)}
 
 
@@ -187,7 +191,7 @@ def test_a_planetary_gear_has_its_radii_from_the_carriers_view():
 def test_wheels_that_mesh_have_one_velocity_where_they_touch(what):
     """Holes in the wheels move as the wheels do: without slip, arcs along both pitch circles are alike."""
     sol = zd.simulate(what(), 0.1, step=0.01)
-    wheels = [[shape for shape in sol.system._shapes(p) if shape.kind in ("gear", "ring")] for p in sol.p[[0, -1]]]
+    wheels = [[shape for shape in shapes_at(sol.system, p) if shape.kind in ("gear", "ring")] for p in sol.p[[0, -1]]]
     turns = [np.angle(complex(*late.points[1]) / complex(*early.points[1])) for early, late in zip(*wheels, strict=True)]
     carrier = sol["carrier.angle"][-1] - sol["carrier.angle"][0] if what is planetary else 0.0
     if what is planetary:
@@ -200,7 +204,7 @@ def test_wheels_that_mesh_have_one_velocity_where_they_touch(what):
 
 def test_a_rack_moves_as_its_pinion_does_where_they_touch():
     sol = zd.simulate(steering(), 0.1, step=0.01)
-    (early, late) = ({shape.kind: shape for shape in sol.system._shapes(p)} for p in sol.p[[0, -1]])
+    (early, late) = ({shape.kind: shape for shape in shapes_at(sol.system, p)} for p in sol.p[[0, -1]])
     rack, wheel = early["rack"], early["gear"]
     foot = wheel.points[0] - wheel.number * rack.points[2]
     assert np.allclose(foot, (0, 0.01))
@@ -228,7 +232,7 @@ def test_a_cam_that_would_be_too_small_gets_a_stem():
     turn = m.revolute("turn", m.ground, m.body("shaft", 1.0, 0.1).point((0, 0)))
     guide = m.prismatic("guide", m.ground, m.body("stem", 0.1, 0.01, at=(0, 0)), axis=(0, 1))
     m.cam("cam", turn, guide, profile=lambda a: 0.01 * (1 - np.cos(a)))
-    found = {shape.kind: shape for shape in m.system()._shapes(m.system().p0)}
+    found = {shape.kind: shape for shape in shapes_at(m.system(), m.system().p0)}
     assert np.hypot(*found["cam"].points.T).min() > 0.02
     assert np.ptp(found["link"].points[:, 1]) > 0.02
 
@@ -258,7 +262,7 @@ def test_a_load_outside_its_body_is_led_to_it():
 
 def test_the_ground_holds_each_of_its_pins_once_and_springs_by_walls(sol):
     def places(kind):
-        return sorted(tuple(shape.points[0].round(9)) for shape in sol.system._shapes(sol.p[0]) if shape.kind == kind)
+        return sorted(tuple(shape.points[0].round(9)) for shape in shapes_at(sol.system, sol.p[0]) if shape.kind == kind)
 
     assert places("ground") == [(0.0, 0.0), (0.0, 2.0), (1.0, 2.0), (3.0, 0.0), (4.0, 2.0)]
     assert places("wall") == [(2.0, -1.0), (2.0, 3.0)]
@@ -330,8 +334,8 @@ def test_a_picture_holds_all_its_moments(sol):
     film.to_jshtml()
     ax = film._fig.axes[0]
     (low, high), (bottom, top) = ax.get_xlim(), ax.get_ylim()
-    for row in range(len(sol.t)):
-        places = np.vstack([shape.points for shape in sol.system._shapes(sol.p[row]) if shape.kind in ("link", "spring", "pin")])
+    for p in sol.p:
+        places = np.vstack([shape.points for shape in shapes_at(sol.system, p) if shape.kind in ("link", "spring", "pin")])
         assert ((places > [low, bottom]) & (places < [high, top])).all()
 
 
@@ -368,7 +372,7 @@ def test_small_pictures_have_larger_pins_and_thinner_lines():
     for inches in (1.5, 6.0):
         ax = plt.figure(figsize=(inches, inches)).add_subplot()
         m = valve()
-        pictures.append(Picture(ax, [m.system()._shapes(m.system().p0)]))
+        pictures.append(Picture(ax, [shapes_at(m.system(), m.system().p0)]))
     small, large = pictures
     assert small.size > 1.2 * large.size
     assert small.line < 0.7 * large.line

@@ -20,7 +20,7 @@ import zerodrift as zd
 from covering import draws
 from support import assert_same_bits, refused
 from watched import At, throw
-from zerodrift._gateway import runs
+from zerodrift._gateway import operations
 from zerodrift.runs.samples import mapped_samples, memory, sample_file
 
 not_on_windows = pytest.mark.skipif(os.name == "nt", reason="Windows removes no file that is mapped into memory")
@@ -99,8 +99,8 @@ def test_values_between_rows_have_the_bits_of_a_run_in_memory(tmp_path, name, wa
 def test_values_between_rows_read_the_file_where_it_is(bar, tmp_path, monkeypatch):
     """The core is given the columns in the file, none is copied, and times are found without all of them."""
     sol = zd.simulate(bar, 1.0, step=1e-3, save_to=tmp_path / "run")
-    passed, strided = [], runs.strided_doubles
-    monkeypatch.setattr(runs, "strided_doubles", lambda array, size: passed.append(array) or strided(array, size))
+    passed, strided = [], operations.strided_doubles
+    monkeypatch.setattr(operations, "strided_doubles", lambda array, size: passed.append(array) or strided(array, size))
     for name in ("searchsorted", "ascontiguousarray"):      # which copy columns of a file
         monkeypatch.setattr(np, name, None)
     sol([0.1234567, 0.3456789])
@@ -180,7 +180,7 @@ def test_a_run_that_is_killed_at_any_time_leaves_what_it_flushed(bar, tmp_path, 
     """Random times; NumPy opens the samples without this package, and they are those of a run in memory."""
     code = """
     import sys, zerodrift as zd
-    from zerodrift.runs import sample_file
+    from zerodrift.runs.samples import sample_file
     sample_file.BLOCK = 20_000
     zd.simulate(zd.systems.four_bar(), 0.01, step=1e-3, save_to=sys.argv[1] + "first")
     print("runs", flush=True)

@@ -433,7 +433,7 @@ for new, old, names, more in ((parallel, coupler, PLATE, ()), (offset_slider, pr
     m, other = swing(new, *more), swing(old, *more)
     with tempfile.TemporaryDirectory() as folder:
         again = zd.load(m.save(folder + "/m"))
-    assert len(m.system()._shapes(m.system().p0)) > 3
+    assert len(m.system()._sketches([m.system().p0])[0]) > 3
     for layout in ("joint", "absolute"):
         moved, expected = motion(m, layout, names), motion(other, layout, names)
         assert np.array_equal(moved, motion(again, layout, names))
@@ -484,7 +484,7 @@ def motion(m, layout):
 
 assert [*inspect.signature(zd.Mechanism.point_on_plane).parameters][-2:] == ["normal", "at"]
 m, other = slide(by_joint), slide(by_constraint)
-assert any(shape.kind == "patch" and shape.name == "J" for shape in m.system()._shapes(m.system().p0))
+assert any(shape.kind == "patch" and shape.name == "J" for shape in m.system()._sketches([m.system().p0])[0])
 with tempfile.TemporaryDirectory() as folder:
     again = zd.load(m.save(folder + "/m"))
 for layout in ("joint", "absolute"):

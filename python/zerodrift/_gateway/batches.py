@@ -10,7 +10,8 @@ from .._core import ffi, lib
 from ..errors import NoMemory
 from .base import ERRORS, MESSAGE_SIZE, doubles, text
 from .callbacks import Watcher
-from .runs import COUNTS, NAMES_AND_KINDS
+from .records import COUNTS
+from .runs import NAMES_AND_KINDS
 from .systems import CoreSystem, Kind
 
 STATISTICS = np.dtype([(name, {"int64_t": np.int64, "double": float}[kind]) for name, kind in NAMES_AND_KINDS.items()])

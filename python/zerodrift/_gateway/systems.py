@@ -5,7 +5,9 @@ from __future__ import annotations
 import copy
 import functools
 import math
+from collections.abc import Sequence
 from typing import Any, Self
+from weakref import ref
 
 import numpy as np
 
@@ -13,13 +15,38 @@ from .._core import ffi, lib
 from ..errors import WrongValue
 from .base import MESSAGE_SIZE, TERMS, Variable, card_of, doubles, error_of, lengths, parameter_of, row_named, text
 from .compiled.precise import Precise
-from .constraint_names import ConstraintNames
 from .measures import Acting, Measuring
 from .packed_layout import PACKED, Packing
 
 MAX_ROWS = 1000        # of a matrix that is made dense where it is packed
 SUSPECT = 1e-6          # rows of larger entries are not compared with their terms, which would have to be a million
 CANCELLED = 2.0**-40    # of the terms of a row of C: smaller entries are their rounding error, as in csrc/point/units.c
+
+
+class ConstraintNames:
+    """Names of the constraints of a system, read from the system while it exists."""
+
+    def __init__(self) -> None:
+        self.handle = ffi.new_handle(self)
+        self._system: Any = None
+
+    def take_from(self, system: Any) -> None:
+        """Take the names from a system's `constraints`, unless names of an equal system are set."""
+        if self._system is None or self._system() is None:
+            self._system = ref(system)
+
+    def of(self, row: int) -> str:
+        """Name of a constraint; empty if it is only its index."""
+        system = self._system and self._system()
+        names: Sequence[Variable] = system.constraints if system is not None else ()
+        name = names[row].name if row < len(names) else ""
+        return "" if name == f"constraint{row}" else name
+
+
+@ffi.def_extern()
+def zd_name_row_in_python(names, row, to, size):
+    name = ffi.from_handle(names).of(row).encode()[: size - 1].decode(errors="ignore").encode()
+    ffi.memmove(to, name + b"\0", len(name) + 1)
 
 
 class Kind:

@@ -17,7 +17,7 @@ from .._gateway.mechanisms import law_inputs
 from .._gateway.mechanisms.core import MechanismCore
 from ..errors import WrongValue, ZerodriftError, sentence
 from ..symbolics.compile.closed_form_library import CLOSED_FORM, NO_COMPILER, ClosedFormFunctions
-from ..systems.base import WithInputs
+from ..systems.defaults import WithInputs
 from ..systems.parameter_tables import NumberTables, refusals
 from ..systems.shapes import Shape
 from .assembly.start import Starting

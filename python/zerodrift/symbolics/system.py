@@ -17,7 +17,8 @@ from .._gateway import TERMS, Variable
 from .._gateway.compiled.precise import Precise
 from .._gateway.inputs import Bound, Place
 from ..errors import NeedsCompiler, NoCompilerWarning, UnsuitedIntegrator, WrongValue
-from ..systems.base import BaseSystem, WithInputs
+from ..systems.base import BaseSystem
+from ..systems.defaults import WithInputs
 from ..systems.parameter_tables import NumberTables, not_finite, refusals
 from ..systems.structure import Structure, checked
 from ..systems.variables import quaternion_places, with_units

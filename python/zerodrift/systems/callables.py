@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 import copy
-import functools
-import inspect
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from .. import _check, _gateway
-from .._gateway import TERMS, Variable
+from .._gateway import Variable
 from .._gateway.inputs import Bound, Place
 from ..errors import WrongType, WrongValue
-from . import autodiff
-from .base import BaseSystem, WithInputs
-from .declared_structure import PackedWriter
+from .base import BaseSystem
+from .defaults import WithInputs
 from .structure import Structure, checked
+from .user_callables import Function
 from .variables import quaternion_places, with_units
-
-BIT = {name: term.bit for name, term in TERMS.items()}
+from .writers import PackedWriter, Writer
 
 
 class System(BaseSystem):
@@ -118,13 +115,13 @@ class System(BaseSystem):
         self.name, self.parameters = name or "system", parameters
         names = _check.names("coordinates", coordinates, "p")
         self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, len(names)))
-        functions = {key: _Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
+        functions = {key: Function(key, self._given[key], self.parameters) for key in SHAPES if self._given[key] is not None}
         if "jacobian" in functions and "constraints" not in functions:
             raise WrongValue("jacobian is given without constraints", "missing-argument")
         places = quaternion_places(quaternions, names, kinematics is not None)
         sizes = _sizes(functions, _anywhere(len(names), places) if self.p0 is None else self.p0)
         packing = checked(structure, sizes, kinematics is not None)
-        writer = _Writer(functions, *sizes)
+        writer = Writer(functions, *sizes)
         if packing:
             writer = PackedWriter(writer, packing)
         rates = [f"{n}_dot" for n in names] if kinematics is None else [f"v{i}" for i in range(sizes[1])]
@@ -220,105 +217,10 @@ def _parameter(name: str, value: Any) -> Any:
     return _check.frozen(value) if isinstance(value, np.ndarray) and value.dtype != object else value
 
 
-# ---- the callables ----
-
 # The shape of what each callable returns. The first callable in which a size appears determines that size.
 SHAPES = {"mass": ("nv", "nv"), "force": ("nv",), "bias": ("nv",), "constraints": ("mh",), "jacobian": ("mh", "nq"),
           "nonholonomic": ("mn", "nv"), "xi": ("m",), "kinematics": ("nq", "nv"), "potential": (), "power": ()}
 SIZES = {"nv": "velocities", "mh": "holonomic constraints", "mn": "nonholonomic constraints"}     # those read from a result
-
-
-# How to call a callable whose arguments are these of t, p, v. Its parameters are bound beforehand. Each gets views of its own, as
-# the shape of an array can be set even where its numbers cannot.
-_CALLS: dict[frozenset[str], Callable[..., Any]] = {
-    frozenset(""): lambda f, t, p, v: f(),
-    frozenset("t"): lambda f, t, p, v: f(t=t),
-    frozenset("p"): lambda f, t, p, v: f(p=p.view()),
-    frozenset("v"): lambda f, t, p, v: f(v=v.view()),
-    frozenset("tp"): lambda f, t, p, v: f(t=t, p=p.view()),
-    frozenset("tv"): lambda f, t, p, v: f(t=t, v=v.view()),
-    frozenset("pv"): lambda f, t, p, v: f(p=p.view(), v=v.view()),
-    frozenset("tpv"): lambda f, t, p, v: f(t=t, p=p.view(), v=v.view()),
-}
-_DOUBLE = np.dtype(np.float64)
-
-
-class _Function:
-    """A callable called with the arguments that it names, or a constant."""
-
-    def __init__(self, name: str, given: Any, parameters: dict[str, Any]) -> None:
-        self.name = name
-        if callable(given):
-            names = arguments(name, given, [*_check.STATE, *parameters])
-            bound = {key: _view(parameters[key]) for key in names if key in parameters}
-            self.state_arguments = frozenset(names) - frozenset(bound)
-            self._function = functools.partial(given, **bound) if bound else given
-        else:
-            value = _check.frozen(_check.real(f"{name} must be a callable, or", given, objects=True).astype(float))
-            self.state_arguments, self._function = frozenset(), lambda: value
-        self._call = _CALLS[self.state_arguments]
-
-    def _tell(self, error: BaseException, t: float, how: str = "") -> None:
-        _check.tell(error, f"in {self.name}, called at t = {t:g}{how}")
-
-    def value(self, t: float, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """Result of the user's function, checked to be real; its exceptions get a note with the function and t."""
-        try:
-            value = self._call(self._function, t, p, v)
-        except BaseException as error:
-            self._tell(error, t)
-            raise
-        if type(value) is np.ndarray and value.dtype is _DOUBLE:
-            return value
-        return _check.real(f"{self.name} must return", value, f" (at t = {t:g})", objects=True)
-
-    def write(self, out: np.ndarray, t: float, p: np.ndarray, v: np.ndarray) -> None:
-        """Write the checked value to an array of the core."""
-        value = self.value(t, p, v)
-        if value.shape != out.shape:
-            raise WrongValue(f"{self.name} must return shape {out.shape}, not {value.shape} (at t = {t:g})", "shape")
-        out[...] = value
-
-    def evaluate_jets(self, shape: tuple[int, ...], t: Any, p: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """Value with derivatives, an array of jets."""
-        try:
-            returned, where = self._call(self._function, t, p, v), f" (at t = {autodiff.value(t):g})"
-        except BaseException as error:
-            self._tell(error, autodiff.value(t), " for its derivatives (forward-mode automatic differentiation)")
-            raise
-        result = np.asarray(returned, dtype=object)
-        numbers = returned if _check.is_masked(returned) else autodiff.numbers(result)
-        if _check.real(f"{self.name} must return", numbers, where, objects=True).shape != shape:
-            raise WrongValue(f"{self.name} must return shape {shape}, not {result.shape}{where}", "shape")
-        return result
-
-
-def _view(value: Any) -> Any:
-    return value.view(np.ndarray) if isinstance(value, np.ndarray) else value
-
-
-def arguments(name: str, given: Callable[..., Any], allowed: list[str], more: str = "") -> list[str]:
-    """Names of the arguments that a callable takes, all of them `allowed`; errors list these, and then `more`."""
-    wants, there_is = [], f"there is {', '.join(allowed)}{more}"
-    for argument in _signature(name, given, there_is):
-        if argument.kind in (argument.VAR_POSITIONAL, argument.VAR_KEYWORD):
-            raise WrongType(f"{name} has {str(argument)!r}, and must name what it asks for; {there_is}", "user-function")
-        if argument.name in allowed:
-            if argument.kind is argument.POSITIONAL_ONLY:
-                raise WrongType(f"{name} takes {argument.name!r} by position only, and must take it by name: leave out the '/'",
-                                "user-function")
-            wants.append(argument.name)
-        elif argument.default is argument.empty:
-            raise WrongType(f"{name} asks for {argument.name!r}; {there_is}", "user-function")
-    return wants
-
-
-def _signature(name: str, given: Callable[..., Any], there_is: str) -> Iterable[inspect.Parameter]:
-    try:
-        return inspect.signature(given).parameters.values()
-    except (TypeError, ValueError) as error:
-        raise WrongType(f"{name} must be a function that names what it asks for, and {given!r} does not; {there_is}",
-                        "user-function") from error
 
 
 def _anywhere(nq: int, quaternions: tuple[int, ...]) -> np.ndarray:
@@ -328,7 +230,7 @@ def _anywhere(nq: int, quaternions: tuple[int, ...]) -> np.ndarray:
     return _check.frozen(p)
 
 
-def _sizes(functions: dict[str, _Function], p: np.ndarray) -> tuple[int, int, int, int]:
+def _sizes(functions: dict[str, Function], p: np.ndarray) -> tuple[int, int, int, int]:
     """Sizes (nq, nv, mh, mn), from the shapes that the callables return at p."""
     nq = len(p)
 
@@ -355,107 +257,10 @@ def _sizes(functions: dict[str, _Function], p: np.ndarray) -> tuple[int, int, in
     return nq, nv, mh, mn
 
 
-def _check_shapes(functions: dict[str, _Function], sizes: dict[str, int], p: np.ndarray) -> None:
+def _check_shapes(functions: dict[str, Function], sizes: dict[str, int], p: np.ndarray) -> None:
     for name, function in functions.items():
         expected = tuple(sizes[size] for size in SHAPES[name])
         with np.errstate(all="ignore"):
             found = function.value(0.0, p, _check.frozen(np.zeros(sizes["nv"]))).shape
         if found != expected:
             raise WrongValue(f"{name} must return shape {expected}, not {found}", "shape")
-
-
-# The callable that gives a term without any derivation.
-_CALLABLE_OF = {"A": "kinematics", "M": "mass", "d": "bias", "f": "force", "Phi": "constraints", "V": "potential",
-                "power": "power", "xi": "xi"}
-
-
-class _Writer:
-    """Writes the wanted terms into the core's arrays, (2)-(6), deriving what is not given."""
-
-    def __init__(self, functions: dict[str, _Function], nq: int, nv: int, mh: int, mn: int) -> None:
-        self.functions, self.nq, self.nv, self.mh, self.mn = functions, nq, nv, mh, mn
-        moving = "constraints" in functions and "t" in functions["constraints"].state_arguments
-        self.provides = [name for name, source in _CALLABLE_OF.items() if source in functions]
-        self.provides += ["C", "xi"] * bool(mh + mn) + ["Phi_t"] * moving
-        self._direct = {name: functions[source] for name, source in _CALLABLE_OF.items() if source in functions}
-        if "kinematics" not in functions and "jacobian" in functions:
-            self._direct["C_H"] = functions["jacobian"]
-        if mn:
-            self._direct["C_NH"] = functions["nonholonomic"]
-        self._plans: dict[int, tuple[list[tuple[str, _Function]], frozenset[str]]] = {}
-
-    def __call__(self, want: int, t: float, arrays: dict[str, np.ndarray]) -> None:
-        plan = self._plans.get(want)
-        if plan is None:
-            plan = self._plans[want] = self._plan(want)
-        direct, derived = plan
-        p, v = arrays["p"], arrays["v"]
-        for name, function in direct:
-            function.write(arrays[name], t, p, v)
-        if derived:
-            self._derive(derived, t, arrays)
-
-    def _plan(self, want: int) -> tuple[list[tuple[str, _Function]], frozenset[str]]:
-        """The callables to call for these terms, and the terms to derive. C and xi are split into holonomic and other rows."""
-        names = {name for name, bit in BIT.items() if want & bit}
-        grouped = {"C"} if "xi" in self.functions else {"C", "xi"}
-        for name in names & grouped:
-            names = names | ({f"{name}_H"} if self.mh else set()) | ({f"{name}_NH"} if self.mn else set())
-        names -= grouped
-        derived = frozenset(names - set(self._direct))
-        if derived and "A" in self._direct:
-            names.add("A")
-        return [(name, function) for name, function in self._direct.items() if name in names], derived
-
-    def not_finite(self, name: str, t: float, value: np.ndarray) -> Exception:
-        """The error for a term that is not finite: it names the callable, or those that may be at fault."""
-        asked = ("jacobian", "nonholonomic", "kinematics") if name == "C" else (_CALLABLE_OF.get(name),)
-        sources = [source for source in asked if source in self.functions]
-        if sources not in ([], ["kinematics"]):
-            return WrongValue(f"{' or '.join(sources)} is not finite at t = {t:g}: {value}", "not-finite")
-        source = " and ".join(["constraints" if self.mh else "nonholonomic", *["kinematics"] * ("kinematics" in self.functions)])
-        return WrongValue(f"{name}, derived from {source}, is not finite at t = {t:g}: {value}; where there are no "
-                          "derivatives, supply jacobian and xi", "not-finite")
-
-    def _derive(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
-        p, v, mh = arrays["p"], arrays["v"], self.mh
-        if "C_H" in derived and "jacobian" in self.functions:
-            jacobian = np.empty((mh, self.nq))
-            self.functions["jacobian"].write(jacobian, t, p, v)
-            arrays["C_H"][...] = jacobian @ arrays["A"]                     # (5)
-            derived = derived - {"C_H"}
-        if derived - {"xi_NH"}:
-            self._differentiate(derived, t, arrays)
-        if "xi_NH" in derived:
-            motion = self._motion_as_jets(t, arrays, gradients=False)
-            jets = self.functions["nonholonomic"].evaluate_jets((self.mn, self.nv), *motion, v)
-            arrays["xi"][mh:] = -autodiff.part(jets, "first") @ v              # (6): xi = -Cdot v
-
-    def _differentiate(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
-        """Derivatives of the holonomic constraints, all that are wanted in one pass."""
-        gradients = not derived.isdisjoint({"C_H", "Phi_t"})
-        motion = self._motion_as_jets(t, arrays, gradients=gradients)
-        jets = self.functions["constraints"].evaluate_jets((self.mh,), *motion, arrays["v"])
-        gradient = autodiff.part(jets, "gradient", self.nq + 1) if gradients else None
-        if "C_H" in derived:
-            rows = gradient[:, :-1]
-            arrays["C_H"][...] = rows @ arrays["A"] if "A" in arrays else rows      # (5)
-        if "Phi_t" in derived:
-            arrays["Phi_t"][: self.mh] = gradient[:, -1]
-            arrays["Phi_t"][self.mh :] = 0.0
-        if "xi_H" in derived:
-            arrays["xi"][: self.mh] = -autodiff.part(jets, "second")           # (6)
-
-    def _motion_as_jets(self, t: float, arrays: dict[str, np.ndarray], *, gradients: bool) -> tuple[Any, np.ndarray]:
-        """(t, p) as jets: along the motion with vdot = 0, there pddot = Adot v, and with gradients in (p, t) if wanted."""
-        p, v, A = arrays["p"], arrays["v"], arrays.get("A")
-        velocity, curvature = (v, np.zeros(self.nq)) if A is None else (A @ v, self._curvature(t, p, v, A @ v))
-        identity = np.eye(self.nq + 1) if gradients else None
-        time = autodiff.Jet(t, identity[-1] if gradients else 0.0, 1.0, 0.0)
-        return time, autodiff.seeds(p, velocity, curvature, identity)
-
-    def _curvature(self, t: float, p: np.ndarray, v: np.ndarray, velocity: np.ndarray) -> np.ndarray:
-        """Adot v along the motion."""
-        time, position = autodiff.Jet(t, 0.0, 1.0, 0.0), autodiff.seeds(p, velocity)
-        jets = self.functions["kinematics"].evaluate_jets((self.nq, self.nv), time, position, v)
-        return autodiff.part(jets, "first") @ v

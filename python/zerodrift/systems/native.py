@@ -16,8 +16,9 @@ from .. import _check, _gateway
 from .._gateway import TERMS, Variable
 from .._gateway.inputs import Bound, Place
 from ..errors import WrongType, WrongValue, ZerodriftError, sentence
-from .base import BaseSystem, WithInputs
+from .base import BaseSystem
 from .builtin import SystemOfKind
+from .defaults import WithInputs
 from .structure import Structure, checked
 from .variables import quaternion_places, with_units
 

@@ -15,7 +15,7 @@ from ..._gateway.inputs import EFFORT_LAW, SPEED_LAW
 from ...errors import WrongType, WrongValue
 from ...symbolics.graph.smoothness import is_plain_expression
 from ...systems import autodiff
-from ...systems.callables import arguments
+from ...systems.user_callables import arguments
 from .interpolation import recognised
 from .measures import name_of
 

@@ -118,7 +118,7 @@ class _Called:
     """A function called with the arguments that it names, of which `bound` are read."""
 
     def __init__(self, name: str, function: Callable[..., Any], system: BaseSystem, bound: Sequence[str], level: float) -> None:
-        from ...systems.callables import arguments  # slow to import
+        from ...systems.user_callables import arguments  # slow to import
 
         parameters = {key: value for key, value in system.parameters.items() if key.isidentifier()}
         names = arguments(name, function, [*_check.STATE, *parameters, *bound])

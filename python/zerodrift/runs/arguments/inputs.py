@@ -10,7 +10,8 @@ import numpy as np
 
 from ... import _check, _gateway
 from ...errors import WrongType, WrongValue
-from ...systems.base import BaseSystem, WithInputs
+from ...systems.base import BaseSystem
+from ...systems.defaults import WithInputs
 
 
 class Declared(NamedTuple):

@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-import math
-import time
 import warnings
 from typing import Any
 
 import numpy as np
 
 from ... import _check, _gateway
-from ...errors import InUse, StateWarning, WrongName, WrongState, WrongValue
+from ...errors import StateWarning, WrongState, WrongValue
 from ...systems.base import BaseSystem
 from ..arguments.inputs import Drives, History, Jump, Speeds
 from ..samples import recording
 from ..samples.solution import Solution
-from ..samples.summary import run_summary
 from ..states.reading import Reading
 from . import diagnosis
 from .beginning import Prepared, known_settings, nominal_span, prepared, with_own
 from .control import Sampling, controls
-from .ending import Outcome, failure_of, finish_file, solution_of, with_solution
+from .ending import Outcome, finish_file, solution_of
 from .run_state import restored, saved, unpacked
+from .stepping import Stepping
 
-SLICE = 0.03            # seconds that the core runs between two looks at the keyboard
 
-
-class Run:
+class Run(Stepping):
     """A run that stays open: advance it, read it, and go on.
 
     Parameters
@@ -170,23 +166,6 @@ class Run:
             run._history = History(run.t, run.inputs, run._places)
         return run
 
-    def _control(self) -> None:
-        """Call the controllers that are due, and aim at the next instant of one."""
-        core, sampling = self._core, self._sampling
-        if sampling is not None:
-            sampling.call(self)
-            steps, instant = sampling.next(self)
-            core.set_goal(_gateway.MAX_STEPS if steps is None else steps, instant)
-        if self._history is not None:
-            self._history.note(core.t, self.inputs)
-
-    def _goes_on(self) -> bool:
-        """True if a run with an end has reached an instant of a controller, not its end."""
-        ready = self._ready
-        requested = ready.settings.get("t_eval", ()) if ready.events is None else ()
-        end = requested[-1] if len(requested) else ready.span[1]
-        return self._sampling is not None and self._core.t < end and self.event is None
-
     @property
     def _of(self) -> BaseSystem:
         """The system that is run, with inputs in the place of numbers."""
@@ -200,225 +179,6 @@ class Run:
             self._history = History(self.t, self.inputs, self._places)
         if ready.path:
             recording.begin_file(self._record, self._core, ready.system, ready.span, ready.settings, ready.recorded)
-
-    # ---- advance ----
-
-    def step(self, steps: int = 1) -> None:
-        """Make steps: fixed ones, or as many as the integrator chooses.
-
-        Parameters
-        ----------
-        steps : int
-            Their number, at least 0. A terminal event stops earlier, see `event`; the next call goes on from there, and the
-            event is terminal again.
-
-        Raises
-        ------
-        ZerodriftError
-            As `simulate` does; the run is then at the start of the step that failed.
-
-        Examples
-        --------
-        >>> import zerodrift as zd
-        >>> run = zd.Run(zd.systems.oscillator(), step=0.01)
-        >>> run.step(3)
-        >>> run.t, run.steps
-        (0.03, 3)
-        """
-        if self._sampling is not None:
-            self._require_idle()
-            self._sample(self.steps + _check.count("steps", steps, least=0), math.inf)
-        elif self._record is not None or self._drives is not None:
-            self._go(_check.count("steps", steps, least=0), math.inf)
-        elif status := _gateway.STEP(self._c, steps, self._c_record):
-            self._attend(status)
-
-    def advance_to(self, t: float) -> None:
-        """Advance to a time.
-
-        With fixed steps, a time within rounding of a whole number of steps is reached by these alone. Otherwise the last step is
-        shortened, and further steps are counted from there. Adaptive steps end at the time.
-
-        Parameters
-        ----------
-        t : float
-            In s, not before the present time.
-
-        Raises
-        ------
-        ValueError
-            If the time has passed.
-        ZerodriftError
-            As `step`.
-        """
-        t = _check.number("t", t, least=self.t)
-        if self._sampling is not None:
-            self._require_idle()
-            self._sample(_gateway.MAX_STEPS, t)
-        else:
-            self._go(_gateway.MAX_STEPS, t)
-
-    def _require_idle(self) -> None:
-        """Raise an error if a controller of this run is being called."""
-        if self._is_controlled:
-            raise InUse("a controller must not step, advance, reset, restore or close the run that it is given: it sets inputs; "
-                        "run.copy() is another run, which it may move")
-
-    def _sample(self, last: int, t: float) -> None:
-        """Advance to a number of steps or to a time, with calls of the controllers that are due."""
-        sampling = self._sampling
-        while self._is_before(last, t):
-            sampling.call(self)
-            steps, instant = sampling.next(self)
-            made = self.steps
-            self._go(last - made if steps is None else min(steps, last - made), min(t, instant))
-            if self.event is not None or self.steps == made:    # none is made to a time within rounding
-                return
-
-    def _is_before(self, last: int, t: float) -> bool:
-        step, now = self.settings["step"], self.t
-        rounding = 0.0 if step is None else 1e-9 * step
-        return self.steps < last and t - now > rounding
-
-    def _go(self, steps: int, t: float) -> None:
-        """Advance by a number of steps or to a time, whichever comes first."""
-        core, begin = self._core, time.perf_counter()
-        if self._history is not None:
-            self._history.note(core.t, self.inputs)
-        status = core.set_goal(steps, t) or core.advance(self._record, SLICE)
-        self._note_jump()
-        self._attend(status)
-        self._seconds += time.perf_counter() - begin
-
-    def _note_jump(self) -> None:
-        """Note the jump of speeds in the first step of the last advance, if there was one."""
-        core = self._core
-        if self._drives is None or core.jumps == self._jumps:
-            return
-        self._jumps, self.jump = core.jumps, self._drives.jump(*core.jump())
-        if self._history is not None:
-            self._history.jumps.append(self.jump)
-
-    def _attend(self, status: int) -> None:
-        """Go on after a pause or with more memory; raise the error of a failure."""
-        core, record = self._core, self._record
-        while status in (_gateway.PAUSED, _gateway.FULL):
-            if status == _gateway.FULL:
-                recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
-                record.grow()
-                self._c_record = record.c
-            status = core.advance(record, SLICE)
-        if record is not None:
-            record.keep()
-        if status not in (_gateway.DONE, _gateway.EVENT):
-            self._fail(status)
-
-    def _fail(self, status: int) -> None:
-        """Raise the error of a failed step; the core has returned to its start."""
-        core = self._core
-        if status == _gateway.BAD_ARGUMENT:
-            raise WrongValue("steps must be at least 0", "out-of-range")
-        error, note = core.error(status), None
-        if status != _gateway.BAD_INPUT:
-            error, note = failure_of(self._of, core, status, self.settings, self._ready.span)
-        core.forget_errors()
-        if self._record is not None and self._ready.path is None and isinstance(error, Exception):
-            with_solution(error, self._solution(Outcome(status, self._seconds, None)))
-        if note:
-            _check.tell(error, note)
-        raise error
-
-    # ---- read ----
-
-    @property
-    def t(self) -> float:
-        """Present time, in s."""
-        return self._core.t
-
-    @property
-    def p(self) -> np.ndarray:
-        """Coordinates (nq,) at the present time, in their units; a copy."""
-        return self._core.p
-
-    @property
-    def v(self) -> np.ndarray:
-        """Velocities (nv,) at the present time, in their units; a copy."""
-        return self._core.v
-
-    @property
-    def steps(self) -> int:
-        """Number of steps made."""
-        return self._core.steps
-
-    @property
-    def event(self) -> int | None:
-        """Index of the terminal event at which the last advance stopped; None: it reached its goal."""
-        ended = self._core.ended_by
-        return None if ended < 0 else ended
-
-    @property
-    def vdot(self) -> np.ndarray:
-        """Accelerations (nv,) at the present state, with which the next step begins."""
-        return self._core.accelerations()[0]
-
-    @property
-    def multipliers(self) -> np.ndarray:
-        """Constraint reactions (m,) at the present state, with the sign of (7)."""
-        return self._core.accelerations()[1]
-
-    def __getitem__(self, name: Any) -> Any:
-        """Value of an input, coordinate, velocity, measure, or multiplier of a constraint at the present state, by name.
-
-        Parameters
-        ----------
-        name : str or measure
-            As of `Solution`.
-
-        Returns
-        -------
-        float, or ndarray (2,) or (3,) of a measure that is a vector, or of the shape of an input that is an array
-
-        Raises
-        ------
-        KeyError
-            If nothing has this name, or several variables have.
-        """
-        place = self._places.get(name)
-        if place is None:
-            return self._reading(name)
-        return float(self.inputs[place]) if type(place) is int else self.inputs[place]
-
-    def __setitem__(self, name: Any, value: Any) -> None:
-        """Set an input, from the next step on: a number; or an array of its shape, or a number for all of its entries.
-
-        Raises
-        ------
-        KeyError
-            If the run has no input of this name.
-        """
-        try:
-            self.inputs[self._places[name]] = value
-        except KeyError:
-            self.inputs[self._place_of(name)] = value
-        except ValueError:
-            raise WrongValue(f"input {name!r} must be set to real numbers of shape {np.shape(self._places[name])}, not "
-                             f"{_check.shown(value)}", "shape") from None
-
-    def _place_of(self, name: Any) -> int:
-        """Index of an input, by its name or its measure."""
-        name = getattr(name, "name", name)
-        if name in self._places:
-            return self._places[name]
-        if name in self.system._names_of_inputs():
-            raise WrongName(f"{name!r} must be declared as an input before it can be set: inputs=[{name!r}]", "wrong-name")
-        known = f"; {_check.closest(name, self._places)}" if self._places else ""
-        raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}", "wrong-name")
-
-    def _ipython_key_completions_(self) -> list[str]:
-        return [*self._places, *self._reading.names()]
-
-    def __repr__(self) -> str:
-        return run_summary(self)
 
     # ---- state ----
 

@@ -1,0 +1,105 @@
+"""The present state of an open run, read by name, and its inputs, set by name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ... import _check
+from ...errors import WrongName, WrongValue
+from ..samples.summary import run_summary
+
+
+class Present:
+    """Values of an open run at its present time."""
+
+    @property
+    def t(self) -> float:
+        """Present time, in s."""
+        return self._core.t
+
+    @property
+    def p(self) -> np.ndarray:
+        """Coordinates (nq,) at the present time, in their units; a copy."""
+        return self._core.p
+
+    @property
+    def v(self) -> np.ndarray:
+        """Velocities (nv,) at the present time, in their units; a copy."""
+        return self._core.v
+
+    @property
+    def steps(self) -> int:
+        """Number of steps made."""
+        return self._core.steps
+
+    @property
+    def event(self) -> int | None:
+        """Index of the terminal event at which the last advance stopped; None: it reached its goal."""
+        ended = self._core.ended_by
+        return None if ended < 0 else ended
+
+    @property
+    def vdot(self) -> np.ndarray:
+        """Accelerations (nv,) at the present state, with which the next step begins."""
+        return self._core.accelerations()[0]
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """Constraint reactions (m,) at the present state, with the sign of (7)."""
+        return self._core.accelerations()[1]
+
+    def __getitem__(self, name: Any) -> Any:
+        """Value of an input, coordinate, velocity, measure, or multiplier of a constraint at the present state, by name.
+
+        Parameters
+        ----------
+        name : str or measure
+            As of `Solution`.
+
+        Returns
+        -------
+        float, or ndarray (2,) or (3,) of a measure that is a vector, or of the shape of an input that is an array
+
+        Raises
+        ------
+        KeyError
+            If nothing has this name, or several variables have.
+        """
+        place = self._places.get(name)
+        if place is None:
+            return self._reading(name)
+        return float(self.inputs[place]) if type(place) is int else self.inputs[place]
+
+    def __setitem__(self, name: Any, value: Any) -> None:
+        """Set an input, from the next step on: a number; or an array of its shape, or a number for all of its entries.
+
+        Raises
+        ------
+        KeyError
+            If the run has no input of this name.
+        """
+        try:
+            self.inputs[self._places[name]] = value
+        except KeyError:
+            self.inputs[self._place_of(name)] = value
+        except ValueError:
+            raise WrongValue(f"input {name!r} must be set to real numbers of shape {np.shape(self._places[name])}, not "
+                             f"{_check.shown(value)}", "shape") from None
+
+    def _place_of(self, name: Any) -> int:
+        """Index of an input, by its name or its measure."""
+        name = getattr(name, "name", name)
+        if name in self._places:
+            return self._places[name]
+        if name in self.system._names_of_inputs():
+            raise WrongName(f"{name!r} must be declared as an input before it can be set: inputs=[{name!r}]", "wrong-name")
+        known = f"; {_check.closest(name, self._places)}" if self._places else ""
+        raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}", "wrong-name")
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self._places, *self._reading.names()]
+
+    def __repr__(self) -> str:
+        return run_summary(self)

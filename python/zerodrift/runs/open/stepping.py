@@ -1,0 +1,160 @@
+"""Steps of an open run: to a number of them or to a time, with the calls of controllers that are due."""
+
+from __future__ import annotations
+
+import math
+import time
+
+from ... import _check, _gateway
+from ...errors import InUse, WrongValue
+from ..samples import recording
+from .ending import Outcome, failure_of, with_solution
+from .present import Present
+
+SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
+
+
+class Stepping(Present):
+    """An open run that makes steps."""
+
+    def step(self, steps: int = 1) -> None:
+        """Make steps: fixed ones, or as many as the integrator chooses.
+
+        Parameters
+        ----------
+        steps : int
+            Their number, at least 0. A terminal event stops earlier, see `event`; the next call goes on from there, and the
+            event is terminal again.
+
+        Raises
+        ------
+        ZerodriftError
+            As `simulate` does; the run is then at the start of the step that failed.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> run = zd.Run(zd.systems.oscillator(), step=0.01)
+        >>> run.step(3)
+        >>> run.t, run.steps
+        (0.03, 3)
+        """
+        if self._sampling is not None:
+            self._require_idle()
+            self._sample(self.steps + _check.count("steps", steps, least=0), math.inf)
+        elif self._record is not None or self._drives is not None:
+            self._go(_check.count("steps", steps, least=0), math.inf)
+        elif status := _gateway.STEP(self._c, steps, self._c_record):
+            self._attend(status)
+
+    def advance_to(self, t: float) -> None:
+        """Advance to a time.
+
+        With fixed steps, a time within rounding of a whole number of steps is reached by these alone. Otherwise the last step is
+        shortened, and further steps are counted from there. Adaptive steps end at the time.
+
+        Parameters
+        ----------
+        t : float
+            In s, not before the present time.
+
+        Raises
+        ------
+        ValueError
+            If the time has passed.
+        ZerodriftError
+            As `step`.
+        """
+        t = _check.number("t", t, least=self.t)
+        if self._sampling is not None:
+            self._require_idle()
+            self._sample(_gateway.MAX_STEPS, t)
+        else:
+            self._go(_gateway.MAX_STEPS, t)
+
+    def _require_idle(self) -> None:
+        """Raise an error if a controller of this run is being called."""
+        if self._is_controlled:
+            raise InUse("a controller must not step, advance, reset, restore or close the run that it is given: it sets inputs; "
+                        "run.copy() is another run, which it may move")
+
+    def _sample(self, last: int, t: float) -> None:
+        """Advance to a number of steps or to a time, with calls of the controllers that are due."""
+        sampling = self._sampling
+        while self._is_before(last, t):
+            sampling.call(self)
+            steps, instant = sampling.next(self)
+            made = self.steps
+            self._go(last - made if steps is None else min(steps, last - made), min(t, instant))
+            if self.event is not None or self.steps == made:    # none is made to a time within rounding
+                return
+
+    def _is_before(self, last: int, t: float) -> bool:
+        step, now = self.settings["step"], self.t
+        rounding = 0.0 if step is None else 1e-9 * step
+        return self.steps < last and t - now > rounding
+
+    def _go(self, steps: int, t: float) -> None:
+        """Advance by a number of steps or to a time, whichever comes first."""
+        core, begin = self._core, time.perf_counter()
+        if self._history is not None:
+            self._history.note(core.t, self.inputs)
+        status = core.set_goal(steps, t) or core.advance(self._record, SLICE)
+        self._note_jump()
+        self._attend(status)
+        self._seconds += time.perf_counter() - begin
+
+    def _note_jump(self) -> None:
+        """Note the jump of speeds in the first step of the last advance, if there was one."""
+        core = self._core
+        if self._drives is None or core.jumps == self._jumps:
+            return
+        self._jumps, self.jump = core.jumps, self._drives.jump(*core.jump())
+        if self._history is not None:
+            self._history.jumps.append(self.jump)
+
+    def _attend(self, status: int) -> None:
+        """Go on after a pause or with more memory; raise the error of a failure."""
+        core, record = self._core, self._record
+        while status in (_gateway.PAUSED, _gateway.FULL):
+            if status == _gateway.FULL:
+                recording.check_memory(record.next_rows, record.row_bytes, stacklevel=4)
+                record.grow()
+                self._c_record = record.c
+            status = core.advance(record, SLICE)
+        if record is not None:
+            record.keep()
+        if status not in (_gateway.DONE, _gateway.EVENT):
+            self._fail(status)
+
+    def _fail(self, status: int) -> None:
+        """Raise the error of a failed step; the core has returned to its start."""
+        core = self._core
+        if status == _gateway.BAD_ARGUMENT:
+            raise WrongValue("steps must be at least 0", "out-of-range")
+        error, note = core.error(status), None
+        if status != _gateway.BAD_INPUT:
+            error, note = failure_of(self._of, core, status, self.settings, self._ready.span)
+        core.forget_errors()
+        if self._record is not None and self._ready.path is None and isinstance(error, Exception):
+            with_solution(error, self._solution(Outcome(status, self._seconds, None)))
+        if note:
+            _check.tell(error, note)
+        raise error
+
+    def _control(self) -> None:
+        """Call the controllers that are due, and aim at the next instant of one."""
+        core, sampling = self._core, self._sampling
+        if sampling is not None:
+            sampling.call(self)
+            steps, instant = sampling.next(self)
+            core.set_goal(_gateway.MAX_STEPS if steps is None else steps, instant)
+        if self._history is not None:
+            self._history.note(core.t, self.inputs)
+
+    def _goes_on(self) -> bool:
+        """True if a run with an end has reached an instant of a controller, not its end."""
+        ready = self._ready
+        requested = ready.settings.get("t_eval", ()) if ready.events is None else ()
+        end = requested[-1] if len(requested) else ready.span[1]
+        return self._sampling is not None and self._core.t < end and self.event is None

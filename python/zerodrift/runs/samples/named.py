@@ -1,0 +1,164 @@
+"""Columns and statistics of a solution by name."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ... import _check, _gateway
+from ...errors import WrongName
+from ...systems.measure_values import AXES
+
+
+class Stats(dict):
+    """Dictionary of statistics whose error for a missing key lists the keys."""
+
+    def __missing__(self, name: str) -> Any:
+        raise WrongName(f"nothing in stats is called {name!r}; there are {', '.join(self)}", "wrong-name")
+
+
+class Named:
+    """Columns of a solution by name: coordinates, velocities, multipliers and measures."""
+
+    def __getitem__(self, name: Any) -> np.ndarray:
+        """Values of a coordinate, velocity, measure, or multiplier of a constraint at all samples, by name.
+
+        Parameters
+        ----------
+        name : str or measure, or (that, body)
+            A measure of a mechanism, such as ``crank.angle`` or ``"C.force"``; or a name in ``system.coordinates``,
+            ``system.velocities`` or ``system.constraints``. ``sol["C.force", "crank"]`` gives a vector in the axes of that
+            body.
+
+        Returns
+        -------
+        ndarray (k,), or (k, 2) of a measure that is a vector
+            In the unit of the coordinate, velocity or measure; for a constraint, its column of `multipliers`.
+
+        Raises
+        ------
+        KeyError
+            If the name is unknown or ambiguous.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> sol = zd.simulate(zd.systems.pendulum(), 1.0, step=0.01)
+        >>> bool((sol["y"] == sol.p[:, 1]).all() and (sol["rod"] == sol.multipliers[:, 0]).all())
+        True
+        """
+        if isinstance(name, tuple) and len(name) == 2:
+            return self._in_axes_of(*name)
+        measured = self._recorded(getattr(name, "name", name))
+        if measured is None:
+            measured = self.system._measured(name, self)
+        if measured is not None:
+            return measured
+        groups = [array for array, _ in self._named()]
+        columns = [groups[group][:, column] for group, column in self.system._columns_of.get(name, ())]
+        if len(columns) == 1:
+            self._check_sign(name)
+            return columns[0]
+        if columns:
+            raise WrongName(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
+                           "take the column of p, v or multipliers", "duplicate-name")
+        if why := self.system._why_unknown(getattr(name, "name", name)):
+            raise WrongName(why, "not-available")
+        known = self._ipython_key_completions_()
+        raise WrongName(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}",
+                        "wrong-name")
+
+    def _check_sign(self, name: str) -> None:
+        """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
+        if measure := self._force_of(name):
+            quantity = measure.rpartition(".")[2]
+            raise WrongName(f"{name!r} names an element, whose {quantity} is sol[{measure!r}], and a constraint, whose "
+                            "multiplier is in sol.multipliers and has the opposite sign, by (7)", "duplicate-name")
+
+    def _force_of(self, name: str) -> str | None:
+        """Name of the scalar force or torque of a drive or coupling of that name; None if there is none."""
+        measures = (f"{name}.{quantity}" for quantity in ("force", "torque"))
+        return next((measure for measure in measures if self.system._is_scalar_measure(measure)), None)
+
+    def _in_axes_of(self, name: Any, body: Any) -> np.ndarray:
+        """Values of a vector measure in the axes of a body."""
+        name, body = (getattr(each, "name", each) for each in (name, body))
+        base, _, axis = name.rpartition(".") if isinstance(name, str) else ("", "", "")
+        if axis in AXES:
+            return self._in_axes_of(base, body)[:, AXES[axis]]
+        values = self[name]
+        if values.ndim == 1 or body == "ground":
+            return values
+        if values.shape[1:] == (3,):
+            return np.einsum("kji,kj->ki", self[f"{body}.rotation"], values)
+        angle = self[f"{body}.angle"]
+        c, s = np.cos(angle), np.sin(angle)
+        return np.column_stack([c * values[:, 0] + s * values[:, 1], c * values[:, 1] - s * values[:, 0]])
+
+    def _axes_of(self, body: str, size: int) -> np.ndarray:
+        """Unit vectors (k, size, size) along the axes of a body, one of each row."""
+        if size == 3:
+            return self[f"{body}.rotation"].transpose(0, 2, 1)
+        angle = self[f"{body}.angle"]
+        return np.moveaxis(np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]), 2, 0)
+
+    def _recorded(self, name: Any) -> np.ndarray | None:
+        """A recorded measure or a component of one; None if it was not recorded."""
+        if not self.outputs or not isinstance(name, str):
+            return None
+        if name in self.outputs:
+            return self.outputs[name].reshape(-1, 3, 3) if name.endswith(".rotation") else self.outputs[name]
+        base, _, axis = name.rpartition(".")
+        vector, component = self.outputs.get(base), AXES.get(axis, -1)
+        return vector[:, component] if vector is not None and vector.ndim == 2 and 0 <= component < vector.shape[1] else None
+
+    def unique(self, name: str, body: Any = None) -> Any:
+        """Return whether a measure of a mechanism is determined uniquely, although constraints are redundant.
+
+        With redundant constraints, the motion of rigid bodies does not determine all reactions. The least ones are reported then:
+        those with the smallest sum, over all joints and other constraint elements, of force^2 + (moment / L)^2, with L the
+        largest distance between ends of joints in the drawing. With more than 200 constraints, they depend on the coordinates.
+        A component is unique if redundant multipliers change it by at most 1e-9 of the change of all these forces together.
+
+        Parameters
+        ----------
+        name : str or measure
+            Such as ``"A.force"``.
+        body : str or body, optional
+            Components are along the axes of this body at each sample. Default: along those of the drawing.
+
+        Returns
+        -------
+        bool, or ndarray of bool
+            For each component, True if it is unique at all samples.
+
+        Raises
+        ------
+        KeyError
+            If there is no measure or body of that name.
+
+        Examples
+        --------
+        >>> import zerodrift as zd
+        >>> m = zd.Mechanism("pendulum", gravity=(0, -9.81))
+        >>> link = m.link("link", (0, 0), (1, 0), mass=1.0)
+        >>> pin = m.revolute("pin", m.ground, link.start)
+        >>> zd.simulate(m, 0.1, step=0.01).unique(pin.force)
+        array([ True,  True])
+        """
+        return self.system._unique(name, self, body)
+
+    def _named(self) -> tuple[tuple[np.ndarray, tuple[_gateway.Variable, ...]], ...]:
+        """Arrays with named columns, each with the variables of its columns."""
+        system = self.system
+        return (self.p, system.coordinates), (self.v, system.velocities), (self.multipliers, system.constraints)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.system._names_of_measures(),
+                *(variable.name for _, variables in self._named() for variable in variables)]
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Names of all measures that `sol[name]` reads, such as "pin.force"; none of a system that is not a mechanism."""
+        return tuple(self.system._names_of_measures())

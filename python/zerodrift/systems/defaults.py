@@ -1,0 +1,157 @@
+"""Answers of a system that has nothing but its equations; kinds of systems that have more give their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .. import _gateway
+from .._gateway.compiled.precise import Precise
+from ..errors import WrongValue
+from .shapes import Shape
+
+
+class WithInputs(NamedTuple):
+    """System with some of its numbers as inputs of a run."""
+
+    system: Any
+    initial: list[float]
+    units: list[str]
+    bound: Any      # function of a core of this system and of the names: the core of one run, with the places of its inputs
+
+
+class Defaults:
+    """Advice, drawing, inputs, series and other coordinates of a system: none."""
+
+    def _why_no_closed_form(self, embeds: bool = False) -> str | None:
+        """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none."""
+        core = getattr(self, "_core", None)
+        return "" if core is not None and core.has_closed_form else None
+
+    def _parameter_units(self) -> dict[str, str]:
+        """Units of the parameters, as far as they are known."""
+        return {}
+
+    def points(self, p: Any) -> np.ndarray | None:
+        """Drawing at p: points (n, 2) or (n, 3) in m, joined by lines except at NaN. None: there is no drawing."""
+        return None
+
+    def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]] | None:
+        """Shapes to draw at each of some positions, which may be of a motion; None: only the points and lines of the drawing are
+        known.
+        """
+        return None
+
+    def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
+        """Forces by name, with where they act and what they are at rows of a solution, (k, 2) in m and (k, 2) in N."""
+        return []
+
+    def _definition(self) -> Any:
+        """Geometry, user functions and tables, without parameters and start: what saved states of runs are compared by."""
+        return None
+
+    def _advice(self, error: Exception) -> str | None:
+        """Advice of the system on an error that the core reported at the start; None: there is none."""
+        return None
+
+    def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
+        """Advice on the error of a run that failed near a state; None: there is none."""
+        return None
+
+    def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str:
+        """Sentence on a drive that a motion at (t, p) does not follow for a time ahead in s; "": it does."""
+        return ""
+
+    def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
+        """Name of the velocity whose rate jumps where the step size of a run has collapsed."""
+        return f"velocity {velocity} is {self.velocities[velocity].name!r}"
+
+    def _why_locked(self) -> str | None:
+        """Possible reason why the system has no degree of freedom; None: it is intended."""
+        return None
+
+    def _why_unknown(self, name: Any) -> str | None:
+        """Explanation of a name that is not found; None: there is no measure or coordinate like it."""
+        return None
+
+    def _with_inputs(self, names: Sequence[str]) -> WithInputs:
+        """The system whose numbers of these names are inputs."""
+        raise WrongValue("inputs must be forces and speeds of a mechanism, symbols declared by zd.symbolic(inputs=), or "
+                         f"parameters of a zd.System or zd.native system, and {self.name} has none", "not-available")
+
+    def _names_of_inputs(self) -> list[str]:
+        """Names of numbers that may be inputs."""
+        return []
+
+    def _arrays_of_inputs(self) -> dict[str, np.ndarray]:
+        """Names of the numbers in each array that may be an input as a whole, in its shape."""
+        return {}
+
+    def _core_in_lanes(self, vector: str, embeds: bool = False) -> _gateway.CoreSystem:
+        """The core's system with its closed-form functions, for SIMD lanes, too, where it has them."""
+        return self._closed_form_core(vector, embeds)
+
+    def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+        """The core's system with the Taylor series of its motion, if there is one."""
+        return core
+
+    def _precise_functions(self, vector: str = "baseline") -> Precise | None:
+        """Functions of the system in double-double arithmetic; None: it has none."""
+        return None
+
+    def _program_of(self, name: str, component: int) -> tuple[Any, int, np.ndarray] | None:
+        """Operations of a component of a measure of positions or velocities, as those of a symbolic graph: the lowering, the
+        operation whose value it is, and the parameters (k, 2) that are read, as pairs of doubles; None for other measures.
+        """
+        return None
+
+    def _exact_start(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """Start (nq, 2), (nv, 2) of the system as pairs of doubles, if more than doubles is known of it."""
+        return None
+
+    @property
+    def _formulation(self) -> str:
+        """Formulation of runs that name none."""
+        return _gateway.default("formulations")
+
+    @property
+    def _held_at_start(self) -> tuple[list[int], list[int]]:
+        """Coordinates and velocities that are given as doubles at the start, and from which all others follow."""
+        return [], []
+
+    def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
+        """The core's system with the Jacobian of its motion, if there is one."""
+        return core
+
+    def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
+        """The core's perturbed system, with the Taylor series of the perturbed motion."""
+        return core
+
+    @property
+    def _brings_perturbed_series(self) -> bool:
+        """True if the perturbed system has its Taylor series, too."""
+        return False
+
+    @property
+    def _brings_series(self) -> bool:
+        """True if the system has a Taylor series."""
+        return False
+
+    def _in_other_coordinates(self) -> Any:
+        """Equivalent system in other coordinates, with this system's coordinates among its measures; None if there is none."""
+        return None
+
+    @property
+    def _has_plain_laws(self) -> bool:
+        """True if all terms are known to be polynomials, sines and cosines, except smooth elements."""
+        return False
+
+    def _what_it_costs(self, steps: int | None) -> str | None:
+        """Advice on a cheaper description of the system for a number of steps (None: unknown); None: there is none."""
+        return None
+
+    def _drawn_open(self, also_held: Iterable[str] = ()) -> str | None:
+        """Sentence on a joint that is drawn open where the start, with values held besides, is not meant to differ; or None."""
+        return None
