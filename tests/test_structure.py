@@ -164,6 +164,27 @@ def test_no_file_is_long():
     assert {module: lines for module, lines in lengths.items() if lines > 400} == {}
 
 
+def signatures(tree):
+    """Functions of a module with their arguments, and classes with those of their instances."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef):
+            yield from ((node.name, each.args) for each in node.body if getattr(each, "name", "") == "__init__")
+        elif isinstance(node, ast.FunctionDef) and node.name != "__init__":
+            yield node.name, node.args
+
+
+def test_functions_inside_the_package_have_at_most_a_dozen_arguments():
+    """Public functions and classes have as many as their users choose from; they hand them on together."""
+    found = set()
+    for path in FILES.values():
+        for name, of in signatures(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [each.arg for each in (*of.posonlyargs, *of.args, *of.kwonlyargs, of.vararg, of.kwarg) if each]
+            if len(names) - (names[:1] in (["self"], ["cls"])) > 12:
+                found.add(name)
+    assert {"simulate", "System"} <= found
+    assert found - set(zerodrift.__all__) == set()
+
+
 def test_no_public_function_has_the_name_of_a_module():
     """A module `zerodrift.NAME` would replace the function `zerodrift.NAME` when it is first imported."""
     modules = {module.split(".")[1] for module in FILES if module != "zerodrift"}

@@ -330,7 +330,7 @@ IDENTITIES = """
 import numpy as np
 import zerodrift as zd
 from small_studies import pendulum
-from zerodrift.runs.identity import Identity
+from zerodrift.runs.open.identity import Identity
 
 def decorated(p, L):
     return np.array([(p @ p - L**2) / 2]) if {"a", "b", "c"} else None

@@ -6,7 +6,6 @@ compares the rest of each run with that of its restored copy, in this process an
 """
 
 import hashlib
-import inspect
 import pickle
 import subprocess
 import sys
@@ -21,8 +20,6 @@ from zerodrift import _gateway
 from zerodrift.runs.arguments import settings
 from zerodrift.systems.base import closed_form_core_of
 
-OPTIONS = {name: parameter.default for name, parameter in inspect.signature(zd.simulate).parameters.items()
-           if name in inspect.signature(settings.plan).parameters and name != "system"}
 MANY = 60               # velocities: of more, runs take long
 LEFT_OUT = "skipped"    # systems that cannot be made in a kind of coordinates, and methods that do not suit them
 
@@ -60,7 +57,7 @@ class Case:
     def __init__(self, system, options, duration):
         self.system = system
         self.start = zd.assemble(system, system.p0, system.v0)
-        self.plan = settings.plan(system, (0.0, duration), **(OPTIONS | options))
+        self.plan = settings.plan(system, (0.0, duration), settings.Arguments(**options))
         self.core = closed_form_core_of(system, self.plan.settings["vector"], self.plan.core_settings)
 
     def run(self, saved=None):

@@ -63,7 +63,7 @@ class BatchResults(NamedTuple):
     statistics: np.ndarray              # (k,): counts of the core
     kinetic: np.ndarray                 # (k,): the largest energy seen, J
     energy_error: np.ndarray            # (k,): maximum |Psi_E| over the samples, J
-    measured: dict[str, np.ndarray]     # (k,): quantities of `MEASURED`, if requested
+    measured: dict[str, np.ndarray]     # (k,): quantities of `MEASURED`, of runs with settings of their own
     events: Happened | None             # where events were looked for
     messages: list[str]                 # (k,): of those that did not reach their end
 
@@ -75,28 +75,28 @@ TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "
          "energy_error": "double[]"}
 
 
-def run_batch(core: CoreSystem, settings: Any, data: np.ndarray | None, size: int, p0: np.ndarray | None, v0: np.ndarray | None,
-              capacity: int, wanted: tuple[str, ...], assembly: Assembly | None = None, stop: Stop | None = None, *,
-              lanes: bool = True, family: Any = None, count: int | None = None, outputs: Any = None,
-              events: Watcher | None = None, room: int = 0, measured: bool = False) -> BatchResults:
-    """Execute runs of systems with their own data (k, size), from their own starts p0 (k, nq), v0 (k, nv).
+def run_batch(tables: Any, settings: Any, k: int, capacity: int, wanted: tuple[str, ...], assembly: Assembly | None = None,
+              stop: Stop | None = None, *, lanes: bool = True, outputs: Any = None, events: Watcher | None = None,
+              room: int = 0) -> BatchResults:
+    """Execute k runs of systems with the numbers and starts of `tables`, a `NumberTables`.
 
-    `settings` is one `zd_settings` for all runs, or a list with one per run; runs of a list do not use SIMD lanes.
-    Events must be evaluated by the core. Up to `room` occurrences of each are stored, with their states if "p" is requested.
+    `settings` is one `zd_settings` for all runs, or a list with one per run; runs of a list do not use SIMD lanes, and are
+    measured. Events must be evaluated by the core. Up to `room` occurrences of each are stored, with their states if "p" is
+    requested.
 
-    If data is None, all runs use the data of the core: `size` doubles, or other data if `size` is 0.
-    With a `family` each run has its own system. If p0 is None, `count` runs compute their starts. `outputs` are recorded
-    measures. The interpreter lock is released during the call. The system must not be written in Python.
+    If their data is None, all runs use the data of the core: `size` doubles, or other data if `size` is 0. With a `family` each
+    run has its own system, and computes its start if p0 is None. `outputs` are recorded measures. The interpreter lock is
+    released during the call. The system must not be written in Python.
     """
-    k = count if p0 is None else len(p0)
+    core, data, size, p0, v0, _, family = tables
     shapes = {"p": (core.nq,), "v": (core.nv,), "multipliers": (core.m,), "outputs": (outputs.width if outputs else 0,)}
     columns = {name: np.zeros((k, capacity, *shapes.get(name, ())), np.intc if name in COUNTS else float)
                for name in wanted}
     of_runs = {name: np.zeros(k, kind) for name, kind in OF_RUNS.items()}
     messages = np.empty((k, MESSAGE_SIZE), np.int8)
-    found = {name: np.zeros(k) for name in MEASURED} if measured else {}
-    happened = None if events is None else _room_for(events, core, k, room, with_states="p" in wanted)
     several = settings if isinstance(settings, list) else [settings]
+    found = {name: np.zeros(k) for name in MEASURED} if several is settings else {}
+    happened = None if events is None else _room_for(events, core, k, room, with_states="p" in wanted)
     for each in several:
         each.given_jacobian, each.events = core.given_jacobian, events.c if events is not None else ffi.NULL
         each.outputs = outputs.c if outputs else ffi.NULL

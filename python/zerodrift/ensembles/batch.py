@@ -18,7 +18,7 @@ from ..runs.states.operations import assembly
 from ..systems.base import BaseSystem, closed_form_core_of, core_of, with_what_it_takes
 from ..systems.parameter_tables import NumberTables
 from .part import BY_CORE, IN_LANES, Part, nothing
-from .plan import OPTIONS, Plan
+from .plan import Plan
 
 FEW_EVENTS = 16             # occurrences of each event in a run for which memory is allocated initially
 MAX_NUMBERS = 2**21        # numbers that one call may return, which bounds its memory
@@ -60,16 +60,16 @@ def batch_of(plan: Plan) -> Batch | None:
 
 
 def _batch(plan: Plan) -> Batch | None:
-    runs, system, options = plan.runs, plan.runs.made, OPTIONS | plan.options
+    runs, system, options = plan.runs, plan.runs.made, plan.options.copy()
     if plan.reduce is not None or plan.keeps or not isinstance(system, BaseSystem):
         return None
-    watched = events_of.events(options.pop("events"), system)
+    watched = events_of.events(options.pop("events", None), system)
     if watched is not None and not _are_known(watched, system, set(runs.parameters)):
         return None
     if not plan.is_tabular:
         return None
     span = _check.span(plan.t_span)
-    found = settings.plan(system, span, **options)
+    found = settings.plan(system, span, settings.Arguments(**options))
     if found.rows is None:
         return None
     takes_closed_form = _gateway.takes_closed_form(core_of(system), found.core_settings)
@@ -139,11 +139,11 @@ def batch_range(plan: Plan, batch: Batch, first: int, last: int, stop: _gateway.
 def _make(plan: Plan, batch: Batch, tables: NumberTables, first: int, last: int, wanted: tuple[str, ...],
           stop: _gateway.Stop | None = None) -> _gateway.BatchResults:
     p0, v0 = plan.runs.starts(tables, first, last)
+    systems = tables._replace(core=batch.core_of(tables), p0=p0, v0=v0)
     room = plan.remembered.setdefault("events", FEW_EVENTS)     # occurrences of an event that fit into memory
     while True:
-        made = _gateway.run_batch(batch.core_of(tables), batch.core_settings, tables.data, tables.size, p0, v0, batch.rows,
-                                  tuple(dict.fromkeys(wanted)), batch.assembly, stop, family=tables.family, count=last - first,
-                                  outputs=batch.outputs, events=batch.events, room=room)
+        made = _gateway.run_batch(systems, batch.core_settings, last - first, batch.rows, tuple(dict.fromkeys(wanted)),
+                                  batch.assembly, stop, outputs=batch.outputs, events=batch.events, room=room)
         most = 0 if made.events is None else int(made.events.count.max(initial=0))
         if most <= room:
             return made

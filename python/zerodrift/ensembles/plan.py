@@ -20,9 +20,7 @@ from ..runs.simulate import simulate
 from ..systems.base import BaseSystem, core_of
 from .runs import NoSystem, Runs, named
 
-# Arguments of `simulate` that are not options of an ensemble.
-OWN = ("system", "t_span", "p0", "v0", "outputs", "inputs", "hold", "ramp", "control", "progress", "on_failure", "save_to")
-OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simulate).parameters.items() if name not in OWN}
+OPTIONS = settings.Arguments._field_defaults | {"events": None}      # arguments of `simulate`, with their defaults
 
 
 @dataclass(eq=False)
@@ -160,9 +158,9 @@ def _check_signature(runs: Runs) -> None:
 
 def _check_options(system: BaseSystem, span: tuple[float, float], options: dict[str, Any]) -> int | None:
     """Check options as `simulate` does; return the number of samples of a run, None if not known in advance."""
-    given = OPTIONS | options
-    events_of.events(given.pop("events"), system)
-    return settings.plan(system, span, **given).rows
+    given = options.copy()
+    events_of.events(given.pop("events", None), system)
+    return settings.plan(system, span, settings.Arguments(**given)).rows
 
 
 def _row_bytes(system: BaseSystem, names: list[str], *, keeps: bool) -> Iterator[int]:

@@ -101,15 +101,11 @@ def choose(system: Any, p0: Any, v0: Any, t0: float, step: float | None, outputs
         raise WrongValue(f"user functions must depend on t, positions and velocities in a block, and some of {system.name} read "
                          "reactions", "not-portable")
     p, v = system._state_or_start(p0, v0, t=t0)
-    given = {name: chosen.get(name) for name in ("rtol", "atol", "first_step", "max_step", "max_move", "integrator", "energy",
-                                                 "correction")}
-    unknown = set(chosen) - {*given, "formulation", "stabilization", "on_singular", "max_steps"}
+    unknown = chosen.keys() - set(settings.Arguments._fields) | chosen.keys() & {"t_eval", "save_every", "closed_form", "vector"}
     if unknown:
-        raise WrongType(f"block() has no argument {sorted(unknown)[0]!r}", "wrong-name")
+        raise WrongType(f"block() has no argument {min(unknown)!r}", "wrong-name")
     core_settings = settings.plan(
-        system, (t0, t0 + 1), None, 1, step, formulation=chosen.get("formulation"),
-        stabilization=chosen.get("stabilization", settings.STABILIZATION), on_singular=chosen.get("on_singular", "stop"),
-        max_steps=chosen.get("max_steps", settings.MAX_STEPS), closed_form=False, vector="baseline", **given).core_settings
+        system, (t0, t0 + 1), settings.Arguments(step=step, closed_form=False, vector="baseline", **chosen)).core_settings
     names = None if outputs is None else _measures(_outputs.names(outputs, system), system)
     return Chosen(system, p, v, core_settings, names, _inputs(inputs))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import time
 from collections.abc import Callable
 from typing import Any
@@ -15,10 +16,11 @@ from .open.control import called, controls
 from .open.ending import Outcome, finish_file, finished, solution_of
 from .open.keyboard import Keyboard, progress_of
 from .open.run import Run
+from .open.stepping import SLICE
 from .samples import recording
 from .samples.solution import Solution
 
-SLICE = 0.03        # seconds that the core runs between two checks of keyboard and progress
+NAMED = operator.itemgetter(*settings.Arguments._fields)
 
 
 def simulate(
@@ -220,11 +222,9 @@ def simulate(
     >>> sol.t_events[1].round(4)
     array([0.1287, 0.6498, 1.4803, 2.0013])
     """
-    ready = prepared(system, _check.span(t_span), p0, v0, events, outputs, save_to, {
-        "t_eval": t_eval, "save_every": save_every, "step": step, "rtol": rtol, "atol": atol, "first_step": first_step,
-        "max_step": max_step, "max_move": max_move, "max_steps": max_steps, "formulation": formulation, "integrator": integrator,
-        "stabilization": stabilization, "energy": energy, "correction": correction, "on_singular": on_singular,
-        "closed_form": closed_form, "vector": vector}, inputs=inputs, speeds=Speeds(hold, ramp))
+    given = settings.Arguments(*NAMED(locals()))
+    ready = prepared(system, _check.span(t_span), p0, v0, events, outputs, save_to, given, inputs=inputs,
+                     speeds=Speeds(hold, ramp))
     of = controls(control)
     _check.choice("on_failure", on_failure, ("raise", "return"))
     path = ready.path

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
@@ -16,6 +15,7 @@ from ..runs.open.threads import processors, side_by_side
 from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
 from ..systems.base import BaseSystem, closed_form_core_of, core_of
+from ..systems.parameter_tables import NumberTables
 from . import reference as certified
 from .compare import states_of
 
@@ -23,8 +23,6 @@ TIMES = 200         # at which errors are measured, at most
 TIMES_OF_STEPS = 4000       # the same, at the ends and the middles of steps
 TOGETHER = 0.5      # s of runs whose errors are found together; at least as many runs as there are processors
 PARTS = 4           # for each thread, so that all end at about the same time
-OPTIONS = {name: parameter.default for name, parameter in inspect.signature(simulate).parameters.items()
-           if name in inspect.signature(settings.plan).parameters and name != "system"}
 
 
 class Setting(NamedTuple):
@@ -206,8 +204,7 @@ class Bench:
         return [found[place] for place in range(len(plans))]
 
     def _plan(self, setting: Setting, t_eval: Any = None) -> settings.CheckedSettings:
-        return settings.plan(self.system, self.span, **(
-            OPTIONS | setting.settings | {"closed_form": self.closed_form, "t_eval": t_eval}))
+        return settings.plan(self.system, self.span, settings.Arguments(t_eval, closed_form=self.closed_form, **setting.settings))
 
     def _core(self, plan: settings.CheckedSettings) -> _gateway.CoreSystem:
         return closed_form_core_of(self.system, plan.settings["vector"], plan.core_settings)
@@ -217,7 +214,7 @@ class Bench:
         each, rows = [plan.core_settings for plan in plans], max(plan.rows for plan in plans)
         p0, v0 = (np.tile(x, (len(plans), 1)) for x in self.system._state_or_start(*self.start, t=self.span[0]))
         wanted = ("p",) if "t_eval" in plans[0].settings else ()
-        return _gateway.run_batch(core, each, None, 0, p0, v0, rows, wanted, stop=stop, lanes=False, measured=True)
+        return _gateway.run_batch(NumberTables(core, None, 0, p0, v0, {}), each, len(plans), rows, wanted, stop=stop)
 
 
 def _seconds_of(outcomes: Sequence[Outcome]) -> float:

@@ -28,8 +28,9 @@ class Definition:
     """
 
     def __init__(self, coordinates: Any, kinetic: Any, potential: Any, force: Any, constraints: Any, nonholonomic: Any,
-                 speeds: Any, kinematics: Any, parameters: Mapping[Any, float], time: Any, mass: Any, bias: Any,
+                 speeds: Any, kinematics: Any, parameters: Mapping[Any, float], time: Any, mass_and_bias: tuple[Any, Any],
                  points: Any) -> None:
+        mass, bias = mass_and_bias
         self.time = _time() if time is None else time
         if not isinstance(self.time, sympy.Symbol):
             raise WrongType(f"time must be a symbol, not {time!r}")

@@ -126,7 +126,7 @@ def symbolic(
     """
     values = _with_inputs({} if parameters is None else parameters, inputs)
     definition = Definition(coordinates, kinetic, potential, force, constraints, nonholonomic, speeds, kinematics,
-                            values, time, mass, bias, points)
+                            values, time, (mass, bias), points)
     with Progress(name, progress) as say:
         return SymbolicSystem(_code(definition, say), definition.values, units, p0, v0, name, say, definition.named(quaternions),
                               inputs=[str(each) for each in inputs])

@@ -146,8 +146,8 @@ def native(
     if terms is None:
         raise WrongType("terms is needed with coordinates: the names of the terms that the function writes", "compiled-function")
     return Native(_gateway.find(function, symbol, version), coordinates=coordinates, terms=terms, velocities=velocities,
-                  constraints=constraints, nonholonomic=nonholonomic, parameters=parameters, quaternions=quaternions,
-                  structure=structure, units=units, p0=p0, v0=v0, scratch=scratch, name=name)
+                  constraints=(constraints, nonholonomic), parameters=parameters, quaternions=quaternions, structure=structure,
+                  units=units, start=(p0, v0), scratch=scratch, name=name)
 
 
 class Native(BaseSystem):
@@ -155,13 +155,13 @@ class Native(BaseSystem):
 
     _has_own_energy = True
 
-    def __init__(self, found: _gateway.Function, *, coordinates: Any, terms: Any, velocities: Any, constraints: Any,
-                 nonholonomic: Any, parameters: Any, quaternions: Any, structure: Any, units: Any, p0: Any, v0: Any, scratch: int,
+    def __init__(self, found: _gateway.Function, *, coordinates: Any, terms: Any, velocities: Any, constraints: tuple[Any, Any],
+                 parameters: Any, quaternions: Any, structure: Any, units: Any, start: tuple[Any, Any], scratch: int,
                  name: str | None) -> None:
-        self._found = found
+        self._found, (p0, v0) = found, start
         names = _check.names("coordinates", coordinates, "p")
-        holonomic = _check.names("constraints", constraints, "constraint", least=0)
-        rows = holonomic + _check.names("nonholonomic", nonholonomic, "rolling", least=0)
+        holonomic = _check.names("constraints", constraints[0], "constraint", least=0)
+        rows = holonomic + _check.names("nonholonomic", constraints[1], "rolling", least=0)
         terms = _checked_terms(terms, len(holonomic), len(rows))
         rates = _velocity_names(velocities, names, "A" in terms)
         self.parameters = {key: _check.number(key, value) for key, value in _check.parameters(parameters).items()}
@@ -180,9 +180,9 @@ class Native(BaseSystem):
         self.name = name or "native system"
         self.p0 = None if p0 is None else _check.frozen(_check.vector("p0", p0, self.nq))
         self.v0 = None if v0 is None else _check.frozen(_check.vector("v0", v0, self.nv))
-        self._given = {"coordinates": names, "velocities": rates, "constraints": holonomic, "nonholonomic": rows[len(holonomic):],
+        self._given = {"coordinates": names, "velocities": rates, "constraints": (holonomic, rows[len(holonomic):]),
                        "terms": terms, "quaternions": places, "structure": structure, "units": units,
-                       "p0": self.p0, "v0": self.v0, "scratch": scratch, "name": name}
+                       "start": (self.p0, self.v0), "scratch": scratch, "name": name}
         _check_at_start(self)
 
     def _with(self, changed: dict[str, Any]) -> Native:

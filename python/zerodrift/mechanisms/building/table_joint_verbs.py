@@ -173,14 +173,12 @@ def needs_angles(joint: type[Joint]) -> bool:
 
 
 def _add_in_space(m: Any, joint: type[SpaceJoint], name: Any, *, first: Any = None, second: Any = None, point: Any = None,
-                  at: Any = None, axis: Any = None, along: Any = None, normal: Any = None, axes: Any = None, pitch: Any = None,
-                  length: Any = None, damping: Any = 0.0, cut: Any = False) -> SpaceJoint:
+                  at: Any = None, length: Any = None, damping: Any = 0.0, cut: Any = False, **others: Any) -> SpaceJoint:
     if is_blade(joint.row):
-        return _add_blade(m, joint, name, point, along, normal)
-    given = {"axis": axis, "normal": normal, "axes": axes}
-    directions = _directions(m, joint, name, given[axis_word(joint)]) if joint.row.axes else ()
+        return _add_blade(m, joint, name, point, others.get("along"), others.get("normal"))
+    directions = _directions(m, joint, name, others.get(axis_word(joint))) if joint.row.axes else ()
     if length_word(joint) == "pitch":
-        length = _check.number(f"pitch of {name!r}", pitch)
+        length = _check.number(f"pitch of {name!r}", others.get("pitch"))
         if not length:
             raise WrongValue(f"pitch of {name!r} must not be 0: take revolute", "out-of-range")
     if holds_distance(joint.row):

@@ -84,12 +84,30 @@ def on_singular_row(value: Any) -> int:
 
 MAX_STEPS = 1_000_000     # default limit of adaptive steps
 TOLERANCES = {"rtol": 1e-6, "atol": 1e-9, "first_step": None, "max_step": None, "max_move": None}     # defaults of adaptive steps
-ARGUMENTS_OF_PLAN = {   # arguments of `plan` besides step and t_eval, with their defaults
-    "save_every": 1, "rtol": None, "atol": None, "first_step": None, "max_step": None, "max_move": None, "max_steps": MAX_STEPS,
-    "formulation": None, "integrator": None, "stabilization": STABILIZATION, "energy": None, "correction": None,
-    "on_singular": "stop", "closed_form": None, "vector": None}
 FINEST_RTOL = 100 * np.finfo(float).eps     # smallest rtol: below it, error estimates are rounding
 RESOLVED = 16 * float(np.finfo(float).eps)      # shortest step, relative to the time
+
+
+class Arguments(NamedTuple):
+    """Arguments of `simulate` on samples, steps and methods, as given; all but `t_eval` are the key of a cache."""
+
+    t_eval: Any = None
+    step: Any = None
+    save_every: Any = 1
+    rtol: Any = None
+    atol: Any = None
+    first_step: Any = None
+    max_step: Any = None
+    max_move: Any = None
+    max_steps: Any = MAX_STEPS
+    formulation: Any = None
+    integrator: Any = None
+    stabilization: Any = STABILIZATION
+    energy: Any = None
+    correction: Any = None
+    on_singular: Any = "stop"
+    closed_form: Any = None
+    vector: Any = None
 
 
 class CheckedSettings(NamedTuple):
@@ -115,47 +133,40 @@ class _Known(NamedTuple):
     requires: int               # bit mask of the terms that the corrections require
 
 
-def plan(system: BaseSystem, span: tuple[float, float], t_eval: Any, save_every: Any, step: Any, rtol: Any, atol: Any,
-         first_step: Any, max_step: Any, max_move: Any, max_steps: Any, formulation: Any, integrator: Any,
-         stabilization: Any, energy: Any, correction: Any, on_singular: Any, closed_form: Any, vector: Any) -> CheckedSettings:
+def plan(system: BaseSystem, span: tuple[float, float], given: Arguments) -> CheckedSettings:
     """Check the arguments of `simulate` and translate them for the core."""
-    if isinstance(correction, list):
-        correction = tuple(correction)
-    if integrator is None:
-        integrator = CHOOSING if step is None else INTEGRATOR
-    if formulation is None:
-        formulation = system._formulation
-    given = (save_every, step, rtol, atol, first_step, max_step, max_move, max_steps, formulation, integrator,
-             stabilization, energy, correction, on_singular, closed_form, vector_unit(vector))
+    if isinstance(given.correction, list):
+        given = given._replace(correction=tuple(given.correction))
+    key = system._formulation if given.formulation is None else given.formulation, vector_unit(given.vector), *given[1:]
     try:
-        found = _plan(*given)
+        found = _plan(*key)
     except TypeError:       # raised for unhashable arguments, too, most of which are wrong: check them without the cache
-        found = _plan.__wrapped__(*given)
+        found = _plan.__wrapped__(*key)
     if found.requires & ~core_of(system).provides:
         _refuse_corrections(system, found.corrections)
     settings, course = found.settings.copy(), {"t0": span[0], "t1": span[1]}
     _check_resolved(settings, span)
-    if t_eval is None:
+    if given.t_eval is None:
         rows = saved_rows(span, settings)
     else:
-        course["t_eval"] = settings["t_eval"] = times = times_to_save(t_eval, settings["save_every"], span)
+        course["t_eval"] = settings["t_eval"] = times = times_to_save(given.t_eval, settings["save_every"], span)
         rows = len(times) + 1       # one more, as an event may end the run between two of them
     return CheckedSettings(settings, _gateway.settings(course, found.core_settings), rows)
 
 
 # Cached, as the checks take as long as a short run. `typed` keeps 1 and True apart.
 @functools.lru_cache(typed=True)
-def _plan(save_every: Any, step: Any, rtol: Any, atol: Any, first_step: Any, max_step: Any, max_move: Any, max_steps: Any,
-          formulation: Any, integrator: Any, stabilization: Any, energy: Any, correction: Any, on_singular: Any, closed_form: Any,
-          vector: str) -> _Known:
-    on_singular_row(on_singular)
-    if closed_form is not None and closed_form is not False:
-        raise WrongValue(f"closed_form must be None, which uses closed-form functions, or False, not {closed_form!r}")
-    tolerances = {"rtol": rtol, "atol": atol, "first_step": first_step, "max_step": max_step, "max_move": max_move}
-    chosen, corrections, requires = _methods(formulation, integrator, stabilization, energy, correction)
-    settings = {**_steps(step, integrator, max_steps, tolerances), **chosen,
-              "save_every": _check.count("save_every", save_every), "on_singular": on_singular, "closed_form": closed_form,
-              "vector": vector}
+def _plan(formulation: Any, vector: str, *others: Any) -> _Known:
+    given = Arguments(None, *others)
+    on_singular_row(given.on_singular)
+    if given.closed_form is not None and given.closed_form is not False:
+        raise WrongValue(f"closed_form must be None, which uses closed-form functions, or False, not {given.closed_form!r}")
+    integrator = given.integrator
+    if integrator is None:
+        integrator = CHOOSING if given.step is None else INTEGRATOR
+    chosen, corrections, requires = _methods(formulation, integrator, given)
+    settings = {**_steps(integrator, given), **chosen, "save_every": _check.count("save_every", given.save_every),
+                "on_singular": given.on_singular, "closed_form": given.closed_form, "vector": vector}
     return _Known(settings, core_settings((0.0, 0.0), settings), corrections, requires)
 
 
@@ -195,16 +206,17 @@ def _check_resolved(settings: dict[str, Any], span: tuple[float, float]) -> None
         raise WrongValue(f"step must be at least {smallest:.3g} for times up to {latest:g}, not {step:g}", "step-size")
 
 
-def _steps(step: Any, integrator: Any, max_steps: Any, tolerances: dict[str, Any]) -> dict[str, Any]:
+def _steps(integrator: Any, given: Arguments) -> dict[str, Any]:
     """Settings of fixed steps (`step` given) or of adaptive steps, checked."""
     name_of("integrators", integrator)
-    max_steps = None if max_steps is None else _check.count("max_steps", max_steps)
-    if step is None:
+    tolerances = {name: getattr(given, name) for name in TOLERANCES}
+    max_steps = None if given.max_steps is None else _check.count("max_steps", given.max_steps)
+    if given.step is None:
         return {"step": None, **_tolerances(integrator, tolerances), "max_steps": max_steps}
     for name, value in tolerances.items():
         if value is not None:
             raise WrongValue(f"{name} is for adaptive steps: step must be left out with it", "conflicting-arguments")
-    return {"step": _check.number("step", step, above=0, code="step-size")}
+    return {"step": _check.number("step", given.step, above=0, code="step-size")}
 
 
 def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
@@ -228,13 +240,12 @@ def _tolerances(integrator: Any, given: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-def _methods(formulation: Any, integrator: Any, given_stabilization: Any, given_energy: Any,
-             given_correction: Any) -> tuple[dict[str, Any], list[RowSettings], int]:
+def _methods(formulation: Any, integrator: Any, given: Arguments) -> tuple[dict[str, Any], list[RowSettings], int]:
     """Settings of methods, checked; all corrections among them; and the bit mask of the terms that these require."""
     name_of("formulations", formulation)
-    found = {"formulation": formulation, "integrator": integrator, "stabilization": stabilization(given_stabilization),
-             "energy": energy(given_energy)}
-    if more := correction(given_correction):
+    found = {"formulation": formulation, "integrator": integrator, "stabilization": stabilization(given.stabilization),
+             "energy": energy(given.energy)}
+    if more := correction(given.correction):
         found["correction"] = more
     corrections = corrections_of(found)
     names = [each.card.name for each in corrections]

@@ -15,7 +15,7 @@ from ..arguments import outputs as _outputs
 from ..arguments import settings
 from ..arguments.inputs import FOLLOWED, Declared, Speeds
 from ..arguments.inputs import declared as declared_inputs
-from ..arguments.settings import ARGUMENTS_OF_PLAN
+from ..arguments.settings import Arguments
 from ..samples import recording
 from ..states.instant import start_of
 
@@ -65,17 +65,14 @@ class Prepared(NamedTuple):
 
 
 def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: Any, outputs: Any, save_to: Any,
-             arguments: dict[str, Any], *, inputs: Any = None, speeds: Speeds = FOLLOWED, is_open: bool = False,
+             arguments: Arguments, *, inputs: Any = None, speeds: Speeds = FOLLOWED, is_open: bool = False,
              stacklevel: int = 2) -> Prepared:
-    """Check the arguments of a run; `arguments` are those of `settings.plan` from `t_eval` on.
-
-    `is_open`: the run has no end; `span` only serves the checks of its start.
-    """
+    """Check the arguments of a run. `is_open`: it has no end; `span` only serves the checks of its start."""
     system, p0, v0 = start_of(system, p0, v0, span[0])
     core_of(system)
-    declared = declared_inputs(inputs, system, speeds, arguments["step"])
+    declared = declared_inputs(inputs, system, speeds, arguments.step)
     of = declared.of.system if declared else system
-    plan = settings.plan(of, span, **arguments)
+    plan = settings.plan(of, span, arguments)
     plan.core_settings.is_open = is_open
     core = closed_form_core_of(of, plan.settings["vector"], plan.core_settings)
     unit = _gateway.closed_form_unit(core, plan.core_settings)
@@ -119,9 +116,10 @@ def nominal_span(t0: float, step: Any) -> tuple[float, float]:
     return t0, t0 + (NOMINAL_SPAN if step is None else NOMINAL_STEPS * _check.number("step", step, above=0, code="step-size"))
 
 
-def known_settings(settings: dict[str, Any]) -> dict[str, Any]:
-    """All settings of `simulate` besides the step: given ones, and the defaults."""
+def known_settings(step: Any, settings: dict[str, Any]) -> Arguments:
+    """Arguments of an open run: the step, other settings of `simulate`, and the defaults."""
+    known = Arguments._fields[2:]
     for name in settings:
-        if name not in ARGUMENTS_OF_PLAN:
-            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, ARGUMENTS_OF_PLAN)}", "wrong-name")
-    return {"t_eval": None, **ARGUMENTS_OF_PLAN, **settings}
+        if name not in known:
+            raise WrongType(f"Run has no setting {name!r}; {_check.closest(name, known)}", "wrong-name")
+    return Arguments(None, step, **settings)

@@ -86,7 +86,7 @@ class ManyRuns:
                  **settings: Any) -> None:
         t0, count = _check.number("t0", t0), _check.count("runs", runs)
         first = [_first(name, each, count) for name, each in (("p0", p0), ("v0", v0))]
-        ready = prepared(system, nominal_span(t0, step), *first, None, None, None, {"step": step, **known_settings(settings)},
+        ready = prepared(system, nominal_span(t0, step), *first, None, None, None, known_settings(step, settings),
                          inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
         if count >= FEWEST_IN_LANES:
             ready = _in_lanes(ready)

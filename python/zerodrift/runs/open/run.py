@@ -131,9 +131,8 @@ class Run(Stepping):
                  inputs: Any = None, hold: bool = False, ramp: float | None = None, control: Any = None, record: bool = False,
                  save_to: Any = None, events: Any = None, outputs: Any = None, **settings: Any) -> None:
         t0 = _check.number("t0", t0)
-        arguments = {"step": step, **known_settings(settings)}
-        ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to, arguments, inputs=inputs,
-                         speeds=Speeds(hold, ramp), is_open=True)
+        ready = prepared(system, nominal_span(t0, step), p0, v0, events, outputs, save_to, known_settings(step, settings),
+                         inputs=inputs, speeds=Speeds(hold, ramp), is_open=True)
         self._begin(ready, controls(control))
         self._lock = recording.locked(ready.path)
         self._lock.__enter__()
