@@ -8,7 +8,6 @@ import numpy as np
 
 from .. import _check
 from ..errors import WrongName
-from ..runs.states.instant import names_of_quantities
 from ..systems.base import BaseSystem
 
 
@@ -75,5 +74,5 @@ def read(system: BaseSystem, name: Any, t: np.ndarray, states: tuple[np.ndarray,
         for i, variable in enumerate(variables):
             if variable.name == name:
                 return values[:, i].copy()
-    raise WrongName(f"nothing in {system.name} is called {name!r}; {_check.closest(name, names_of_quantities(system))}",
+    raise WrongName(f"nothing in {system.name} is called {name!r}; {_check.closest(name, system._names_of_quantities())}",
                     "wrong-name")

@@ -9,7 +9,6 @@ import numpy as np
 
 from .. import _check
 from ..errors import WrongType, WrongValue
-from ..runs.states.instant import names_of_quantities
 from ..systems.base import BaseSystem
 from . import differences
 from .state import State, scales, state
@@ -91,7 +90,7 @@ def find(at: State, name: str, what: str) -> Found:
         row = np.eye(system.nv)[[velocities.index(name)]]
         return Found(row @ at.v, np.zeros(1), row, np.zeros(1), True)
     raise WrongValue(f"{what} names {name!r}, and nothing in {system.name} is called that; "
-                     f"{_check.closest(name, names_of_quantities(system))}", "wrong-name")
+                     f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
 
 
 def rates_of(system: BaseSystem, names: tuple[str, ...], what: str, t: np.ndarray, p: np.ndarray,

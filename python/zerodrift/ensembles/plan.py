@@ -174,11 +174,10 @@ def _row_bytes(system: BaseSystem, names: list[str], *, keeps: bool) -> Iterator
 
 
 def _check_names(system: BaseSystem, names: list[str]) -> None:
-    known = [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
     for name in names:
-        if name not in known and system._watching.find(name) is None:
+        if name not in system._columns_of and system._watching.find(name) is None:
             raise WrongValue(f"no output is called {name!r} in {system.name}; "
-                             f"{_check.closest(name, [*system._names_of_measures(), *known])}", "wrong-name")
+                             f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
 
 
 def _units(system: BaseSystem, names: list[str]) -> dict[str, str]:

@@ -227,16 +227,14 @@ def simulate(
                      speeds=Speeds(hold, ramp))
     of = controls(control)
     _check.choice("on_failure", on_failure, ("raise", "return"))
-    path = ready.path
-    with recording.locked(path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__, called.__code__) as keyboard:
+    with recording.locked(ready.path), Keyboard(*_gateway.CALLBACK_CODE, _show.__code__, called.__code__) as keyboard:
         controlled = Run.of(ready, of) if of or inputs else None
-        run, record = controlled._core if controlled else ready.created(), ready.record()
-        if path:
-            recording.begin_file(record, run, ready.system, ready.span, ready.settings, ready.recorded)
+        run = controlled._core if controlled else ready.created()
+        record = ready.record(run)
         outcome = _drive(run, record, progress, keyboard, controlled)
         results = run.results()
         solution = solution_of(ready, run, record, results, outcome, history=controlled._history if controlled else None)
-        if path:
+        if ready.path:
             finish_file(record, solution, outcome)
     return finished(solution, run, results, outcome, on_failure, keyboard)
 

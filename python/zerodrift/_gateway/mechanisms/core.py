@@ -7,8 +7,6 @@ import functools
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from ..._core import ffi, lib
 from ...errors import WrongValue
 from ..base import MESSAGE_SIZE, text
@@ -81,13 +79,7 @@ class MechanismCore(CoreSystem):
         """Origin of each constraint, holonomic ones first."""
         return rows_of(self._function("rows")(self._mechanism), self.m)
 
-    def moved(self, p: np.ndarray, step: np.ndarray) -> np.ndarray:
-        """Positions (nq,) after a displacement (nv,): bodies turn about an axis of their own, and angles count turns."""
-        return displaced(self, p, step)
-
-    def apart(self, p: np.ndarray, other: np.ndarray) -> np.ndarray:
-        """Displacement (nv,) from other positions to p, by the shorter rotation of each body."""
-        return displacement(self, p, other)
+    moved, apart = displaced, displacement
 
     def for_run(self) -> MechanismCore:
         """The system; with user functions, a copy that stores their exceptions."""

@@ -40,8 +40,7 @@ def _name(what: str, given: Any, system: BaseSystem) -> str:
     name = getattr(given, "name", given)
     if not isinstance(name, str):
         raise WrongType(f"{what} must be a measure or the name of one, not {_check.shown(given)}")
-    variables = [variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group]
-    if system._watching.find(name) is None and name not in variables:
+    if system._watching.find(name) is None and name not in system._columns_of:
         raise WrongValue(f"{what} must name a measure or a variable of {system.name}, not {name!r}; "
-                         f"{_check.closest(name, [*system._names_of_measures(), *variables])}", "wrong-name")
+                         f"{_check.closest(name, system._names_of_quantities())}", "wrong-name")
     return name

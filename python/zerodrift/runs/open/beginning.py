@@ -59,9 +59,31 @@ class Prepared(NamedTuple):
                 raise
             raise advised(error, advice) from None
 
-    def record(self) -> Any:
-        """New record for the samples, in memory or in the file."""
-        return recording.record_of(self.core, self.outputs, self.rows, self.path)
+    def record(self, run: _gateway.Run) -> Any:
+        """New record for the samples of the core's run, in memory or in the file, whose header is written."""
+        if self.path:
+            record = recording.file_of_samples().SampleFile(self.path, self.core, self.outputs, self.rows)
+            sizes = dict(zip(self.recorded.names, self.outputs.sizes, strict=True)) if self.outputs else {}
+            record.begin({"settings": self.settings, "system": self.system, "t_span": self.span}, run.results().sizes, sizes)
+            return record
+        recording.check_memory(self.rows or 0, _gateway.row_bytes(self.core, self.outputs), stacklevel=3)
+        return _gateway.Record(self.core, self.rows or recording.FIRST_BLOCK, self.outputs)
+
+    @property
+    def of(self) -> BaseSystem:
+        """The system that is run, with inputs in the place of numbers."""
+        return self.declared.of.system if self.declared else self.system
+
+    def with_own(self, values: np.ndarray | None = None) -> Prepared:
+        """The same with the memory of one run: inputs, in `values` if given, and records of events and outputs."""
+        core, measured, inputs, recorded, watcher = self.source, self.source_measured, None, None, None
+        if self.declared:
+            inputs, (core, measured) = self.declared.bound(core, measured, values=values)
+        if (names := self.settings.get("outputs")) is not None:
+            recorded = _outputs.Recorded(names, self.of, core, measured if inputs else None)
+        if self.events is not None:
+            watcher = _gateway.Watcher(core, self.events, measured, is_own=inputs is not None)
+        return self._replace(core=core, measured=measured, inputs=inputs, recorded=recorded, watcher=watcher)
 
 
 def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: Any, outputs: Any, save_to: Any,
@@ -94,21 +116,7 @@ def prepared(system: Any, span: tuple[float, float], p0: Any, v0: Any, events: A
     watched = _events.events(events, of)
     ready = Prepared(system, span, plan.settings, plan.core_settings, core, of._watching.core, rows, p0, v0, watched, None, None,
                      path, declared, None, core, of._watching.core)
-    return with_own(ready, of)
-
-
-def with_own(ready: Prepared, of: BaseSystem, values: np.ndarray | None = None) -> Prepared:
-    """Arguments with the memory of one run: inputs, in `values` if given, and records of events and outputs."""
-    core, measured, inputs = ready.core, ready.measured, None
-    if ready.declared:
-        inputs, (core, measured) = ready.declared.bound(core, measured, values=values)
-    names, recorded = ready.settings.get("outputs"), None
-    if names is not None:
-        recorded = _outputs.Recorded(names, of, core, measured if inputs else None)
-    watcher = None
-    if ready.events is not None:
-        watcher = _gateway.Watcher(core, ready.events, measured, is_own=inputs is not None)
-    return ready._replace(core=core, measured=measured, inputs=inputs, recorded=recorded, watcher=watcher)
+    return ready.with_own()
 
 
 def nominal_span(t0: float, step: Any) -> tuple[float, float]:

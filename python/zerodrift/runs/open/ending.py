@@ -150,7 +150,7 @@ def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dic
 
     Drives are checked at the state that could not be corrected, which may be far off, and at the last sample of a solution.
     """
-    t, p, _ = run.place()
+    t, p, v = run.place()
     if status == _gateway.CALLBACK:
         return run.error(status), run.message
     ahead = STEPS_AHEAD * settings["step"] if settings.get("step") else SHARE_AHEAD * (span[1] - span[0])
@@ -158,13 +158,9 @@ def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dic
     for of, at in ((t, p), *samples):
         if said := system._beyond_reach(float(of), np.array(at), t - of + ahead):
             return CorrectionFailed(said), None
-    note = on_collapse(system, run) if status == _gateway.COLLAPSED else system._advice_on_failure(t, p)
-    return run.error(status), note
-
-
-def on_collapse(system: BaseSystem, run: _gateway.Run) -> str:
-    """Velocity and forces that jump where the step size of a run has collapsed."""
-    return system._advice_on_collapse(*run.place(), run.results().statistics.part)
+    if status == _gateway.COLLAPSED:
+        return run.error(status), system._advice_on_collapse(t, p, v, run.results().statistics.part)
+    return run.error(status), system._advice_on_failure(t, p)
 
 
 def with_solution(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:

@@ -11,10 +11,10 @@ import numpy as np
 
 from ... import _check, _gateway
 from ...errors import WrongName, WrongValue
-from ...systems.base import BaseSystem, closed_form_core_of
+from ...systems.base import closed_form_core_of
 from ..arguments.inputs import Speeds
 from ..states.reading import Reading
-from .beginning import Prepared, known_settings, nominal_span, prepared, with_own
+from .beginning import Prepared, known_settings, nominal_span, prepared
 from .run_state import restored, saved, unpacked
 from .threads import processors
 
@@ -174,8 +174,7 @@ class ManyRuns:
         run = self._core[i]         # which brings it to its present state
         if i not in self._readings:
             ready = self._ready[i]
-            of = ready.declared.of.system if ready.declared else ready.system
-            self._readings[i] = Reading(of, run, ready.measured)
+            self._readings[i] = Reading(ready.of, run, ready.measured)
         return self._readings[i]
 
     def __setitem__(self, name: Any, values: Any) -> None:
@@ -219,17 +218,12 @@ class ManyRuns:
             raise WrongValue(f"states must be {len(places)}, one for each run, not {len(each)}", "shape")
         for i, state in zip(places, each, strict=True):
             found, ready = unpacked(state), self._renewed(i)
-            run = restored(ready, found.core, self.system)
-            if ready.inputs:
-                ready.inputs.restore(found.inputs, found.places)
-            self._become(i, ready, run)
+            self._become(i, ready, restored(ready, found, self.system))
 
     def _renewed(self, i: int) -> Prepared:
         """Arguments of a run, with memory of its own for inputs besides that of their values."""
         ready = self._ready[i]
-        if not ready.inputs:
-            return ready
-        return with_own(ready._replace(core=ready.source, measured=ready.source_measured), ready.declared.of.system)
+        return ready.with_own() if ready.inputs else ready
 
     def _become(self, i: int, ready: Prepared, run: _gateway.OpenRun) -> None:
         """Put another run of the core in the place of one."""
@@ -311,22 +305,18 @@ def _of_each(ready: Prepared, count: int, tables: list[dict[str, Any]], states: 
     """Arguments of each run, with its own parameters, start and inputs."""
     found = []
     for i in range(count):
-        mine = _with_parameters(ready, tables[i]) if tables[i] else ready._replace(core=ready.source,
-                                                                                            measured=ready.source_measured)
-        p, v = states[i]
+        mine, (p, v) = _with_parameters(ready, tables[i]) if tables[i] else ready, states[i]
         mine = mine._replace(p0=mine.p0 if p is None else p, v0=mine.v0 if v is None else v)
-        of: BaseSystem = mine.declared.of.system if mine.declared else mine.system
-        found.append(with_own(mine, of, values[i] if mine.declared else None))
+        found.append(mine.with_own(values[i] if mine.declared else None))
     return found
 
 
 def _in_lanes(ready: Prepared) -> Prepared:
     """Arguments with functions for SIMD lanes, if the system has them and the settings admit lanes."""
-    of: BaseSystem = ready.declared.of.system if ready.declared else ready.system
     vector = ready.settings["vector"]
     if vector is None or not ready.source.has_closed_form or not _gateway.lanes_serve(ready.source, ready.core_settings):
         return ready
-    return ready._replace(source=of._core_in_lanes(vector))
+    return ready._replace(source=ready.of._core_in_lanes(vector))
 
 
 def _with_parameters(ready: Prepared, parameters: dict[str, Any]) -> Prepared:
@@ -337,5 +327,4 @@ def _with_parameters(ready: Prepared, parameters: dict[str, Any]) -> Prepared:
     if ready.source.has_lanes:
         core = of._core_in_lanes(ready.settings["vector"])
     p0, v0 = of._state_or_start(None, None, t=ready.span[0]) if system.p0 is not None else (ready.p0, ready.v0)
-    return ready._replace(system=system, core=core, measured=of._watching.core, source=core, source_measured=of._watching.core,
-                          declared=declared, p0=p0, v0=v0)
+    return ready._replace(system=system, source=core, source_measured=of._watching.core, declared=declared, p0=p0, v0=v0)

@@ -99,7 +99,7 @@ class Present:
         raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}", "wrong-name")
 
     def _ipython_key_completions_(self) -> list[str]:
-        return [*self._places, *self._reading.names()]
+        return [*self._places, *self._ready.of._names_of_quantities()]
 
     def __repr__(self) -> str:
         return run_summary(self)

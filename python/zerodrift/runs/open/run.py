@@ -9,13 +9,12 @@ import numpy as np
 
 from ... import _check, _gateway
 from ...errors import StateWarning, WrongState, WrongValue
-from ...systems.base import BaseSystem
 from ..arguments.inputs import Drives, History, Jump, Speeds
 from ..samples import recording
 from ..samples.solution import Solution
 from ..states.reading import Reading
 from . import diagnosis
-from .beginning import Prepared, known_settings, nominal_span, prepared, with_own
+from .beginning import Prepared, known_settings, nominal_span, prepared
 from .control import Sampling, controls
 from .ending import Outcome, finish_file, solution_of
 from .run_state import restored, saved, unpacked
@@ -154,7 +153,7 @@ class Run(Stepping):
         self._core, self._c = core, core.c
         self.jump: Jump | None = None
         self._jumps = core.jumps
-        self._reading = Reading(self._of, core, self._ready.measured)
+        self._reading = Reading(self._ready.of, core, self._ready.measured)
 
     @classmethod
     def of(cls, ready: Prepared, controllers: Any) -> Run:
@@ -165,19 +164,12 @@ class Run(Stepping):
             run._history = History(run.t, run.inputs, run._places)
         return run
 
-    @property
-    def _of(self) -> BaseSystem:
-        """The system that is run, with inputs in the place of numbers."""
-        return self._ready.declared.of.system if self._ready.declared else self.system
-
     def _begin_record(self) -> None:
         ready = self._ready
-        self._record = ready.record()
+        self._record = ready.record(self._core)
         self._c_record = self._record.c
         if ready.inputs:
             self._history = History(self.t, self.inputs, self._places)
-        if ready.path:
-            recording.begin_file(self._record, self._core, ready.system, ready.span, ready.settings, ready.recorded)
 
     # ---- state ----
 
@@ -236,11 +228,8 @@ class Run(Stepping):
         found, keeping = unpacked(state), self._keeping()
         if len(found.inputs) != len(self.inputs) or len(found.controllers) != len(keeping):
             raise WrongState("a state must be of a run with the same inputs and controllers")
-        ready = self._renewed()
-        core = restored(ready, found.core, self.system)
-        if ready.inputs:
-            ready.inputs.restore(found.inputs, found.places)
-        self._become(ready, core)
+        ready = self._ready.with_own()
+        self._become(ready, restored(ready, found, self.system))
         for each, kept in zip(keeping, found.controllers, strict=True):
             each.restore(kept)
 
@@ -253,7 +242,7 @@ class Run(Stepping):
             Without a record.
         """
         twin = object.__new__(type(self))
-        twin._begin(self._renewed(), self._controllers)
+        twin._begin(self._ready.with_own(), self._controllers)
         twin._lock = recording.locked(None)
         twin.restore(self._saved())
         return twin
@@ -272,16 +261,11 @@ class Run(Stepping):
             If the start violates the constraints.
         """
         self._require_idle()
-        ready = self._renewed()
+        ready = self._ready.with_own()
         if p0 is not None or v0 is not None:
-            p, v = self._of._state_or_start(p0, v0, t=ready.span[0])
+            p, v = self._ready.of._state_or_start(p0, v0, t=ready.span[0])
             ready = ready._replace(p0=p, v0=v)
         self._become(ready, ready.created(_gateway.OpenRun))
-
-    def _renewed(self) -> Prepared:
-        """Arguments with memory of their own for inputs, events and outputs."""
-        ready = self._ready
-        return with_own(ready._replace(core=ready.source, measured=ready.source_measured), self._of)
 
     def _become(self, ready: Prepared, core: _gateway.OpenRun) -> None:
         """Go on as another run of the core."""

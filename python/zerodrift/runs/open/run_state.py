@@ -84,7 +84,7 @@ def unpacked(given: Any) -> RunState:
 
 def fingerprint(ready: Prepared, system: BaseSystem) -> str:
     """Text that identifies the core and the system with its parameters; `system` has the same definition."""
-    of = ready.declared.of.system if ready.declared else ready.system
+    of = ready.of
     parameters = sorted((name, repr(value)) for name, value in of.parameters.items())
     names = ready.declared.names if ready.declared else ()
     described = (_gateway.FINGERPRINT, type(of).__name__, of.name, of.coordinates, of.velocities, of.constraints, parameters,
@@ -99,8 +99,8 @@ def _definition(system: BaseSystem) -> str:
     return _definitions[system]
 
 
-def restored(ready: Prepared, core: bytes, system: BaseSystem) -> Any:
-    """The core's run that continues from its block.
+def restored(ready: Prepared, found: RunState, system: BaseSystem) -> Any:
+    """The core's run that continues from a state, with its inputs.
 
     Raises
     ------
@@ -108,6 +108,9 @@ def restored(ready: Prepared, core: bytes, system: BaseSystem) -> Any:
         If the block is of another system, other settings or another vector unit.
     """
     try:
-        return ready.created(_gateway.OpenRun, _gateway.Saved(core, fingerprint(ready, system)))
+        core = ready.created(_gateway.OpenRun, _gateway.Saved(found.core, fingerprint(ready, system)))
     except (ZerodriftError, ValueError) as error:
         raise WrongState(sentence(error)) from None
+    if ready.inputs:
+        ready.inputs.restore(found.inputs, found.places)
+    return core

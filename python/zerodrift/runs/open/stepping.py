@@ -81,18 +81,15 @@ class Stepping(Present):
     def _sample(self, last: int, t: float) -> None:
         """Advance to a number of steps or to a time, with calls of the controllers that are due."""
         sampling = self._sampling
-        while self._is_before(last, t):
+        step = self.settings["step"]
+        rounding = 0.0 if step is None else 1e-9 * step
+        while self.steps < last and t - self.t > rounding:
             sampling.call(self)
             steps, instant = sampling.next(self)
             made = self.steps
             self._go(last - made if steps is None else min(steps, last - made), min(t, instant))
             if self.event is not None or self.steps == made:    # none is made to a time within rounding
                 return
-
-    def _is_before(self, last: int, t: float) -> bool:
-        step, now = self.settings["step"], self.t
-        rounding = 0.0 if step is None else 1e-9 * step
-        return self.steps < last and t - now > rounding
 
     def _go(self, steps: int, t: float) -> None:
         """Advance by a number of steps or to a time, whichever comes first."""
@@ -134,7 +131,7 @@ class Stepping(Present):
             raise WrongValue("steps must be at least 0", "out-of-range")
         error, note = core.error(status), None
         if status != _gateway.BAD_INPUT:
-            error, note = failure_of(self._of, core, status, self.settings, self._ready.span)
+            error, note = failure_of(self._ready.of, core, status, self.settings, self._ready.span)
         core.forget_errors()
         if self._record is not None and self._ready.path is None and isinstance(error, Exception):
             with_solution(error, self._solution(Outcome(status, self._seconds, None)))

@@ -56,10 +56,37 @@ def unit_of(solution: Any, name: str) -> str:
     return solution.system._unit_of_measure(name)
 
 
-def to_csv(solution: Any, path: str | Path, names: Any = None) -> Path:
-    """Write measures of a solution to a CSV file, see `Solution.to_csv`."""
+def to_csv(self: Any, path: str | Path, names: Any = None) -> Path:
+    """Write columns to a CSV file: the time, and what is named, a component each, with names and units in the first line.
+
+    Parameters
+    ----------
+    path : str or Path
+    names : str, measure, or sequence of these, optional
+        Coordinates, velocities, constraints and measures, as in ``sol[name]``. Left out: all coordinates, velocities and
+        multipliers. The multiplier of a drive or coupling is named so, as its force has the opposite sign.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    KeyError
+        If nothing has a name.
+
+    Examples
+    --------
+    >>> import tempfile, zerodrift as zd
+    >>> sol = zd.simulate(zd.models.slider_crank(), 0.1, step=0.01)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = sol.to_csv(folder + "/crank.csv", ["crank.angle", "slide.force"])
+    ...     path.read_text().splitlines()[0]
+    't [s],crank.angle [rad],slide.force.x [N],slide.force.y [N]'
+    """
     path = Path(path)
-    heading, values = _table(solution, names)
+    heading, values = _table(self, names)
 
     def write(file: Any) -> None:
         file.write((",".join(f'"{each}"' if "," in each else each for each in heading) + "\n").encode())
@@ -69,11 +96,30 @@ def to_csv(solution: Any, path: str | Path, names: Any = None) -> Path:
     return path
 
 
-def to_excel(solution: Any, path: str | Path, names: Any = None) -> Path:
-    """Write measures of a solution to an Excel file, see `Solution.to_excel`."""
+def to_excel(self: Any, path: str | Path, names: Any = None) -> Path:
+    """Write the same to an Excel file; pandas and openpyxl have to be installed: ``pip install 'zerodrift[excel]'``.
+
+    Parameters
+    ----------
+    path : str or Path
+    names : str, measure, or sequence of these, optional
+        As in `to_csv`.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    ImportError
+        If one of these packages is missing.
+    KeyError
+        If nothing has a name.
+    """
     pandas, _ = (_imported(name) for name in ("pandas", "openpyxl"))
     path = Path(path)
-    heading, values = _table(solution, names)
+    heading, values = _table(self, names)
     write_atomically(path, lambda file: pandas.DataFrame(values, columns=heading).to_excel(file, index=False, engine="openpyxl"))
     return path
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check, _gateway
+from ... import _gateway
 from ...errors import WrongName
 from ...systems.measure_values import AXES
 
@@ -63,11 +63,7 @@ class Named:
         if columns:
             raise WrongName(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
                            "take the column of p, v or multipliers", "duplicate-name")
-        if why := self.system._why_unknown(getattr(name, "name", name)):
-            raise WrongName(why, "not-available")
-        known = self._ipython_key_completions_()
-        raise WrongName(f"nothing in {self.system.name} is called {getattr(name, 'name', name)!r}; {_check.closest(name, known)}",
-                        "wrong-name")
+        raise self.system._nothing_called(getattr(name, "name", name))
 
     def _check_sign(self, name: str) -> None:
         """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""
@@ -155,8 +151,7 @@ class Named:
         return (self.p, system.coordinates), (self.v, system.velocities), (self.multipliers, system.constraints)
 
     def _ipython_key_completions_(self) -> list[str]:
-        return [*self.system._names_of_measures(),
-                *(variable.name for _, variables in self._named() for variable in variables)]
+        return self.system._names_of_quantities()
 
     @property
     def measures(self) -> tuple[str, ...]:

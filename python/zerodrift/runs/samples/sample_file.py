@@ -141,14 +141,11 @@ class SampleFile:
         with self._file:
             self._file.seek(self._begin + self.rows * self._row)
             self._put(rest.getvalue())
-            self._sync()
+            os.fsync(self._file.fileno())
 
     def close(self) -> None:
         """Close the file without the remaining fields, before another one takes its place."""
         self._file.close()
-
-    def _sync(self) -> None:
-        os.fsync(self._file.fileno())
 
 
 def locked(path: Path) -> Lock:

@@ -246,59 +246,7 @@ class Solution(Named):
     def _last_time(self) -> float:
         return float(self.t[-1]) if len(self.t) else self.t_span[0]
 
-    def to_csv(self, path: str | Path, names: Any = None) -> Path:
-        """Write columns to a CSV file: the time, and what is named, a component each, with names and units in the first line.
-
-        Parameters
-        ----------
-        path : str or Path
-        names : str, measure, or sequence of these, optional
-            Coordinates, velocities, constraints and measures, as in ``sol[name]``. Left out: all coordinates, velocities and
-            multipliers. The multiplier of a drive or coupling is named so, as its force has the opposite sign.
-
-        Returns
-        -------
-        Path
-            The file.
-
-        Raises
-        ------
-        KeyError
-            If nothing has a name.
-
-        Examples
-        --------
-        >>> import tempfile, zerodrift as zd
-        >>> sol = zd.simulate(zd.models.slider_crank(), 0.1, step=0.01)
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     path = sol.to_csv(folder + "/crank.csv", ["crank.angle", "slide.force"])
-        ...     path.read_text().splitlines()[0]
-        't [s],crank.angle [rad],slide.force.x [N],slide.force.y [N]'
-        """
-        return to_csv(self, path, names)
-
-    def to_excel(self, path: str | Path, names: Any = None) -> Path:
-        """Write the same to an Excel file; pandas and openpyxl have to be installed: ``pip install 'zerodrift[excel]'``.
-
-        Parameters
-        ----------
-        path : str or Path
-        names : str, measure, or sequence of these, optional
-            As in `to_csv`.
-
-        Returns
-        -------
-        Path
-            The file.
-
-        Raises
-        ------
-        ImportError
-            If one of these packages is missing.
-        KeyError
-            If nothing has a name.
-        """
-        return to_excel(self, path, names)
+    to_csv, to_excel = to_csv, to_excel
 
     def save(self, path: str | Path) -> Path:
         """Write everything to an NPZ file, without pickle; `zerodrift.load` reads it into memory.

@@ -14,12 +14,6 @@ from ...systems.base import BaseSystem, Makes, core_of, system_of
 from .operations import acceleration, project
 
 
-def names_of_quantities(system: BaseSystem) -> list[str]:
-    """The names of all measures, coordinates, velocities and constraints of a system."""
-    variables = [each.name for group in (system.coordinates, system.velocities, system.constraints) for each in group]
-    return [*system._names_of_measures(), *variables]
-
-
 def _sample(values: Any) -> np.ndarray:
     return np.ascontiguousarray(values)[None]
 
@@ -42,11 +36,11 @@ class Reading:
             states = self._state_for(place.number)
             value = place.pick(of._watching.core.measure(place.number, *states, is_least=True, acting=self._acting))[0]
             return float(value) if np.ndim(value) == 0 else value
-        for variables, values in ((of.coordinates, "p"), (of.velocities, "v"), (of.constraints, "multipliers")):
-            for i, variable in enumerate(variables):
-                if variable.name == name:
-                    return float(getattr(self, values)[i])
-        raise WrongName(f"nothing in {of.name} is called {name!r}; {_check.closest(name, names_of_quantities(of))}", "wrong-name")
+        if found := isinstance(name, str) and of._columns_of.get(name):
+            group, column = found[0]
+            return float(getattr(self, ("p", "v", "multipliers")[group])[column])
+        raise WrongName(f"nothing in {of.name} is called {name!r}; {_check.closest(name, of._names_of_quantities())}",
+                        "wrong-name")
 
     def _state_for(self, number: int) -> list[np.ndarray]:
         """Arguments of a measure, (1, ...) each: accelerations and least multipliers for one that depends on them."""

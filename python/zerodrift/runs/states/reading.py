@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ... import _check, _gateway
+from ... import _gateway
 from ..._gateway.measure_reader import MeasureReader
 from ...errors import WrongName
 from ...systems.base import BaseSystem
@@ -39,26 +39,18 @@ class Reading:
         return read()
 
     def _found(self, name: Any) -> Callable[[], Any]:
-        place = self._system._watching.find(name)
-        if place is not None:
+        system = self._system
+        if (place := system._watching.find(name)) is not None:
             return self._measure(place)
         if (orientation := self._orientation(name)) is not None:
             return orientation
-        found = self._system._columns_of.get(name, ()) if isinstance(name, str) else ()
+        found = system._columns_of.get(name, ()) if isinstance(name, str) else ()
         if len(found) == 1:
             return self._entry(*found[0])
         if found:
-            raise WrongName(f"a name must be unique in {self._system.name}, but {name!r} names {len(found)} variables: take the "
+            raise WrongName(f"a name must be unique in {system.name}, but {name!r} names {len(found)} variables: take the "
                            "entry of p, v or multipliers", "duplicate-name")
-        if why := self._system._why_unknown(name):
-            raise WrongName(why, "not-available")
-        raise WrongName(f"nothing in {self._system.name} is called {name!r}; {_check.closest(name, self.names())}", "wrong-name")
-
-    def names(self) -> list[str]:
-        """All names that can be read."""
-        system = self._system
-        variables = (variable.name for group in (system.coordinates, system.velocities, system.constraints) for variable in group)
-        return list(dict.fromkeys([*system._names_of_measures(), *variables]))
+        raise system._nothing_called(name)
 
     def _entry(self, group: int, column: int) -> Callable[[], float]:
         core = self._core
