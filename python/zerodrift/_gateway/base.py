@@ -93,12 +93,7 @@ class WarningLimits(NamedTuple):
     energy_rounding: float      # error of (28) that is rounding, relative to kinetic and potential energy
 
 
-def _warning_limits() -> WarningLimits:
-    c = lib.zd_limits_of_warnings()
-    return WarningLimits(c.pivot, c.energy_error, c.energy_correction, c.energy_rounding)
-
-
-WARNING_LIMITS = _warning_limits()
+WARNING_LIMITS = WarningLimits(*(getattr(lib.zd_limits_of_warnings(), name) for name in WarningLimits._fields))
 
 
 def check_fingerprint() -> None:
@@ -170,13 +165,9 @@ def statuses() -> list[Status]:
     return [row for row in rows if row.status < 0]
 
 
-def _errors() -> dict[int, type[Exception]]:
-    """Exceptions of failed statuses, by the names in the core's list of statuses."""
-    named = {**vars(builtins), **vars(errors)}
-    return {row.status: named[row.error] for row in statuses()}
-
-
-ERRORS = _errors()
+# Exceptions of failed statuses, by the names in the core's list of statuses.
+ERRORS: dict[int, type[Exception]] = {row.status: getattr(errors, row.error, None) or vars(builtins)[row.error]
+                                      for row in statuses()}
 CODES = {row.status: row.code for row in statuses() if row.code}
 
 

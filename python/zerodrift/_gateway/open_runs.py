@@ -90,14 +90,9 @@ class OpenRun(Run):
         if status := lib.zd_run_accelerations(self.c, vdot, multipliers):
             raise self.error(status)
 
-    def entry_of_p(self, column: int) -> Callable[[], float]:
-        """Function that returns a coordinate at the present state."""
-        pointer = self.c_p
-        return lambda: pointer[column]
-
-    def entry_of_v(self, column: int) -> Callable[[], float]:
-        """Function that returns a velocity at the present state."""
-        pointer = self.c_v
+    def entry(self, group: int, column: int) -> Callable[[], float]:
+        """Function that returns a coordinate (group 0) or velocity (1) at the present state."""
+        pointer = (self.c_p, self.c_v)[group]
         return lambda: pointer[column]
 
     def forget_errors(self) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 
 from ..errors import NoUniqueMotion
-from ..runs.instant import KnownInstant
+from ..runs.states.instant import KnownInstant
 from ..systems.base import core_of
 from . import differences
 from .quantities import find, rates_of

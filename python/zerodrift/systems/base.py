@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -274,12 +274,12 @@ class BaseSystem(Defaults):
         """Names of all measures, coordinates, velocities and constraints."""
         return [*self._names_of_measures(), *self._columns_of]
 
-    def _nothing_called(self, name: Any) -> WrongName:
-        """The error of a name that no quantity has."""
+    def _refuse_name(self, name: Any) -> NoReturn:
+        """Raise the error of a name that no quantity has."""
         if why := self._why_unknown(name):
-            return WrongName(why, "not-available")
-        return WrongName(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._names_of_quantities())}",
-                         "wrong-name")
+            raise WrongName(why, "not-available")
+        raise WrongName(f"nothing in {self.name} is called {name!r}; {_check.closest(name, self._names_of_quantities())}",
+                        "wrong-name")
 
     def _unit_of_measure(self, name: str) -> str:
         """Unit of a measure, or of a component of it; "" if it has none."""

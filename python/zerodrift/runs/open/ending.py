@@ -130,18 +130,13 @@ def finished(solution: Solution, run, results, outcome, on_failure, keyboard) ->
     if outcome.error is not None and not interrupted:
         raise with_solution(outcome.error, solution)
     if on_failure == "raise" and not solution.success:
-        _raise_failure(run, solution)
+        if solution.status == _gateway.INTERRUPTED:
+            raise Interrupted(solution.message, solution) from None
+        error, note = failure_of(solution.system, run, solution.status, solution.settings, solution.t_span, solution)
+        raise with_solution(error, solution, note)
     if not diagnosis.is_beyond_doubt(results):
         diagnosis.warn(solution, stacklevel=3)      # at the line that calls `simulate`
     return solution
-
-
-def _raise_failure(run: _gateway.Run, solution: Solution) -> None:
-    if solution.status == _gateway.INTERRUPTED:
-        raise Interrupted(solution.message, solution) from None
-    error, note = failure_of(solution.system, run, solution.status, solution.settings, solution.t_span,
-                             solution)
-    raise with_solution(error, solution, note)
 
 
 def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dict[str, Any],

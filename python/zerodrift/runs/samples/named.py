@@ -63,7 +63,7 @@ class Named:
         if columns:
             raise WrongName(f"a name must be unique in {self.system.name}, but {name!r} names {len(columns)} variables: "
                            "take the column of p, v or multipliers", "duplicate-name")
-        raise self.system._nothing_called(getattr(name, "name", name))
+        self.system._refuse_name(getattr(name, "name", name))
 
     def _check_sign(self, name: str) -> None:
         """Raise KeyError for the multiplier of a drive or coupling by the element's name: its force has the opposite sign."""

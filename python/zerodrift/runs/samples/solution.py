@@ -235,7 +235,9 @@ class Solution(Named):
 
     def _states_at(self, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Coordinates and velocities at increasing times (k,)."""
-        rows = _rows_before(self.t, times)
+        # Bisection reads few entries of a column that is mapped from a file.
+        rows = (np.searchsorted(self.t, times, side="right") if self.t.flags.c_contiguous else
+                np.array([bisect.bisect_right(self.t, time) for time in times], dtype=np.intp)) - 1
         p, v = self.p[rows], self.v[rows]
         between = times > self.t[rows]
         if between.any():
@@ -269,13 +271,6 @@ class Solution(Named):
         path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
         write(path, {name: getattr(self, name) for name in FIELDS})
         return path
-
-
-def _rows_before(t: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """Indices of the samples at or before times; if t is mapped from a file, bisection reads few of its entries."""
-    if t.flags.c_contiguous:
-        return np.searchsorted(t, times, side="right") - 1
-    return np.array([bisect.bisect_right(t, time) - 1 for time in times], dtype=np.intp)
 
 
 FIELDS = tuple(each.name for each in fields(Solution))

@@ -46,17 +46,12 @@ class Reading:
             return orientation
         found = system._columns_of.get(name, ()) if isinstance(name, str) else ()
         if len(found) == 1:
-            return self._entry(*found[0])
+            (group, column), core = found[0], self._core
+            return (lambda: float(core.accelerations()[1][column])) if group == 2 else core.entry(group, column)
         if found:
             raise WrongName(f"a name must be unique in {system.name}, but {name!r} names {len(found)} variables: take the "
                            "entry of p, v or multipliers", "duplicate-name")
-        raise system._nothing_called(name)
-
-    def _entry(self, group: int, column: int) -> Callable[[], float]:
-        core = self._core
-        if group == 2:
-            return lambda: float(core.accelerations()[1][column])
-        return core.entry_of_p(column) if group == 0 else core.entry_of_v(column)
+        system._refuse_name(name)
 
     def _measure(self, place: Place) -> Callable[[], Any]:
         self._reader = self._reader or MeasureReader(self._core, self._measured, is_own=self._core.inputs is not None)
