@@ -3,7 +3,7 @@
     python tests/stress/friction_by_reactions.py [FIRST] [LAST]
 
 For each number a chain and a closed loop, in the plane and in space, with friction up to half of that with which it has no unique
-solution at the start, arms of a metre included: the error of an angle must be below 1e-8, in joint and absolute coordinates by
+solution at the start, whatever its arm is: the error of an angle must be below 1e-8, in joint and absolute coordinates by
 turns. With 1.2 times that friction `NoUniqueMotion` must be raised. The exit code is 1 otherwise.
 """
 
