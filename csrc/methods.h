@@ -1,7 +1,6 @@
 /* Entries of the tables of systems, formulations, integrators and corrections, and dimensions of mechanisms, in their order. A new entry is
  * a new file and one word here; a program that needs few of them is built with a list of its own. */
-#ifndef ZD_METHODS_H
-#define ZD_METHODS_H
+#pragma once
 
 #define ZD_SYSTEM_LIST(X) X(zd_four_bar) X(zd_oscillator) X(zd_pendulum) X(zd_knife_edge)
 #define ZD_FORMULATION_LIST(X) X(zd_augmented) X(zd_nullspace) X(zd_schur) X(zd_mixed) X(zd_independent)
@@ -11,5 +10,3 @@
     X(zd_taylor)
 #define ZD_CORRECTION_LIST(X) X(zd_baumgarte_row) X(zd_projection_row) X(zd_energy_row)    /* in the order they are applied */
 #define ZD_DIMENSION_LIST(X) X(zd_block_plane) X(zd_block_space)
-
-#endif

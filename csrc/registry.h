@@ -1,6 +1,5 @@
 /* The four tables. A new entry is a new file and one word in registry.c. */
-#ifndef ZD_REGISTRY_H
-#define ZD_REGISTRY_H
+#pragma once
 
 #include "formulations/formulation.h"
 #include "integrators/integrator.h"
@@ -9,5 +8,3 @@
 const zd_formulation *zd_formulation_of(int row);
 const zd_integrator *zd_integrator_of(int row);
 const zd_correction *zd_correction_of(int row);
-
-#endif

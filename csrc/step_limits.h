@@ -1,8 +1,7 @@
 /* Limits by which a step is accepted, checked, repeated or resized: for single runs and for lanes alike. Distances and speeds are in
  * characteristic scales.
  */
-#ifndef ZD_STEP_LIMITS_H
-#define ZD_STEP_LIMITS_H
+#pragma once
 
 /* ---- closed-form path: pivots relative to their scales, zd_closed_form_find_scales() ---- */
 
@@ -61,5 +60,3 @@ enum {
 /* ---- events and bifurcations ---- */
 
 #define ZD_TIME_RESOLUTION (4 * 0x1p-52)    /* final width of a bracket of times, relative to the times */
-
-#endif

@@ -1,8 +1,7 @@
 /* Arena: one block with all memory of a run. The same code is executed twice: first to count bytes, then to assign addresses. Memory of a run
  * is in blocks that record where they have numbers, so that its state can be saved: see run/state.c.
  */
-#ifndef ZD_WORKSPACE_H
-#define ZD_WORKSPACE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -51,5 +50,3 @@ typedef struct zd_store {
 void *zd_store_create(zd_store *store, void *(*create)(zd_arena *arena, const void *of), const void *of);
 zd_memory *zd_store_add(zd_store *store, size_t bytes);     /* adds a zeroed block; NULL without memory */
 void zd_store_release(zd_store *store);
-
-#endif

@@ -42,7 +42,7 @@ def declarations() -> str:
     names = (*(f"include/zerodrift/{name}" for name in of_systems), *(f"mechanisms/{name}" for name in of_mechanisms),
              *(f"zerodrift/{name}" for name in of_core), "block/block.h", "python/interface.h")
     headers = "".join((ROOT / "csrc" / name).read_text(encoding="utf-8") for name in names)
-    return preprocessed(re.sub(r"^#(include|define ZD_WRITTEN).*$", "", headers, flags=re.MULTILINE)).replace(
+    return preprocessed(re.sub(r"^#(include|pragma|define ZD_WRITTEN).*$", "", headers, flags=re.MULTILINE)).replace(
         "ZD_WRITTEN_IN_PYTHON", 'extern "Python"')
 
 

@@ -1,6 +1,5 @@
 /* Batches: many runs in one call, in lanes or individually. */
-#ifndef ZD_BATCH_BATCH_H
-#define ZD_BATCH_BATCH_H
+#pragma once
 
 #include "../workspace.h"
 #include "../zerodrift.h"
@@ -49,5 +48,3 @@ int zd_lanes_serve_run(const zd_run *run);
 int zd_lanes_serve(const zd_batch *batch);
 /* Makes all runs: in lanes, or individually those that these cannot make. */
 int zd_run_side_by_side(const zd_batch *batch, const zd_single_run *own);
-
-#endif

@@ -1,6 +1,5 @@
 /* Runs in lanes, with the checks that are made lane by lane. */
-#ifndef ZD_BATCH_GROUP_H
-#define ZD_BATCH_GROUP_H
+#pragma once
 
 #include "../output/watch.h"
 #include "../run/run.h"
@@ -128,5 +127,3 @@ static inline int zd_lane_has_run(const zd_lane_group *self, int lane)
 {
     return self->run_of[lane].number >= 0 && self->lanes.leaves[lane] == 0;
 }
-
-#endif

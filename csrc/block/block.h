@@ -38,8 +38,7 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_BLOCK_BLOCK_H
-#define ZD_BLOCK_BLOCK_H
+#pragma once
 
 #include <stddef.h>
 
@@ -122,5 +121,3 @@ const double *zd_block_words(const zd_block *block, size_t *size);
 int zd_block_explain_gaps(const zd_block *block, const double *p, int is_smallest, char *message, int message_size);
 /* The same near the start of a block in any coordinates; `message` is unchanged if all joints can close. */
 void zd_block_explain_start(const zd_block *block, char *message, int message_size);
-
-#endif

@@ -1,6 +1,5 @@
 /* Sections of a block: their position, and the structures that their entries become. */
-#ifndef ZD_BLOCK_LAYOUT_H
-#define ZD_BLOCK_LAYOUT_H
+#pragma once
 
 #include "../mechanisms/common/check.h"
 #include "block.h"
@@ -85,5 +84,3 @@ static inline const double *zd_block_entry(const zd_block_layout *layout, int se
     const zd_block_part *part = layout->part + section;
     return part->word + (size_t)entry * (size_t)part->width;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* A block that has become a mechanism. */
-#ifndef ZD_BLOCK_MADE_H
-#define ZD_BLOCK_MADE_H
+#pragma once
 
 #include "layout.h"
 
@@ -74,5 +73,3 @@ void zd_block_grow_tree(const zd_block_layout *layout, int *inboard, int *distan
 void zd_block_name_loop(const zd_block_layout *layout, int joint, int *is_on_way, zd_complaint *to);
 
 const char *zd_block_joint_name(const zd_block_layout *layout, int joint);
-
-#endif

@@ -1,6 +1,5 @@
 /* Limits of constraints at a bifurcation, along the motion. */
-#ifndef ZD_LIMITS_H
-#define ZD_LIMITS_H
+#pragma once
 
 #include "rank.h"
 
@@ -42,5 +41,3 @@ static inline int zd_limits_replace(zd_point *point, enum zd_limit what, double 
 {
     return point->rank->lost ? zd_limits_replace_lost(point, what, rhs) : ZD_DONE;
 }
-
-#endif

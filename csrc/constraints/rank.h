@@ -3,8 +3,7 @@
  * constraints afterwards. At a bifurcation, constraints become dependent that are independent elsewhere; there their limits along the
  * motion (limits.h) replace them.
  */
-#ifndef ZD_CONSTRAINTS_RANK_H
-#define ZD_CONSTRAINTS_RANK_H
+#pragma once
 
 #include <string.h>
 
@@ -175,5 +174,3 @@ int zd_redundancy_find(zd_point *point, enum zd_on_singular on_singular);
 /* Records them in point->rank; C is known there. ZD_CONTRADICTION: no acceleration satisfies them together with the others;
  * ZD_BIFURCATION: one of them is dependent in this position only. */
 int zd_redundancy_sparse_find(zd_point *point);
-
-#endif

@@ -1,6 +1,5 @@
 /* Rank monitor: shows that the constraints are still independent, from the change of C since the last full check. */
-#ifndef ZD_RANK_MONITOR_H
-#define ZD_RANK_MONITOR_H
+#pragma once
 
 #include "../linalg/dense.h"
 #include "../point/sparse/weighted.h"
@@ -37,5 +36,3 @@ static inline void zd_rank_monitor_compare(zd_point *point)
     if (point->layout && rank->monitor && rank->max_rank == rank->m && rank->m <= rank->n)
         (void)zd_rank_monitor_is_doubtful(rank->monitor, point);
 }
-
-#endif

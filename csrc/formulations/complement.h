@@ -6,8 +6,7 @@
  * By variable partitioning, (16): u are r = nv - m of the velocities, w the others, C = [U W], D = [I; -W^-1 U]. If the system provides
  * its own D (and gamma), these are used instead, and its D defines u.
  */
-#ifndef ZD_COMPLEMENT_H
-#define ZD_COMPLEMENT_H
+#pragma once
 
 #include "../point/point.h"
 
@@ -59,5 +58,3 @@ void zd_complement_project(const zd_complement *self, const double *b, double *p
 void zd_complement_add(const zd_complement *self, const double *u, double *x);
 /* D^T M D (r, r) */
 void zd_complement_mass(const zd_complement *self, const double *M, double *Mu);
-
-#endif

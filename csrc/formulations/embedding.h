@@ -1,6 +1,5 @@
 /* Embedding p = g(q), (18): all coordinates from independent ones, by the system's own function or numerically. */
-#ifndef ZD_FORMULATIONS_EMBEDDING_H
-#define ZD_FORMULATIONS_EMBEDDING_H
+#pragma once
 
 #include "../point/point.h"
 
@@ -58,5 +57,3 @@ int zd_embedding_tangents(zd_embedding *self, zd_point *point, int width, double
 double zd_embedding_steepest(const zd_embedding *self);
 /* Selects q anew if it is badly conditioned at the point; *changed: it was. */
 int zd_embedding_review(zd_embedding *self, zd_point *point, int *changed);
-
-#endif

@@ -1,6 +1,5 @@
 /* Entry of the table of formulations: a leading matrix and its solve, and the state that is integrated. */
-#ifndef ZD_FORMULATIONS_FORMULATION_H
-#define ZD_FORMULATIONS_FORMULATION_H
+#pragma once
 
 #include "../constraints/rank.h"
 
@@ -77,5 +76,3 @@ int zd_dependent_rate(void *self, zd_point *point, double *ydot);
     .unpack = zd_dependent_unpack,                   \
     .pack = zd_dependent_pack,                   \
     .rate = zd_dependent_rate
-
-#endif

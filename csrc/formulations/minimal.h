@@ -1,6 +1,5 @@
 /* Formulations in independent velocities, (17), (19) and (22): the matrix D^T M D, and v = D u. */
-#ifndef ZD_MINIMAL_H
-#define ZD_MINIMAL_H
+#pragma once
 
 #include "complement.h"
 #include "formulation.h"
@@ -43,5 +42,3 @@ int zd_minimal_tangents(zd_minimal *self, zd_point *point, const double *Psi_alo
 /* True if a system's u are entries of v; and, once they have been selected, their indices. */
 int zd_minimal_may_have_entries(const zd_system *system);
 int zd_minimal_entries(const void *self, zd_entries *entries);
-
-#endif

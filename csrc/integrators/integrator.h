@@ -1,6 +1,5 @@
 /* Entry of the table of integrators: one step in time. Most use only the rate of an opaque state. */
-#ifndef ZD_INTEGRATORS_INTEGRATOR_H
-#define ZD_INTEGRATORS_INTEGRATOR_H
+#pragma once
 
 #include "../motion/motion.h"
 
@@ -61,5 +60,3 @@ void zd_differences_increments(const zd_differences *self, const double *y, doub
 /* J (size, size) <- share df/dy at (t, y), where f is known, in the units that were chosen: its entry (i, j) times unit_j / unit_i. A
  * state changes by about h f in a step. y is as it was afterwards. */
 int zd_differences_make(zd_differences *self, const zd_rate *rate, double t, double h, double share, double *y, const double *f, double *J);
-
-#endif

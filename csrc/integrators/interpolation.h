@@ -6,8 +6,7 @@
  * stages, h sum_j d_ij k_j. At one x all of it is y0, a share of F0, and one sum of the stages: their weights are found first, which takes
  * less than the vectors F_i wherever a step has fewer than some ten values in it.
  */
-#ifndef ZD_INTERPOLATION_H
-#define ZD_INTERPOLATION_H
+#pragma once
 
 #include "runge_kutta.h"
 
@@ -145,5 +144,3 @@ ZD_INLINE void zd_runge_kutta_dense_output(const zd_tableau *T, const zd_runge_k
         zd_runge_kutta_dense_output(&tableau, self, share, y0, y);                                                   \
     }
 #define ZD_INTERPOLATED .prepare_dense = prepare_dense, .dense_output = dense_output
-
-#endif

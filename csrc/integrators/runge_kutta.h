@@ -1,6 +1,5 @@
 /* Explicit Runge-Kutta methods: one stepper, and a table of coefficients for each method, which the compiler knows where it is used. */
-#ifndef ZD_RUNGE_KUTTA_H
-#define ZD_RUNGE_KUTTA_H
+#pragma once
 
 #include <math.h>
 
@@ -180,5 +179,3 @@ ZD_INLINE int zd_runge_kutta_error(const zd_tableau *T, zd_runge_kutta *self, co
         return zd_runge_kutta_error(&tableau, self, rate, t1, h, y, scale, norm, lambda_h);                                 \
     }
 #define ZD_RUNGE_KUTTA .table = &tableau, .create = zd_runge_kutta_create, .step = step
-
-#endif

@@ -1,8 +1,7 @@
 /* Location of a sign change by the ITP method: it converges like the secant method and takes at most one evaluation more than bisection
  * (Oliveira and Takahashi, ACM Trans. Math. Softw. 47 (2021) 5).
  */
-#ifndef ZD_BRACKET_H
-#define ZD_BRACKET_H
+#pragma once
 
 #include <math.h>
 
@@ -68,5 +67,3 @@ static inline void zd_bracket_narrow(zd_bracket *it, double t, double g)
     if (it->sides == 3) it->reach /= 2;
     else zd_bracket_enclose(it, g, is_before);
 }
-
-#endif

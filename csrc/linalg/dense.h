@@ -1,6 +1,5 @@
 /* Factorizations of dense matrices. */
-#ifndef ZD_LINALG_DENSE_H
-#define ZD_LINALG_DENSE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -87,5 +86,3 @@ void zd_row_space_factor(zd_row_space *self, int rows, double share, double leas
 void zd_row_space_solve(zd_row_space *self, const double *right, double *x);
 void zd_row_space_turn(const zd_row_space *self, double *x);        /* x <- Q^T x: those from `rank` on are along the null space */
 void zd_row_space_turn_back(const zd_row_space *self, double *x);   /* x <- Q x */
-
-#endif

@@ -1,6 +1,5 @@
 /* Newton's iteration, and iterative refinement. */
-#ifndef ZD_LINALG_ITERATION_H
-#define ZD_LINALG_ITERATION_H
+#pragma once
 
 /* Newton iteration, for the position correction and for implicit steps. */
 
@@ -23,5 +22,3 @@ int zd_newton_solve(const zd_newton *newton, void *context, int *iterations, dou
 #define ZD_GOOD_PIVOT 0x1p-10               /* pivot relative to the diagonal of C M^-1 C^T above which few digits are lost */
 #define ZD_UNEQUAL_SHARES 0x1p6             /* largest ratio of the contributions of two bodies to one entry of that diagonal */
 enum { ZD_MAX_REFINEMENTS = 40 };
-
-#endif

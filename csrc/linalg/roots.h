@@ -1,7 +1,6 @@
 /* Roots that have the same bits wherever doubles are those of IEEE 754: libraries of mathematics differ in their last digits, and hypot
  * ties a program to the newest C libraries. */
-#ifndef ZD_ROOTS_H
-#define ZD_ROOTS_H
+#pragma once
 
 #include <math.h>
 
@@ -19,5 +18,3 @@ static inline double zd_hypotenuse(double x, double y)
     y = ldexp(y, -exponent);
     return ldexp(sqrt(x * x + y * y), exponent);
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* Small dense kernels. Each takes its size as an argument and is always inlined, so that ZD_SIZED can call it with a
  * constant: for up to six unknowns the compiler then unrolls everything, beyond that the loops are ordinary ones.
  */
-#ifndef ZD_SMALL_H
-#define ZD_SMALL_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -310,5 +309,3 @@ double zd_max_abs(int n, const double *x);      /* max |x_i|; infinite if any is
 double zd_max_scaled(int n, const double *x, const double *scale);      /* max |x_i| scale_i; infinite if any is NaN */
 double zd_root_mean_square(int n, const double *x, const double *scale);        /* root mean square of x_i / scale_i; 0 for n = 0 */
 int zd_is_finite(int n, const double *x);       /* true if all x_i are finite */
-
-#endif

@@ -1,6 +1,5 @@
 /* Entry of the table of corrections: a change of the right side of (6), or of the state after a step. */
-#ifndef ZD_CORRECTION_H
-#define ZD_CORRECTION_H
+#pragma once
 
 #include "../point/point.h"
 
@@ -32,5 +31,3 @@ typedef struct zd_correction {
     int (*extra_size)(const zd_system *system, const void *given);
     void (*extra_rate)(const zd_point *point, double *rate);
 } zd_correction;
-
-#endif

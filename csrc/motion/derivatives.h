@@ -6,8 +6,7 @@
  * and of the power in (28), lambda^T Phi_t included. One solve with the leading matrix gives from those of r and s the derivatives of
  * accelerations and multipliers, in jacobian.c for implicit integrators, and for linearization, equilibrium and comparisons.
  */
-#ifndef ZD_DERIVATIVES_H
-#define ZD_DERIVATIVES_H
+#pragma once
 
 #include "../point/point.h"
 
@@ -40,5 +39,3 @@ void zd_residual_state_begin(zd_residual_state *self, int parts, zd_point *point
 /* to (width,) <- derivatives along a direction: the system's own where it has them, else by differences. `step`: for iterations, the
  * increment along it; otherwise the inverse of its size in characteristic scales. */
 int zd_residual_derivatives(zd_residual_state *self, const zd_direction *direction, double step, enum zd_accuracy accuracy, double *to);
-
-#endif

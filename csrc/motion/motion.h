@@ -1,8 +1,7 @@
 /* The motion of a system: its equations in one formulation, with the enabled corrections. Integrators and corrections use nothing else, and
  * the evaluation paths what they need besides: paths/path.h.
  */
-#ifndef ZD_MOTION_MOTION_H
-#define ZD_MOTION_MOTION_H
+#pragma once
 
 #include "../formulations/formulation.h"
 #include "../step_limits.h"
@@ -300,5 +299,3 @@ void zd_reactions_create(zd_motion *motion, zd_arena *arena);
  * ZD_SEVERAL_MOTIONS, ZD_NO_MEMORY, or what a user function returns that failed. */
 int zd_reactions_at(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
                        const zd_efforts *efforts, double *u);
-
-#endif

@@ -1,6 +1,5 @@
 /* Quantities that event functions read: time, coordinates, velocities and measures; and the functions that need no callback. */
-#ifndef ZD_OUTPUT_READING_H
-#define ZD_OUTPUT_READING_H
+#pragma once
 
 #include "../motion/motion.h"
 #include "../point/point.h"
@@ -46,5 +45,3 @@ zd_recorder zd_recorder_create(zd_arena *arena, const zd_settings *settings, zd_
 static inline int zd_record_has_room(const zd_record *record) { return record->rows < record->capacity; }
 /* Adds a sample of the present point; ZD_FULL if there is no space, and nothing is changed. */
 int zd_recorder_add(zd_recorder *self, zd_record *record);
-
-#endif

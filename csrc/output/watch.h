@@ -1,6 +1,5 @@
 /* Event functions of a run: their values, and what their location needs. */
-#ifndef ZD_OUTPUT_WATCH_H
-#define ZD_OUTPUT_WATCH_H
+#pragma once
 
 #include "../linalg/bracket.h"
 #include "reading.h"
@@ -72,5 +71,3 @@ zd_watch zd_watch_create(zd_arena *arena, const zd_events *events, zd_output *ou
 int zd_watch_start(zd_watch *self);
 /* Locates and reports the events of the last step; a terminal event moves the motion, and `end`, to its instant. */
 int zd_watch_after(zd_watch *self, int corrected, double *end);
-
-#endif

@@ -1,6 +1,5 @@
 /* Values between steps. */
-#ifndef ZD_WITHIN_STEP_H
-#define ZD_WITHIN_STEP_H
+#pragma once
 
 #include "../paths/path.h"
 #include "../state/stepper.h"
@@ -60,5 +59,3 @@ int zd_output_make_shorter(zd_output *self, double t);
 /* Saves the samples within the last step, and its end if the run ends there. ZD_FULL: to be called again with an emptied record. */
 int zd_output_after(zd_output *self, zd_record *record, int is_end);
 int zd_output_is_complete(const zd_output *self);
-
-#endif

@@ -1,8 +1,7 @@
 /* Intervals in which a function of time passes through zero, from its signs at the ends of a step and at 16 Chebyshev points within it, no
  * two of which are further apart than a tenth of the step. A pair of zeros between two of them is found at the extremum between both.
  */
-#ifndef ZD_ZEROS_H
-#define ZD_ZEROS_H
+#pragma once
 
 enum { ZD_SAMPLES = 16, ZD_MAX_POINTS = ZD_SAMPLES + 2 + ZD_SAMPLES / 2 };
 
@@ -45,5 +44,3 @@ int zd_zeros_next(zd_zeros *self);
 void zd_zeros_narrow(zd_zeros *self, double g, double rounding);
 /* The first and the last of the points around point k - 1, and around k, of the same signs. */
 void zd_zeros_widen(const zd_zeros *self, int k, int *first, int *last);
-
-#endif

@@ -1,6 +1,5 @@
 /* Choice of the evaluation path of a step, and its end compared with its start on the closed-form path: choose.c */
-#ifndef ZD_CHOOSE_H
-#define ZD_CHOOSE_H
+#pragma once
 
 #include "../state/stepper.h"
 #include "path.h"
@@ -69,5 +68,3 @@ static inline void zd_path_count(zd_motion *motion)      /* counts a step that w
     motion->statistics.steps++;
     if (motion->path.order) motion->statistics.closed_form_steps++;
 }
-
-#endif

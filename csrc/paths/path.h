@@ -1,8 +1,7 @@
 /* Evaluation paths: the parts of a step, by the functions that suit its state. Integrators and corrections do not know which path they are
  * on. A new path is a new file and one line in zd_path_of(), choose.h.
  */
-#ifndef ZD_PATHS_PATH_H
-#define ZD_PATHS_PATH_H
+#pragma once
 
 #include "../motion/motion.h"
 #include "../safeguards/safeguards.h"
@@ -101,5 +100,3 @@ typedef struct zd_embedded {    /* outputs of an evaluation; D, lambda, power an
 } zd_embedded;
 /* Dependent entries of the path's v and, with finds_p, of its p, from the independent ones; with them the requested outputs. */
 int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to);
-
-#endif

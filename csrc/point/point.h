@@ -1,6 +1,5 @@
 /* A point of the motion: all quantities at one (t, p, v), each computed once, at its first request. */
-#ifndef ZD_POINT_POINT_H
-#define ZD_POINT_POINT_H
+#pragma once
 
 #include "../workspace.h"
 #include "../zerodrift.h"
@@ -225,5 +224,3 @@ static inline void zd_point_normalise(zd_point *point)
 int zd_quaternions_wrong_length(const zd_system *system, const double *p, int any_length, double *length);
 /* Index of the first quaternion whose length pdot = A v changes, and the velocity that changes it; -1: none. Requires A. */
 int zd_quaternion_off_unit(const zd_point *point, int *velocity);
-
-#endif

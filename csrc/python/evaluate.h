@@ -2,8 +2,7 @@
  * that of Python, detects changes of the state, and terms that are not finite, at a hundredth of the cost in Python. The extension module
  * includes this text with ZD_FINGERPRINT defined.
  */
-#ifndef ZD_PYTHON_EVALUATE_H
-#define ZD_PYTHON_EVALUATE_H
+#pragma once
 
 #include <string.h>
 
@@ -31,5 +30,3 @@ int zd_evaluate_in_python(const void *data, int want, double t, const double *p,
     int not_finite = zd_first_not_finite(system, want, out);
     return not_finite ? zd_refuse_in_python(self->evaluator, not_finite, t) : ZD_DONE;
 }
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Declarations only: CFFI reads this text after the preprocessor. Functions marked ZD_WRITTEN_IN_PYTHON are implemented there.
  */
-#ifndef ZD_PYTHON_INTERFACE_H
-#define ZD_PYTHON_INTERFACE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -42,5 +41,3 @@ ZD_WRITTEN_IN_PYTHON int zd_law_in_python(void *owner, int law, double t, const 
 ZD_WRITTEN_IN_PYTHON int zd_interrupted_in_python(void *owner);
 ZD_WRITTEN_IN_PYTHON void zd_name_row_in_python(const void *names, int row, char *to, int size);
 ZD_WRITTEN_IN_PYTHON int zd_found_in_python(void *owner, int event, double t, const double *p, const double *v);
-
-#endif

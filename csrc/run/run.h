@@ -1,6 +1,5 @@
 /* A run and its components. */
-#ifndef ZD_RUN_RUN_H
-#define ZD_RUN_RUN_H
+#pragma once
 
 #include "../motion/motion.h"
 #include "../output/reading.h"
@@ -138,5 +137,3 @@ typedef struct zd_resample {
 
 /* Moves the run to time t, between the first and the last sample. */
 int zd_resample_move(zd_resample *self, double t);
-
-#endif

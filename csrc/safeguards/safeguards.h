@@ -1,6 +1,5 @@
 /* Acceptance of steps: detection only; the reaction is in step/step.c. */
-#ifndef ZD_SAFEGUARDS_SAFEGUARDS_H
-#define ZD_SAFEGUARDS_SAFEGUARDS_H
+#pragma once
 
 #include "../linalg/small.h"
 #include "../motion/motion.h"
@@ -195,5 +194,3 @@ int zd_safeguards_compare(zd_safeguards *self, double h, double moved);
 /* Checks a step of size h and saves its end as the start of the next. `parts`: 0 for a whole step; otherwise it is one of that many parts,
  * of which only rotations are checked for resolution, as the step may still be abandoned. */
 int zd_safeguards_judge(zd_safeguards *self, zd_comparison *compare, double h, int64_t next_step, int parts);
-
-#endif

@@ -1,6 +1,5 @@
 /* The integrated state of a run: integrate it, save it, return to it. */
-#ifndef ZD_STATE_STEPPER_H
-#define ZD_STATE_STEPPER_H
+#pragma once
 
 #include "../constraints/rank.h"
 #include "../integrators/integrator.h"
@@ -86,5 +85,3 @@ void zd_checkpoint_set(zd_checkpoint *self, const zd_stepper *stepper);
 void zd_checkpoint_set_variables(zd_checkpoint *self, const zd_stepper *stepper);
 /* Restores it, at the state `end` */
 int zd_checkpoint_return(zd_checkpoint *self, zd_stepper *stepper, const zd_state *end);
-
-#endif

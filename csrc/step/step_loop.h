@@ -1,6 +1,5 @@
 /* Step loop of a run: its progress, and the control of its next step. */
-#ifndef ZD_STEP_STEP_LOOP_H
-#define ZD_STEP_STEP_LOOP_H
+#pragma once
 
 #include <stdint.h>
 
@@ -149,5 +148,3 @@ int zd_step(zd_step_loop *loop);
 int zd_substep(zd_step_loop *loop, double t);
 /* Makes one attempt on the present evaluation path. */
 int zd_step_attempt(zd_step_loop *loop, const zd_attempt *attempt);
-
-#endif

@@ -1,6 +1,5 @@
 /* A system with some of its coordinates or velocities held at given values, for the assembly of mechanisms. */
-#ifndef ZD_HELD_H
-#define ZD_HELD_H
+#pragma once
 
 #include "../include/zerodrift/system.h"
 #include "../workspace.h"
@@ -18,5 +17,3 @@ typedef struct zd_held {
 const zd_system *zd_hold_positions(zd_store *store, const zd_system *inner, const int *hold, const double *p);
 /* System with all constraints of `inner` and v_i = value_i. */
 const zd_system *zd_hold_velocities(zd_store *store, const zd_system *inner, const int *hold, const double *v);
-
-#endif

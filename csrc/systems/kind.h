@@ -1,6 +1,5 @@
 /* Members of zd_kind that all systems of this folder initialize alike. */
-#ifndef ZD_KIND_H
-#define ZD_KIND_H
+#pragma once
 
 #include "../include/zerodrift/system.h"
 
@@ -12,5 +11,3 @@
     .constants = count, \
     .prepare = prepare, \
     .start = start
-
-#endif

@@ -1,6 +1,5 @@
 /* Runs in SIMD lanes: each lane has its own time, step and order of elimination, independent of the others. */
-#ifndef ZD_LANE_NUMBERS_H
-#define ZD_LANE_NUMBERS_H
+#pragma once
 
 #include "../../integrators/runge_kutta.h"
 
@@ -117,5 +116,3 @@ typedef struct zd_lane_functions {
 } zd_lane_functions;
 
 extern const zd_lane_functions zd_lanes_baseline, zd_lanes_avx2, zd_lanes_avx512;   /* empty if the compiler does not support the unit */
-
-#endif

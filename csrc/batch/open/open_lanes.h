@@ -1,6 +1,5 @@
 
-#ifndef ZD_BATCH_OPEN_OPEN_LANES_H
-#define ZD_BATCH_OPEN_OPEN_LANES_H
+#pragma once
 
 #include "../group.h"
 
@@ -61,5 +60,3 @@ int zd_lane_may_enter(const zd_open_lanes *self, const zd_run *run);
 void zd_lane_enter(zd_open_lanes *self, int lane, int64_t i);
 /* Run i <- state y of a lane at time t, after so many steps. Returns the status of the run. */
 int zd_lane_put_back(zd_open_lanes *self, int lane, int64_t i, double t, double steps, const double *y);
-
-#endif

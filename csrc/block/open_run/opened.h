@@ -1,6 +1,5 @@
 /* The mechanism of a block with its open run, for programs that step it: co-simulation, a page in the browser. */
-#ifndef ZD_BLOCK_OPENED_H
-#define ZD_BLOCK_OPENED_H
+#pragma once
 
 #include "../block.h"
 
@@ -49,5 +48,3 @@ size_t zd_opened_state_size(const zd_opened *self);
 void zd_opened_save(const zd_opened *self, const char *fingerprint, void *state);
 /* Continues from a state of the same block, which has the inputs, too. On failure the present run and inputs stay. */
 int zd_opened_restore(zd_opened *self, const void *state, size_t size, const char *fingerprint);
-
-#endif

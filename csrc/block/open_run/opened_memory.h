@@ -1,6 +1,5 @@
 /* Memory of the mechanism of a block with its open run. */
-#ifndef ZD_BLOCK_OPENED_MEMORY_H
-#define ZD_BLOCK_OPENED_MEMORY_H
+#pragma once
 
 #include "../block.h"
 
@@ -24,5 +23,3 @@ void zd_opened_explain_reach(struct zd_opened *self);
 /* self->p <- positions at time t, assembled from p (nq,), which may be too far for a projection. Returns a status; the message names the
  * drives that cannot be met. */
 int zd_opened_find_positions(struct zd_opened *self, double t, const double *p);
-
-#endif

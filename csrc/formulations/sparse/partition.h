@@ -1,7 +1,6 @@
 /* Variable partitioning (16) of a declared structure with many constraints: selects independent velocities and solves for the others, at
  * a cost proportional to the number of bodies. */
-#ifndef ZD_FORMULATIONS_SPARSE_PARTITION_H
-#define ZD_FORMULATIONS_SPARSE_PARTITION_H
+#pragma once
 
 #include "../../point/point.h"
 #include "../../point/sparse/bodies.h"
@@ -60,5 +59,3 @@ int zd_partition_sparse_place(zd_partition_sparse *self, zd_point *point, double
 /* Entries of x (nv,) at the indices of u, of q. */
 void zd_partition_sparse_pick_speeds(const zd_partition_sparse *self, const double *x, double *of_u);
 void zd_partition_sparse_pick_coordinates(const zd_partition_sparse *self, const double *x, double *of_q);
-
-#endif

@@ -1,7 +1,6 @@
 /* Elimination for formulations in (p, v) of a declared structure with many constraints: no dense matrices, cost proportional to the
  * number of bodies. */
-#ifndef ZD_FORMULATIONS_SPARSE_STRUCTURED_H
-#define ZD_FORMULATIONS_SPARSE_STRUCTURED_H
+#pragma once
 
 #include "../../constraints/rank.h"
 #include "../../linalg/small.h"
@@ -109,5 +108,3 @@ zd_structured *zd_structured_create(zd_arena *arena, const zd_system *system);
 int zd_structured_factor(zd_structured *self, zd_point *point, int inverts_mass);
 /* solve() of formulation.h. */
 void zd_structured_solve(zd_structured *self, const double *force, const double *rhs, double *x, double *lambda);
-
-#endif

@@ -1,6 +1,5 @@
 /* Newton's iteration of Radau's method: its numbers, matrices, factors and stages. */
-#ifndef ZD_INTEGRATORS_RADAU_ITERATION_H
-#define ZD_INTEGRATORS_RADAU_ITERATION_H
+#pragma once
 
 #include "../../linalg/small.h"
 #include "../integrator.h"
@@ -143,5 +142,3 @@ typedef struct zd_radau_newton {
 zd_radau_newton zd_radau_newton_create(zd_arena *arena, int size);
 /* Solves for z, from its estimate, with matrices factored for this step. ZD_NO_CONVERGENCE, ZD_NOT_FINITE, or the status of the rate */
 int zd_radau_newton_iterate(zd_radau_newton *self, zd_statistics *statistics);
-
-#endif

@@ -1,6 +1,5 @@
 /* Sparse block factorization S = L D L^T of symmetric positive definite matrices. */
-#ifndef ZD_LINALG_SPARSE_BLOCKS_H
-#define ZD_LINALG_SPARSE_BLOCKS_H
+#pragma once
 
 #include "../../workspace.h"
 #include "../small.h"
@@ -113,5 +112,3 @@ ZD_INLINE zd_inverse_of_two zd_invert_two(const double *diagonal, int row, const
                    & zd_judge_pivot(pivots, row + 1, determinant, a * diagonal[1], rounding);
     return (zd_inverse_of_two){c, -b, a, are_pivots ? 1 / determinant : 0};
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Minimum-norm solutions of sparse linear equations by orthogonal transformations. */
-#ifndef ZD_LINALG_SPARSE_EQUATIONS_H
-#define ZD_LINALG_SPARSE_EQUATIONS_H
+#pragma once
 
 /* Orthogonal transformations of matrices with few columns, stored by rows, `stride` apart. */
 
@@ -37,5 +36,3 @@ typedef struct zd_sparse_equations {
 /* x (unknowns,) <- minimizer of the sum of (weight x)^2 and of the squares, under all required rows. These may be redundant; if they
  * contradict each other, their squared residuals are minimized. Returns ZD_DONE, or ZD_NO_MEMORY. */
 int zd_minimum_norm(const zd_sparse_equations *equations, double *x);
-
-#endif

@@ -1,7 +1,6 @@
 /* Sums over terms of rows and generalized forces, along their marker quantities, common to plane and space. The caller decides what a factor
  * along a marker quantity is added to: wrenches on two bodies, the reaction of a joint, magnitudes of a row. */
-#ifndef ZD_COMMON_ACTIONS_H
-#define ZD_COMMON_ACTIONS_H
+#pragma once
 
 #include "../../linalg/small.h"
 #include "output_spec.h"
@@ -33,5 +32,3 @@ ZD_INLINE int zd_forces_act(const zd_actions *self, double t)
     }
     return ZD_DONE;
 }
-
-#endif

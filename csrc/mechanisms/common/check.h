@@ -1,6 +1,5 @@
 /* Consistency of the tables of a mechanism: every index must refer to an existing entry. */
-#ifndef ZD_COMMON_CHECK_H
-#define ZD_COMMON_CHECK_H
+#pragma once
 
 #include "elements.h"
 
@@ -39,5 +38,3 @@ int zd_mechanism_is_right(const void *of, int bodies, int arrays, const zd_check
 
 /* True if relations, generalized forces and measures refer to existing marker quantities and joints; otherwise writes which one does not. */
 int zd_elements_are_right(const zd_elements *elements, int joints, int quantities, zd_complaint to);
-
-#endif

@@ -6,8 +6,7 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_COMMON_ELEMENTS_H
-#define ZD_COMMON_ELEMENTS_H
+#pragma once
 
 #include "../../include/zerodrift/system.h"
 
@@ -116,5 +115,3 @@ typedef struct zd_constraint_owner {
     int index;                  /* index of the joint or relation */
     int component;              /* row of the joint, in the order of its kind */
 } zd_constraint_owner;
-
-#endif

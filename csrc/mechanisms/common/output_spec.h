@@ -1,6 +1,5 @@
 /* Measures of the system interface, from their specifications. */
-#ifndef ZD_MECHANISMS_COMMON_OUTPUT_SPEC_H
-#define ZD_MECHANISMS_COMMON_OUTPUT_SPEC_H
+#pragma once
 
 #include "planned.h"
 
@@ -68,5 +67,3 @@ int zd_least_reactions(const zd_measuring *self, const zd_measured_state *at, do
 
 /* N (m, m) <- `count` redundant multipliers, C^T n = 0, one after another; total <- norm of the weighted wrenches S N. As above. */
 int zd_redundant_multipliers(const zd_measuring *self, const zd_measured_state *at, double *N, int *count, double *total);
-
-#endif

@@ -1,6 +1,5 @@
 /* Elements in their planned form: rows of joints and relations in the order of C, generalized forces and measures. */
-#ifndef ZD_MECHANISMS_COMMON_PLANNED_H
-#define ZD_MECHANISMS_COMMON_PLANNED_H
+#pragma once
 
 #include "../../include/zerodrift/system.h"
 #include "../../workspace.h"
@@ -102,5 +101,3 @@ typedef void zd_bodies_of(const void *quantities, int quantity, int body[2]);
 void zd_packed_create(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms);
 /* Fills in the structure; `coordinates` and `velocities` must be set. Returns -1, or the first row that has no entries, which is an error. */
 int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *quantities);
-
-#endif

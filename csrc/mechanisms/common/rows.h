@@ -1,6 +1,5 @@
 /* Rows of C, common to plane and space. Their loops stand in a header, so that each room compiles them with its own numerics. */
-#ifndef ZD_COMMON_ROWS_H
-#define ZD_COMMON_ROWS_H
+#pragma once
 
 #include "../../linalg/small.h"
 #include "planned.h"
@@ -53,5 +52,3 @@ ZD_INLINE int zd_rows_write(const zd_constraint_numerics *self, const zd_reading
     }
     return ZD_DONE;
 }
-
-#endif

@@ -7,8 +7,7 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_MECHANISMS_PLANE_ELEMENTS_H
-#define ZD_MECHANISMS_PLANE_ELEMENTS_H
+#pragma once
 
 #include "../../include/zerodrift/system.h"
 
@@ -109,5 +108,3 @@ typedef struct zd_plane_element_kind {
 
 int zd_plane_element_kinds(void);
 const zd_plane_element_kind *zd_plane_element_kind_of(int row);
-
-#endif

@@ -3,8 +3,7 @@
  * A point of such a tree is a sum of constant vectors, each turned by one angle. So with d = a_j - a_i the mass matrix has the entries
  * M_ij = K_ij cos d - X_ij sin d, of constants K and X, and no body has to be placed or moved.
  */
-#ifndef ZD_PLANE_HINGED_H
-#define ZD_PLANE_HINGED_H
+#pragma once
 
 #include "../common/planned.h"
 #include "tables.h"
@@ -50,5 +49,3 @@ void zd_hinged_bias(const zd_hinged *self, const zd_plane_tree *tree, const doub
 void zd_hinged_weight(const zd_hinged *self, const zd_plane_tree *tree, const double *sines, zd_vector gravity, double *f);
 /* Phi, C, Phi_t and xi of rows that are closures, as far as they are wanted. */
 void zd_hinged_close(const zd_hinged *self, const zd_plane_tree *tree, const double *sines, const double *v, int want, const zd_terms *out);
-
-#endif

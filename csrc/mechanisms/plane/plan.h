@@ -1,7 +1,6 @@
 /* Planned form of a planar mechanism: bodies renumbered so that parents come before children, joints converted to rows of marker quantities.
  * */
-#ifndef ZD_MECHANISMS_PLANE_PLAN_H
-#define ZD_MECHANISMS_PLANE_PLAN_H
+#pragma once
 
 #include "../common/planned.h"
 #include "hinged.h"
@@ -79,5 +78,3 @@ zd_readings zd_plane_frame_readings(const zd_plane *mechanism, const zd_plane_fr
 int zd_plane_magnitudes(const void *data, double t, const double *p, const double *v, double *magnitude, double *scratch);
 int zd_plane_force_magnitudes(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
                               double *scratch);
-
-#endif

@@ -7,8 +7,7 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_MECHANISMS_PLANE_TABLES_H
-#define ZD_MECHANISMS_PLANE_TABLES_H
+#pragma once
 
 #include "../common/elements.h"
 #include "elements.h"
@@ -102,5 +101,3 @@ int zd_plane_tables_are_right(const zd_plane_tables *tables, char *message, int 
 /* Characteristic length of a mechanism. */
 
 double zd_plane_tables_length(const zd_plane_tables *tables);     /* m */
-
-#endif

@@ -4,8 +4,7 @@
  * own coordinates, measured from the ground, so that a torque on such a body reaches its own coordinate alone, while a force goes on to the
  * bodies further in. Constraints, springs and drives are not used here.
  */
-#ifndef ZD_MECHANISMS_PLANE_TREE_H
-#define ZD_MECHANISMS_PLANE_TREE_H
+#pragma once
 
 #include "../../linalg/small.h"
 #include "elements.h"
@@ -99,5 +98,3 @@ zd_plane_reading zd_plane_quantity_read(const zd_plane_quantity *quantity, const
 double zd_plane_quantity_rate(const zd_plane_quantity *quantity, const zd_plane_pose *pose, const zd_plane_twist *twist, double *bias);
 /* Point of a marker quantity or joint on one of its bodies, from the global origin. */
 zd_vector zd_point_of(const zd_plane_pose *pose, const double *point);
-
-#endif

@@ -1,6 +1,5 @@
 /* Bodies in space: from coordinates to poses and twists, and from wrenches to generalized forces. */
-#ifndef ZD_MECHANISMS_SPACE_BODIES_H
-#define ZD_MECHANISMS_SPACE_BODIES_H
+#pragma once
 
 #include "tables.h"
 #include "vectors.h"
@@ -65,5 +64,3 @@ int zd_space_quantity_is_mutual(const zd_space_quantity *quantity);
 zd_vector3 zd_space_contact(const zd_space_quantity *quantity, const zd_space_pose *pose);
 /* Point of a body, from the global origin. */
 zd_vector3 zd_space_point_of(const zd_space_pose *pose, const double *point);
-
-#endif

@@ -7,8 +7,7 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_SPACE_ELEMENTS_H
-#define ZD_SPACE_ELEMENTS_H
+#pragma once
 
 #include "../../include/zerodrift/system.h"
 
@@ -108,5 +107,3 @@ typedef struct zd_space_element_kind {
 
 int zd_space_element_kinds(void);
 const zd_space_element_kind *zd_space_element_kind_of(int row); /* NULL: out of range */
-
-#endif

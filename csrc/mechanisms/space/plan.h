@@ -1,6 +1,5 @@
 /* Planned form of a spatial mechanism: joints converted to rows of marker quantities, and the storage of their entries. */
-#ifndef ZD_MECHANISMS_SPACE_PLAN_H
-#define ZD_MECHANISMS_SPACE_PLAN_H
+#pragma once
 
 #include "../../workspace.h"
 #include "../common/output_spec.h"
@@ -124,5 +123,3 @@ void zd_point_joints_write(const zd_point_joints *self, const zd_space_frame *fr
 
 extern const zd_operations zd_space_products;       /* products with A only, for any spatial mechanism */
 extern const zd_operations zd_point_joint_products;      /* products with A and C, if self->point_joints.are_all */
-
-#endif

@@ -2,8 +2,7 @@
  * each keep a direction of one perpendicular to a direction of the other. These are spherical, universal and revolute joints and welds.
  * Their entries of C are 1 and -1 for velocities of mass centres; those for angular velocities are kept in the scratch, so that products
  * with C do not need its stored entries. */
-#ifndef ZD_SPACE_POINT_JOINT_TABLES_H
-#define ZD_SPACE_POINT_JOINT_TABLES_H
+#pragma once
 
 #include "bodies.h"
 
@@ -51,5 +50,3 @@ typedef struct zd_point_joints {
 typedef struct zd_arms {
     zd_vector3 first, second;   /* from the mass centres to the points */
 } zd_arms;
-
-#endif

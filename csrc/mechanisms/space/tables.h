@@ -10,8 +10,7 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_MECHANISMS_SPACE_TABLES_H
-#define ZD_MECHANISMS_SPACE_TABLES_H
+#pragma once
 
 #include "../common/elements.h"
 #include "elements.h"
@@ -88,5 +87,3 @@ zd_space_plan zd_space_planned(const zd_space *space);
 
 /* Returns 1, or 0 with the violated rule in `message`. */
 int zd_space_tables_are_right(const zd_space_tables *tables, char *message, int message_size);
-
-#endif

@@ -1,6 +1,5 @@
 /* Vectors of space, and rotations. */
-#ifndef ZD_SPACE_VECTORS_H
-#define ZD_SPACE_VECTORS_H
+#pragma once
 
 #include "../../linalg/small.h"
 
@@ -43,5 +42,3 @@ ZD_INLINE void zd_space_add_wrench(zd_space_wrench *to, double s, zd_space_wrenc
     to->force = zd_plus3(to->force, zd_times3(s, what.force));
     to->torque = zd_plus3(to->torque, zd_times3(s, what.torque));
 }
-
-#endif

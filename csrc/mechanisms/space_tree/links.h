@@ -1,6 +1,5 @@
 /* Connections of bodies to their parents, as determined by their inboard joints. */
-#ifndef ZD_MECHANISMS_SPACE_TREE_LINKS_H
-#define ZD_MECHANISMS_SPACE_TREE_LINKS_H
+#pragma once
 
 #include "../space/plan.h"
 
@@ -121,5 +120,3 @@ void zd_space_tree_follow(const void *data, double *p);
 /* The equations of motion of a tree of bodies in space. */
 
 zd_evaluate zd_space_tree_evaluate;
-
-#endif

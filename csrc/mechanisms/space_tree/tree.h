@@ -6,8 +6,7 @@
  * the angular velocity of the outer frame relative to the inner one, in the outer axes. Angles count turns; those of joints outside the
  * tree are dependent coordinates, the last of p. A free body has the coordinates and velocities that it has in absolute coordinates.
  */
-#ifndef ZD_SPACE_TREE_TREE_H
-#define ZD_SPACE_TREE_TREE_H
+#pragma once
 
 #include "../space/tables.h"
 
@@ -22,5 +21,3 @@ void zd_space_tree_poses(const zd_space *space, const double *p, const double *v
 void zd_space_tree_state(const zd_space *space, const double *poses, const double *twists, double *p, double *v);
 /* Quaternion (4,) of a body whose axes these are, (3, 3). */
 void zd_space_tree_quaternion(const double *axes, double *q);
-
-#endif

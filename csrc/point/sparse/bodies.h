@@ -1,6 +1,5 @@
 /* Matrices with one block row per body of a system that declares its structure: M + C^T W C. */
-#ifndef ZD_BODIES_H
-#define ZD_BODIES_H
+#pragma once
 
 #include "../../linalg/sparse/blocks.h"
 #include "../point.h"
@@ -28,5 +27,3 @@ zd_pivots zd_bodies_leave_out(zd_bodies *self, unsigned char *left_out, double l
 void zd_bodies_solve(zd_bodies *self, const double *b, double *x);
 /* Index of the velocity at this position in the order of elimination. */
 int zd_bodies_velocity(const zd_bodies *self, int place);
-
-#endif

@@ -1,6 +1,5 @@
 /* Products with packed C, one group of rows at a time: the contributions of its bodies are summed in registers. */
-#ifndef ZD_ROW_GROUPS_H
-#define ZD_ROW_GROUPS_H
+#pragma once
 
 #include "../point.h"
 
@@ -32,5 +31,3 @@ void zd_row_groups_subtract_weighted(const zd_row_groups *self, const double *C,
 void zd_row_groups_gather(const zd_row_groups *self, const double *a, const double *b, double *y);
 /* rows (m,) <- y, in the order of C */
 void zd_row_groups_scatter(const zd_row_groups *self, const double *y, double *rows);
-
-#endif

@@ -1,7 +1,6 @@
 /* S(W) = C W C^T of a system that declares its structure. W is the inverse of a matrix that is stored as M is, by Cholesky's factors of its
  * blocks: those of M for (13) and (27), of I for the identity metric. */
-#ifndef ZD_WEIGHTED_H
-#define ZD_WEIGHTED_H
+#pragma once
 
 #include "../../linalg/sparse/blocks.h"
 #include "row_groups.h"
@@ -71,5 +70,3 @@ static inline void zd_weighted_scatter(const zd_weighted *self, const double *y,
 int zd_weighted_is_alike(const zd_weighted *self, const double *C, const double *W, double *least, double *most);
 /* Row of C at this position in the order of S; for a weld, 0. */
 int zd_weighted_row(const zd_weighted *self, int place);
-
-#endif

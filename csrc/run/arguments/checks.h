@@ -1,6 +1,5 @@
 /* Checks of what callers give; a failed check writes one sentence. */
-#ifndef ZD_RUN_ARGUMENTS_CHECKS_H
-#define ZD_RUN_ARGUMENTS_CHECKS_H
+#pragma once
 
 #include "../../zerodrift.h"
 
@@ -19,5 +18,3 @@ enum { ZD_LARGEST = 8192 };     /* maximum number of coordinates, and of velocit
 
 /* Sizes and terms of the system must be checked before. */
 int zd_check_interface(const zd_system *system, char *message, int size);
-
-#endif

@@ -1,6 +1,5 @@
 /* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/support/symbolic_counterparts.py. */
-#ifndef ZD_KNIFE_EDGE_CLOSED_FORM_H
-#define ZD_KNIFE_EDGE_CLOSED_FORM_H
+#pragma once
 
 #include "../../include/zerodrift/system.h"
 #include "../../include/zerodrift/units.h"
@@ -11,5 +10,3 @@ enum { ZD_KNIFE_EDGE_CLOSED_FORM_BEGINS = 0, ZD_KNIFE_EDGE_CLOSED_FORM_ENDS = 3 
 extern const zd_closed_form zd_knife_edge_closed_form[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_knife_edge_closed_form_constants(double *k);
-
-#endif

@@ -1,6 +1,5 @@
 /* Written by python/write_closed_form.py with SymPy 1.14.0, from tests/support/symbolic_counterparts.py. */
-#ifndef ZD_OSCILLATOR_CLOSED_FORM_H
-#define ZD_OSCILLATOR_CLOSED_FORM_H
+#pragma once
 
 #include "../../include/zerodrift/system.h"
 #include "../../include/zerodrift/units.h"
@@ -11,5 +10,3 @@ enum { ZD_OSCILLATOR_CLOSED_FORM_BEGINS = 0, ZD_OSCILLATOR_CLOSED_FORM_ENDS = 5 
 extern const zd_closed_form zd_oscillator_closed_form[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_oscillator_closed_form_constants(double *k);
-
-#endif

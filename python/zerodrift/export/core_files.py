@@ -109,8 +109,7 @@ class CoreFiles:
         """Text of ``methods.h`` with these lists."""
         lines = [f"#define ZD_{name}_LIST(X) {' '.join(f'X({entry})' for entry in kept)}".rstrip()
                  for name, kept in self.lists.items()]
-        return "\n".join(["/* Entries of the tables of this program. */", "#ifndef ZD_METHODS_H", "#define ZD_METHODS_H", "",
-                          *lines, "", "#endif", ""])
+        return "\n".join(["/* Entries of the tables of this program. */", "#pragma once", "", *lines, ""])
 
     @property
     def paths(self) -> list[str]:

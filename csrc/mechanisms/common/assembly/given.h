@@ -2,8 +2,7 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_MECHANISMS_COMMON_ASSEMBLY_GIVEN_H
-#define ZD_MECHANISMS_COMMON_ASSEMBLY_GIVEN_H
+#pragma once
 
 #include "../../../include/zerodrift/system.h"
 
@@ -91,5 +90,3 @@ int zd_assemble_velocities(const zd_assembly_problem *given, const double *p, do
  * measure (mh,): of the coordinate that each constraint drives; -1: none, or it is not known. given->row is ignored. */
 int zd_assembly_explain_reach(const zd_assembly_problem *given, const double *p, const int *measure, double ahead, char *message,
                               int message_size);
-
-#endif

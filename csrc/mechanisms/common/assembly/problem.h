@@ -1,6 +1,5 @@
 /* Assembly as a numerical problem: residuals and their rows, conditions, solvers, iterations. */
-#ifndef ZD_MECHANISMS_COMMON_ASSEMBLY_PROBLEM_H
-#define ZD_MECHANISMS_COMMON_ASSEMBLY_PROBLEM_H
+#pragma once
 
 #include "../../../linalg/sparse/equations.h"
 #include "../../../point/point.h"
@@ -130,5 +129,3 @@ int zd_assembly_track(zd_assembly *self, int roles, double *p);
 void zd_assembly_approach(zd_assembly *self, int required, int wished, double *p);
 /* Perturbs p slightly, with closed joints if possible. */
 void zd_assembly_perturb(zd_assembly *self, double *p);
-
-#endif

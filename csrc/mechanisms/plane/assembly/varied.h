@@ -2,8 +2,7 @@
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
-#ifndef ZD_PLANE_VARIED_H
-#define ZD_PLANE_VARIED_H
+#pragma once
 
 #include "../../common/assembly/given.h"
 #include "../tables.h"
@@ -27,5 +26,3 @@ const zd_system *zd_varied_make(const void *of, int64_t run, double *p, double *
 void zd_varied_free(void *made);
 /* Initial value of the coordinate of a constant-speed drive; `drive` is its index among the drives. */
 double zd_varied_place(const void *of, const void *made, int drive);
-
-#endif

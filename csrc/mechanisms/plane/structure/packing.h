@@ -1,6 +1,5 @@
 /* Block structure of a planar mechanism in absolute coordinates: rows of revolute joints, of lines, and their products. */
-#ifndef ZD_MECHANISMS_PLANE_STRUCTURE_PACKING_H
-#define ZD_MECHANISMS_PLANE_STRUCTURE_PACKING_H
+#pragma once
 
 #include "../../common/planned.h"
 #include "../plan.h"
@@ -103,5 +102,3 @@ typedef struct zd_packing {
 void zd_packing_create(zd_packing *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms, size_t lines);
 /* Fills it in for a mechanism without tree. Returns whether there is one: not where a row touches the ground alone. */
 int zd_packing_plan(zd_packing *self, const zd_plane *mechanism);
-
-#endif

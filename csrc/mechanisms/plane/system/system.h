@@ -1,6 +1,5 @@
 /* Functions of a planar mechanism's zd_system. */
-#ifndef ZD_MECHANISMS_PLANE_SYSTEM_SYSTEM_H
-#define ZD_MECHANISMS_PLANE_SYSTEM_SYSTEM_H
+#pragma once
 
 #include "../../common/actions.h"
 #include "../../common/output_spec.h"
@@ -41,5 +40,3 @@ int zd_plane_joint_reaction(const zd_plane *self, const zd_plane_frame *frame, i
 int zd_plane_rows_write(const zd_plane *self, const zd_plane_frame *frame, int want, double t, const zd_terms *out);
 /* Second derivative of a marker quantity at vdot = 0; of zd_plane, in a moving zd_plane_frame. */
 double zd_plane_bias(const void *mechanism, const void *frame, int quantity);
-
-#endif

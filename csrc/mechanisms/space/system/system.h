@@ -1,6 +1,5 @@
 /* Functions of a spatial mechanism's zd_system. */
-#ifndef ZD_MECHANISMS_SPACE_SYSTEM_SYSTEM_H
-#define ZD_MECHANISMS_SPACE_SYSTEM_SYSTEM_H
+#pragma once
 
 #include "../../common/actions.h"
 #include "../plan.h"
@@ -47,5 +46,3 @@ double zd_space_bias(const void *mechanism, const void *frame, int quantity);
 int zd_space_force_sizes(const zd_space *self, const zd_space_frame *frame, double t);
 int zd_space_force_magnitudes(const void *data, const double *inputs, double t, const double *p, const double *v, double *magnitude,
                               double *scratch);
-
-#endif
