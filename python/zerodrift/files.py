@@ -46,7 +46,7 @@ def load(path: str | Path) -> Any:
     >>> bool((again.p == sol.p).all())
     True
     """
-    path = _as_written_now(Path(path))
+    path = Path(path)
     if path.is_dir() or _is_zip(path):
         ensemble = _ensembles().read(path, lambda description: _system(description, str(path)))
         if ensemble is not None:
@@ -62,12 +62,6 @@ def load(path: str | Path) -> Any:
         if description is not None:
             return _mechanism(description, str(path))
     raise WrongValue(f"{path} must be a solution, an ensemble or a mechanism saved by zerodrift", "unreadable-file")
-
-
-def _as_written_now(path: Path) -> Path:
-    """Path of the file that ``save_to="run.zd"`` writes, run.npy, where there is no file of the earlier format."""
-    is_renamed = path.suffix == ".zd" and not path.exists() and path.with_suffix(".npy").exists()
-    return path.with_suffix(".npy") if is_renamed else path
 
 
 def _check_complete(path: str | Path, values: dict[str, Any]) -> None:

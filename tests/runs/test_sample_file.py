@@ -10,7 +10,6 @@ import textwrap
 import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import fields
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -212,21 +211,6 @@ def test_numpy_alone_opens_the_samples(bar, tmp_path):
     described = json.loads((tmp_path / "run.json").read_bytes())
     assert described["solution"]["system"]["name"] == "four_bar"
     assert [name for name, *_ in described["solution"]["system"]["coordinates"]] == [each.name for each in bar.coordinates]
-
-
-def test_files_of_the_earlier_format_are_read():
-    """Written by the version before NPY files, which printed these values."""
-    sol = zd.load(Path(__file__).with_name("earlier_samples.zd"))
-    assert sol.success
-    assert len(sol.t) == 11
-    assert sol.p[-1].tolist() == [-0.07356172718671403]
-    assert sol["pin.force"][-1].tolist() == [-1.6178399851061682, 2.57172623865542]
-
-
-def test_an_earlier_suffix_means_the_file_of_today(bar, tmp_path):
-    sol = zd.simulate(bar, 0.1, step=0.05, save_to=tmp_path / "run.zd")
-    assert names_in(tmp_path) == ["run.json", "run.npy"]
-    assert_alike(sol, zd.load(tmp_path / "run.zd"))
 
 
 def test_a_description_of_other_samples_is_refused(bar, tmp_path):

@@ -1,6 +1,6 @@
 """Reading files of samples: their columns are mapped instead of read, so that they may exceed memory.
 
-A run writes two files, see `sample_file`. Single files with the suffix .zd, as earlier versions wrote them, are read, too.
+A run writes two files, see `sample_file`.
 """
 
 from __future__ import annotations
@@ -8,7 +8,6 @@ from __future__ import annotations
 import io
 import itertools
 import json
-import struct
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -24,8 +23,6 @@ from .saving import unpacked
 
 FORMAT = "zerodrift samples"        # key of the description, with the number of the format
 MAGIC = b"\x93NUMPY"
-EARLIER = b"zerodrift rows 1"
-EARLIER_HEADER = struct.Struct("=16sqq")    # EARLIER, number of samples or -1, length of the JSON text that follows
 NAMES = {"kinetic": "kinetic_energy", "potential": "potential_energy", "input": "energy_input"}     # of a solution, by column
 STOPPED = "stopped from outside, or has not ended yet"
 
@@ -36,25 +33,21 @@ def description_of(path: Path) -> Path:
 
 
 def is_one(path: Path) -> bool:
-    """Return whether a file is a file of samples: NPY with a description beside it, or an earlier one."""
-    begins = _beginning(path)
-    return begins == EARLIER or (begins.startswith(MAGIC) and is_description(description_of(path)))
+    """Return whether a file is a file of samples: NPY with a description beside it."""
+    return _begins(path, MAGIC) and is_description(description_of(path))
 
 
-def _beginning(path: Path) -> bytes:
-    """First bytes of a file; none if there is no file."""
+def _begins(path: Path, text: bytes) -> bool:
+    """Return whether there is a file that begins so, apart from leading blanks and braces of JSON."""
     if not path.is_file():
-        return b""
+        return False
     with path.open("rb") as file:
-        return file.read(len(EARLIER))
+        return file.read(100).lstrip(b"{ \n").startswith(text)
 
 
 def is_description(path: Path) -> bool:
     """Return whether a file describes samples."""
-    if not path.is_file():
-        return False
-    with path.open("rb") as file:
-        return file.read(100).lstrip(b"{ \n").startswith(f'"{FORMAT}"'.encode())
+    return _begins(path, f'"{FORMAT}"'.encode())
 
 
 def columns(file: Path | BinaryIO, begin: int, rows: int, row: int, of: Mapping[str, Any],
@@ -71,7 +64,7 @@ def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> d
     """Fields of the solution in a file, its columns mapped. `rebuilt` makes the system of a mechanism from JSON."""
     path = Path(path)
     with path.open("rb") as file:
-        begin, rows, layout = (_earlier_header if _beginning(path) == EARLIER else _header)(path, file)
+        begin, rows, layout = _header(path, file)
         if layout["byte order"] != sys.byteorder:
             raise WrongValue(f"{path} was written by a machine of another byte order, {layout['byte order']}", "unreadable-file")
         row = layout["row bytes"]
@@ -100,17 +93,6 @@ def _header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any]]:
     except (ValueError, KeyError) as error:
         raise WrongValue(f"{path} cannot be read: its header must be whole ({sentence(error)})", "unreadable-file") from None
     return file.tell(), rows, layout
-
-
-def _earlier_header(path: Path, file: BinaryIO) -> tuple[int, int, dict[str, Any]]:
-    """Header of a file of an earlier version, which contains the description: size of the header, samples, description."""
-    try:
-        _, rows, length = EARLIER_HEADER.unpack(file.read(EARLIER_HEADER.size))
-        layout = json.loads(file.read(length))
-    except (struct.error, ValueError) as error:
-        raise WrongValue(f"{path} cannot be read: its header must be whole ({error})", "unreadable-file") from None
-    begin = EARLIER_HEADER.size + length
-    return begin, rows if rows >= 0 else (path.stat().st_size - begin) // layout["row bytes"], layout
 
 
 def _rest(content: bytes) -> dict[str, np.ndarray]:

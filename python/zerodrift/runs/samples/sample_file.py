@@ -28,7 +28,6 @@ from .saving import EVENTS, described, packed
 from .solution import FIELDS, Solution
 
 SUFFIX = ".npy"
-EARLIER_SUFFIX = ".zd"  # of files in the format before NPY
 FORMAT = 2
 MAX_ROWS = 2**63 - 1   # the header has room for this number
 MAGIC = mapped_samples.MAGIC + bytes((1, 0))        # of NPY, version 1.0
@@ -47,8 +46,6 @@ def checked(save_to: Any) -> Path | None:
     path = Path(_check.instance("save_to", save_to, str | Path, "the path of a file, or None"))
     if path.suffix == ".npz":
         raise WrongValue(f"save_to must not end in .npz, which is what Solution.save writes, but {str(path)!r} does")
-    if path.suffix == EARLIER_SUFFIX:
-        path = path.with_suffix(SUFFIX)
     path = path if path.suffix == SUFFIX else path.with_name(path.name + SUFFIX)
     if not path.parent.is_dir():
         raise MissingFile(f"save_to must be in a folder that is there, and {str(path.parent)!r} is not")
