@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import brentq, minimize
 
 import zerodrift as zd
+from large_mechanisms import chain_of_hooks
 from native_systems import needs_compiler
 from support import OWN, refused
 from zerodrift.analysis.relaxation import settled
@@ -157,26 +158,13 @@ def test_a_damped_run_ends_in_the_equilibrium():
     assert (eq.eigenvalues.real < 0).all()
 
 
-def chain(links, length=1.5):
-    """A chain of uniform links between two hooks one metre apart, drawn as a V."""
-    m = zd.Mechanism("chain", gravity=(0, -G))
-    depth = np.sqrt((length / 2)**2 - 0.25)
-    at = [(i / links, -depth * (1 - abs(2 * i / links - 1))) for i in range(links + 1)]
-    parts = [m.link(f"l{i}", at[i], at[i + 1], mass=1.0 / links) for i in range(links)]
-    m.revolute("first", m.ground, parts[0].start)
-    for i in range(links - 1):
-        m.revolute(f"p{i}", parts[i].end, parts[i + 1].start)
-    m.revolute("last", parts[-1].end, m.ground.point((1.0, 0)))
-    return m
-
-
 def test_a_chain_converges_to_the_catenary():
     """From 10 to 1,000 links, those from 100 on without dense matrices."""
     a = brentq(lambda a: 2 * a * np.sinh(0.5 / a) - 1.5, 0.05, 5, xtol=1e-15)
     sag, tension = a * (np.cosh(0.5 / a) - 1), G / 1.5 * a      # the level part of the tension
     counts, errors = np.array([10, 20, 40, 100, 300, 1000]), []
     for links in counts:
-        eq = zd.equilibrium(chain(links))
+        eq = zd.equilibrium(chain_of_hooks(links))
         assert eq.stable is True
         assert eq["first.force.y"] == pytest.approx(G / 2, rel=1e-9)
         assert (eq.basis is None) == (links >= 100)
@@ -188,7 +176,7 @@ def test_a_chain_converges_to_the_catenary():
 
 def test_sparse_and_dense_matrices_have_the_same_equilibrium(monkeypatch):
     """A chain with springs across its links and to the ground."""
-    m = chain(16)
+    m = chain_of_hooks(16)
     for i in (3, 9):
         m.spring(f"across {i}", m[f"l{i}"].start, m[f"l{i + 2}"].end, stiffness=40.0, length=0.1)
     m.spring("tie", m.ground.point((0.2, -1.0)), m["l5"].end, stiffness=10.0, length=0.2)

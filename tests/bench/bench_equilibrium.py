@@ -15,7 +15,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")      # read when NumPy is imp
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
 import zerodrift as zd
+from large_mechanisms import chain_of_hooks
 from zerodrift.analysis.retraction import moved, onto
 from zerodrift.analysis.state import scales, state
 from zerodrift.analysis.tangent import Tangent
@@ -67,19 +70,6 @@ def measured(name):
     return system.nv, eq.basis.shape[1], *largest
 
 
-def chain():
-    """A chain of links between two hooks one metre apart, drawn as a V."""
-    m = zd.Mechanism("chain", gravity=(0, -9.81))
-    depth = np.sqrt(0.75**2 - 0.25)
-    at = [(i / LINKS, -depth * (1 - abs(2 * i / LINKS - 1))) for i in range(LINKS + 1)]
-    parts = [m.link(f"l{i}", at[i], at[i + 1], mass=1.0 / LINKS) for i in range(LINKS)]
-    m.revolute("first", m.ground, parts[0].start)
-    for i in range(LINKS - 1):
-        m.revolute(f"p{i}", parts[i].end, parts[i + 1].start)
-    m.revolute("last", parts[-1].end, m.ground.point((1.0, 0)))
-    return m.system()
-
-
 def main():
     """Measure, print and write."""
     warnings.simplefilter("ignore")
@@ -92,7 +82,7 @@ def main():
             rows.append([name, nv, k, f"{near:.2g}", f"{far:.2g}"])
             print(*rows[-1], "SLOW" if name in slow else "", flush=True)
     if not sys.argv[1:]:
-        system = chain()
+        system = chain_of_hooks(LINKS).system()
         of_chain = milliseconds(lambda: zd.equilibrium(system), calls=2)
         rows.append([f"a chain of {LINKS} links", system.nv, "", "", f"{of_chain:.2g}"])
         with (Path(__file__).parent / "results" / "equilibrium.csv").open("w", newline="", encoding="utf-8") as file:

@@ -7,10 +7,12 @@ interleaved runs of the paper's four-bar, 2000 steps each with projection. It wr
 import sys
 from pathlib import Path
 
-import zerodrift as zd
-from measuring import least, record, timed
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import zerodrift as zd
+from large_mechanisms import chain
+from measuring import least, record, timed
 from mechanisms.known import four_bar
 
 ROUNDS = 150
@@ -25,17 +27,6 @@ def running(system, **settings):
     return seconds
 
 
-def chain():
-    """A hanging chain, drawn straight."""
-    m = zd.Mechanism("chain", gravity=(0, -9.81))
-    last = m.ground.point((0, 0))
-    for i in range(LINKS):
-        link = m.link(f"link{i}", (0.01 * i, 0), (0.01 * i + 0.01, 0), mass=0.01)
-        m.revolute(f"pin{i}", last, link.start)
-        last = link.end
-    return m
-
-
 def measured():
     """Rows (what, value, unit, limit)."""
     built_in, tables, written = zd.systems.four_bar(), four_bar().system(), four_bar().system(compiled=True)
@@ -45,8 +36,8 @@ def measured():
     yield "four-bar, tables interpreted, to the matrix path of the one built in", times[2] / times[0], "", 2
     yield "four-bar, compiled=True, to the closed-form functions of the one built in", times[4] / times[1], "", 1.1
     yield "four-bar, compiled=True with closed_form=False, to the matrix path of that", times[3] / times[0], "", None
-    m = chain()
-    links, system, started = least(ROUNDS, timed(chain), timed(m.system), timed(lambda: m.system().p0))
+    m = chain(LINKS, 0.01)
+    links, system, started = least(ROUNDS, timed(lambda: chain(LINKS, 0.01)), timed(m.system), timed(lambda: m.system().p0))
     yield f"{LINKS} links and joints in Python", 1e3 * links, "ms", 5
     yield f"m.system() of {LINKS} links", 1e3 * system, "ms", 2
     yield f"m.system() of {LINKS} links and its start", 1e3 * started, "ms", None

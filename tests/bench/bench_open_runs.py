@@ -6,13 +6,17 @@ timed one by one. All is processor time, which other processes disturb little.
 """
 
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
 import zerodrift as zd
+from few_bodies import cart_pole
 from measuring import record
 
 RUNS, CALLS, ROUNDS, STEPS = 1024, 60, 30, 1_000_000
@@ -61,17 +65,6 @@ int main(void)
     return !run;
 }
 """
-
-
-def cart_pole():
-    """A cart on a rail with a pole on it, whose cart a force drives."""
-    m = zd.Mechanism("cart-pole", gravity=(0, -9.81))
-    cart = m.link("cart", (0, 0), (0.2, 0), mass=1.0)
-    slide = m.prismatic("slide", m.ground, cart.start, axis=(1, 0))
-    pole = m.link("pole", (0, 0), (0, 1), mass=0.1)
-    m.revolute("hinge", cart.start, pole.start)
-    m.motor("drive", slide, force=0.0)
-    return m
 
 
 def processor_seconds(call):

@@ -8,16 +8,9 @@ import pytest
 
 import tolerances as tol
 import zerodrift as zd
+from small_studies import pendulum
 from support import refused
 from zerodrift.ensembles import ensemble as module
-
-
-def pendulum(length=1.0, gravity=9.81):
-    """A link on a hinge, level at the start."""
-    m = zd.Mechanism("pendulum", gravity=(0, -gravity))
-    link = m.link("link", (0, 0), (length, 0), mass=1.0)
-    m.revolute("pin", m.ground, link.start)
-    return m
 
 
 def test_runs_are_those_that_simulate_makes():

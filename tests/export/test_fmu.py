@@ -10,6 +10,7 @@ import pytest
 
 import zerodrift as zd
 from core_objects import needs_compiler
+from few_bodies import two_links
 from support import refused
 from zerodrift.export import fmu_libraries
 from zerodrift.symbolics.compile import compilers
@@ -21,16 +22,6 @@ OUTPUTS = ["lower.end.position", "elbow.force", "upper.angle"]
 STEP = 1e-3
 
 
-def crane(torque=0.0, speed=None):
-    """Two links, whose upper one has a motor with this torque or this speed."""
-    m = zd.Mechanism("two links", gravity=(0, -9.81))
-    upper, lower = m.link("upper", (0, 0), (0, -1), mass=1.0), m.link("lower", (0, -1), (0, -2), mass=1.0)
-    pin = m.revolute("pin", m.ground, upper.start)
-    m.revolute("elbow", upper.end, lower.start)
-    m.motor("drive", pin, **({"torque": torque} if speed is None else {"speed": speed}))
-    return m
-
-
 @pytest.fixture(scope="module", params=["3.0", "2.0"])
 def version(request):
     return request.param
@@ -40,7 +31,7 @@ def version(request):
 def unit(version, tmp_path_factory):
     """File of a crane whose torque is an input."""
     path = tmp_path_factory.mktemp("fmu") / "crane 1.fmu"
-    return zd.fmu(crane(), path, step=STEP, inputs=["drive.torque"], outputs=OUTPUTS, version=version)
+    return zd.fmu(two_links(), path, step=STEP, inputs=["drive.torque"], outputs=OUTPUTS, version=version)
 
 
 class Opened:
@@ -102,20 +93,20 @@ def test_it_is_valid(unit):
 def test_a_unit_without_inputs_and_outputs_is_valid(version, tmp_path):
     from fmpy.validation import validate_fmu
 
-    assert validate_fmu(str(zd.fmu(crane(), tmp_path / "crane", step=STEP, version=version))) == []
+    assert validate_fmu(str(zd.fmu(two_links(), tmp_path / "crane", step=STEP, version=version))) == []
 
 
 def test_a_constant_input_gives_the_numbers_of_simulate(unit):
     given = np.array([(0.0, 2.0), (2.0, 2.0)], dtype=[("time", float), ("drive.torque", float)])
     found = fmpy.simulate_fmu(str(unit), stop_time=1.0, step_size=0.01, output_interval=0.01, input=given)
-    sol = zd.simulate(crane(2.0), 1.0, step=STEP, outputs=OUTPUTS, vector="baseline")
+    sol = zd.simulate(two_links(2.0), 1.0, step=STEP, outputs=OUTPUTS, vector="baseline")
     expected = np.column_stack([sol[name] for name in OUTPUTS])[::10]
     np.testing.assert_allclose(columns(found)[1:], expected[1:], rtol=0, atol=1e-10)
 
 
 def test_an_input_that_jumps_between_steps_gives_the_bits_of_an_open_run(unit):
     slave = Opened(unit)
-    run = zd.Run(crane(), step=STEP, inputs=["drive.torque"], vector="baseline")
+    run = zd.Run(two_links(), step=STEP, inputs=["drive.torque"], vector="baseline")
     for torque in [1.0, -3.0, 0.5, 8.0]:
         run["drive.torque"] = torque
         slave.step(50, {"drive.torque": torque})
@@ -128,7 +119,7 @@ def test_an_input_that_jumps_between_steps_gives_the_bits_of_an_open_run(unit):
 def test_a_restored_state_continues_with_the_same_bits(drive, value, version, tmp_path):
     """Saved after one step with a new input, so that a speed is on its way to it; the torque began with another one."""
     name = f"drive.{drive}"
-    unit = zd.fmu(crane(**{drive: 0.0}), tmp_path / "crane", step=STEP, inputs=[name], outputs=OUTPUTS, version=version)
+    unit = zd.fmu(two_links(**{drive: 0.0}), tmp_path / "crane", step=STEP, inputs=[name], outputs=OUTPUTS, version=version)
     one, other = Opened(unit, {name: 0.25 if drive == "torque" else 0.0}), Opened(unit)     # the links start at rest
     one.step(30)
     one.step(1, {name: value})
@@ -206,7 +197,7 @@ EVENTS = [zd.Event("upper.angle", value=-1.5), zd.Event("pin.speed", value=0.9, 
 
 def with_events(folder, version, events):
     """Unit of a crane with these events, and whose outputs are the quantities of `EVENTS`."""
-    return zd.fmu(crane(4.0), folder / "crane", step=STEP, inputs=["drive.torque"], outputs=["upper.angle", "pin.speed"],
+    return zd.fmu(two_links(4.0), folder / "crane", step=STEP, inputs=["drive.torque"], outputs=["upper.angle", "pin.speed"],
                   events=events, version=version)
 
 
@@ -221,7 +212,7 @@ def run_of(unit, **options):
 
 def located():
     """Instants of the events by `simulate`, without input."""
-    sol = zd.simulate(crane(4.0), 0.5, step=STEP, events=EVENTS, vector="baseline")
+    sol = zd.simulate(two_links(4.0), 0.5, step=STEP, events=EVENTS, vector="baseline")
     return [float(times[0]) for times in sol.t_events]
 
 
@@ -239,7 +230,7 @@ def test_steps_return_early_at_events_where_the_importer_allows_it(eventful):
 def test_without_early_return_the_end_is_requested_at_the_end_of_a_step(eventful):
     found, (_, ended) = run_of(eventful), located()
     assert 0 <= found["time"][-1] - ended < 0.02
-    sol = zd.simulate(crane(4.0), 0.5, step=STEP, outputs=["upper.angle"], vector="baseline")
+    sol = zd.simulate(two_links(4.0), 0.5, step=STEP, outputs=["upper.angle"], vector="baseline")
     np.testing.assert_allclose(found["upper.angle"][1:-1], sol["upper.angle"][20:20 * (len(found) - 1):20], rtol=0, atol=1e-12)
 
 
@@ -262,7 +253,7 @@ def test_events_of_units_are_quantities_that_reach_a_value(tmp_path):
 
 def test_other_versions_are_refused(tmp_path):
     with refused("unknown-choice", "version"):
-        zd.fmu(crane(), tmp_path / "crane", step=STEP, version="1.0")
+        zd.fmu(two_links(), tmp_path / "crane", step=STEP, version="1.0")
 
 
 # ---- other platforms ----
@@ -275,7 +266,7 @@ def test_ziglang_compiles_for_a_platform_that_is_named(tmp_path, monkeypatch):
     pytest.importorskip("ziglang")
     monkeypatch.setattr(fmu_libraries.core_build, "compiled", lambda *_, **__: b"!<arch>\n")
     monkeypatch.setattr(fmu_libraries, "FLAGS", (*fmu_libraries.FLAGS, "-nostdlib"))
-    unit = zd.fmu(crane(), tmp_path / "crane", step=STEP, platforms=["aarch64-linux", "aarch64-linux"])
+    unit = zd.fmu(two_links(), tmp_path / "crane", step=STEP, platforms=["aarch64-linux", "aarch64-linux"])
     with zipfile.ZipFile(unit) as archive:
         binaries = [name for name in archive.namelist() if name.startswith("binaries/")]
         library = archive.read("binaries/aarch64-linux/crane.so")
@@ -288,7 +279,7 @@ def test_ziglang_compiles_for_a_platform_that_is_named(tmp_path, monkeypatch):
 
 def test_platforms_are_named_as_the_standard_does(tmp_path, monkeypatch):
     def written(**options):
-        return zd.fmu(crane(), tmp_path / "crane", step=STEP, **options)
+        return zd.fmu(two_links(), tmp_path / "crane", step=STEP, **options)
 
     with refused("unknown-choice", "platforms of FMI 3.0"):
         written(platforms=["win64"])

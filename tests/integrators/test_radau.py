@@ -10,6 +10,7 @@ from scipy.optimize import fsolve
 
 import tolerances as tol
 import zerodrift as zd
+from few_bodies import crank_and_piston
 from support import assert_close, assert_same_bits, rate, refused
 
 C = np.array([(4 - np.sqrt(6)) / 10, (4 + np.sqrt(6)) / 10, 1])
@@ -47,21 +48,9 @@ def test_of_an_oscillator_it_is_its_rational_function(omega_h):
         assert np.abs(sol.p[-1]) < 1e-12
 
 
-def bushed_crank(stiffness, damping):
-    m = zd.Mechanism("slider-crank", gravity=(0, -9.81))
-    crank = m.link("crank", (0, 0), (0.1, 0), mass=0.5)
-    rod = m.link("rod", (0.1, 0), (0.4, 0), mass=0.3)
-    piston = m.particle("piston", 0.4, at=(0.4, 0))
-    m.revolute("main", m.ground, crank.start)
-    m.bushing("pin", crank.end, rod.start, stiffness=stiffness, damping=damping)
-    m.revolute("wrist", rod.end, piston)
-    m.slot("cylinder", m.ground, piston, axis=(1, 0))
-    return m.system()
-
-
 def test_stiff_bushings(formulation):
     """Beside an explicit method: as far off as its tolerance says, in a tenth of the steps, and nothing is said of stiffness."""
-    system = bushed_crank(1e7, 1e3)
+    system = crank_and_piston(stiffness=1e7, damping=1e3).system()
     with pytest.warns(zd.StabilityWarning, match="stiff for 'dop853'.*; an implicit method, as 'radau', takes longer ones"):
         exact = zd.simulate(system, 0.5, rtol=1e-10, atol=1e-10, integrator="dop853")
     sol = zd.simulate(system, 0.5, rtol=1e-7, atol=1e-7, integrator="radau", formulation=formulation)
@@ -73,7 +62,7 @@ def test_stiff_bushings(formulation):
 @pytest.mark.parametrize(("stiffness", "damping"), [(1e8, 1e4), (1e10, 1e6)])
 def test_steps_of_fixed_size_are_solved_to_what_stiff_rates_are_rounded_by(formulation, stiffness, damping):
     """That is far above the rounding of the state, and the more the stiffer the bushing. Beside steps that are chosen."""
-    system = bushed_crank(stiffness, damping)
+    system = crank_and_piston(stiffness=stiffness, damping=damping).system()
     exact = zd.simulate(system, 0.2, rtol=1e-9, atol=1e-9, integrator="radau")
     for steps in (200, 2000):
         sol = zd.simulate(system, 0.2, step=0.2 / steps, integrator="radau", formulation=formulation)
@@ -83,7 +72,7 @@ def test_steps_of_fixed_size_are_solved_to_what_stiff_rates_are_rounded_by(formu
 @pytest.mark.parametrize("variables", ["schur", "mixed", "independent"])
 def test_rows_between_long_steps_of_stiff_systems(variables):
     """While the run goes on, and afterwards: a step may then be too long to be solved without the one before."""
-    system, times = bushed_crank(1e9, 1e4), np.linspace(0, 0.3, 38)
+    system, times = crank_and_piston(stiffness=1e9, damping=1e4).system(), np.linspace(0, 0.3, 38)
     for rtol in (1e-3, 1e-6, 1e-8):
         options = {"rtol": rtol, "atol": rtol, "integrator": "radau"}
         exact = zd.simulate(system, 0.3, formulation="schur", t_eval=times, **options)
@@ -108,7 +97,8 @@ def test_steps_do_not_shrink_as_a_bushing_that_turns_becomes_stiffer(formulation
     exact = zd.simulate(m.system(), 0.3, integrator="dop853", **options)
     steps = []
     for stiffness in (1e8, 1e10):
-        sol = zd.simulate(bushed_crank(stiffness, stiffness / 1e4), 0.3, integrator="radau", formulation=formulation, **options)
+        sol = zd.simulate(crank_and_piston(stiffness=stiffness, damping=stiffness / 1e4), 0.3, integrator="radau",
+                          formulation=formulation, **options)
         assert np.abs(sol["crank.angle"] - exact["crank.angle"]).max() < 1e-3
         steps.append(sol.stats["steps"])
     assert steps[1] < 2 * steps[0] < 400

@@ -13,10 +13,8 @@ LAYOUTS = ["joint", "absolute"]
 
 def digger(**drive):
     """An arm of 2 m on a hinge, with a cylinder from 1 m below the hinge to its middle."""
-    m = zd.Mechanism("digger", gravity=(0, -9.81))
-    arm = m.link("arm", (0, 0), (2, 0), mass=30.0)
-    m.revolute("hinge", m.ground, arm.start)
-    m.actuator("cylinder", m.ground.point((0, -1)), arm.point((1, 0)), **drive)
+    m, ends = hinged()
+    m.actuator("cylinder", *ends, **drive)
     return m
 
 

@@ -6,24 +6,15 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from few_bodies import kicked
 
 DURATION = 0.02     # s
-
-
-def with_kick():
-    """A mass at rest on a spring, and a force of a fiftieth of a second after half a second."""
-    m = zd.Mechanism("kicked")
-    mass = m.particle("mass", 1.0, at=(0, 0))
-    m.slot("guide", m.ground, mass, axis=(0, 1))
-    m.spring("spring", m.ground.point((0, -1)), mass, stiffness=1e3, length=1.0, damping=20.0)
-    m.force("kick", mass, along=(0, 1), value=lambda t: 1000.0 if 0.5 < t < 0.5 + DURATION else 0.0)
-    return m
 
 
 def peak(**options):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", zd.StabilityWarning)     # at rest, stability limits the steps of an explicit method
-        return zd.simulate(with_kick(), 0.8, **options)["mass.position.y"].max()
+        return zd.simulate(kicked(1000.0, 0.5), 0.8, **options)["mass.position.y"].max()
 
 
 def test_an_action_shorter_than_a_step_may_be_missed_and_is_found_with_max_step():

@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import minimize
 
 import zerodrift as zd
+from few_bodies import crank_and_piston
 from mechanisms.random_starts import outcome
 from support import assert_close
 
@@ -91,19 +92,8 @@ def test_what_moves_with_a_loop_moves_least():
     assert_close(v, found.x, 1e-7, scale=1.0)       # bodies are in the order in which they were added
 
 
-def crank_slider(wrist):
-    m = zd.Mechanism("t", gravity=(0, -9.81))
-    crank, rod = m.link("crank", (0, 0), (0.1, 0), mass=0.5), m.link("rod", (0.1, 0), (0.4, 0), mass=0.3)
-    piston = m.particle("piston", 0.4, at=wrist)
-    m.revolute("main", m.ground, crank.start)
-    m.revolute("pin", crank.end, rod.start)
-    m.revolute("wrist", rod.end, piston)
-    m.slot("cylinder", m.ground, piston, axis=(1, 0))
-    return m
-
-
 def test_a_joint_that_is_drawn_open_is_named_with_what_moves():
-    told = str(crank_slider((0.44, 0.03)))
+    told = str(crank_and_piston((0.44, 0.03)))
     assert "drawn open, and closed at the start (m, or rad): 'wrist' by 0.05" in told
     line = next(each for each in told.splitlines() if "moved from the drawing" in each)
     assert "'piston' by 0.0415 m" in line
@@ -111,13 +101,13 @@ def test_a_joint_that_is_drawn_open_is_named_with_what_moves():
 
 
 def test_nothing_is_named_where_the_drawing_closes():
-    told = str(crank_slider((0.4, 0.0001)))
+    told = str(crank_and_piston((0.4, 0.0001)))
     assert "drawn open" not in told
     assert "moved" not in told
 
 
 def test_what_a_held_value_moves_is_named():
-    m = crank_slider((0.4, 0.0))
+    m = crank_and_piston((0.4, 0.0))
     m.start({"crank.angle": 0.3})
     assert "moved from the drawing: 'crank' by 0.0149 m and 0.3 rad" in str(m)
 

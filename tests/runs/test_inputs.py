@@ -4,22 +4,9 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from few_bodies import driven_four_bar
 from native_systems import PENDULUM, compile_library, needs_compiler, pendulum
 from support import refused
-
-
-def four_bar(**drives):
-    """A four-bar whose crank has a motor."""
-    m = zd.Mechanism("four-bar", gravity=(0, -9.81))
-    crank = m.link("crank", (0, 0), (0, 1), mass=1.0)
-    coupler = m.link("coupler", (0, 1), (2, 2), mass=2.0)
-    rocker = m.link("rocker", (3, 0), (2, 2), mass=2.0)
-    pin = m.revolute("A", m.ground, crank.start)
-    m.revolute("B", crank.end, coupler.start)
-    m.revolute("C", coupler.end, rocker.end)
-    m.revolute("D", m.ground, rocker.start)
-    m.motor("drive", pin, **drives)
-    return m
 
 
 def wheel(**drives):
@@ -36,7 +23,7 @@ LAYOUTS = [(layout, compiled) for layout in ("joint", "absolute") for compiled i
 
 @pytest.mark.parametrize(("layout", "compiled"), LAYOUTS)
 def test_an_input_at_its_first_value_has_the_bits_of_a_number(layout, compiled):
-    system = four_bar(torque=1.5).system(layout, compiled=compiled)
+    system = driven_four_bar(torque=1.5).system(layout, compiled=compiled)
     run, sol = zd.Run(system, step=2.0**-8, inputs=["drive.torque"]), zd.simulate(system, 0.5, step=2.0**-8)
     run.step(128)
     assert run["drive.torque"] == 1.5
@@ -49,16 +36,18 @@ def test_an_input_at_its_first_value_has_the_bits_of_a_number(layout, compiled):
 def test_an_input_is_a_torque_that_is_a_function_of_time(layout, compiled):
     """The same torque as a law: constant within each step, so that RK4 steps are the same to rounding."""
     steps = [3.0, -2.0, 0.5, 7.0]
-    run = zd.Run(four_bar(torque=0.0).system(layout, compiled=compiled), step=2.0**-7, inputs=["drive.torque"], record=True)
+    run = zd.Run(driven_four_bar(torque=0.0).system(layout, compiled=compiled), step=2.0**-7, inputs=["drive.torque"],
+                 record=True)
     for value in steps:
         run["drive.torque"] = value
         run.step(16)
-    parts = [zd.Run(four_bar(torque=value).system(layout, compiled=compiled), *state, step=2.0**-7) for value, state in
+    parts = [zd.Run(driven_four_bar(torque=value).system(layout, compiled=compiled), *state, step=2.0**-7) for value, state in
              zip(steps[:1], [(None, None)], strict=True)]
     parts[0].step(16)
     for value in steps[1:]:
         last = parts[-1]
-        parts.append(zd.Run(four_bar(torque=value).system(layout, compiled=compiled), last.p, last.v, t0=last.t, step=2.0**-7))
+        parts.append(zd.Run(driven_four_bar(torque=value).system(layout, compiled=compiled), last.p, last.v, t0=last.t,
+                            step=2.0**-7))
         parts[-1].step(16)
     assert np.allclose(run.p, parts[-1].p, rtol=1e-12, atol=1e-12)
     assert np.allclose(run.v, parts[-1].v, rtol=1e-11, atol=1e-11)
@@ -69,7 +58,7 @@ def test_an_input_is_a_torque_that_is_a_function_of_time(layout, compiled):
 @pytest.mark.parametrize("form", ["schur", "augmented", "nullspace", "mixed", "independent"])
 @pytest.mark.parametrize("method", ["rk4", "radau", "rattle", "extrapolation"])
 def test_work_of_inputs_is_in_the_energy_balance(form, method):
-    run = zd.Run(four_bar(torque=0.0), step=0.001, formulation=form, integrator=method, inputs=["drive.torque"],
+    run = zd.Run(driven_four_bar(torque=0.0), step=0.001, formulation=form, integrator=method, inputs=["drive.torque"],
                  record=True)
     for value in (20.0, -15.0, 5.0):
         run["drive.torque"] = value
@@ -93,10 +82,10 @@ def test_a_torque_in_space_turns_a_wheel(layout):
 
 
 @pytest.mark.parametrize(("layout", "compiled"), LAYOUTS)
-@pytest.mark.parametrize("made", [four_bar, wheel])
+@pytest.mark.parametrize("made", [driven_four_bar, wheel])
 def test_a_speed_is_followed_linearly_over_one_step(made, layout, compiled):
     m = made(speed=0.0)
-    joint = "A" if made is four_bar else "hinge"
+    joint = "A" if made is driven_four_bar else "hinge"
     run = zd.Run(m.system(layout, compiled=compiled), step=0.002, inputs=["drive.speed"], record=True)
     run["drive.speed"] = 2.0
     run.step()
@@ -211,7 +200,7 @@ def test_parameters_of_a_native_system_are_inputs(tmp_path):
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 5.5, -2.5])
 def test_an_input_that_must_not_be_used_makes_no_step(value):
-    run = zd.Run(four_bar(torque=0.0), step=0.01, inputs={"drive.torque": (-2.0, 5.0)})
+    run = zd.Run(driven_four_bar(torque=0.0), step=0.01, inputs={"drive.torque": (-2.0, 5.0)})
     run["drive.torque"] = 5.0
     run.step(3)
     p = run.p
@@ -227,13 +216,13 @@ def test_an_input_that_must_not_be_used_makes_no_step(value):
 
 
 def test_wrong_inputs_say_what_is_allowed():
-    m = four_bar(speed=1.0)
+    m = driven_four_bar(speed=1.0)
     with refused("wrong-name", r"'drive\.torque'.*'drive'"):
         zd.Run(m, step=0.01, inputs=["drive.torque"])
     with refused("step-size", r"'drive\.speed'"):
         zd.Run(m, inputs=["drive.speed"])
     with refused("wrong-value", "must begin with a number"):
-        zd.Run(four_bar(torque=lambda t: t), step=0.01, inputs=["drive.torque"])
+        zd.Run(driven_four_bar(torque=lambda t: t), step=0.01, inputs=["drive.torque"])
     with refused("duplicate-name"):
         zd.Run(m, step=0.01, inputs=["drive.speed", "drive.speed"])
     with refused("shape"):
@@ -248,7 +237,7 @@ def test_wrong_inputs_say_what_is_allowed():
 
 
 def test_many_steps_with_changing_inputs_give_no_false_warning(recwarn):
-    run = zd.Run(four_bar(torque=0.0), step=0.001, inputs=["drive.torque"], record=True)
+    run = zd.Run(driven_four_bar(torque=0.0), step=0.001, inputs=["drive.torque"], record=True)
     for k in range(500):
         run["drive.torque"] = 30.0 * (-1) ** k
         run.step()
@@ -257,7 +246,7 @@ def test_many_steps_with_changing_inputs_give_no_false_warning(recwarn):
 
 
 def test_a_run_prints_its_inputs():
-    run = zd.Run(four_bar(torque=0.0), step=0.01, inputs=["drive.torque"])
+    run = zd.Run(driven_four_bar(torque=0.0), step=0.01, inputs=["drive.torque"])
     run["drive.torque"] = 2.5
     assert "  inputs      drive.torque = 2.5 N m\n" in repr(run)
 
@@ -270,7 +259,7 @@ def test_simulate_with_a_controller_has_the_bits_of_a_run_with_it(steps):
     def spring(run):
         run["drive.torque"] = 20.0 - 30.0 * run["A.angle"] - 4.0 * run["A.speed"]
 
-    m = four_bar(torque=0.0)
+    m = driven_four_bar(torque=0.0)
     sol = zd.simulate(m, 0.5, inputs=["drive.torque"], control=spring, **steps)
     run = zd.Run(m, inputs=["drive.torque"], control=spring, record=True, **steps)
     run.advance_to(0.5)
@@ -284,7 +273,7 @@ def test_simulate_with_a_controller_has_the_bits_of_a_run_with_it(steps):
 
 
 def test_first_and_restored_inputs_must_be_within_their_limits():
-    m, between = four_bar(torque=0.0), {"drive.torque": (1.0, 2.0)}
+    m, between = driven_four_bar(torque=0.0), {"drive.torque": (1.0, 2.0)}
     run = zd.Run(m, step=0.01, inputs=between)
     with refused("input-refused", r"'drive\.torque' must be between 1 and 2, not 0"):
         run.step()
@@ -304,7 +293,8 @@ def test_first_and_restored_inputs_must_be_within_their_limits():
 
 @pytest.mark.parametrize(("count", "compiled"), [(2, False), (16, True)])
 def test_first_inputs_of_many_runs_must_be_within_their_limits(count, compiled):
-    runs = zd.ManyRuns(four_bar(torque=0.0).system(compiled=compiled), runs=count, step=0.01, inputs={"drive.torque": (1.0, 2.0)})
+    runs = zd.ManyRuns(driven_four_bar(torque=0.0).system(compiled=compiled), runs=count, step=0.01,
+                       inputs={"drive.torque": (1.0, 2.0)})
     runs["drive.torque"] = [0.0, *[1.5] * (count - 1)]
     runs.step(2)
     assert runs.failed.tolist() == [True, *[False] * (count - 1)]
@@ -318,10 +308,10 @@ def test_a_controller_that_raises_leaves_a_partial_solution():
             raise RuntimeError("no signal")
 
     with pytest.raises(RuntimeError, match="no signal") as caught:
-        zd.simulate(four_bar(torque=0.0), 1.0, step=0.01, inputs=["drive.torque"], control=zd.every(0.05, call=broken))
+        zd.simulate(driven_four_bar(torque=0.0), 1.0, step=0.01, inputs=["drive.torque"], control=zd.every(0.05, call=broken))
     assert caught.value.solution.t[-1] == pytest.approx(0.15)
     with pytest.raises(zd.InputRefused, match="must be finite") as caught:
-        zd.simulate(four_bar(torque=0.0), 1.0, step=0.01, inputs=["drive.torque"],
+        zd.simulate(driven_four_bar(torque=0.0), 1.0, step=0.01, inputs=["drive.torque"],
                     control=zd.every(0.05, call=lambda run: run.inputs.fill(np.nan if run.t > 0.1 else 0.0)))
     assert caught.value.solution.t[-1] == pytest.approx(0.15)
 
@@ -329,14 +319,15 @@ def test_a_controller_that_raises_leaves_a_partial_solution():
 @pytest.mark.parametrize(("layout", "compiled"), LAYOUTS)
 def test_reactions_read_afterwards_are_those_under_the_inputs(layout, compiled):
     """The torque of the last step holds at a sample: the same reactions as of runs with that torque as a number."""
-    system = four_bar(torque=0.0).system(layout, compiled=compiled)
-    run = zd.Run(system, step=2.0**-7, inputs=["drive.torque"], record=True)
+    system = driven_four_bar(torque=0.0).system(layout, compiled=compiled)
+    run = zd.Run(system, step=2.0**-7, inputs=["drive.torque"],
+                 record=True)
     for value in (3.0, -20.0, 3.0):
         run["drive.torque"] = value
         run.step(3)
     sol = run.solution()
     for k in (1, 3, 4, 6, 9):
-        alone = four_bar(torque=float(sol["drive.torque"][k])).system(layout)
+        alone = driven_four_bar(torque=float(sol["drive.torque"][k])).system(layout)
         known = zd.Instant(alone, sol.t[k], sol.p[k], sol.v[k])
         for name in ("A.force", "crank.angular_acceleration", "drive.power"):
             assert np.allclose(sol[name][k], known[name], rtol=1e-10, atol=1e-10)
@@ -346,7 +337,7 @@ def test_reactions_read_afterwards_are_those_under_the_inputs(layout, compiled):
 
 
 def test_accelerations_under_a_speed_that_is_an_input_are_recorded():
-    run = zd.Run(four_bar(speed=1.0), step=0.01, inputs=["drive.speed"], record=True)
+    run = zd.Run(driven_four_bar(speed=1.0), step=0.01, inputs=["drive.speed"], record=True)
     run["drive.speed"] = 2.0
     run.step(3)
     sol = run.solution()
@@ -357,7 +348,7 @@ def test_accelerations_under_a_speed_that_is_an_input_are_recorded():
 
 @pytest.mark.parametrize("compiled", [False, True])
 def test_values_between_samples_have_the_inputs_of_their_step(compiled):
-    system, numbers = four_bar(torque=0.0).system(compiled=compiled), iter([3.0, -2.0, 8.0, 0.5])
+    system, numbers = driven_four_bar(torque=0.0).system(compiled=compiled), iter([3.0, -2.0, 8.0, 0.5])
 
     def set_next(run):
         run["drive.torque"] = next(numbers)
@@ -372,6 +363,6 @@ def test_values_between_samples_have_the_inputs_of_their_step(compiled):
 
 
 def test_values_between_samples_need_t_eval_if_a_speed_is_an_input():
-    sol = zd.simulate(four_bar(speed=1.0), 0.1, step=0.01, inputs=["drive.speed"])
+    sol = zd.simulate(driven_four_bar(speed=1.0), 0.1, step=0.01, inputs=["drive.speed"])
     with pytest.raises(ValueError, match="values between samples must be requested by t_eval, as a speed is an input"):
         sol(0.055)

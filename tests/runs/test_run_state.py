@@ -9,17 +9,8 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from few_bodies import two_links
 from support import refused
-
-
-def arm():
-    m = zd.Mechanism("arm", gravity=(0, -9.81))
-    link = m.link("link", (0, 0), (1, 0), mass=1.0)
-    other = m.link("other", (1, 0), (2, 0), mass=0.5)
-    pin = m.revolute("pin", m.ground, link.start)
-    m.revolute("elbow", link.end, other.start)
-    m.motor("drive", pin, torque=0.0)
-    return m
 
 
 def same(one, other):
@@ -46,7 +37,7 @@ def test_a_restored_run_continues_with_the_same_bits(settings):
 
 @pytest.mark.parametrize("compiled", [False, True])
 def test_inputs_are_part_of_a_state(compiled):
-    run = zd.Run(arm().system(compiled=compiled), step=0.01, inputs=["drive.torque"])
+    run = zd.Run(two_links().system(compiled=compiled), step=0.01, inputs=["drive.torque"])
     run["drive.torque"] = 3.0
     run.step(20)
     state, twin = run.save(), run.copy()
@@ -96,7 +87,7 @@ class Integral:
 
 def test_states_of_controllers_are_saved():
     def made():
-        return zd.Run(arm(), step=0.01, inputs=["drive.torque"], control=zd.every(0.02, call=Integral()))
+        return zd.Run(two_links(), step=0.01, inputs=["drive.torque"], control=zd.every(0.02, call=Integral()))
 
     run, other = made(), made()
     run.step(31)
@@ -110,20 +101,21 @@ def test_controllers_without_a_state_are_named():
     def damp(run):
         run["drive.torque"] = -run["pin.speed"]
 
-    run = zd.Run(arm(), step=0.01, inputs=["drive.torque"], control=[zd.every(0.02, call=Integral()), zd.every(0.03, call=damp)])
+    run = zd.Run(two_links(), step=0.01, inputs=["drive.torque"],
+                 control=[zd.every(0.02, call=Integral()), zd.every(0.03, call=damp)])
     with pytest.warns(zd.StateWarning, match=r"nothing of the control <every 0\.03 s: damp>: .* \[zd:controller-state\]") as told:
         run.save()
     assert [each.filename for each in told] == [__file__]
 
 
 def test_a_copy_shares_its_controllers_and_names_none(recwarn):
-    run = zd.Run(arm(), step=0.01, inputs=["drive.torque"], control=zd.every(0.02, call=lambda run: None))
+    run = zd.Run(two_links(), step=0.01, inputs=["drive.torque"], control=zd.every(0.02, call=lambda run: None))
     run.copy().step()
     assert not recwarn.list
 
 
 def test_reset_goes_back_to_the_start():
-    run = zd.Run(arm(), step=0.01, inputs=["drive.torque"], record=True)
+    run = zd.Run(two_links(), step=0.01, inputs=["drive.torque"], record=True)
     run["drive.torque"] = 3.0
     run.step(20)
     p = run.p
@@ -182,7 +174,7 @@ def test_wrong_states_are_refused_and_the_run_stays():
             run.restore(wrong)
     for other, reason in ((zd.Run(bar, step=0.02), "same settings"), (zd.Run(zd.systems.pendulum(), step=0.01), "same system"),
                           (zd.Run(bar.with_parameters(gravity=1.0), step=0.01), "same parameters"),
-                          (zd.Run(arm(), step=0.01, inputs=["drive.torque"]), "same inputs")):
+                          (zd.Run(two_links(), step=0.01, inputs=["drive.torque"]), "same inputs")):
         with pytest.raises(zd.WrongState, match=reason):
             other.restore(state)
         other.step()
@@ -284,7 +276,7 @@ def test_a_state_of_one_of_many_runs_is_that_of_a_run_with_its_parameters():
 
 
 def test_many_runs_are_restored_by_a_mask():
-    many = zd.ManyRuns(arm(), runs=3, step=0.01, inputs=["drive.torque"])
+    many = zd.ManyRuns(two_links(), runs=3, step=0.01, inputs=["drive.torque"])
     many["drive.torque"] = [1.0, 2.0, 3.0]
     many.step(10)
     states = many.save()

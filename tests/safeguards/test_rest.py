@@ -8,16 +8,7 @@ import pytest
 
 import zerodrift as zd
 from covering import draws
-
-
-def held_by_a_spring(kick):
-    """A mass at its static equilibrium, which a force of short duration moves: omega = 31.6 / s, critically damped by a third."""
-    m = zd.Mechanism("mass on a spring", gravity=(0, -9.81))
-    mass = m.particle("mass", 1.0, at=(0, 0))
-    m.slot("guide", m.ground, mass, axis=(0, 1))
-    m.spring("spring", m.ground.point((0, -1)), mass, stiffness=1e3, length=1 + 9.81e-3, damping=20.0)
-    m.force("kick", mass, along=(0, 1), value=lambda t: kick if 1.0 < t < 1.02 else 0.0)
-    return m
+from few_bodies import kicked
 
 
 @pytest.mark.parametrize("kick", [0.0, 1000.0])
@@ -25,7 +16,7 @@ def test_rounding_at_rest_shows_no_frequency(kick):
     """Positions and accelerations at rest differ by rounding only, whose quotient is any number."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", zd.StabilityWarning)
-        sol = zd.simulate(held_by_a_spring(kick), 2.0, step=1e-3)
+        sol = zd.simulate(kicked(kick, 1.0, 9.81), 2.0, step=1e-3)
     assert sol.stats["too_long"] == 0
     assert sol.stats["omega_h"] < 1         # of 0.03; at the jump itself the quotient is not a frequency
 
@@ -33,7 +24,7 @@ def test_rounding_at_rest_shows_no_frequency(kick):
 def test_an_instability_that_begins_at_rest_is_reported():
     """The same equilibrium with a step that is too long: omega h = 3.2 grows from rounding until it is seen."""
     with pytest.warns(zd.StabilityWarning, match="longer than 'rk4' is stable"):
-        sol = zd.simulate(held_by_a_spring(0.0), 30.0, step=0.1, on_failure="return")
+        sol = zd.simulate(kicked(0.0, 1.0, 9.81), 30.0, step=0.1, on_failure="return")
     assert sol.stats["too_long"] > 0
 
 

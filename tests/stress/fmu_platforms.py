@@ -19,7 +19,10 @@ import fmpy
 import numpy as np
 from fmpy.validation import validate_fmu
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
+
 import zerodrift as zd
+from few_bodies import two_links
 from zerodrift.export.fmu_libraries import PLATFORMS
 from zerodrift.symbolics.compile import compilers
 
@@ -32,16 +35,6 @@ MODEL_EXCHANGE = {f"fmi2{name}" for name in ("CompletedIntegratorStep", "EnterCo
                                              "GetNominalsOfContinuousStates", "NewDiscreteStates", "SetContinuousStates",
                                              "SetTime")}
 STEP, STEPS, TORQUE = 1e-3, 1000, 2.0
-
-
-def crane(torque):
-    """Two links, whose upper one has a motor."""
-    m = zd.Mechanism("two links", gravity=(0, -9.81))
-    upper, lower = m.link("upper", (0, 0), (0, -1), mass=1.0), m.link("lower", (0, -1), (0, -2), mass=1.0)
-    pin = m.revolute("pin", m.ground, upper.start)
-    m.revolute("elbow", upper.end, lower.start)
-    m.motor("drive", pin, torque=torque)
-    return m
 
 
 def format_and_machine(library):
@@ -64,11 +57,12 @@ def functions(version):
 
 def main():
     """Make the units and check them."""
-    simulated = zd.simulate(crane(TORQUE), STEP * STEPS, step=STEP, outputs=["upper.angle"], vector="baseline")["upper.angle"][-1]
+    sol = zd.simulate(two_links(TORQUE), STEP * STEPS, step=STEP, outputs=["upper.angle"], vector="baseline")
+    simulated = sol["upper.angle"][-1]
     with tempfile.TemporaryDirectory() as folder:
         for version, platforms in PLATFORMS.items():
             begin = time.perf_counter()
-            unit = zd.fmu(crane(0.0), Path(folder, f"crane{version[0]}"), step=STEP, inputs=["drive.torque"],
+            unit = zd.fmu(two_links(0.0), Path(folder, f"crane{version[0]}"), step=STEP, inputs=["drive.torque"],
                           outputs=["upper.angle"], version=version, platforms=list(platforms))
             print(f"FMI {version}: {len(platforms)} platforms in {time.perf_counter() - begin:.0f} s, "
                   f"{unit.stat().st_size / 1e6:.1f} MB")

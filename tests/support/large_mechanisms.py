@@ -16,6 +16,19 @@ def chain(n, spacing=1.0):
     return m
 
 
+def chain_of_hooks(links, length=1.5):
+    """A chain of uniform links between two hooks one metre apart, drawn as a V."""
+    m = zd.Mechanism("chain", gravity=(0, -9.81))
+    depth = np.sqrt((length / 2)**2 - 0.25)
+    at = [(i / links, -depth * (1 - abs(2 * i / links - 1))) for i in range(links + 1)]
+    parts = [m.link(f"l{i}", at[i], at[i + 1], mass=1.0 / links) for i in range(links)]
+    m.revolute("first", m.ground, parts[0].start)
+    for i in range(links - 1):
+        m.revolute(f"p{i}", parts[i].end, parts[i + 1].start)
+    m.revolute("last", parts[-1].end, m.ground.point((1.0, 0)))
+    return m
+
+
 def four_bars(n):
     """A row of n parallelograms, 2 n + 1 rods of a metre, that swings from upright with 1 m/s at its upper end."""
     m = zd.Mechanism(f"{n} four-bars", gravity=(0, -9.81))

@@ -14,25 +14,12 @@ import warnings
 import numpy as np
 
 import zerodrift as zd
+from few_bodies import driven_four_bar
 
 FIXED = ("euler", "rk4", "dop853", "extrapolation", "radau", "rattle", "taylor")
 ADAPTIVE = ("dormand_prince", "dop853", "radau", "taylor")
 CORRECTIONS = ({"stabilization": None}, {"stabilization": "baumgarte"}, {"energy": True})
 BEFORE, CHUNKS = 37, 10     # steps before a state is saved; inputs set after it
-
-
-def crank(drive):
-    """A crank and a rocker, whose crank has a motor with a torque or a speed."""
-    m = zd.Mechanism("crank", gravity=(0, -9.81))
-    crank = m.link("crank", (0, 0), (0, 1), mass=1.0)
-    coupler = m.link("coupler", (0, 1), (2, 2), mass=2.0)
-    rocker = m.link("rocker", (3, 0), (2, 2), mass=2.0)
-    pin = m.revolute("A", m.ground, crank.start, damping=0.5)
-    m.revolute("B", crank.end, coupler.start)
-    m.revolute("C", coupler.end, rocker.end)
-    m.revolute("D", m.ground, rocker.start)
-    m.motor("drive", pin, **{drive: 0.0})
-    return m
 
 
 def methods():
@@ -56,7 +43,7 @@ def begun(case):
     """A run at its start; None where the methods do not suit the mechanism."""
     drive, settings = case
     try:
-        return zd.Run(crank(drive), inputs=[f"drive.{drive}"], **settings)
+        return zd.Run(driven_four_bar(**{drive: 0.0}), inputs=[f"drive.{drive}"], **settings)
     except (zd.UnsuitedFormulation, zd.UnsuitedIntegrator, zd.UnreachableTolerance):
         return None
 

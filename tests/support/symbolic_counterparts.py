@@ -132,13 +132,18 @@ def oscillator_of_parameters():
                        p0=core.p0, v0=core.v0)
 
 
-def knife_edge_of_parameters():
+def knife_edge_of(weight, *names):
+    """With the weight along its plane as an expression of the parameters that are behind the mass and the inertia."""
     core = SYSTEMS["knife_edge"]
     x, y, phi, vx, vy, w = sp.symbols("x y phi vx vy w")
-    (m, inertia, weight), values = of_parameters("m", "I", "weight")
+    (m, inertia, *others), values = of_parameters("m", "I", *names)
     return zd.symbolic([x, y, phi], speeds=[vx, vy, w], kinetic=m * (vx**2 + vy**2) / 2 + inertia * w**2 / 2,
-                       potential=-weight * x, nonholonomic=[vx * sp.sin(phi) - vy * sp.cos(phi)], parameters=values,
-                       units=["m", "m", "rad"], p0=core.p0, v0=core.v0)
+                       potential=-weight(m, *others) * x, nonholonomic=[vx * sp.sin(phi) - vy * sp.cos(phi)],
+                       parameters=values, units=["m", "m", "rad"], p0=core.p0, v0=core.v0)
+
+
+def knife_edge_of_parameters():
+    return knife_edge_of(lambda m, weight: weight, "weight")
 
 
 def knife_edge():
@@ -148,12 +153,7 @@ def knife_edge():
 
 def knife_edge_of_incline():
     """With the angle of the plane, of which the weight along it is computed."""
-    core = SYSTEMS["knife_edge"]
-    x, y, phi, vx, vy, w = sp.symbols("x y phi vx vy w")
-    (m, inertia, g, incline), values = of_parameters("m", "I", "g", "incline")
-    return zd.symbolic([x, y, phi], speeds=[vx, vy, w], kinetic=m * (vx**2 + vy**2) / 2 + inertia * w**2 / 2,
-                       potential=-m * g * sp.sin(incline) * x, nonholonomic=[vx * sp.sin(phi) - vy * sp.cos(phi)],
-                       parameters=values, units=["m", "m", "rad"], p0=core.p0, v0=core.v0)
+    return knife_edge_of(lambda m, g, incline: m * g * sp.sin(incline), "g", "incline")
 
 
 OF_PARAMETERS = {"four_bar": four_bar_of_parameters, "pendulum": pendulum_of_parameters, "oscillator": oscillator_of_parameters,

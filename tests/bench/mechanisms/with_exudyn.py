@@ -4,12 +4,12 @@ They are the generalized-alpha method with constraints of index 3 and Newmark's 
 iterations. The trapezoidal rule of index 2 is Newmark's here.
 """
 
-import time
-
 import exudyn as exu
 import numpy as np
 from drawings import Revolute
 from exudyn import itemInterface
+
+from exudyn_runs import solved
 
 STEPS = (1, 2, 4, 8, 16, 32, 64, 128, 256)      # between outputs
 SOLVERS = {     # type, spectral radius, index 2, Newmark
@@ -29,13 +29,7 @@ def sweeps(drawing):
 def solve(drawing, setting):
     """Displacements and rotations of the bodies, (k, n, 3), and time of the call of Exudyn's solver, s."""
     name, algebra, steps = setting
-    container = exu.SystemContainer()
-    mbs = container.AddSystem()
-    sensors = _build(mbs, drawing)
-    settings = _settings(drawing, name, algebra, steps)
-    start = time.process_time()
-    mbs.SolveDynamic(settings, solverType=SOLVERS[name][0])
-    seconds = time.process_time() - start
+    mbs, sensors, seconds = solved(_build, drawing, SOLVERS[name], ALGEBRA[algebra], steps, drawing.count)
     return np.stack([mbs.GetSensorStoredData(sensor)[:, 1:4] for sensor in sensors], axis=1), seconds
 
 
@@ -74,18 +68,3 @@ def _build(mbs, drawing):
         mbs.AddLoad(itemInterface.LoadTorqueVector(markerNumber=middle, loadVector=[0, 0, moment]))
     mbs.Assemble()
     return sensors
-
-
-def _settings(drawing, name, algebra, steps):
-    _, radius, index_2, newmark = SOLVERS[name]
-    settings = exu.SimulationSettings()
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = drawing.t_end / drawing.count
-    settings.linearSolver.solverType = ALGEBRA[algebra]
-    integration = settings.timeIntegration
-    integration.endTime, integration.verboseMode = drawing.t_end, 0
-    integration.numberOfSteps = steps * drawing.count
-    integration.newton.useModifiedNewton = True
-    integration.generalizedAlpha.spectralRadius = radius
-    integration.generalizedAlpha.useIndex2Constraints, integration.generalizedAlpha.useNewmark = index_2, newmark
-    return settings

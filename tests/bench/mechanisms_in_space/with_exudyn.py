@@ -4,12 +4,12 @@ What it cannot do: steps chosen by an error bound where there are constraints, a
 none. Its order is two. Bodies turn by Euler parameters.
 """
 
-import time
-
 import exudyn as exu
 import numpy as np
 from exudyn import itemInterface
 from exudyn.utilities import RigidBodyInertia
+
+from exudyn_runs import solved
 
 STEPS = (1, 2, 4, 8, 16, 32, 64, 128)      # between outputs
 SOLVERS = {     # type, spectral radius, index 2, Newmark
@@ -31,13 +31,7 @@ def sweeps(drawing):
 def solve(drawing, setting):
     """Positions and rotation matrices of the bodies, (k, n, 12), and time of the call of Exudyn's solver, s."""
     name, algebra, steps = setting
-    container = exu.SystemContainer()
-    mbs = container.AddSystem()
-    sensors = _build(mbs, drawing)
-    settings = _settings(drawing, name, algebra, steps)
-    start = time.process_time()
-    mbs.SolveDynamic(settings, solverType=SOLVERS[name][0])
-    seconds = time.process_time() - start
+    mbs, sensors, seconds = solved(_build, drawing, SOLVERS[name], ALGEBRA[algebra], steps, drawing.count)
     placed = [np.hstack([mbs.GetSensorStoredData(place)[:, 1:4], mbs.GetSensorStoredData(turned)[:, 1:10]])
               for place, turned in sensors]
     return np.stack(placed, axis=1), seconds
@@ -85,18 +79,3 @@ def _frame(joint):
     if joint.kind == "revolute":
         return np.stack([side, np.cross(axis, side), axis], axis=1)
     return np.stack([axis, side, np.cross(axis, side)], axis=1)
-
-
-def _settings(drawing, name, algebra, steps):
-    _, radius, index_2, newmark = SOLVERS[name]
-    settings = exu.SimulationSettings()
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = drawing.t_end / drawing.count
-    settings.linearSolver.solverType = ALGEBRA[algebra]
-    integration = settings.timeIntegration
-    integration.endTime, integration.verboseMode = drawing.t_end, 0
-    integration.numberOfSteps = steps * drawing.count
-    integration.newton.useModifiedNewton = True
-    integration.generalizedAlpha.spectralRadius = radius
-    integration.generalizedAlpha.useIndex2Constraints, integration.generalizedAlpha.useNewmark = index_2, newmark
-    return settings

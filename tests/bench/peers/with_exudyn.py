@@ -4,12 +4,12 @@ The implicit ones are the trapezoidal rule with constraints of index 2, the gene
 and Newmark's with those of index 2, all with modified Newton iterations and the dense solver. The explicit ones are run as well.
 """
 
-import time
-
 import exudyn as exu
 import numpy as np
 from exudyn import itemInterface
 from problems import GRAVITY
+
+from exudyn_runs import solved
 
 STEPS = (2, 4, 8, 16, 32, 64, 128, 256)     # between outputs
 SOLVERS = {     # type, spectral radius, index 2, Newmark
@@ -30,13 +30,7 @@ def sweeps(chain):
 def solve(chain, setting):
     """Angles (k, n) at the outputs, and seconds of the call of its solver."""
     name, steps = setting
-    container = exu.SystemContainer()
-    mbs = container.AddSystem()
-    sensors = _build(mbs, chain)
-    settings = _settings(chain, name, steps)
-    start = time.process_time()
-    mbs.SolveDynamic(settings, solverType=SOLVERS[name][0])
-    seconds = time.process_time() - start
+    mbs, sensors, seconds = solved(_build, chain, SOLVERS[name], exu.LinearSolverType.EXUdense, steps, len(chain.outputs) - 1)
     return np.stack([mbs.GetSensorStoredData(sensor)[:, 3] for sensor in sensors], axis=1), seconds
 
 
@@ -62,18 +56,3 @@ def _build(mbs, chain):
     mbs.AddObject(itemInterface.ObjectJointRevolute2D(markerNumbers=[before, end]))
     mbs.Assemble()
     return sensors
-
-
-def _settings(chain, name, steps):
-    _, radius, index_2, newmark = SOLVERS[name]
-    settings = exu.SimulationSettings()
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = chain.spacing
-    settings.linearSolver.solverType = exu.LinearSolverType.EXUdense
-    integration = settings.timeIntegration
-    integration.endTime, integration.verboseMode = chain.t_end, 0
-    integration.numberOfSteps = steps * (len(chain.outputs) - 1)
-    integration.newton.useModifiedNewton = True
-    integration.generalizedAlpha.spectralRadius = radius
-    integration.generalizedAlpha.useIndex2Constraints, integration.generalizedAlpha.useNewmark = index_2, newmark
-    return settings

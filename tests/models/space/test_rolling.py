@@ -97,8 +97,11 @@ def test_the_rattleback_as_by_hand_and_turns_round():
 @pytest.mark.parametrize(("model", "wrong", "code", "said"), [
     ("rolling_disc", {"lean": 1.6}, "out-of-range", "^lean must"),
     ("rolling_disc", {"turning": 0.0}, "missing-argument", "^spin must.*is 0"),
+    ("hookes_joint", {"bend": 1.6}, "out-of-range", "^bend must"),
+    ("double_cardan", {"last_bend": -1.6}, "out-of-range", "last_bend"),
+    ("bennett", {"second_twist": 0.5}, "geometry", None), ("bennett", {"angle": 0.0}, "geometry", "neither 0"),
     ("coin", {"incline": 0.0}, "out-of-range", "incline.*than 0"),
     ("coin", {"gravity": -1.0}, "out-of-range", "gravity.*least 0")])
-def test_what_does_not_roll(model, wrong, code, said):
+def test_what_does_not_roll_or_turn(model, wrong, code, said):
     with refused(code, said):
         getattr(zd.models, model)(**wrong)

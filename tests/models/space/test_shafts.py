@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import assert_close, refused
+from support import assert_close
 from zerodrift.mechanisms.elements.numbers import AS_GIVEN
 
 
@@ -54,12 +54,3 @@ def test_bennetts_relation(given):
     assert_close(np.sin(theta / 2) * np.sin(phi / 2), constant * np.cos(theta / 2) * np.cos(phi / 2), 1e-9, scale=1.0)
     assert np.ptp(theta) > 0.5
     assert np.abs(sol.energy_violation).max() < 1e-9
-
-
-@pytest.mark.parametrize(("model", "wrong", "code", "said"), [
-    ("hookes_joint", {"bend": 1.6}, "out-of-range", "^bend must"),
-    ("double_cardan", {"last_bend": -1.6}, "out-of-range", "last_bend"),
-    ("bennett", {"second_twist": 0.5}, "geometry", None), ("bennett", {"angle": 0.0}, "geometry", "neither 0")])
-def test_what_cannot_turn(model, wrong, code, said):
-    with refused(code, said):
-        getattr(zd.models, model)(**wrong)

@@ -1,0 +1,60 @@
+"""Mechanisms of few bodies that several tests and measurements share."""
+
+import zerodrift as zd
+
+
+def two_links(torque=0.0, speed=None):
+    """Two hanging links, whose upper one has a motor with this torque or this speed."""
+    m = zd.Mechanism("two links", gravity=(0, -9.81))
+    upper, lower = m.link("upper", (0, 0), (0, -1), mass=1.0), m.link("lower", (0, -1), (0, -2), mass=1.0)
+    pin = m.revolute("pin", m.ground, upper.start)
+    m.revolute("elbow", upper.end, lower.start)
+    m.motor("drive", pin, **({"torque": torque} if speed is None else {"speed": speed}))
+    return m
+
+
+def driven_four_bar(**drive):
+    """A four-bar with a motor at its crank, whose joint has a damper."""
+    m = zd.Mechanism("four-bar", gravity=(0, -9.81))
+    crank = m.link("crank", (0, 0), (0, 1), mass=1.0)
+    coupler = m.link("coupler", (0, 1), (2, 2), mass=2.0)
+    rocker = m.link("rocker", (3, 0), (2, 2), mass=2.0)
+    pin = m.revolute("A", m.ground, crank.start, damping=0.5)
+    m.revolute("B", crank.end, coupler.start)
+    m.revolute("C", coupler.end, rocker.end)
+    m.revolute("D", m.ground, rocker.start)
+    m.motor("drive", pin, **drive)
+    return m
+
+
+def cart_pole():
+    """A cart on a rail with a pole on it, whose cart a force drives."""
+    m = zd.Mechanism("cart-pole", gravity=(0, -9.81))
+    cart = m.link("cart", (0, 0), (0.2, 0), mass=1.0)
+    slide = m.prismatic("slide", m.ground, cart.start, axis=(1, 0))
+    pole = m.link("pole", (0, 0), (0, 1), mass=0.1)
+    m.revolute("hinge", cart.start, pole.start)
+    m.motor("drive", slide, force=0.0)
+    return m
+
+
+def crank_and_piston(at=(0.4, 0), **bushing):
+    """A slider-crank with its piston drawn at a point; the crank pin gives where its stiffness is given."""
+    m = zd.Mechanism("slider-crank", gravity=(0, -9.81))
+    crank, rod = m.link("crank", (0, 0), (0.1, 0), mass=0.5), m.link("rod", (0.1, 0), (0.4, 0), mass=0.3)
+    piston = m.particle("piston", 0.4, at=at)
+    m.revolute("main", m.ground, crank.start)
+    (m.bushing if bushing else m.revolute)("pin", crank.end, rod.start, **bushing)
+    m.revolute("wrist", rod.end, piston)
+    m.slot("cylinder", m.ground, piston, axis=(1, 0))
+    return m
+
+
+def kicked(force, at, gravity=0.0):
+    """A mass at rest on a spring, omega = 31.6 / s, critically damped by a third; a force of a fiftieth of a second moves it."""
+    m = zd.Mechanism("kicked", gravity=(0, -gravity))
+    mass = m.particle("mass", 1.0, at=(0, 0))
+    m.slot("guide", m.ground, mass, axis=(0, 1))
+    m.spring("spring", m.ground.point((0, -1)), mass, stiffness=1e3, length=1 + gravity / 1e3, damping=20.0)
+    m.force("kick", mass, along=(0, 1), value=lambda t: force if at < t < at + 0.02 else 0.0)
+    return m
