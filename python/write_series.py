@@ -1,4 +1,4 @@
-"""Writer of csrc/systems/series and csrc/systems/precise, the Taylor series of built-in systems in double and double-double
+"""Writer of csrc/systems/series, the Taylor series of built-in systems in double and double-double
 arithmetic, from their derivations in tests/support/symbolic_counterparts.py:
 ``python python/write_series.py``, after which the core has to be built again.
 """
@@ -35,19 +35,19 @@ def sources():
         code = PRECISE.get(name, OF_PARAMETERS[name])()._code
         precise = relative(name, "precise", series.write_precise(code.program, code.sizes))
         texts |= shared(name, plain, precise)
-    return texts | {f"{kind}/{kind}.h": header(kind, names) for kind in ("series", "precise")}
+    return texts | {"series/series.h": header(names)}
 
 
 def shared(name, plain, precise):
     """Texts of both files, and of a third with the coefficients where these are the same."""
     own = [COEFFICIENTS.search(text)[0] for text in (plain, precise)]
     common = {NUMBERS.sub(r"\1ZD_SERIES_NUMBERS;", text) for text in own}
-    texts = {f"series/{name}.c": plain, f"precise/{name}.c": precise}
+    texts = {f"series/{name}.c": plain, f"series/{name}_precise.c": precise}
     if len(common) > 1:
         return texts
-    for (path, text), coefficients, place in zip(list(texts.items()), own, ("", "../series/"), strict=True):
+    for (path, text), coefficients in zip(list(texts.items()), own, strict=True):
         numbers = NUMBERS.search(coefficients)[2]
-        texts[path] = text.replace(coefficients, f'#define ZD_SERIES_NUMBERS {numbers}\n#include "{place}{name}_series.h"\n')
+        texts[path] = text.replace(coefficients, f'#define ZD_SERIES_NUMBERS {numbers}\n#include "{name}_series.h"\n')
     what = f"/* Taylor coefficients of zd_{name}, in the precision of the numbers that the including file has chosen. */"
     return texts | {f"series/{name}_series.h": f"{HEADING}\n{what}\n{common.pop()}"}
 
@@ -57,24 +57,19 @@ def relative(name, kind, text):
     text = text.replace("/* Written by zerodrift.symbolic. */", HEADING).replace("<zerodrift/", '"../../include/zerodrift/')
     for file in ("series", "system"):
         text = text.replace(f"{file}.h>", f'{file}.h"')
-    text = text.replace("\nconst int zd_interface_version = ZD_INTERFACE_VERSION;\n", f'#include "{kind}.h"\n')
+    text = text.replace("\nconst int zd_interface_version = ZD_INTERFACE_VERSION;\n", '#include "series.h"\n')
     return text.replace(f"zd_symbolic_{kind}", f"zd_{name}_{kind}")
 
 
-def header(kind, names):
-    capitals = f"ZD_SYSTEMS_{kind.upper()}_H"
-    what = "Taylor series" + (" and residuals in double-double arithmetic" if kind == "precise" else "")
-    listed = ",\n    ".join(", ".join(f"zd_{name}_{kind}" for name in names[i : i + 4]) for i in range(0, len(names), 4))
+def header(names):
+    listed = "\n".join(f"extern const zd_{kind} {', '.join(f'zd_{name}_{kind}' for name in names)};" for kind in ("series", "precise"))
     return f"""{HEADING}
-/* {what} of built-in systems. */
-#ifndef {capitals}
-#define {capitals}
+/* Taylor series of built-in systems; series and residuals in double-double arithmetic. */
+#pragma once
 
 #include "../../include/zerodrift/system.h"
 
-extern const zd_{kind} {listed};
-
-#endif
+{listed}
 """
 
 

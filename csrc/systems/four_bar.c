@@ -16,7 +16,6 @@
 #include "../linalg/small.h"
 #include "closed_form/four_bar.h"
 #include "kind.h"
-#include "precise/precise.h"
 #include "series/series.h"
 
 static const double TURN = 0x1.921fb54442d18p+2;     /* 2 pi */

@@ -15,7 +15,6 @@
 #include "../include/zerodrift/system.h"
 #include "closed_form/knife_edge.h"
 #include "kind.h"
-#include "precise/precise.h"
 #include "series/series.h"
 
 enum { X, Y, PHI, N };

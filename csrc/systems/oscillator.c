@@ -4,7 +4,6 @@
 #include "../include/zerodrift/system.h"
 #include "closed_form/oscillator.h"
 #include "kind.h"
-#include "precise/precise.h"
 #include "series/series.h"
 
 typedef struct given {      /* the parameters, and what evaluate() needs of them */

@@ -16,7 +16,6 @@
 #include "../include/zerodrift/system.h"
 #include "closed_form/pendulum.h"
 #include "kind.h"
-#include "precise/precise.h"
 #include "series/series.h"
 
 enum { X, Y, N = 2 };

@@ -4,7 +4,7 @@
 #include <math.h>
 #include "../../include/zerodrift/series.h"
 #include "../../include/zerodrift/system.h"
-#include "precise.h"
+#include "series.h"
 
 enum { ROWS = 16 };
 

@@ -4,10 +4,10 @@
 #include <math.h>
 #include "../../include/zerodrift/series.h"
 #include "../../include/zerodrift/system.h"
-#include "precise.h"
+#include "series.h"
 
 #define ZD_SERIES_NUMBERS data
-#include "../series/oscillator_series.h"
+#include "oscillator_series.h"
 
 ZD_DD_RARE int residuals(const zd_number *restrict k, zd_number t, const zd_number *restrict p,
     const zd_number *restrict v, zd_number *restrict Phi, zd_number *restrict Psi, double *restrict M,

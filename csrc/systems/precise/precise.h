@@ -1,7 +1,0 @@
-/* Written by python/write_series.py with SymPy 1.14.0, from tests/support/symbolic_counterparts.py. */
-/* Taylor series and residuals in double-double arithmetic of built-in systems. */
-#pragma once
-
-#include "../../include/zerodrift/system.h"
-
-extern const zd_precise zd_four_bar_precise, zd_knife_edge_precise, zd_oscillator_precise, zd_pendulum_precise;
