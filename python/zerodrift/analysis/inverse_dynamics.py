@@ -200,9 +200,9 @@ def _sizes(at: State, V: np.ndarray, G: np.ndarray) -> np.ndarray:
 
 
 def _size(at: State, vdot: np.ndarray) -> float:
-    """The size of the forces on the tangent space."""
+    """The size of the forces on the tangent space, before they cancel."""
     V = np.abs(Tangent(at).velocities.T)
-    return float(np.linalg.norm(V @ (np.abs(at.M) @ np.abs(vdot) + np.abs(at.force)))) or 1.0
+    return float(np.linalg.norm(V @ (np.abs(at.M) @ np.abs(vdot) + np.maximum(at.magnitudes, np.abs(at.force))))) or 1.0
 
 
 def _check_motion(at: State, vdot: np.ndarray) -> None:
