@@ -62,6 +62,17 @@ def test_an_open_run_says_the_same():
         run.step(100)
 
 
+@pytest.mark.parametrize("settings", [{"step": 0.01}, {}], ids=["fixed", "adaptive"])
+@pytest.mark.parametrize("layout", ["joint", "absolute"])
+def test_open_runs_that_are_advanced_together_say_the_same(layout, settings):
+    runs = zd.ManyRuns(driven(False).system(layout), runs=2, **settings)
+    runs.advance_to(0.3)
+    assert runs.messages == ["", ""]
+    runs.advance_to(1.0)
+    assert runs.failed.all()
+    assert all(said.startswith("'drive' must not drive") and "dead point, A.angle = 0.395664" in said for said in runs.messages)
+
+
 def test_the_limit_is_that_of_kinematics():
     with pytest.warns(zd.LockedWarning, match=r"dead point, A.angle = 0\.39566"):
         zd.kinematics(rocker(), {"A.angle": np.linspace(0, 0.5, 11)})

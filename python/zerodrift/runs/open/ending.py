@@ -141,21 +141,28 @@ def finished(solution: Solution, run, results, outcome, on_failure, keyboard) ->
 
 def failure_of(system: BaseSystem, run: _gateway.Run, status: int, settings: dict[str, Any],
                span: tuple[float, float], solution: Solution | None = None) -> tuple[BaseException, str | None]:
-    """Error of a failed run, and advice on it; beyond the reach of a drive it is one error for all methods and steps.
-
-    Drives are checked at the state that could not be corrected, which may be far off, and at the last sample of a solution.
-    """
+    """Error of a failed run, and advice on it; beyond the reach of a drive it is one error for all methods and steps."""
     t, p, v = run.place()
     if status == _gateway.CALLBACK:
         return run.error(status), run.message
-    ahead = STEPS_AHEAD * settings["step"] if settings.get("step") else SHARE_AHEAD * (span[1] - span[0])
-    samples = zip(solution.t[-1:], solution.p[-1:], strict=True) if solution else ()
-    for of, at in ((t, p), *samples):
-        if said := system._beyond_reach(float(of), np.array(at), t - of + ahead):
-            return CorrectionFailed(said), None
+    if said := beyond_reach(system, run, settings, span, solution):
+        return CorrectionFailed(said), None
     if status == _gateway.COLLAPSED:
         return run.error(status), system._advice_on_collapse(t, p, v, run.results().statistics.part)
     return run.error(status), system._advice_on_failure(t, p)
+
+
+def beyond_reach(system: BaseSystem, run: _gateway.Run, settings: dict[str, Any], span: tuple[float, float],
+                 solution: Solution | None = None) -> str:
+    """Sentence on drives that end a failed run at a dead point; "" if none does.
+
+    They are checked at the state that could not be corrected, which may be far off, and at the last sample of a solution.
+    """
+    t, p, _ = run.place()
+    ahead = STEPS_AHEAD * settings["step"] if settings.get("step") else SHARE_AHEAD * (span[1] - span[0])
+    samples = zip(solution.t[-1:], solution.p[-1:], strict=True) if solution else ()
+    found = (system._beyond_reach(float(of), np.array(at), t - of + ahead) for of, at in ((t, p), *samples))
+    return next(filter(None, found), "")
 
 
 def with_solution(error: BaseException, solution: Solution, note: str | None = None) -> BaseException:

@@ -15,6 +15,7 @@ from ...systems.base import closed_form_core_of
 from ..arguments.inputs import Speeds
 from ..states.reading import Reading
 from .beginning import Prepared, known_settings, nominal_span, prepared
+from .ending import beyond_reach
 from .run_state import restored, saved, unpacked
 from .threads import processors
 
@@ -157,7 +158,12 @@ class ManyRuns:
     @property
     def messages(self) -> list[str]:
         """Message of each run that has failed, and "" of the others."""
-        return [self._core[i].message if failed else "" for i, failed in enumerate(self.failed.tolist())]
+        return [self._message(i) if failed else "" for i, failed in enumerate(self.failed.tolist())]
+
+    def _message(self, i: int) -> str:
+        run, ready = self._core[i], self._ready[i]
+        is_by_others = self._core.status[i] in (_gateway.BAD_INPUT, _gateway.CALLBACK)
+        return (not is_by_others and beyond_reach(ready.of, run, self.settings, ready.span)) or run.message
 
     def __getitem__(self, name: Any) -> np.ndarray:
         """Value in every run (runs,), or of a vector (runs, 2) or (runs, 3), by name, as of `Run`."""
