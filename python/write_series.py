@@ -62,7 +62,8 @@ def relative(name, kind, text):
 
 
 def header(names):
-    listed = "\n".join(f"extern const zd_{kind} {', '.join(f'zd_{name}_{kind}' for name in names)};" for kind in ("series", "precise"))
+    listed = "\n".join(f"extern const zd_{kind} {', '.join(f'zd_{name}_{kind}' for name in names)};"
+                       for kind in ("series", "precise"))
     return f"""{HEADING}
 /* Taylor series of built-in systems; series and residuals in double-double arithmetic. */
 #pragma once

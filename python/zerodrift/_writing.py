@@ -19,6 +19,12 @@ PAUSES = 0.01, 0.1, 1.0             # s, before it is tried again
 SUFFIX = ".part"                    # of temporary files
 
 
+def with_suffix(path: str | Path, suffix: str) -> Path:
+    """The path, with the suffix added where it is missing."""
+    path = Path(path)
+    return path if path.suffix == suffix else path.with_name(path.name + suffix)
+
+
 def write_atomically(path: str | Path, write: Callable[[Any], Any]) -> None:
     """Write a file beside its place, sync it to the disk, and rename it.
 

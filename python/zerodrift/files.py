@@ -10,7 +10,7 @@ from typing import Any
 from . import _check
 from .errors import WrongValue
 from .runs.samples import mapped_samples
-from .runs.samples.saving import read
+from .runs.samples.saving import is_zip, read
 from .runs.samples.solution import Solution
 
 
@@ -47,7 +47,7 @@ def load(path: str | Path) -> Any:
     True
     """
     path = Path(path)
-    if path.is_dir() or _is_zip(path):
+    if path.is_dir() or is_zip(path):
         ensemble = _ensembles().read(path, lambda description: _system(description, str(path)))
         if ensemble is not None:
             return ensemble
@@ -71,12 +71,6 @@ def _check_complete(path: str | Path, values: dict[str, Any]) -> None:
     if lacking:
         raise WrongValue(f"{path} must contain a whole solution, and lacks {', '.join(lacking)}: it was not written to its end, "
                          "or was changed", "unreadable-file")
-
-
-def _is_zip(path: str | Path) -> bool:
-    """Return whether a file is a ZIP archive, as NPZ files are."""
-    with open(path, "rb") as file:
-        return file.read(2) == b"PK"
 
 
 def _ensembles() -> Any:

@@ -85,12 +85,15 @@ class Tangent:
     @functools.cached_property
     def displacements(self) -> np.ndarray:
         """W (nv, k_p): mass-orthonormal basis of the displacements in quasi-coordinates."""
-        return mass_orthonormal(null_space(np.vstack([self.at.holonomic, self.held]), self.scale), self.at.M)
+        return self._free(self.at.holonomic)
 
     @functools.cached_property
     def velocities(self) -> np.ndarray:
         """V (nv, k_v): mass-orthonormal basis of the allowed velocity changes."""
-        return mass_orthonormal(null_space(np.vstack([self.at.C, self.held]), self.scale), self.at.M)
+        return self._free(self.at.C)
+
+    def _free(self, rows: np.ndarray) -> np.ndarray:
+        return mass_orthonormal(null_space(np.vstack([rows, self.held]), self.scale), self.at.M)
 
     @functools.cached_property
     def followed(self) -> np.ndarray:

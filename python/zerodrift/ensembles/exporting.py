@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import Any
 
 import numpy as np
 
-from ..errors import MissingPackage
+from ..runs.samples.columns import imported
 from ..systems.measure_values import AXES
 from .part import Part
-
-
-def _imported(name: str, method: str) -> Any:
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        raise MissingPackage(f"{method} needs {name}, which is not installed: pip install 'zerodrift[ensembles]'") from None
-
 
 # ---- xarray ----
 
 
 def to_xarray(ens: Any, units: dict[str, str], part: Part) -> Any:
     """Ensemble as an xarray.Dataset."""
-    xarray = _imported("xarray", "to_xarray")
+    xarray = imported("xarray", "to_xarray", "ensembles")
     over, coordinates = _runs(ens)
     time = "t" if ens.t is not None else "row"
     columns = {name: ens[name] if ens.t is not None else _padded(ens[name]) for name in part.arrays}
@@ -78,7 +69,7 @@ def _padded(arrays: list[np.ndarray]) -> np.ndarray:
 
 def to_pandas(ens: Any, part: Part) -> Any:
     """Ensemble as a pandas.DataFrame."""
-    pandas = _imported("pandas", "to_pandas")
+    pandas = imported("pandas", "to_pandas", "ensembles")
     parameters = _columns(ens.parameters)
     if not part.arrays:
         values = _columns({"value": ens.values}) if isinstance(ens.values, np.ndarray) else {

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
+from .._writing import with_suffix
 from ..errors import WrongIndex, WrongName, WrongType
 from ..systems.measure_values import AXES
 from . import exporting, saving
@@ -148,8 +149,7 @@ class Ensemble:
         >>> bool((again["x"] == ens["x"]).all() and (again[1].p == ens[1].p).all())
         True
         """
-        path = Path(path)
-        path = path if path.suffix == ".npz" else path.with_name(path.name + ".npz")
+        path = with_suffix(path, ".npz")
         saving.write(path, self._plan, self._part)
         return path
 

@@ -7,19 +7,19 @@ import io
 import re
 import zipfile
 from collections.abc import Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any, NamedTuple
 from xml.sax.saxutils import quoteattr
 
 from .. import _check, _gateway
 from .._gateway.mechanisms import blocks
-from .._writing import write_atomically
+from .._writing import with_suffix, write_atomically
 from .block import Chosen, choose, written
 from .c_source import core_of, data
 from .core_files import CoreFiles
 from .fmu_events import Level, chosen_events, table
 from .fmu_libraries import chosen_platforms, libraries
+from .wasm import text
 
 VERSIONS = ("3.0", "2.0")
 OPENED = ("block/open_run/opened.c", "block/open_run/opened_states.c")
@@ -103,8 +103,7 @@ def fmu(system: Any, path: str | Path, *, step: float, inputs: Sequence[str] = (
     made = choose(system, p0, v0, t0, _check.number("step", step, above=0, code="step-size"), list(outputs), inputs, chosen)
     watched = chosen_events(events, made.system, version)
     made = made._replace(watched=tuple(each.measure for each in watched if each.measure))
-    path = Path(path)
-    path = path if path.suffix == ".fmu" else path.with_name(path.name + ".fmu")
+    path = with_suffix(path, ".fmu")
     identifier = re.sub(r"\W", "_", path.stem, flags=re.ASCII)
     identifier = identifier if identifier[:1].isalpha() else f"m_{identifier}"
     content = _packed(made, identifier, version, names, watched)
@@ -120,7 +119,7 @@ def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str
     parts = (written(made), events_table.encode(), version.encode(), _gateway.FINGERPRINT.encode())
     token = "{" + hashlib.sha256(b"".join(parts)).hexdigest()[:32] + "}"
     files = core_of(made, OPENED)
-    own = {f"fmi{version[0]}.c": _text(f"fmi{version[0]}.c"), "fmu.h": _text("fmu.h"),
+    own = {f"fmi{version[0]}.c": text(f"fmi{version[0]}.c"), "fmu.h": text("fmu.h"),
            "data.h": f'#define TOKEN "{token}"\n{data(made)}{events_table}'}
     description = (_description3(made, identifier, token, scalars, bool(events)) if version == "3.0" else
                    _description2(made, identifier, token, scalars, files))
@@ -130,15 +129,11 @@ def _packed(made: Chosen, identifier: str, version: str, platforms: Sequence[str
         archive.writestr("modelDescription.xml", description)
         for each in binaries:
             archive.writestr(f"binaries/{each.platform}/{identifier}{each.suffix}", each.content)
-        for name, text in {**files.texts, **own}.items():
-            archive.writestr(f"sources/{name}", text)
+        for name, source in {**files.texts, **own}.items():
+            archive.writestr(f"sources/{name}", source)
         if version == "3.0":
             archive.writestr("sources/buildDescription.xml", _build_description(identifier, files))
     return packed.getvalue()
-
-
-def _text(name: str) -> str:
-    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
 # ---- the model description ----

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _check
-from .._writing import write_atomically
+from .._writing import with_suffix, write_atomically
 from ..errors import WrongType, WrongValue
 from ..systems.base import Makes, Terms
 from .building.body_verbs import BodyVerbs
@@ -265,8 +265,7 @@ class Mechanism(BodyVerbs, JointVerbs, ForceVerbs, CouplingVerbs, StartVerbs, Ma
         ...     zd.load(m.save(folder + "/pendulum")).bodies
         (<link link>,)
         """
-        path = Path(path)
-        path = path if path.suffix == ".json" else path.with_name(path.name + ".json")
+        path = with_suffix(path, ".json")
         content = text(described(self._drawing())).encode()
         write_atomically(path, lambda file: file.write(content))
         return path

@@ -8,19 +8,14 @@ import gzip
 import html
 import json
 import re
-import tempfile
 import warnings
-import webbrowser
 from collections.abc import Mapping
-from importlib import resources
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .. import _check
 from .._gateway.mechanisms.blocks import BlockCore
-from .._writing import write_atomically
 from ..errors import WrongValue, ZerodriftError
 from ..export import parameters as _parameters
 from ..export import wasm
@@ -32,6 +27,7 @@ from ..runs.samples.solution import Solution
 from ..runs.simulate import simulate
 from ..runs.states.instant import start_of
 from .body_points import BodyPoints, body_points, moved
+from .page import Page, text
 from .scene import Wanted, scene
 
 HEIGHT = 520            # of the page in a notebook, in points of the screen
@@ -52,7 +48,7 @@ aria-label="{name}, simulated; n chooses a part, arrow keys pull it{turning}"></
 <div id="told" role="alert"></div><div id="sliders"></div>"""
 
 
-class LiveView:
+class LiveView(Page):
     """A page with the core inside: it shows itself in notebooks, `save` writes it to a file, `show` opens it in the browser.
 
     Attributes
@@ -60,6 +56,8 @@ class LiveView:
     page : str
         The HTML page, with everything that it needs.
     """
+
+    name = "live.html"
 
     def __init__(self, scene: Mapping[str, Any]) -> None:
         self._scene = scene
@@ -80,22 +78,10 @@ class LiveView:
         data = json.dumps({**self._scene, **more}, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
         return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
                 f'<meta name="viewport" content="width=device-width">'
-                f'<style>{_text("colours.css")}{_text("live.css")}</style></head>'
+                f'<style>{text("colours.css")}\n{text("live.css")}\n</style></head>'
                 f'<body>{BODY.format(name=name, turning=TURNING if self._scene["dimension"] == 3 else "")}'
                 f'<script type="application/json" id="live">{data}</script>{scripts or f"<script>{player()}</script>"}'
                 '</body></html>')
-
-    def save(self, path: str | Path) -> Path:
-        """Write the page to an HTML file, which needs no other file and no network; the suffix ``.html`` is added."""
-        path = Path(path)
-        path = path if path.suffix == ".html" else path.with_name(path.name + ".html")
-        write_atomically(path, lambda file: file.write(self.page.encode()))
-        return path
-
-    def show(self) -> None:
-        """Open the page in the browser, from a temporary file."""
-        folder = Path(tempfile.mkdtemp(prefix="zerodrift-"))
-        webbrowser.open(self.save(folder / "live.html").as_uri())
 
     def _repr_html_(self) -> str:
         page = self.page.replace("&", "&amp;").replace("'", "&#39;")
@@ -111,7 +97,7 @@ class LiveView:
 def player() -> str:
     """Script of all live pages."""
     functions = re.sub(r"^export ", "", wasm.text("core.js"), flags=re.MULTILINE)
-    return f'(async () => {{\n{functions}{_text("picture.js")}{_text("live.js")}}})();\n'
+    return f'(async () => {{\n{functions}{text("picture.js")}\n{text("live.js")}\n}})();\n'
 
 
 def live_view(mechanism: Any, sliders: Mapping[str, tuple[float, float]] | None = None, *, step: float = STEP,
@@ -243,9 +229,3 @@ def _around(value: float) -> tuple[float, float]:
 
 def _encoded(data: bytes) -> str:
     return base64.b64encode(data).decode("ascii")
-
-
-@functools.cache
-def _text(name: str) -> str:
-    """A file of the player, without indentation."""
-    return "\n".join(map(str.lstrip, resources.files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines())) + "\n"

@@ -7,18 +7,15 @@ import functools
 import html
 import io
 import json
-import tempfile
-import webbrowser
 from collections.abc import Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from .. import _check
-from .._writing import write_atomically
 from ..errors import WrongType, WrongValue, ZerodriftError
 from ..runs.samples.solution import A_SOLUTION, Solution
 from ..systems.base import Makes
+from .page import Page, text
 from .scene import Wanted, scene
 
 HEIGHT = 460            # of a film in a notebook, in points of the screen
@@ -29,7 +26,7 @@ PICTURES = (".mp4", ".gif", ".webm", ".mov", ".avi", ".png")   # suffixes of fil
 SHORTER = (900, 300, 100, 40)       # samples of it: the first whose page is not larger
 
 
-class View:
+class View(Page):
     """A film: it shows itself in notebooks, `save` writes it to a file, `show` opens it in the browser.
 
     Attributes
@@ -37,6 +34,8 @@ class View:
     page : str
         The HTML page, with everything that it needs.
     """
+
+    name = "film.html"
 
     def __init__(self, solutions: Sequence[Solution], labels: Sequence[str], wanted: Wanted) -> None:
         self._solutions, self._wanted = solutions, wanted
@@ -50,9 +49,9 @@ class View:
         data = json.dumps(self._scene, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
         return (f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
                 f'<meta name="viewport" content="width=device-width">'
-                f'<style>{_text("colours.css")}{_text("player.css")}</style></head><body>'
+                f'<style>{text("colours.css")}{text("player.css")}</style></head><body>'
                 f'<script type="application/json" id="scene">{data}</script>'
-                f'<script>{_text("picture.js")}{_text("player.js")}</script></body></html>')
+                f'<script>{text("picture.js")}{text("player.js")}</script></body></html>')
 
     def save(self, path: str | Path) -> Path:
         """Write the film to an HTML file, which needs no other file and no network.
@@ -76,14 +75,7 @@ class View:
         if path.suffix.lower() in PICTURES:
             raise WrongValue(f"path must end in .html, as a film is a page, not in {path.suffix}: zd.plot.animate(sol).save(...) "
                              "writes such a film")
-        path = path if path.suffix == ".html" else path.with_name(path.name + ".html")
-        write_atomically(path, lambda file: file.write(self.page.encode()))
-        return path
-
-    def show(self) -> None:
-        """Open the film in the browser, from a temporary file."""
-        folder = Path(tempfile.mkdtemp(prefix="zerodrift-"))
-        webbrowser.open(self.save(folder / "film.html").as_uri())
+        return super().save(path)
 
     def _repr_html_(self) -> str:
         """A frame in front of a still picture, which untrusted notebooks keep."""
@@ -231,9 +223,3 @@ def _refuse_given(arguments: Mapping[str, Any], rule: str) -> None:
 def _quoted(page: str) -> str:
     """A page as an attribute between single quotation marks."""
     return page.replace("&", "&amp;").replace("'", "&#39;")
-
-
-@functools.cache
-def _text(name: str) -> str:
-    """A file of the player, without indentation."""
-    return "\n".join(map(str.lstrip, resources.files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines()))

@@ -142,7 +142,11 @@ def element_kinds() -> dict[str, element_tables.ElementKind]:
 
 def coordinate_quantity(joint: Joint, coordinate: int, angles: int) -> Quantity:
     """Marker quantity of a coordinate of a joint; `angles` is the number of angles of the joints before it."""
-    c = lib.zd_space_coordinate_quantity(ffi.new("zd_space_joint *", joint), coordinate, angles)
+    return quantity_of(lib.zd_space_coordinate_quantity(ffi.new("zd_space_joint *", joint), coordinate, angles))
+
+
+def quantity_of(c: Any) -> Quantity:
+    """Marker quantity of the core's struct."""
     vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
     return Quantity(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
 

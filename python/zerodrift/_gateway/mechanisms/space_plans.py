@@ -14,7 +14,7 @@ import numpy as np
 from ..._core import lib
 from .element_tables import GeneralizedForce, Relation
 from .plans import forces_of, rows_of_plan
-from .space import NAMES, Freedom, Joint, Quantity, SpaceCore, coordinate_quantity, joint_kinds
+from .space import Freedom, Joint, Quantity, SpaceCore, coordinate_quantity, joint_kinds, quantity_of
 
 COORDINATES, VELOCITIES = {"swings": 4}, {"swings": 3}      # of a freedom; of all others one each
 
@@ -75,14 +75,9 @@ def plan_of(core: SpaceCore, measured: Sequence[int] = ()) -> SpacePlan:
     c, tables = lib.zd_space_planned(core._mechanism), core.tables
     used: dict[int, int] = {}       # by their numbers in the core's table, as measures have marker quantities of their own there
     rows, forces = rows_of_plan(c, core.m, used), forces_of(c, len(tables.forces), used)
-    quantities = tuple(_quantity(c.quantity[i]) for i in (*used, *measured))
+    quantities = tuple(quantity_of(c.quantity[i]) for i in (*used, *measured))
     return SpacePlan(_links(core), quantities, rows, forces, _angles(core), core.c.followers, tuple(tables.gravity),
                      bool(core.provides & lib.ZD_A))
-
-
-def _quantity(c: Any) -> Quantity:
-    vectors = (tuple(each) for each in (c.point1, c.point2, c.a, c.o, c.b))
-    return Quantity(NAMES[c.kind], c.first, c.second, *vectors, tuple(map(tuple, c.shape)), c.zero, c.counted)
 
 
 def _links(core: SpaceCore) -> tuple[Link, ...]:

@@ -49,7 +49,7 @@ class DrawingChanges:
         """Sentences on joints that are drawn open and bodies that start elsewhere than drawn, by more than a thousandth."""
         lines = (("drawn open, and closed at the start (m, or rad)", self._open_joints()),
                  ("moved from the drawing", self._moved()))
-        return [f"{what}: {_listed(changes)}" for what, changes in lines if changes]
+        return [f"{what}: {listed(changes)}" for what, changes in lines if changes]
 
     def warning(self, also_held: Iterable[str] = ()) -> str | None:
         """Sentence on the joint that is drawn open most, by more than a hundredth, and is not part of a sketch; None without it.
@@ -136,6 +136,7 @@ def _largest(amounts: dict[str, float]) -> list[tuple[str, float]]:
     return sorted(amounts.items(), key=lambda each: -each[1])
 
 
-def _listed(changes: list[str]) -> str:
+def listed(changes: list[str]) -> str:
+    """The first ones, and the number of others."""
     others = [f"{len(changes) - MAX_NAMED} others"] if len(changes) > MAX_NAMED else []
     return ", ".join([*changes[:MAX_NAMED], *others])

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import WrongValue
-from ..elements.bodies import Body, Link, Particle, Point, _Center
+from ..elements.bodies import Body, Link, Particle, Point, _Center, kind_of
 from ..elements.drawing import Drawing
 from ..elements.frames import about
 from ..elements.immutable import amend
@@ -28,19 +28,13 @@ def lift(drawing: Drawing, m: Any) -> None:
     """Add all elements of a planar drawing to an empty mechanism in space."""
     for element in drawing.elements.values():
         if element is not drawing.ground:
-            kind = _kind(element)
+            kind = kind_of(element)
             if kind not in LIFTED:
                 raise WrongValue(f"{element.name!r} cannot be lifted: a {kind} has no counterpart in space", "wrong-dimension")
             LIFTED[kind](m, element)
     for name in _free(drawing):
         _keep(m, m[name])
     m.start(_start(drawing, drawing.held), wish=_start(drawing, drawing.wished))
-
-
-def _kind(element: Any) -> str:
-    if isinstance(element, Body):
-        return element.what
-    return "point" if isinstance(element, Point) else element.kind
 
 
 def _free(drawing: Drawing) -> list[str]:

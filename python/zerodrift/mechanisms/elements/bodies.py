@@ -276,3 +276,10 @@ def place(argument: str, value: Any, dimension: int = 2) -> np.ndarray:
 
 def _as_it_is(point: Point) -> Point:
     return point
+
+
+def kind_of(element: Any) -> str:
+    """Kind of a body, a point or an element between them, as files have it."""
+    if isinstance(element, Body):
+        return element.what
+    return "point" if isinstance(element, Point) else element.kind

@@ -71,7 +71,7 @@ class Inertias:
                 place = particle.carrier.local_with(numbers)
                 carried.setdefault(particle.carrier.body.name, []).append((particle.properties(numbers).mass, place))
         for body in drawing.parts():
-            self.of[body.name] = _together(*body.properties(numbers), carried.get(body.name, []))
+            self.of[body.name] = self._together(*body.properties(numbers), carried.get(body.name, []))
 
     def is_massive(self, body: Body) -> bool:
         """True if every motion of a body has inertia."""
@@ -88,16 +88,15 @@ class Inertias:
         com_x, com_y = known[2].tolist()
         return x - com_x, y - com_y
 
-
-def _together(mass: float, inertia: float, com: np.ndarray,
-              others: list[tuple[float, np.ndarray]]) -> tuple[float, float, np.ndarray]:
-    """Mass, moment of inertia and centre of a body with point masses on it."""
-    if not others:
-        return mass, inertia, com
-    total = mass + sum(other for other, _ in others)
-    if not total:
-        return mass, inertia, com
-    centre = (mass * com + sum(other * place for other, place in others)) / total
-    shifted = [(mass, com), *others]
-    apart = [(part, place - centre) for part, place in shifted]
-    return total, inertia + sum(part * columns.plain((way * way).sum()) for part, way in apart), centre
+    def _together(self, mass: float, inertia: float, com: np.ndarray,
+                  others: list[tuple[float, np.ndarray]]) -> tuple[float, float, np.ndarray]:
+        """Mass, moment of inertia and centre of a body with point masses on it."""
+        if not others:
+            return mass, inertia, com
+        total = mass + sum(other for other, _ in others)
+        if not total:
+            return mass, inertia, com
+        centre = (mass * com + sum(other * place for other, place in others)) / total
+        shifted = [(mass, com), *others]
+        apart = [(part, place - centre) for part, place in shifted]
+        return total, inertia + sum(part * columns.plain((way * way).sum()) for part, way in apart), centre

@@ -222,11 +222,16 @@ class Rolling(Joint):
         return {"radius": self.radius}
 
 
+def class_of(base: Any, kind: str, row: Any, prefix: str = "") -> Any:
+    """Class of a kind of joint or force, from its entry in the core's table."""
+    name = prefix + "".join(word.capitalize() for word in kind.split("_"))
+    doc = f"{row.card.summary} `Mechanism.{kind}`."
+    return type(name, (base,), {"kind": kind, "__doc__": doc, "__module__": base.__module__})
+
+
 def made(kind: str) -> type[Joint]:
-    """Class of a kind of joint, from its entry in the core's table."""
-    name = "".join(word.capitalize() for word in kind.split("_"))
-    doc = f"{JOINTS[kind].card.summary} `Mechanism.{kind}`."
-    return type(name, (Joint,), {"kind": kind, "__doc__": doc, "__module__": __name__})
+    """Class of a kind of joint in the plane."""
+    return class_of(Joint, kind, JOINTS[kind])
 
 
 # Kinds without a class above, by name. They are attributes of this module for pickle and copy.

@@ -10,7 +10,7 @@ from ... import _check
 from ..._rotations import AXES
 from ...errors import WrongAttribute, WrongValue
 from .bodies import Body, Ground, Link, MassProperties, Particle, Point, _End
-from .drawing import Drawing
+from .drawing import Inertias
 from .frames import Pose3
 from .measures import Measure, vector
 from .numbers import AS_GIVEN, Numbers
@@ -211,20 +211,15 @@ class SpaceMass(NamedTuple):
     axes: np.ndarray
 
 
-class SpaceInertias:
+class SpaceInertias(Inertias):
     """Mass and principal moments of each body together with the particles attached to it."""
 
-    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
-        self.of: dict[str, SpaceMass] = {}
-        carried: dict[str, list[tuple[float, np.ndarray]]] = {}
-        for particle in drawing.of(Particle):
-            if particle.carrier:
-                place = particle.carrier.local_with(numbers)
-                carried.setdefault(particle.carrier.body.name, []).append((particle.properties(numbers).mass, place))
-        for body in drawing.parts():
-            self.of[body.name] = _principal(*body.properties(numbers), carried.get(body.name, []))
+    of: dict[str, SpaceMass]        # type: ignore[assignment]
 
-    def local(self, point: Point, numbers: Numbers) -> np.ndarray:
+    def _together(self, *properties: Any) -> SpaceMass:     # type: ignore[override]
+        return _principal(*properties)
+
+    def local(self, point: Point, numbers: Numbers) -> np.ndarray:      # type: ignore[override]
         """Point relative to its body's mass centre, in the body's principal axes; on the ground relative to the origin."""
         place, known = point.local_with(numbers), self.of.get(point.body.name)
         return place if known is None else known.axes.T @ (place - known.com)

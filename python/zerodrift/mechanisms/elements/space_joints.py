@@ -10,7 +10,7 @@ from ..._gateway import Variable
 from ..._gateway.mechanisms.space import JointKind, joint_kinds
 from ..._rotations import AXES
 from .bodies import Point
-from .joints import PLACE, Joint
+from .joints import PLACE, Joint, class_of
 from .measures import scalar, vector
 from .numbers import AS_GIVEN, Numbers
 
@@ -145,15 +145,8 @@ def advances(row: JointKind) -> bool:
     return any(freedom.kind == "advances" for freedom in row.freedoms or ())
 
 
-def _made(kind: str) -> type[SpaceJoint]:
-    """Class of a kind of joint, from its entry in the core's table."""
-    name = "Space" + "".join(word.capitalize() for word in kind.split("_"))
-    doc = f"{JOINTS[kind].card.summary} `Mechanism.{kind}`."
-    return type(name, (SpaceJoint,), {"kind": kind, "__doc__": doc, "__module__": __name__})
-
-
 # Kinds by name. They are attributes of this module for pickle and copy.
-BY_KIND = {kind: _made(kind) for kind in sorted(JOINTS)}
+BY_KIND = {kind: class_of(SpaceJoint, kind, JOINTS[kind], "Space") for kind in sorted(JOINTS)}
 globals().update({joint.__name__: joint for joint in BY_KIND.values()})
 
 

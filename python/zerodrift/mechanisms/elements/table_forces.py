@@ -12,7 +12,7 @@ from ..._rotations import AXES
 from . import columns
 from .bodies import Body, Point
 from .immutable import Fixed
-from .joints import Joint
+from .joints import Joint, class_of
 from .measures import Measure, VectorMeasure3, scalar, vector
 from .numbers import AS_GIVEN, Numbers
 from .user_functions import Law
@@ -194,9 +194,7 @@ class TableForce(Fixed):
 
 def made_force(kind: str) -> type[TableForce]:
     """Class of a kind of force element, from its entries in the core's tables."""
-    name = "".join(word.capitalize() for word in kind.split("_"))
-    doc = f"{(ELEMENTS | SPACE_ELEMENTS)[kind].card.summary} `Mechanism.{kind}`."
-    return type(name, (TableForce,), {"kind": kind, "__doc__": doc, "__module__": __name__})
+    return class_of(TableForce, kind, (ELEMENTS | SPACE_ELEMENTS)[kind])
 
 
 # Kinds without a class in `forces.py`, by name. They are attributes of this module for pickle and copy.

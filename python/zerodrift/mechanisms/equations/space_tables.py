@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
 from ..._gateway import Variable
-from ..._gateway.mechanisms import plane as entries
 from ..._gateway.mechanisms import space
 from ..._gateway.mechanisms.element_tables import ElementQuantity
 from ..._gateway.mechanisms.space import AS_DRAWN, Quantity, SpaceCore
@@ -16,7 +15,6 @@ from ..._gateway.mechanisms.space_tree import SpaceTreeCore
 from ..._rotations import AXES, quaternion_of
 from ..elements.bodies import Body, Particle, Point
 from ..elements.drawing import Drawing
-from ..elements.forces import Actuator
 from ..elements.frames import triple
 from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
@@ -34,26 +32,17 @@ class SpaceTables(Tables):
     inertias: SpaceInertias     # type: ignore[assignment]
     quantities: list[Quantity]         # type: ignore[assignment]
 
-    def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool = False,
-                 starts: Mapping[str, float] | None = None) -> None:
-        super().__init__(drawing, numbers, in_tree=in_tree, starts=starts)
+    entries: Any = space
 
     def _masses(self) -> Any:
         return SpaceInertias(self.drawing, self.numbers)
 
-    def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[entries.OutputSpec] = ()) -> SpaceCore:     # type: ignore[override]
-        """Core system of the tables, with the measures `observed` and their marker quantities; left out: without measures."""
-        made = SpaceCore if max(self.inboard, default=-1) < 0 else SpaceTreeCore
-        laws = self.laws if self.laws.rows else None
-        return made(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
+    def _kind_of_core(self) -> Any:
+        return SpaceCore if max(self.inboard, default=-1) < 0 else SpaceTreeCore
 
-    def written(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[entries.OutputSpec] = ()) -> space.Tables:     # type: ignore[override]
-        """Tables for the core."""
-        bodies = [space.Body(mass.mass, triple(mass.moments) if body.turns else space.NONE, not body.turns, inboard)
-                  for body, inboard in zip(self.parts, self.inboard, strict=True) for mass in [self.inertias.of[body.name]]]
-        quantities = self.quantities if quantities is None else quantities
-        return space.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
-                            self.reactions(observed), self._length())
+    def _inertia(self, body: Body) -> tuple[float, Any]:
+        mass = self.inertias.of[body.name]
+        return mass.mass, triple(mass.moments) if body.turns else space.NONE
 
     def joint_coordinates(self) -> int:
         """Number of velocities of the bodies along the tree."""
@@ -141,13 +130,6 @@ class SpaceTables(Tables):
         number = self.joint_number[joint.name]
         angles = sum(len(before.angles) for before in self.joints[:number])
         return space.coordinate_quantity(self.joint_rows[number], joint.coordinates.index(coordinate), angles)
-
-    def length_quantity(self, spring: TableForce | Actuator) -> Quantity:     # type: ignore[override]
-        """Marker quantity of the length of a spring or an actuator."""
-        (first, point1), (second, point2) = self.place(spring.first), self.place(spring.second)
-        return Quantity("distance", first, second, point1, point2)
-
-    # ---- forces ----
 
     def _element_quantities(self, element: TableForce) -> list[Quantity]:     # type: ignore[override]
         if element.joint is not None:

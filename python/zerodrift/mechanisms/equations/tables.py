@@ -42,6 +42,8 @@ class Tables:
         Name of the element that each relation belongs to.
     """
 
+    entries: Any = entries
+
     def __init__(self, drawing: Drawing, numbers: Numbers, *, in_tree: bool, starts: Mapping[str, float] | None = None) -> None:
         self.drawing, self.numbers, self.starts = drawing, numbers, starts or {}
         self.parameters = {name: numbers.changed.get(name, value) for name, value in drawing.parameters.items()}
@@ -71,15 +73,21 @@ class Tables:
     def core(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[OutputSpec] = ()) -> PlaneCore:
         """Core system of the tables, with the measures `observed` and their marker quantities; left out: without measures."""
         laws = self.laws if self.laws.rows else None
-        return PlaneCore(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
+        return self._kind_of_core()(self.written(quantities, observed), laws, laws_know_time=self.laws.know_time)
+
+    def _kind_of_core(self) -> Any:
+        return PlaneCore
 
     def written(self, quantities: Sequence[Quantity] | None = None, observed: Sequence[OutputSpec] = ()) -> entries.Tables:
         """Tables for the core."""
-        bodies = [entries.Body(*self.inertias.of[body.name][:2], not body.turns, inboard)
+        bodies = [self.entries.Body(*self._inertia(body), not body.turns, inboard)
                   for body, inboard in zip(self.parts, self.inboard, strict=True)]
         quantities = self.quantities if quantities is None else quantities
-        return entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
-                              self.reactions(observed), self._length())
+        return self.entries.Tables(bodies, self.joint_rows, quantities, self.relations, self.forces, observed, self._gravity(),
+                                   self.reactions(observed), self._length())
+
+    def _inertia(self, body: Body) -> tuple[float, Any]:
+        return self.inertias.of[body.name][:2]
 
     def reactions(self, observed: Sequence[OutputSpec]) -> dict[str, tuple[int, int]]:
         """Index and component of the measures, if they are there, of reactions and accelerations that user functions read."""
@@ -203,7 +211,7 @@ class Tables:
     def length_quantity(self, spring: TableForce | Actuator) -> Quantity:
         """Marker quantity of the length of a spring or an actuator."""
         (first, point1), (second, point2) = self.place(spring.first), self.place(spring.second)
-        return Quantity("distance", first, second, point1, point2)
+        return self.entries.Quantity("distance", first, second, point1, point2)
 
     def _damp(self) -> None:
         """Add the damping of joints."""

@@ -11,7 +11,7 @@ import numpy as np
 from ..building.coupling_verbs import _Expression, _Follows, _Sum
 from ..building.periodic_spline import PeriodicSpline
 from ..building.table_verbs import FORCES
-from ..elements.bodies import Body, Point
+from ..elements.bodies import kind_of
 from ..elements.drawing import Drawing
 from ..elements.joints import JOINTS, Coupling
 from ..elements.table_forces import ELEMENTS, TableForce
@@ -26,7 +26,7 @@ VERSION = 1             # version of the format
 def described(drawing: Drawing) -> dict[str, Any]:
     """Description of a mechanism as dicts and lists; ValueError names a callable, which cannot be saved."""
     written = WRITTEN_IN_SPACE if drawing.dimension == 3 else WRITTEN
-    elements = [{"kind": _kind(element), "name": element.name, **written[_kind(element)](element, drawing)}
+    elements = [{"kind": kind_of(element), "name": element.name, **written[kind_of(element)](element, drawing)}
                 for element in drawing.elements.values() if element is not drawing.ground]
     return {"zerodrift": WHAT, "version": VERSION, "name": drawing.name, "dimension": drawing.dimension,
             "gravity": numbers(drawing.gravity), "parameters": dict(drawing.parameters), "elements": elements,
@@ -45,12 +45,6 @@ def text(description: dict[str, Any]) -> str:
             value = json.dumps(value)
         lines.append(f" {json.dumps(key)}: {value}")
     return "{\n" + ",\n".join(lines) + "\n}\n"
-
-
-def _kind(element: Any) -> str:
-    if isinstance(element, Body):
-        return element.what
-    return "point" if isinstance(element, Point) else element.kind
 
 
 def _plain(value: Any) -> Any:

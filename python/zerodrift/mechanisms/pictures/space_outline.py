@@ -22,7 +22,7 @@ def space_outline(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> np.n
     for point in [*drawing.joined_points(), *drawing.of(Point)]:
         held[point.body.name].append(point)
     for body, pose in zip(drawing.parts(), poses, strict=True):
-        places = _different([inertias.local(point, numbers) for point in held[body.name]])
+        places = different([inertias.local(point, numbers) for point in held[body.name]])
         if isinstance(body, Particle) or not places or (len(places) == 1 and np.linalg.norm(places[0]) > APART):
             places.append(np.zeros(3))      # the mass centre shows the body's orientation
         if len(places) > 2:
@@ -33,7 +33,8 @@ def space_outline(drawing: Drawing, numbers: Numbers, poses: np.ndarray) -> np.n
     return np.vstack(lines[:-1]) if lines else np.zeros((0, 3))
 
 
-def _different(places: list[np.ndarray]) -> list[np.ndarray]:
+def different(places: list[np.ndarray]) -> list[np.ndarray]:
+    """Places without those that are already there."""
     found: list[np.ndarray] = []
     for place in places:
         if all(np.linalg.norm(place - other) > APART for other in found):

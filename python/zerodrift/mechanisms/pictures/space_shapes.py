@@ -22,8 +22,8 @@ from ..elements.numbers import Numbers
 from ..elements.space_bodies import SpaceInertias
 from ..elements.space_joints import SpaceJoint, SpaceRolling, has_torque, is_at_point, is_blade, is_on_plane
 from ..elements.table_forces import TableForce, has
+from .space_outline import APART, different
 
-APART = 1e-9        # m: smaller distances count as zero
 FLAT = 1e-6         # of the extent of points: deviation from a plane, at most
 ALIKE = 1e-6        # of the largest moment: difference of equal moments, at most
 ROUND = np.linspace(0, 2 * np.pi, 49)
@@ -56,7 +56,8 @@ class SpaceSketch:
         for particle in self.drawing.of(Particle):
             if particle.carrier:
                 points[particle.carrier.body.name].append(particle.carrier)
-        return {name: _different([self.local(point) for point in those]) for name, those in points.items()}
+        return {name: np.array(different([self.local(point) for point in those])).reshape(-1, 3)
+                for name, those in points.items()}
 
     def local(self, point: Point) -> np.ndarray:
         """Point relative to its body's mass centre."""
@@ -185,15 +186,6 @@ def _ring(axis: int, one: float, other: float) -> np.ndarray:
 def _is_axial(own: float, one: float, other: float) -> bool:
     """True if a moment is the largest and the two others are equal, as of a wheel."""
     return abs(one - other) <= ALIKE * own and own > (1 + ALIKE) * one
-
-
-def _different(places: list[np.ndarray]) -> np.ndarray:
-    """Different positions, (n, 3)."""
-    found: list[np.ndarray] = []
-    for place in places:
-        if all(np.linalg.norm(place - other) > APART for other in found):
-            found.append(place)
-    return np.array(found).reshape(-1, 3)
 
 
 def _around(places: np.ndarray) -> np.ndarray | None:

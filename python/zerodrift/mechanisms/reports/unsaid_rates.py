@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..assembly.assembly import MIN_RATE, Assembly
+from ..assembly.drawing_changes import listed
 from ..assembly.free_coordinates import rates_of_tree
 from ..assembly.start import Starting
 from ..equations.measure_tables import read
 from ..equations.tables import Tables
-
-MAX_NAMED = 8
 
 
 def moving_unsaid(start: Starting, tables: Tables, assembly: Assembly, p: np.ndarray) -> list[str]:
@@ -33,13 +32,8 @@ def moving_unsaid(start: Starting, tables: Tables, assembly: Assembly, p: np.nda
         else:
             riding.append(body)
     names = dict.fromkeys(tables.parts[body - 1].name for body in riding if body not in said.values())
-    return [f"starts moving, {how}: {_listed(each)}" for how, each in
+    return [f"starts moving, {how}: {listed(each)}" for how, each in
             (("with the least energy", list(said)), ("at rest relative to what it hangs on", list(names))) if each]
-
-
-def _listed(words: list[str]) -> str:
-    others = [f"{len(words) - MAX_NAMED} others"] if len(words) > MAX_NAMED else []
-    return ", ".join([*words[:MAX_NAMED], *others])
 
 
 def _numbers(values: np.ndarray) -> str:

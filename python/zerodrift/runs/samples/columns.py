@@ -117,18 +117,19 @@ def to_excel(self: Any, path: str | Path, names: Any = None) -> Path:
     KeyError
         If nothing has a name.
     """
-    pandas, _ = (_imported(name) for name in ("pandas", "openpyxl"))
+    pandas, _ = (imported(name, "to_excel", "excel") for name in ("pandas", "openpyxl"))
     path = Path(path)
     heading, values = _table(self, names)
     write_atomically(path, lambda file: pandas.DataFrame(values, columns=heading).to_excel(file, index=False, engine="openpyxl"))
     return path
 
 
-def _imported(name: str) -> Any:
+def imported(name: str, method: str, extra: str) -> Any:
+    """A package that a method needs, one of an extra of this package."""
     try:
         return importlib.import_module(name)
     except ImportError:
-        raise MissingPackage(f"to_excel needs {name}, which is not installed: pip install 'zerodrift[excel]'") from None
+        raise MissingPackage(f"{method} needs {name}, which is not installed: pip install 'zerodrift[{extra}]'") from None
 
 
 def _table(solution: Any, names: Any) -> tuple[list[str], np.ndarray]:

@@ -21,7 +21,7 @@ import numpy as np
 
 from ... import _check, _gateway
 from ..._locking import Lock
-from ..._writing import temporary_beside
+from ..._writing import temporary_beside, with_suffix
 from ...errors import ExistingFile, FileInUse, MissingFile, WrongValue
 from . import mapped_samples, memory
 from .saving import EVENTS, described, packed
@@ -46,7 +46,7 @@ def checked(save_to: Any) -> Path | None:
     path = Path(_check.instance("save_to", save_to, str | Path, "the path of a file, or None"))
     if path.suffix == ".npz":
         raise WrongValue(f"save_to must not end in .npz, which is what Solution.save writes, but {str(path)!r} does")
-    path = path if path.suffix == SUFFIX else path.with_name(path.name + SUFFIX)
+    path = with_suffix(path, SUFFIX)
     if not path.parent.is_dir():
         raise MissingFile(f"save_to must be in a folder that is there, and {str(path.parent)!r} is not")
     beside = mapped_samples.description_of(path)

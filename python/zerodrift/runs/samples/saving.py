@@ -51,7 +51,7 @@ def described(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def read(path: str | Path, rebuilt: Callable[[dict[str, Any]], BaseSystem]) -> dict[str, Any] | None:
     """Fields of the solution in a file; None if the file has none. `rebuilt` makes the system of a mechanism from JSON."""
-    arrays = read_arrays(path) if _is_zip(path) else {}
+    arrays = read_arrays(path) if is_zip(path) else {}
     if "zerodrift" not in arrays:
         return None
     import json
@@ -99,7 +99,7 @@ def read_arrays(path: str | Path, names: Sequence[str] | None = None) -> Arrays:
         raise WrongValue(f"{path} cannot be read: {error}", "unreadable-file") from None
 
 
-def _is_zip(path: str | Path) -> bool:
+def is_zip(path: str | Path) -> bool:
     """NPZ files are ZIP files. NumPy would try to read other files in other ways."""
     with open(path, "rb") as file:
         return file.read(2) == b"PK"

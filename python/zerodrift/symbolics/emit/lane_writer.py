@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..graph.lowering import Operation
-from .writers import LONGEST, CWriter, turn_of, unwrapped
+from .writers import LONGEST, CWriter, unwrapped
 
 REAL, CONDITION = "const zd_real ", "const zd_condition "
 CONDITIONS = ("comparison", "logic")
@@ -23,6 +23,8 @@ class LaneWriter(CWriter):
     """
 
     words = CWriter.words | {"and": "ZD_BOTH", "or": "ZD_EITHER", "root": "ZD_SQRT"}
+    turns = ("const zd_real angle{0}[ZD_PADDED({1})] = {{{2}}};", "zd_real sine{0}[ZD_PADDED({1})], cosine{0}[ZD_PADDED({1})];",
+             "ZD_SINES({1}, angle{0}, sine{0}, cosine{0});")
 
     def __init__(self, blocks: Any) -> None:
         super().__init__(blocks)
@@ -59,17 +61,6 @@ class LaneWriter(CWriter):
         value = self.named("power", *values) if operation.code == "power" else self.call(operation.arguments[0], values)
         return [*before, f"zd_real {name};",
                 f"for (int lane = 0; lane < ZD_LANES; lane++) ZD_LANE({name}, lane) = {unwrapped(value)};"]
-
-    def _turns(self, numbers: list[int]) -> list[str]:
-        angles = list(dict.fromkeys(self.operations[number].arguments[1] for number in numbers))
-        first, count = numbers[0], len(angles)
-        for number in numbers:
-            function, angle = self.operations[number].arguments
-            self.turned[number] = f"{turn_of(function)}{first}[{angles.index(angle)}]"
-        values = ", ".join(self.number_everywhere(angle) for angle in angles)
-        return [f"const zd_real angle{first}[ZD_PADDED({count})] = {{{values}}};",
-                f"zd_real sine{first}[ZD_PADDED({count})], cosine{first}[ZD_PADDED({count})];",
-                f"ZD_SINES({count}, angle{first}, sine{first}, cosine{first});"]
 
     def number_everywhere(self, number: int) -> str:
         """Value broadcast to all lanes if it is a scalar."""

@@ -159,6 +159,8 @@ class CWriter(Writer):
     language, end = "C", ";"
     state, case = "{kind}{index}", "{condition} ? {value} : "
     words = {"and": "&&", "or": "||", "not": "!", "root": "sqrt", "power": "pow"}
+    turns = ("const double angle{0}[{1}] = {{{2}}};", "double sine{0}[{1}], cosine{0}[{1}];",
+             "zd_sines({1}, angle{0}, sine{0}, cosine{0});")
 
     def ordered(self, numbers: list[int], lines: list[str]) -> Iterable[int]:
         """Operations of a block in order; sines and cosines are postponed until needed and then computed together."""
@@ -186,9 +188,11 @@ class CWriter(Writer):
         for number in numbers:
             function, angle = self.operations[number].arguments
             self.turned[number] = f"{turn_of(function)}{first}[{angles.index(angle)}]"
-        values = ", ".join(unwrapped(self.value(angle)) for angle in angles)
-        return [f"const double angle{first}[{count}] = {{{values}}};", f"double sine{first}[{count}], cosine{first}[{count}];",
-                f"zd_sines({count}, angle{first}, sine{first}, cosine{first});"]
+        values = ", ".join(map(self.number_everywhere, angles))
+        return [statement.format(first, count, values) for statement in self.turns]
+
+    def number_everywhere(self, number: int) -> str:
+        return unwrapped(self.value(number))
 
     def number(self, value: float) -> str:
         if not math.isfinite(value):

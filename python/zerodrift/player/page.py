@@ -1,0 +1,35 @@
+"""Pages that are written to files and opened in the browser: films and live views."""
+
+from __future__ import annotations
+
+import functools
+import tempfile
+import webbrowser
+from importlib import resources
+from pathlib import Path
+
+from .._writing import with_suffix, write_atomically
+
+
+class Page:
+    """An HTML page in one file; subclasses make `page`."""
+
+    page: str
+    name: str       # of its temporary file
+
+    def save(self, path: str | Path) -> Path:
+        """Write the page to an HTML file, which needs no other file and no network; the suffix ``.html`` is added."""
+        path = with_suffix(path, ".html")
+        write_atomically(path, lambda file: file.write(self.page.encode()))
+        return path
+
+    def show(self) -> None:
+        """Open the page in the browser, from a temporary file."""
+        folder = Path(tempfile.mkdtemp(prefix="zerodrift-"))
+        webbrowser.open(self.save(folder / self.name).as_uri())
+
+
+@functools.cache
+def text(name: str) -> str:
+    """A file of the player, without indentation."""
+    return "\n".join(map(str.lstrip, resources.files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines()))
