@@ -1,4 +1,4 @@
-/* Operations of a run for single states: accelerations, projection, states between samples. */
+/* Operations of a run for single states: accelerations, projection, states between states. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -49,24 +49,24 @@ int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singula
     return finish(run, status, message, message_size);
 }
 
-int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
+int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t states, const double *t,
                      const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, char *message,
                      int message_size)
 {
     int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system);
     int status = ZD_DONE;
-    for (int64_t i = 0; i < rows && !status; i++)
+    for (int64_t i = 0; i < states && !status; i++)
         status = zd_acceleration(system, formulation, on_singular, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m,
                                  is_deficient + i, message, message_size);
     return status;
 }
 
-int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const double *t, const double *p, const double *v, double *u,
+int zd_read_solved(const zd_system *system, int formulation, int64_t states, const double *t, const double *p, const double *v, double *u,
                    char *message, int message_size)
 {
     int64_t nq = system->nq, nv = system->nv, k = system->reading->functions;
     int status = ZD_DONE;
-    for (int64_t i = 0; i < rows && !status; i++) {
+    for (int64_t i = 0; i < states && !status; i++) {
         zd_run *run = accelerated(system, formulation, ZD_CONTINUE, t[i], p + i * nq, v + i * nv, &status, message, message_size);
         if (!run) return status;
         memcpy(u + i * k, run->motion.point->inputs, (size_t)k * sizeof *u);
@@ -75,18 +75,18 @@ int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const
     return status;
 }
 
-int zd_read_states(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
+int zd_read_states(const zd_system *system, int64_t states, const double *t, const double *p, const double *v, const double *vdot,
                   const double *multipliers, const zd_efforts *efforts, double *u)
 {
     int64_t nq = system->nq, nv = system->nv, m = zd_constraints(system), k = system->reading->functions;
     int status = ZD_DONE;
-    for (int64_t i = 0; i < rows && !status; i++)
+    for (int64_t i = 0; i < states && !status; i++)
         status = zd_reactions_at(system, t[i], p + i * nq, v + i * nv, vdot + i * nv, multipliers + i * m, efforts ? efforts + i : NULL,
                                     u + i * k);
     return status;
 }
 
-int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
+int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t states, const double *t, const double *p,
                       const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch)
 {
     const zd_measures *all = system->measures;
@@ -94,7 +94,7 @@ int zd_measure_states(const zd_system *system, const double *inputs, int measure
     const int64_t k = system->reading ? system->reading->functions : 0;
     zd_measured at = *first;
     int status = ZD_DONE;
-    for (int64_t i = 0; i < rows && !status; i++) {
+    for (int64_t i = 0; i < states && !status; i++) {
         status = all->evaluate(system->data, inputs ? inputs + i * k : NULL, measure, t[i], p + i * nq, v + i * nv,
                                vdot ? vdot + i * nv : NULL, multipliers ? multipliers + i * m : NULL, &at, scratch);
         if (at.value) at.value += size;
@@ -113,8 +113,8 @@ int zd_evaluate_states(const zd_system *system, int want, int64_t states, const 
     for (int64_t i = 0; i < states && !status; i++) {
         if (system->reading && first->inputs) at.inputs = first->inputs + i * system->reading->functions;
         status = system->evaluate(system->data, want | ZD_MOVED, t[i], p + i * system->nq, v + i * system->nv, &at);
-        for (int row = 0; zd_term_at(row); row++)
-            if (want & zd_term_at(row)->term) *zd_term_in(&at, row) += zd_term_size(system, row);
+        for (int term = 0; zd_term_at(term); term++)
+            if (want & zd_term_at(term)->term) *zd_term_in(&at, term) += zd_term_size(system, term);
     }
     return status;
 }
@@ -215,9 +215,9 @@ static int project_positions(const zd_system *system, const zd_settings *setting
 static zd_constraint_target target_of(const zd_settings *settings)
 {
     zd_constraint_target target = {0};
-    for (int row = 0; row < zd_entry_count(ZD_CORRECTIONS); row++) {
-        const zd_correction *correction = zd_correction_of(row);
-        if (settings->correction[row].given && correction->target) target = correction->target(settings->correction[row].value);
+    for (int entry = 0; entry < zd_entry_count(ZD_CORRECTIONS); entry++) {
+        const zd_correction *correction = zd_correction_of(entry);
+        if (settings->correction[entry].given && correction->target) target = correction->target(settings->correction[entry].value);
     }
     return target;
 }
@@ -266,7 +266,7 @@ int zd_states_between(const zd_system *system, const zd_settings *settings, cons
     int status;
     zd_run *run = zd_run_create(system, settings, saved->p, saved->v, &status, message, message_size);
     if (!run) return status;
-    zd_resample resample = {.run = run, .saved = saved, .row = -1};
+    zd_resample resample = {.run = run, .saved = saved, .sample = -1};
     status = zd_dense_output_create(&run->stepper);
     for (int64_t i = 0; i < count && !status; i++) {
         status = zd_resample_move(&resample, t[i]);

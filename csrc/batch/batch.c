@@ -6,7 +6,7 @@
 static void prepare(const zd_batch *batch)
 {
     for (int64_t i = 0; i < batch->runs; i++) {
-        batch->rows[i] = 0;
+        batch->samples[i] = 0;
         batch->status[i] = ZD_PAUSED;
         batch->way[i] = ZD_NOT_BEGUN;
         batch->statistics[i] = (zd_statistics){0};

@@ -37,7 +37,7 @@ typedef struct zd_lane_search {
 
 typedef struct zd_lane_run {    /* state of the run in a lane */
     int64_t number;         /* index in the batch; -1: none */
-    int64_t rows;           /* number of samples saved */
+    int64_t samples;        /* number of samples saved */
     int64_t next;           /* index of the next time of t_eval */
     int is_complete;        /* 1: the sample at the event that ended the run is saved */
     double kinetic_at_start, kinetic;   /* J: kinetic energy at the start, and its largest value */

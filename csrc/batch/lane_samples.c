@@ -17,17 +17,17 @@ static void save_sample(zd_lane_group *self, int lane)
     const zd_batch *batch = self->batch;
     const zd_lanes *lanes = &self->lanes;
     zd_lane_run *run = &self->run_of[lane];
-    if (run->rows == batch->capacity) return;
-    const int64_t row = run->number * batch->capacity + run->rows++;
-    if (batch->t) batch->t[row] = lanes->t_sample[lane];
-    if (batch->p) store(lanes, lane, lanes->y_sample, lanes->nq, batch->p + row * entries_of_p(self));
-    if (batch->v) store(lanes, lane, lanes->y_sample + entries_of_p(self) * lanes->lanes, lanes->nv, batch->v + row * lanes->nv);
-    if (batch->input) batch->input[row] = lanes->has_input ? zd_lane_number(lanes, lanes->y_sample, lanes->size - 1, lane) : 0;
-    if (batch->iterations) batch->iterations[row] = (int)lanes->peak_iterations[lane];
-    if (batch->energy_skipped) batch->energy_skipped[row] = run->of_energy.skipped_since_sample;
+    if (run->samples == batch->capacity) return;
+    const int64_t sample = run->number * batch->capacity + run->samples++;
+    if (batch->t) batch->t[sample] = lanes->t_sample[lane];
+    if (batch->p) store(lanes, lane, lanes->y_sample, lanes->nq, batch->p + sample * entries_of_p(self));
+    if (batch->v) store(lanes, lane, lanes->y_sample + entries_of_p(self) * lanes->lanes, lanes->nv, batch->v + sample * lanes->nv);
+    if (batch->input) batch->input[sample] = lanes->has_input ? zd_lane_number(lanes, lanes->y_sample, lanes->size - 1, lane) : 0;
+    if (batch->iterations) batch->iterations[sample] = (int)lanes->peak_iterations[lane];
+    if (batch->energy_skipped) batch->energy_skipped[sample] = run->of_energy.skipped_since_sample;
     lanes->peak_iterations[lane] = 0;
     run->of_energy.skipped_since_sample = 0;
-    if (batch->multipliers) store(lanes, lane, lanes->lambda_sample, lanes->m, batch->multipliers + row * lanes->m);
+    if (batch->multipliers) store(lanes, lane, lanes->lambda_sample, lanes->m, batch->multipliers + sample * lanes->m);
 }
 
 static double next_time(const zd_lane_group *self, const zd_lane_run *run)

@@ -106,7 +106,7 @@ static void begin(zd_lane_group *self, int lane)
     const int64_t number = self->next - 1;
     zd_lanes_load(&self->lanes, lane, self->run, zd_single_run_data(self->batch, number), self->batch->doubles);
     self->run_of[lane].number = number;
-    self->run_of[lane].rows = self->run_of[lane].next = 0;
+    self->run_of[lane].samples = self->run_of[lane].next = 0;
     zd_event_samples_clear(self->batch, number);
     self->active++;
     zd_lane_group_note_start(self, lane);
@@ -154,7 +154,7 @@ static void end(zd_lane_group *self, int lane)
     const zd_lane_run *run = &self->run_of[lane];
     const int64_t number = run->number, steps = (int64_t)lanes->number[lane];
     self->batch->way[number] = ZD_IN_LANES;
-    self->batch->rows[number] = self->run_of[lane].rows;
+    self->batch->samples[number] = self->run_of[lane].samples;
     self->batch->status[number] = self->run_of[lane].search.ended ? say_event(self, lane) : ZD_DONE;
     self->batch->statistics[number] = (zd_statistics){
         .steps = steps, .closed_form_steps = steps, .rejected = (int64_t)lanes->rejected[lane],

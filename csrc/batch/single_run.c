@@ -99,9 +99,9 @@ static void measure(const zd_batch *batch, const zd_run *run, const zd_record *r
 {
     const zd_system *system = batch->system;
     if (batch->omega_h) batch->omega_h[number] = zd_run_omega_h(run);
-    if (batch->position_violation) batch->position_violation[number] = largest_of(record->position_violation, record->rows * system->mh);
+    if (batch->position_violation) batch->position_violation[number] = largest_of(record->position_violation, record->samples * system->mh);
     if (batch->velocity_violation)
-        batch->velocity_violation[number] = largest_of(record->velocity_violation, record->rows * count_constraints(system));
+        batch->velocity_violation[number] = largest_of(record->velocity_violation, record->samples * count_constraints(system));
 }
 
 static void advance(const zd_batch *batch, zd_run *run, zd_record *record, int64_t number)
@@ -111,7 +111,7 @@ static void advance(const zd_batch *batch, zd_run *run, zd_record *record, int64
     while (status == ZD_PAUSED && !zd_batch_is_stopped(batch)) status = zd_run_advance(run, record, SLICE);
     if (batch->seconds) batch->seconds[number] = zd_seconds_now() - begin;
     batch->way[number] = ZD_BY_ITSELF;
-    batch->rows[number] = record->rows;
+    batch->samples[number] = record->samples;
     batch->status[number] = status;
     batch->statistics[number] = *zd_run_statistics(run);
     batch->kinetic[number] = zd_run_kinetic(run);

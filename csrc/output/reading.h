@@ -42,6 +42,6 @@ typedef struct zd_recorder {
 } zd_recorder;
 
 zd_recorder zd_recorder_create(zd_arena *arena, const zd_settings *settings, zd_motion *motion);
-static inline int zd_record_has_room(const zd_record *record) { return record->rows < record->capacity; }
+static inline int zd_record_has_room(const zd_record *record) { return record->samples < record->capacity; }
 /* Adds a sample of the present point; ZD_FULL if there is no space, and nothing is changed. */
 int zd_recorder_add(zd_recorder *self, zd_record *record);

@@ -6,23 +6,23 @@
 #include "../linalg/small.h"
 #include "../point/point.h"
 
-static void copy_row(double *table, int64_t row, int width, const double *values)
+static void copy_sample(double *table, int64_t sample, int width, const double *values)
 {
-    double *to = table + row * width;
+    double *to = table + sample * width;
     zd_copy_all(width, values, to);
 }
 
-static int record_constraints(zd_motion *motion, zd_record *record, int64_t row)
+static int record_constraints(zd_motion *motion, zd_record *record, int64_t sample)
 {
     zd_point *point = motion->point;
     int m = zd_constraints(point->system);
     if (!m) return ZD_DONE;
     int status = zd_point_need_times_C(point);
     if (status) return status;
-    copy_row(record->position_violation, row, point->system->mh, point->terms.Phi);     /* (3) */
-    zd_point_velocity_violation(point, record->velocity_violation + row * m);            /* (5) */
+    copy_sample(record->position_violation, sample, point->system->mh, point->terms.Phi);     /* (3) */
+    zd_point_velocity_violation(point, record->velocity_violation + sample * m);            /* (5) */
     zd_rank_find_multipliers(point);
-    copy_row(record->multipliers, row, m, point->lambda);                                /* (7) */
+    copy_sample(record->multipliers, sample, m, point->lambda);                                /* (7) */
     return ZD_DONE;
 }
 
@@ -31,19 +31,19 @@ static void note_energy_error(zd_tally *tally, double error)
     if (!(error <= tally->energy_error) && !isnan(tally->energy_error)) tally->energy_error = error;
 }
 
-static int record_energy(zd_motion *motion, zd_record *record, int64_t row)
+static int record_energy(zd_motion *motion, zd_record *record, int64_t sample)
 {
     double violation, kinetic;
     if (!zd_has_energy(&motion->system)) {
-        record->kinetic[row] = zd_point_kinetic(motion->point);
+        record->kinetic[sample] = zd_point_kinetic(motion->point);
         return ZD_DONE;
     }
     int status = zd_motion_energy_violation(motion, &violation, &kinetic);
     if (status) return status;
-    record->kinetic[row] = kinetic;
-    record->potential[row] = zd_point_potential(motion->point);
-    record->input[row] = zd_motion_input(motion);
-    record->energy_violation[row] = violation;                                           /* (28) */
+    record->kinetic[sample] = kinetic;
+    record->potential[sample] = zd_point_potential(motion->point);
+    record->input[sample] = zd_motion_input(motion);
+    record->energy_violation[sample] = violation;                                           /* (28) */
     note_energy_error(motion->tally, fabs(violation));
     return ZD_DONE;
 }
@@ -65,12 +65,12 @@ zd_recorder zd_recorder_create(zd_arena *arena, const zd_settings *settings, zd_
 }
 
 /* Requires the accelerations and multipliers at the point. */
-static int record_outputs(const zd_recorder *self, zd_record *record, int64_t row)
+static int record_outputs(const zd_recorder *self, zd_record *record, int64_t sample)
 {
     const zd_measures *measures = self->measured->measures;
     const zd_point *point = self->motion->point;
     zd_rank_find_multipliers(point);
-    zd_measured out = {.value = record->outputs + row * self->width, .is_least = !zd_rank_is_deficient(point)};
+    zd_measured out = {.value = record->outputs + sample * self->width, .is_least = !zd_rank_is_deficient(point)};
     int status = ZD_DONE;
     for (int i = 0; i < self->outputs->count && !status; i++) {
         const int measure = self->outputs->measure[i];
@@ -86,21 +86,21 @@ int zd_recorder_add(zd_recorder *self, zd_record *record)
 {
     if (!zd_record_has_room(record)) return ZD_FULL;
     zd_motion *motion = self->motion;
-    int64_t row = record->rows;
+    int64_t sample = record->samples;
     zd_point *point = motion->point;
     /* All terms of the sample and of the acceleration come from one evaluation. */
     int status = zd_point_need(point, self->needs | zd_motion_acceleration_terms(motion));
     if (!status) status = zd_motion_accelerate(motion);
-    if (!status) status = record_constraints(motion, record, row);
-    if (!status) status = record_energy(motion, record, row);
-    if (!status && self->outputs) status = record_outputs(self, record, row);
+    if (!status) status = record_constraints(motion, record, sample);
+    if (!status) status = record_energy(motion, record, sample);
+    if (!status && self->outputs) status = record_outputs(self, record, sample);
     if (status) return status;
-    record->t[row] = point->t;
-    copy_row(record->p, row, point->system->nq, point->p);
-    copy_row(record->v, row, point->system->nv, point->v);
-    record->iterations[row] = motion->tally->iterations;
-    record->energy_skipped[row] = motion->tally->energy_skipped;
+    record->t[sample] = point->t;
+    copy_sample(record->p, sample, point->system->nq, point->p);
+    copy_sample(record->v, sample, point->system->nv, point->v);
+    record->iterations[sample] = motion->tally->iterations;
+    record->energy_skipped[sample] = motion->tally->energy_skipped;
     motion->tally->iterations = motion->tally->energy_skipped = 0;
-    record->rows = row + 1;
+    record->samples = sample + 1;
     return ZD_DONE;
 }

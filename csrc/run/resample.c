@@ -12,19 +12,19 @@
 #include "../step/step_loop.h"
 
 /* One sample of an array with `size` numbers per sample. */
-static const double *row_of(const zd_saved *saved, const double *array, int size, int64_t row)
+static const double *sample_of(const zd_saved *saved, const double *array, int size, int64_t sample)
 {
-    return array + row * (saved->stride ? saved->stride : size);
+    return array + sample * (saved->stride ? saved->stride : size);
 }
 
-static double time_of(const zd_saved *saved, int64_t row)
+static double time_of(const zd_saved *saved, int64_t sample)
 {
-    return *row_of(saved, saved->t, 1, row);
+    return *sample_of(saved, saved->t, 1, sample);
 }
 
-static int64_t row_before(const zd_saved *saved, double t)
+static int64_t sample_before(const zd_saved *saved, double t)
 {
-    int64_t low = 0, high = saved->rows;      /* the sample searched for is one of low ... high - 1 */
+    int64_t low = 0, high = saved->samples;      /* the sample searched for is one of low ... high - 1 */
     while (high - low > 1) {
         const int64_t middle = low + (high - low) / 2;
         if (time_of(saved, middle) <= t) low = middle;
@@ -33,57 +33,57 @@ static int64_t row_before(const zd_saved *saved, double t)
     return low;
 }
 
-static int place(zd_resample *self, int64_t row)
+static int place(zd_resample *self, int64_t sample)
 {
     zd_motion *motion = &self->run->motion;
     zd_stepper *stepper = &self->run->stepper;
     const zd_saved *saved = self->saved;
-    const double *p = row_of(saved, saved->p, motion->system.nq, row), *v = row_of(saved, saved->v, motion->system.nv, row);
-    if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = *row_of(saved, saved->input, 1, row);
-    return zd_stepper_set_state(stepper, time_of(saved, row), p, v);
+    const double *p = sample_of(saved, saved->p, motion->system.nq, sample), *v = sample_of(saved, saved->v, motion->system.nv, sample);
+    if (motion->balance.input && saved->input) stepper->y[motion->rate.size - 1] = *sample_of(saved, saved->input, 1, sample);
+    return zd_stepper_set_state(stepper, time_of(saved, sample), p, v);
 }
 
-static int make_step(zd_resample *self, int64_t row)
+static int make_step(zd_resample *self, int64_t sample)
 {
     zd_step_loop *loop = &self->run->loop;
-    const double t = time_of(self->saved, row), next = time_of(self->saved, row + 1);
-    const int is_last = row + 2 == self->saved->rows;
+    const double t = time_of(self->saved, sample), next = time_of(self->saved, sample + 1);
+    const int is_last = sample + 2 == self->saved->samples;
     return zd_step_attempt(loop, &(zd_attempt){
-        .kind = ZD_REPEATED_STEP, .forced = is_last, .step = row + 1,
+        .kind = ZD_REPEATED_STEP, .forced = is_last, .step = sample + 1,
         .h = zd_is_adaptive(loop) || is_last ? next - t : self->run->settings.step, .t1 = next,
     });
 }
 
-static int is_at(const zd_resample *self, int64_t row)
+static int is_at(const zd_resample *self, int64_t sample)
 {
     const zd_point *point = self->run->motion.point;
     const zd_saved *saved = self->saved;
     const int nq = point->system->nq, nv = point->system->nv;
-    return !memcmp(point->p, row_of(saved, saved->p, nq, row), (size_t)nq * sizeof(double))
-        && !memcmp(point->v, row_of(saved, saved->v, nv, row), (size_t)nv * sizeof(double));
+    return !memcmp(point->p, sample_of(saved, saved->p, nq, sample), (size_t)nq * sizeof(double))
+        && !memcmp(point->v, sample_of(saved, saved->v, nv, sample), (size_t)nv * sizeof(double));
 }
 
 /* Moves to a sample and chooses the evaluation path of a step from there. */
-static int begin(zd_resample *self, int64_t row, int is_general)
+static int begin(zd_resample *self, int64_t sample, int is_general)
 {
     zd_motion *motion = &self->run->motion;
     if (is_general) zd_closed_form_leave(motion);
-    int status = place(self, row);
+    int status = place(self, sample);
     if (!status && zd_has_closed_form(motion) && !is_general) zd_closed_form_choose(motion);
     return status;
 }
 
 /* The same if a closed-form step may have ended at the sample: the acceleration at its end comes from another function, whose rounding may
  * differ, so that step is repeated first. A step cut short by an event was made from the sample itself. */
-static int begin_from_before(zd_resample *self, int64_t row)
+static int begin_from_before(zd_resample *self, int64_t sample)
 {
     zd_motion *motion = &self->run->motion;
-    const int is_cut = self->saved->ends_in_event && row + 2 == self->saved->rows;
-    int status = begin(self, row, 0);
-    if (status || !zd_finishes_in_closed_form(motion) || row == 0 || is_cut) return status;
-    status = begin(self, row - 1, 0);
-    if (!status) status = make_step(self, row - 1);
-    if (status || !is_at(self, row)) return begin(self, row, 0);
+    const int is_cut = self->saved->ends_in_event && sample + 2 == self->saved->samples;
+    int status = begin(self, sample, 0);
+    if (status || !zd_finishes_in_closed_form(motion) || sample == 0 || is_cut) return status;
+    status = begin(self, sample - 1, 0);
+    if (!status) status = make_step(self, sample - 1);
+    if (status || !is_at(self, sample)) return begin(self, sample, 0);
     zd_closed_form_choose(motion);
     return ZD_DONE;
 }
@@ -93,56 +93,56 @@ static int may_have_polynomial(const zd_resample *self)
     return zd_is_adaptive(&self->run->loop) && self->run->stepper.integrator->prepare_dense;
 }
 
-static int make_general_step(zd_resample *self, int64_t row)
+static int make_general_step(zd_resample *self, int64_t sample)
 {
-    int status = begin(self, row, 1);
-    return status ? status : make_step(self, row);
+    int status = begin(self, sample, 1);
+    return status ? status : make_step(self, sample);
 }
 
 /* Repeats the step from a sample on each evaluation path until the next sample is reproduced bit for bit, as the run may have left the
  * closed-form path in it. If neither reproduces it, the step in closed form stands. */
-static int make_again(zd_resample *self, int64_t row)
+static int make_again(zd_resample *self, int64_t sample)
 {
     const int has_closed_form = zd_has_closed_form(&self->run->motion);
-    int status = begin_from_before(self, row);
-    if (!status) status = make_step(self, row);
-    if (!has_closed_form || (!status && is_at(self, row + 1))) return status;
-    const int general_status = make_general_step(self, row);
-    self->is_general = status || (!general_status && is_at(self, row + 1));
+    int status = begin_from_before(self, sample);
+    if (!status) status = make_step(self, sample);
+    if (!has_closed_form || (!status && is_at(self, sample + 1))) return status;
+    const int general_status = make_general_step(self, sample);
+    self->is_general = status || (!general_status && is_at(self, sample + 1));
     if (self->is_general) return general_status;
-    status = begin(self, row, 0);
-    return status ? status : make_step(self, row);
+    status = begin(self, sample, 0);
+    return status ? status : make_step(self, sample);
 }
 
 /* Finds the evaluation path of the step from a sample, and its dense output if available. Failures are ignored, since a shorter step may
  * succeed; except those of callables, which are returned. */
-static int find_path(zd_resample *self, int64_t row)
+static int find_path(zd_resample *self, int64_t sample)
 {
     zd_stepper *stepper = &self->run->stepper;
     const int may_interpolate = may_have_polynomial(self);
-    self->row = row;
+    self->sample = sample;
     self->is_general = self->has_polynomial = 0;
-    int status = may_interpolate || zd_has_closed_form(&self->run->motion) ? make_again(self, row) : ZD_DONE;
+    int status = may_interpolate || zd_has_closed_form(&self->run->motion) ? make_again(self, sample) : ZD_DONE;
     if (!status && may_interpolate && zd_has_dense_output(stepper, stepper->last.t)) {
         status = zd_dense_output_prepare(stepper);
         self->has_polynomial = !status;
     }
     if (!zd_callable_failed(&self->run->motion, status)) return ZD_DONE;
-    self->row = -1;
+    self->sample = -1;
     return status;
 }
 
 int zd_resample_move(zd_resample *self, double t)
 {
-    const int64_t row = row_before(self->saved, t);
-    if (t == time_of(self->saved, row)) return place(self, row);
-    int status = row == self->row ? ZD_DONE : find_path(self, row);
+    const int64_t sample = sample_before(self->saved, t);
+    if (t == time_of(self->saved, sample)) return place(self, sample);
+    int status = sample == self->sample ? ZD_DONE : find_path(self, sample);
     if (status) return status;
     if (self->has_polynomial) {
         status = zd_dense_output_move(&self->run->stepper, t, self->run->stepper.y);
         if (!status || zd_callable_failed(&self->run->motion, status)) return status;
     }
     self->has_polynomial = 0;
-    status = begin(self, row, self->is_general);
+    status = begin(self, sample, self->is_general);
     return status ? status : zd_substep(&self->run->loop, t);
 }

@@ -70,7 +70,7 @@ typedef struct zd_batch {
     int64_t events_capacity;        /* occurrences allocated for each event of a run */
     int64_t *found;                 /* (runs, events) occurrences of each event, including those beyond events_capacity; NULL: no events */
     double *t_events, *p_events, *v_events; /* (runs, events, events_capacity), (.., nq), (.., nv): the first occurrences */
-    int64_t *rows;                  /* (runs,) samples stored */
+    int64_t *samples;               /* (runs,) samples stored */
     int *status;                    /* (runs,) ZD_PAUSED if stopped */
     int *way;                       /* (runs,) zd_way: how the run was computed; ZD_UNUSUAL if left to the caller */
     zd_statistics *statistics;      /* (runs,) */
@@ -86,9 +86,9 @@ int zd_lanes_of_unit(enum zd_unit unit);     /* number of runs that share a vect
  * Several threads may run batches at the same time. */
 int zd_batch_run(const zd_batch *batch);
 
-/* Completes the samples of a run in SIMD lanes, which store states only: multipliers, violations, energies and outputs at p (rows, nq),
- * v (rows, nv), with the energy input (rows,). `run` must be newly created from the same start, and can only be freed afterwards. */
-int zd_run_record_states(zd_run *run, int64_t rows, const double *t, const double *p, const double *v, const double *input,
+/* Completes the samples of a run in SIMD lanes, which store states only: multipliers, violations, energies and outputs at p (samples, nq),
+ * v (samples, nv), with the energy input (samples,). `run` must be newly created from the same start, and can only be freed afterwards. */
+int zd_run_record_states(zd_run *run, int64_t samples, const double *t, const double *p, const double *v, const double *input,
                          zd_record *record);
 
 /* Tables of a batch from the parameters of a kind of system (runs, all parameters): constants (runs, kind->constants), starts (runs, nq),

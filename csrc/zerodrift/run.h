@@ -50,7 +50,7 @@ typedef struct zd_warning_limits {  /* beyond these, a completed run gives a war
 const zd_warning_limits *zd_limits_of_warnings(void);
 
 typedef struct zd_record {      /* samples of a run, one per saved instant; memory belongs to the caller */
-    int64_t capacity, rows;        /* samples allocated and stored; a full record pauses the run, which continues with a new or emptied one */
+    int64_t capacity, samples;  /* allocated and stored; a full record pauses the run, which continues with a new or emptied one */
     double *t;                  /* (capacity,) s */
     double *p, *v, *multipliers;                    /* (capacity, nq), (capacity, nv), (capacity, m) */
     double *position_violation, *velocity_violation;    /* (capacity, mh), (capacity, m) */
@@ -61,10 +61,10 @@ typedef struct zd_record {      /* samples of a run, one per saved instant; memo
 } zd_record;
 
 typedef struct zd_saved {       /* samples of a run that saved every step; at least one */
-    int64_t rows;
-    const double *t;            /* (rows,) s, increasing */
-    const double *p, *v;        /* (rows, nq), (rows, nv) */
-    const double *input;        /* (rows,) J; NULL without input power */
+    int64_t samples;
+    const double *t;            /* (samples,) s, increasing */
+    const double *p, *v;        /* (samples, nq), (samples, nv) */
+    const double *input;        /* (samples,) J; NULL without input power */
     int ends_in_event;          /* true if the last sample is a terminal event */
     int64_t stride;             /* doubles between consecutive samples, the same for each array; 0: arrays are contiguous */
 } zd_saved;

@@ -25,20 +25,21 @@ zd_system zd_perturbed(zd_perturbation *perturbation);      /* refers to the per
 /* *is_deficient, unless NULL, <- 1 if some constraints depend on others, so that the multipliers are a choice. */
 int zd_acceleration(const zd_system *system, int formulation, enum zd_on_singular on_singular, double t, const double *p, const double *v,
                     double *vdot, double *multipliers, int *is_deficient, char *message, int message_size);
-/* The same at many states: t (rows,), p (rows, nq), v (rows, nv) give vdot (rows, nv), multipliers (rows, m), is_deficient (rows,). */
-int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t rows, const double *t,
+/* The same at many states: t (states,), p (states, nq), v (states, nv) give vdot (states, nv), multipliers (states, m),
+ * is_deficient (states,). */
+int zd_accelerations(const zd_system *system, int formulation, enum zd_on_singular on_singular, int64_t states, const double *t,
                      const double *p, const double *v, double *vdot, double *multipliers, int *is_deficient, char *message,
                      int message_size);
-/* Values u (rows, functions) of the user functions of a system that read reactions, see zd_reading, as they are solved for with the
- * accelerations, and where these, the multipliers and efforts (rows,), NULL for none, are given. */
-int zd_read_solved(const zd_system *system, int formulation, int64_t rows, const double *t, const double *p, const double *v, double *u,
+/* Values u (states, functions) of the user functions of a system that read reactions, see zd_reading, as they are solved for with the
+ * accelerations, and where these, the multipliers and efforts (states,), NULL for none, are given. */
+int zd_read_solved(const zd_system *system, int formulation, int64_t states, const double *t, const double *p, const double *v, double *u,
                    char *message, int message_size);
-int zd_read_states(const zd_system *system, int64_t rows, const double *t, const double *p, const double *v, const double *vdot,
+int zd_read_states(const zd_system *system, int64_t states, const double *t, const double *p, const double *v, const double *vdot,
                   const double *multipliers, const zd_efforts *efforts, double *u);
 /* A measure at many states: `first` has the memory of the first, that of the others follows it; scratch of the size that the measures
  * declare. vdot and multipliers may be NULL if the measure does not depend on them. `inputs` are those of the system, in all states the
- * same, or (rows, functions) of zd_reading; so in the two functions that follow. */
-int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t rows, const double *t, const double *p,
+ * same, or (states, functions) of zd_reading; so in the two functions that follow. */
+int zd_measure_states(const zd_system *system, const double *inputs, int measure, int64_t states, const double *t, const double *p,
                       const double *v, const double *vdot, const double *multipliers, const zd_measured *first, double *scratch);
 
 /* The terms in `want` at many states t (states,), p (states, nq), v (states, nv): `first` has the memory of the first, the others follow
@@ -70,7 +71,7 @@ int zd_measure_rates(const zd_system *system, const double *inputs, int count, c
  * are held fixed (either may be NULL); iterations may be NULL. */
 int zd_project(const zd_system *system, const zd_settings *settings, double t, double *p, double *v,
                const int *hold_p, const int *hold_v, int *iterations, char *message, int message_size);
-/* States p (count, nq), v (count, nv) at times t (count,) within a finished run, from its samples of every step and its settings: the values
+/* States p (count, nq), v (count, nv) at times t (count,) within a finished run, from its states of every step and its settings: the values
  * that the run itself would have saved at these times. Increasing times are fastest. */
 int zd_states_between(const zd_system *system, const zd_settings *settings, const zd_saved *saved, int64_t count, const double *t, double *p,
                       double *v, char *message, int message_size);

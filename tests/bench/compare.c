@@ -50,7 +50,7 @@ static double core_run(const zd_system *system, int formulation, int64_t save_ev
     status = zd_run_advance(run, &record, 1e9);
     *seconds = now() - start;
     zd_run_free(run);
-    return status ? NAN : record.p[3 * (record.rows - 1)];
+    return status ? NAN : record.p[3 * (record.samples - 1)];
 }
 
 int main(void)

@@ -133,7 +133,7 @@ static double run(const zd_system *system, zd_settings *settings, double *second
     *bytes = held - before;
     most -= before;
     zd_run_free(it);
-    return status ? NAN : record.p[N * (record.rows - 1)];
+    return status ? NAN : record.p[N * (record.samples - 1)];
 }
 
 int main(int arguments, char **argument)

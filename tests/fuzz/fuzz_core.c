@@ -327,10 +327,10 @@ static void check_rows(const zd_system *system, const zd_settings *settings, con
     zd_parameter_values projection = settings->correction[row_of_projection];
     int corrected = projection.given && *zd_value_named(&projection, card, "every") == 1 && *zd_value_named(&projection, card, "positions")
                  && strcmp(zd_entry_card(ZD_FORMULATIONS, settings->formulation)->name, "independent");
-    EXPECT(record->rows <= record->capacity);
-    EXPECT(are_finite(record->p, record->rows * system->nq));
-    EXPECT(are_finite(record->v, record->rows * system->nv));
-    for (int64_t row = 0; row < record->rows; row++) {
+    EXPECT(record->samples <= record->capacity);
+    EXPECT(are_finite(record->p, record->samples * system->nq));
+    EXPECT(are_finite(record->v, record->samples * system->nv));
+    for (int64_t row = 0; row < record->samples; row++) {
         EXPECT(record->t[row] > *last && record->t[row] >= settings->t0 && record->t[row] <= settings->t1);
         *last = record->t[row];
         for (int k = 0; corrected && *last > settings->t0 && k < system->mh; k++)

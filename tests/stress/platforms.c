@@ -42,7 +42,7 @@ static int run(const zd_kind *kind, int formulation, const char *integrator, int
     double t[2], rows[10][2 * LARGEST];
     int counts[2][2];
     zd_record record = {2, 0, t, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], counts[0], counts[1], NULL};
-    if (!made || zd_run_advance(made, &record, 1e9) || record.rows != 2) return 1;
+    if (!made || zd_run_advance(made, &record, 1e9) || record.samples != 2) return 1;
     printf("%s %s %s:", zd_entry_card(ZD_FORMULATIONS, formulation)->name, integrator, closed_form ? "closed_form" : "general");
     print_bits("p", system.nq, rows[0] + system.nq);
     print_bits("v", system.nv, rows[1] + system.nv);

@@ -57,7 +57,7 @@ class BatchResults(NamedTuple):
     """Results of k runs."""
 
     columns: dict[str, np.ndarray]      # "t" (k, samples), "p" (k, samples, nq), and so on: requested ones
-    rows: np.ndarray                    # (k,): number of samples of each run
+    samples: np.ndarray                 # (k,): number of samples of each run
     status: np.ndarray                  # (k,): of the core
     way: np.ndarray                     # (k,): way in which each run was computed
     statistics: np.ndarray              # (k,): counts of the core
@@ -70,8 +70,8 @@ class BatchResults(NamedTuple):
 
 MEASURED = ("omega_h", "position_violation", "velocity_violation", "seconds")   # the largest of each run, and the time it took
 # Of each run: where the core writes it, and as what
-OF_RUNS = {"rows": np.int64, "status": np.intc, "way": np.intc, "statistics": STATISTICS, "kinetic": float, "energy_error": float}
-TYPES = {"rows": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "zd_statistics[]", "kinetic": "double[]",
+OF_RUNS = {"samples": np.int64, "status": np.intc, "way": np.intc, "statistics": STATISTICS, "kinetic": float, "energy_error": float}
+TYPES = {"samples": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "zd_statistics[]", "kinetic": "double[]",
          "energy_error": "double[]"}
 
 
@@ -123,7 +123,7 @@ def run_batch(tables: Any, settings: Any, k: int, capacity: int, wanted: tuple[s
     if stop is not None:
         members["stop"] = stop.c
     if lib.zd_batch_run(ffi.new("zd_batch *", members)):
-        raise NoMemory(f"there is no memory for the {capacity} rows of a run")
+        raise NoMemory(f"there is no memory for the {capacity} samples of a run")
     said = [""] * k
     for run in np.flatnonzero(of_runs["status"]).tolist():
         said[run] = messages[run].tobytes().partition(b"\0")[0].decode()

@@ -31,7 +31,7 @@ def states_between(core: CoreSystem, settings: Any, t: np.ndarray, p: np.ndarray
     if energy_input is not None:
         columns["input"] = energy_input, rows
     memory, stride = _columns(columns)
-    saved = ffi.new("zd_saved *", {"rows": rows, "ends_in_event": ends_in_event, "stride": stride, **memory})
+    saved = ffi.new("zd_saved *", {"samples": rows, "ends_in_event": ends_in_event, "stride": stride, **memory})
     found_p, found_v = np.empty((count, core.nq)), np.empty((count, core.nv))
     found = doubles(found_p, count * core.nq, writable=True), doubles(found_v, count * core.nv, writable=True)
     status = lib.zd_states_between(core.c, settings, saved, count, doubles(times, count), *found, message, MESSAGE_SIZE)

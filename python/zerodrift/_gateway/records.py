@@ -114,17 +114,17 @@ class Record:
     def pack(self) -> np.ndarray:
         """Remove and return the samples of the first block (samples, width), the counts as two integers in the last column."""
         columns = self._of_first()
-        packed = np.empty((self._first.rows, self._layout.width))
+        packed = np.empty((self._first.samples, self._layout.width))
         for name, (start, shape) in self.columns.items():
             width = math.prod(shape)
             packed[:, start:start + width] = columns[name].reshape(len(packed), width)
         packed.view(np.intc)[:, -2:] = np.column_stack([columns[name] for name in COUNTS])
-        self._first.rows = 0
+        self._first.samples = 0
         return packed
 
     def _of_first(self) -> dict[str, np.ndarray]:
         """The columns of the first block."""
-        rows, capacity, memory = self._first.rows, self._first.capacity, self._memory
+        rows, capacity, memory = self._first.samples, self._first.capacity, self._memory
         columns = {name: memory[start * capacity:start * capacity + rows * math.prod(shape)].reshape(rows, *shape)
                    for (name, start), shape in zip(self._layout.starts.items(), self._layout.shapes.values(), strict=True)}
         counts = memory[(self._layout.width - 1) * capacity:].view(np.intc)
@@ -133,7 +133,7 @@ class Record:
     def snapshot(self) -> Snapshot:
         """Copy of the samples so far, for a run that goes on recording."""
         first = self._of_first()
-        return Snapshot({name: np.concatenate([column, *(columns[name][: c.rows] for c, columns in self._further)])
+        return Snapshot({name: np.concatenate([column, *(columns[name][: c.samples] for c, columns in self._further)])
                          for name, column in first.items()})
 
     def join(self) -> None:
@@ -141,7 +141,7 @@ class Record:
         if not self._further:
             return
         for name, first in self._of_first().items():
-            self._joined[name] = np.concatenate([first, *(columns[name][: c.rows] for c, columns in self._further)])
+            self._joined[name] = np.concatenate([first, *(columns[name][: c.samples] for c, columns in self._further)])
             for _, columns in self._further:
                 del columns[name]
         self._further.clear()

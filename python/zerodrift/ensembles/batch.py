@@ -182,7 +182,7 @@ def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int)
     made = _make(plan, batch, tables, run, run + 1, STATES)
     if made.way[0] != _gateway.IN_LANES:
         return None
-    states = {name: column[0, :made.rows[0]] for name, column in made.columns.items()}
+    states = {name: column[0, :made.samples[0]] for name, column in made.columns.items()}
     system, span = plan.runs.system(run), _check.span(plan.t_span)
     core = closed_form_core_of(system, batch.settings["vector"], batch.core_settings)
     p0, v0 = system._state_or_start(*plan.runs.start(run, system, span[0]), t=span[0])
@@ -200,7 +200,7 @@ def _solution_in_lanes(plan: Plan, batch: Batch, tables: NumberTables, run: int)
 def _part(plan: Plan, batch: Batch, made: _gateway.BatchResults, messages: list[str], doubtful: np.ndarray) -> Part:
     """Part with the runs that were made."""
     count = len(doubtful)
-    rows, t, kept = _kept(plan, made.rows[:count], made.columns["t"][:count])
+    rows, t, kept = _kept(plan, made.samples[:count], made.columns["t"][:count])
     none = [None] * count
     t_events = none if made.events is None else [made.events.of(run)[0] for run in range(count)]
     status = made.status[:count]

@@ -19,9 +19,9 @@ int main(int arguments, char **argument)
     zd_run *run = zd_run_create(zd_block_system(block), &settings, start, start + NQ, &status, message, sizeof message);
     if (!run) return refuse(message);
     do {        /* a step or its sample, in memory that is allocated above */
-        sample.rows = 0;
+        sample.samples = 0;
         status = zd_run_advance(run, &sample, 1);
-        if (sample.rows) print_sample();
+        if (sample.samples) print_sample();
     } while (status == ZD_FULL || status == ZD_PAUSED);
     if (status < 0) refuse(zd_run_message(run));
     zd_run_free(run);
