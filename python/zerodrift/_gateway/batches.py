@@ -70,7 +70,8 @@ class BatchResults(NamedTuple):
 
 MEASURED = ("omega_h", "position_violation", "velocity_violation", "seconds")   # the largest of each run, and the time it took
 # Of each run: where the core writes it, and as what
-OF_RUNS = {"samples": np.int64, "status": np.intc, "way": np.intc, "statistics": STATISTICS, "kinetic": float, "energy_error": float}
+OF_RUNS = {"samples": np.int64, "status": np.intc, "way": np.intc, "statistics": STATISTICS, "kinetic": float,
+           "energy_error": float}
 TYPES = {"samples": "int64_t[]", "status": "int[]", "way": "int[]", "statistics": "zd_statistics[]", "kinetic": "double[]",
          "energy_error": "double[]"}
 
