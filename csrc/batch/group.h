@@ -118,6 +118,12 @@ static inline double zd_lane_number(const zd_lanes *self, const double *numbers,
     return numbers[i * self->lanes + lane];
 }
 
+/* to (count,) <- the numbers of a lane. */
+static inline void zd_lane_store(const zd_lanes *self, int lane, int64_t count, const double *from, double *to)
+{
+    for (int64_t i = 0; i < count; i++) to[i] = zd_lane_number(self, from, i, lane);
+}
+
 static inline void zd_lane_set(const zd_lanes *self, double *numbers, int64_t i, int lane, double value)
 {
     numbers[i * self->lanes + lane] = value;

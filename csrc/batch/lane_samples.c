@@ -6,11 +6,6 @@
 
 static int64_t entries_of_p(const zd_lane_group *self) { return self->lanes.nq; }
 
-static void store(const zd_lanes *lanes, int lane, const double *from, int64_t count, double *to)
-{
-    for (int64_t i = 0; i < count; i++) to[i] = zd_lane_number(lanes, from, i, lane);
-}
-
 /* Saves y_sample at t_sample as a sample of the run. */
 static void save_sample(zd_lane_group *self, int lane)
 {
@@ -20,14 +15,14 @@ static void save_sample(zd_lane_group *self, int lane)
     if (run->samples == batch->capacity) return;
     const int64_t sample = run->number * batch->capacity + run->samples++;
     if (batch->t) batch->t[sample] = lanes->t_sample[lane];
-    if (batch->p) store(lanes, lane, lanes->y_sample, lanes->nq, batch->p + sample * entries_of_p(self));
-    if (batch->v) store(lanes, lane, lanes->y_sample + entries_of_p(self) * lanes->lanes, lanes->nv, batch->v + sample * lanes->nv);
+    if (batch->p) zd_lane_store(lanes, lane, lanes->nq, lanes->y_sample, batch->p + sample * entries_of_p(self));
+    if (batch->v) zd_lane_store(lanes, lane, lanes->nv, lanes->y_sample + entries_of_p(self) * lanes->lanes, batch->v + sample * lanes->nv);
     if (batch->input) batch->input[sample] = lanes->has_input ? zd_lane_number(lanes, lanes->y_sample, lanes->size - 1, lane) : 0;
     if (batch->iterations) batch->iterations[sample] = (int)lanes->peak_iterations[lane];
     if (batch->energy_skipped) batch->energy_skipped[sample] = run->of_energy.skipped_since_sample;
     lanes->peak_iterations[lane] = 0;
     run->of_energy.skipped_since_sample = 0;
-    if (batch->multipliers) store(lanes, lane, lanes->lambda_sample, lanes->m, batch->multipliers + sample * lanes->m);
+    if (batch->multipliers) zd_lane_store(lanes, lane, lanes->m, lanes->lambda_sample, batch->multipliers + sample * lanes->m);
 }
 
 static double next_time(const zd_lane_group *self, const zd_lane_run *run)

@@ -12,8 +12,6 @@ static const double EQUAL = 1e-4;           /* relative: difference of gaps belo
 static const char *const HINT = "; look at the lengths, or draw it nearer";
 enum { NAMED = 3, MAX_DENSE = 1000 };            /* joints in a sentence; constraints or velocities of dense matrices */
 
-static double length_of(const zd_block *block) { return block->layout.part[ZD_BLOCK_GRAVITY].word[block->layout.of->dimension]; }
-
 /* ---- gaps at a position ---- */
 
 typedef struct gaps {
@@ -93,7 +91,7 @@ static int close_joint(const gaps *self, const double *p, int joint)
         const int is_closed = owner->owner == ZD_OF_JOINT && (joint < 0 || owner->index == joint);
         self->row[row] = is_closed ? ZD_OWNED_BY_JOINT : ZD_OWNED_BY_UNKNOWN_DRIVE;
     }
-    const zd_assembly_problem given = {.system = system, .length = length_of(self->block), .row = self->row};
+    const zd_assembly_problem given = {.system = system, .length = zd_block_length(self->block), .row = self->row};
     memcpy(self->p, p, (size_t)system->nq * sizeof *p);
     const int status = zd_assembly_minimize(&given, self->p);
     return status ? status : read_gaps(self, self->p);
@@ -103,7 +101,7 @@ static int close_joint(const gaps *self, const double *p, int joint)
 static int find_open_loop(const gaps *self, const double *p)
 {
     const zd_constraint_owner *owner = self->block->names.owner;
-    double most = CLOSED * length_of(self->block);
+    double most = CLOSED * zd_block_length(self->block);
     int found = -1;
     for (int row = 0; row < zd_block_system(self->block)->mh; row++) {
         if (owner[row].owner != ZD_OF_JOINT || owner[row].component || close_joint(self, p, owner[row].index)) continue;
@@ -199,7 +197,7 @@ void zd_block_explain_start(const zd_block *block, char *message, int message_si
     double *p = is_few ? zd_allocate((size_t)(system->nq + poses + zd_block_system(block)->scratch) * sizeof *p) : NULL;
     if (p) {
         copy_start(block, other, p, p + system->nq, p + system->nq + poses);
-        find(other, p, 0, CLOSED * length_of(block), (zd_complaint){message, message_size});
+        find(other, p, 0, CLOSED * zd_block_length(block), (zd_complaint){message, message_size});
     }
     zd_release(p);
     zd_block_free(other);

@@ -52,6 +52,9 @@ struct zd_block {
     zd_system system;
 };
 
+/* Characteristic length of the mechanism, m. */
+static inline double zd_block_length(const zd_block *block) { return block->layout.part[ZD_BLOCK_GRAVITY].word[block->layout.of->dimension]; }
+
 /* Sets the initial inputs; and writes inputs to their places, for a new run. */
 void zd_block_inputs_begin(zd_block *block);
 void zd_block_inputs_write(zd_block *block);

@@ -45,6 +45,32 @@ static double sparse_product(const zd_row_of_C *a, const zd_row_of_C *b)
     return sum;
 }
 
+double zd_packed_row_residual(const zd_layout *layout, const double *C, int k, const double *rhs, const double *x, double *size)
+{
+    const zd_row_of_C row = zd_packed_row(layout, C, k);
+    double sum = rhs[k];
+    *size = fabs(sum);
+    for (int j = 0; j < row.count; j++) {
+        const double term = row.x[j] * x[row.column[j]];
+        sum -= term;
+        *size += fabs(term);
+    }
+    return sum;
+}
+
+double zd_packed_residual(const zd_layout *layout, const double *C, int rows, const double *rhs, const double *x, const double *weight,
+                          double *residual, double *square)
+{
+    double worst = 0, largest = 0, size;
+    for (int k = 0; k < rows; k++) {
+        const double sum = residual[k] = zd_packed_row_residual(layout, C, k, rhs, x, &size);
+        worst = fmax(worst, sum * sum * weight[k]);
+        largest = fmax(largest, size * size * weight[k]);
+    }
+    *square = largest;
+    return worst > 0 ? sqrt(worst / largest) : 0;
+}
+
 double zd_row_product(const zd_row_of_C *a, const zd_row_of_C *b)
 {
     return !a->column ? zd_row_times(b, a->x) : !b->column ? zd_row_times(a, b->x) : sparse_product(a, b);

@@ -162,6 +162,12 @@ static inline zd_row_of_C zd_point_row(const zd_point *point, int k) { return zd
 zd_row_of_C zd_counted_row(const zd_point *point, int k);
 double zd_row_times(const zd_row_of_C *row, const double *x);       /* x (nv,) */
 double zd_row_product(const zd_row_of_C *a, const zd_row_of_C *b);
+/* Entry k of rhs - C x of a packed C; *size: the sum of the magnitudes of its terms. */
+double zd_packed_row_residual(const zd_layout *layout, const double *C, int k, const double *rhs, const double *x, double *size);
+/* residual (rows,) <- rhs - C x. Returns its largest entry relative to the largest of its terms, both in the metric of the weights (rows,);
+ * *square: the square of the latter. */
+double zd_packed_residual(const zd_layout *layout, const double *C, int rows, const double *rhs, const double *x, const double *weight,
+                          double *residual, double *square);
 void zd_row_expand(const zd_row_of_C *row, int n, double *x);       /* x (n,) <- the row with its zeros */
 void zd_add_C(const zd_point *point, double weight, double *C);     /* C (m, nv) <- C + weight times the point's */
 

@@ -56,16 +56,6 @@ def turn(vector: np.ndarray) -> np.ndarray:
     return np.concatenate([np.cos(angle / 2), np.sinc(angle / (2 * np.pi)) / 2 * vector], axis=-1)
 
 
-def turn_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Rotation vectors (..., 3) in rad, in the axes of a, of the shorter rotation from quaternions a to b."""
-    conjugate = a * np.array([1.0, -1.0, -1.0, -1.0])
-    q = product(conjugate, b)
-    q = np.where(q[..., :1] < 0, -q, q)
-    sine = np.linalg.norm(q[..., 1:], axis=-1, keepdims=True)
-    angle = 2 * np.arctan2(sine, q[..., :1])
-    return np.where(sine > 0, angle / np.where(sine > 0, sine, 1.0), 2.0) * q[..., 1:]
-
-
 def angles_of(R: np.ndarray, order: str) -> np.ndarray:
     """Intrinsic angles (k, 3) in rad of rotations (k, 3, 3): turns about the body's own axes in this order, such as "zyx".
 

@@ -20,11 +20,6 @@ static void load(const zd_lanes *lanes, int lane, int64_t count, const double *f
     for (int64_t i = 0; i < count; i++) zd_lane_set(lanes, to, i, lane, from[i]);
 }
 
-static void store(const zd_lanes *lanes, int lane, int64_t count, const double *from, double *to)
-{
-    for (int64_t i = 0; i < count; i++) to[i] = zd_lane_number(lanes, from, i, lane);
-}
-
 static void load_checks(zd_lanes *lanes, int lane, const zd_run *run)
 {
     const zd_resolution *resolution = &run->safeguards.resolution;
@@ -51,11 +46,11 @@ static void store_checks(const zd_lanes *lanes, int lane, double steps, zd_run *
     guard->reach = fmin(ZD_LONG_PATH * ZD_LONG_PATH, ZD_FASTER_SPEED * h * h * guard->fastest + guard->nearby);
     guard->streak = 0;
     resolution->step = (int64_t)fmin(steps, lanes->last_checked[lane]);
-    store(lanes, lane, lanes->nv, lanes->error, resolution->error);
-    store(lanes, lane, lanes->nv, lanes->path, resolution->path);
-    store(lanes, lane, lanes->nv, lanes->lowest, resolution->lowest);
-    store(lanes, lane, lanes->nv, lanes->highest, resolution->highest);
-    if (resolution->place) store(lanes, lane, lanes->nv, lanes->place, resolution->place);
+    zd_lane_store(lanes, lane, lanes->nv, lanes->error, resolution->error);
+    zd_lane_store(lanes, lane, lanes->nv, lanes->path, resolution->path);
+    zd_lane_store(lanes, lane, lanes->nv, lanes->lowest, resolution->lowest);
+    zd_lane_store(lanes, lane, lanes->nv, lanes->highest, resolution->highest);
+    if (resolution->place) zd_lane_store(lanes, lane, lanes->nv, lanes->place, resolution->place);
 }
 
 void zd_lane_enter(zd_open_lanes *self, int lane, int64_t i)
@@ -99,7 +94,7 @@ static int move_to(const zd_lanes *lanes, int lane, double t, double steps, cons
 {
     zd_stepper *stepper = &run->stepper;
     zd_motion *motion = &run->motion;
-    store(lanes, lane, lanes->size, y, stepper->y);
+    zd_lane_store(lanes, lane, lanes->size, y, stepper->y);
     stepper->t = t;
     motion->state = stepper->y;
     motion->path.was_taken = 1;

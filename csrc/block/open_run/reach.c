@@ -14,8 +14,6 @@ enum { NAME = 64 };
 /* Numbers of a relation and of a measure in a block, in the order of structures.c. */
 enum { FIRST_TERM, TERMS, NONHOLONOMIC, LAW, CONSTANT, SLOPE, KIND = 2, QUANTITY, SIZE };
 
-static double length_of(const zd_block *block) { return block->layout.part[ZD_BLOCK_GRAVITY].word[block->layout.of->dimension]; }
-
 /* Index of the measure of the coordinate that a relation drives; -1: the block has none. */
 static int measure_of_drive(const zd_block_layout *layout, int relation)
 {
@@ -66,7 +64,7 @@ void zd_opened_explain_reach(struct zd_opened *self)
             const zd_constraint_owner *owner = block->names.owner + i;
             measure[i] = owner->owner == ZD_OF_RELATION ? measure_of_drive(layout, owner->index) : -1;
         }
-        const zd_assembly_problem given = {.system = &block->system, .t = t, .length = length_of(block)};
+        const zd_assembly_problem given = {.system = &block->system, .t = t, .length = zd_block_length(block)};
         zd_assembly_explain_reach(&given, zd_run_p(self->run), measure, step > 0 ? STEPS_AHEAD * step : AHEAD, self->message,
                                   ZD_OPENED_MESSAGE);
     }
@@ -96,7 +94,7 @@ int zd_opened_find_positions(struct zd_opened *self, double t, const double *p)
     if (!residual) return ZD_NO_MEMORY;
     int *row = (int *)(size + m);
     for (int k = 0; k < block->system.mh; k++) row[k] = block->names.owner[k].owner == ZD_OF_RELATION ? ZD_OWNED_BY_DRIVE : ZD_OWNED_BY_JOINT;
-    const zd_assembly_problem given = {.system = &block->system, .t = t, .length = length_of(block), .row = row, .residual = residual,
+    const zd_assembly_problem given = {.system = &block->system, .t = t, .length = zd_block_length(block), .row = row, .residual = residual,
                                      .size = size};
     memcpy(self->p, p, (size_t)block->system.nq * sizeof *p);
     const int outcome = zd_assemble_positions(&given, self->p);

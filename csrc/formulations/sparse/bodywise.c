@@ -191,25 +191,6 @@ static double find_unbalanced(zd_bodywise *self, const double *force, const doub
     return worst > 0 ? worst / largest : 0;
 }
 
-/* residual <- rhs - C x. Returns its largest entry relative to the largest of its terms, in the metric W; the square of that: *square. */
-static double find_residual(zd_bodywise *self, const double *rhs, const double *x, double *square)
-{
-    double largest = 0, worst = 0;
-    for (int k = 0; k < zd_constraints(self->point->system); k++) {
-        const zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        double sum = rhs[k], terms = fabs(rhs[k]);
-        for (int j = 0; j < row.count; j++) {
-            const double term = row.x[j] * x[row.column[j]];
-            sum -= term, terms += fabs(term);
-        }
-        self->residual[k] = sum;
-        worst = fmax(worst, sum * sum * self->weight[k]);
-        largest = fmax(largest, terms * terms * self->weight[k]);
-    }
-    *square = largest;
-    return worst > 0 ? sqrt(worst / largest) : 0;
-}
-
 /* step <- (M + C^T W C)^-1 (unbalanced + C^T W residual), lambda <- lambda + W (C step - residual); residual NULL: zero. Returns the
  * square of the largest entry of C step in the metric W. */
 static double improve(zd_bodywise *self, zd_bodies *bodies, const double *weight, const double *residual)
@@ -263,7 +244,9 @@ static void iterate(zd_bodywise *self, const double *force, const double *rhs, d
     const int n = self->point->system->nv;
     double before = INFINITY, change = INFINITY, change_before = INFINITY, square;
     for (int i = 0; i < MAX_ITERATIONS; i++) {
-        const double left = fmax(find_unbalanced(self, force, x), find_residual(self, rhs, x, &square));
+        const double residual = zd_packed_residual(self->layout, self->C, zd_constraints(self->point->system), rhs, x, self->weight,
+                                                   self->residual, &square);
+        const double left = fmax(find_unbalanced(self, force, x), residual);
         if (!(left > RESIDUAL_ROUNDING)) break;
         const int is_slow = i > 1 && !(left < 0.5 * before);
         if (is_slow) {

@@ -184,24 +184,10 @@ int zd_partition_review(zd_partition *self, zd_point *point, int is_factored)
 
 /* ---- solution ---- */
 
-/* residual <- rhs - C x of the independent constraints; returns its largest entry relative to the largest terms, both scaled by the rows'
- * sizes. */
 static double find_residual(zd_partition *self, const double *rhs, const double *x)
 {
-    double worst = 0, largest = 0;
-    for (int k = 0; k < self->rows; k++) {
-        const zd_row_of_C row = zd_packed_row(self->bodies->layout, self->C, k);
-        double sum = rhs[k], size = fabs(rhs[k]);
-        for (int j = 0; j < row.count; j++) {
-            const double term = row.x[j] * x[row.column[j]];
-            sum -= term;
-            size += fabs(term);
-        }
-        self->residual[k] = sum;
-        worst = fmax(worst, sum * sum * self->weight[k]);
-        largest = fmax(largest, size * size * self->weight[k]);
-    }
-    return worst > 0 ? sqrt(worst / largest) : 0;
+    double square;
+    return zd_packed_residual(self->bodies->layout, self->C, self->rows, rhs, x, self->weight, self->residual, &square);
 }
 
 int zd_partition_solve(zd_partition *self, const double *rhs, double *x)

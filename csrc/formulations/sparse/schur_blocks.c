@@ -227,16 +227,10 @@ static double find_residual(const zd_schur_blocks *self, const double *rhs, cons
 {
     double left = 0;
     for (int k = 0; k < self->m; k++) {
-        zd_row_of_C row = zd_packed_row(self->layout, self->C, k);
-        double sum = rhs[k], size = fabs(rhs[k]);
         residual[k] = 0;
         if (self->chosen && self->without[self->weighted->row_groups.place[k]]) continue;
-        for (int j = 0; j < row.count; j++) {
-            double term = row.x[j] * x[row.column[j]];
-            sum -= term;
-            size += fabs(term);
-        }
-        residual[k] = sum;
+        double size;
+        const double sum = residual[k] = zd_packed_row_residual(self->layout, self->C, k, rhs, x, &size);
         if (fabs(sum) > ZD_RESIDUAL_ROUNDING * size && fabs(sum) > left * size) left = fabs(sum) / size;
     }
     return left;

@@ -46,6 +46,9 @@ typedef struct zd_blocks {
     double *x;              /* (rows,) temporary */
 } zd_blocks;
 
+/* Rows of the k-th block row in the order of elimination. */
+static inline int zd_block_size(const zd_blocks *self, int k) { return self->at[k + 1] - self->at[k]; }
+
 /* Pivots of a factorization. */
 typedef struct zd_pivots {
     int failed;             /* first row, in the order of elimination, whose pivot is not positive; -1: none */

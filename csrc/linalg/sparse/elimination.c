@@ -27,8 +27,6 @@
     default: break;                                       \
     }
 
-static int size_at(const zd_blocks *self, int k) { return self->at[k + 1] - self->at[k]; }
-
 ZD_INLINE int at_of(const int n, const int is_complete, const zd_blocks *self, int k) { return is_complete ? n * k : self->at[k]; }
 
 ZD_INLINE double *pivot_of(const int n, const int is_complete, const zd_blocks *self, int k)
@@ -115,11 +113,11 @@ ZD_INLINE void eliminate(const int n, const int is_same, const int is_complete, 
     invert(n, self, at_of(n, is_complete, self, k), P, left_out, least, pivots);
     if (x) scale(n, is_same, self, P, own);
     for (int e = first; e < self->begin[k + 1]; e++) {
-        const int row = self->row[e], a = is_same ? n : size_at(self, row);
+        const int row = self->row[e], a = is_same ? n : zd_block_size(self, row);
         const double *B = entry_of(n, is_complete, self, e);
         multiply(a, n, B, P, product);
         for (int f = first; f < e; f++) {
-            const int b = is_same ? n : size_at(self, self->row[f]);
+            const int b = is_same ? n : zd_block_size(self, self->row[f]);
             subtract_product(a, b, n, product, entry_of(n, is_complete, self, f), self->S + *target++);
         }
         subtract_product(a, a, n, product, B, pivot_of(n, is_complete, self, row));
@@ -191,7 +189,7 @@ ZD_INLINE void keep_diagonals(const int n, const int is_same, const int is_compl
 static void keep_diagonals_of_any(const zd_blocks *self)
 {
     for (int k = 0; k < self->count; k++) {
-        const int n = size_at(self, k);
+        const int n = zd_block_size(self, k);
         const double *P = self->S + self->pivot_at[k];
         for (int i = 0; i < n; i++) self->diagonal[self->at[k] + i] = P[i * (n + 1)];
     }
@@ -210,7 +208,7 @@ zd_pivots zd_blocks_factor(zd_blocks *self, unsigned char *left_out, double leas
     keep_diagonals_of_any(self);
     for (int k = 0; k < self->count; k++) {
         const int kernel = self->kernel[k];
-        if (!kernel) eliminate(size_at(self, k), 0, 0, self, k, left_out, least, x, &pivots);
+        if (!kernel) eliminate(zd_block_size(self, k), 0, 0, self, k, left_out, least, x, &pivots);
         else if (left_out) FOR_SIZE(eliminate, kernel, 0, self, k, left_out, least, x, &pivots)
         else FOR_SIZE(eliminate, kernel, 0, self, k, NULL, 0, x, &pivots)
     }
@@ -224,7 +222,7 @@ ZD_INLINE void forward(const int n, const int is_same, const int is_complete, co
     double *own = x + at_of(n, is_complete, self, k);
     scale(n, is_same, self, pivot_of(n, is_complete, self, k), own);
     for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
-        const int row = self->row[e], a = is_same ? n : size_at(self, row);
+        const int row = self->row[e], a = is_same ? n : zd_block_size(self, row);
         subtract_times(a, n, entry_of(n, is_complete, self, e), own, x + at_of(n, is_complete, self, row));
     }
 }
@@ -235,7 +233,7 @@ ZD_INLINE void backward(const int n, const int is_same, const int is_complete, c
     double *own = x + at_of(n, is_complete, self, k), here[ZD_UNROLLED], *sum = is_same ? here : self->product;
     for (int j = 0; j < n; j++) sum[j] = 0;
     for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
-        const int row = self->row[e], a = is_same ? n : size_at(self, row);
+        const int row = self->row[e], a = is_same ? n : zd_block_size(self, row);
         const double *B = entry_of(n, is_complete, self, e), *other = x + at_of(n, is_complete, self, row);
         for (int i = 0; i < a; i++)
             for (int j = 0; j < n; j++) sum[j] += B[i * n + j] * other[i];
@@ -292,7 +290,7 @@ void zd_blocks_forward(const zd_blocks *self, double *x)
     if (self->uniform == 2) forward_twos(self, x);
     else FOR_SIZE(forward_all, self->uniform, 1, self, x)
     for (int k = 0; !self->uniform && k < self->count; k++) {
-        if (!self->kernel[k]) forward(size_at(self, k), 0, 0, self, k, x);
+        if (!self->kernel[k]) forward(zd_block_size(self, k), 0, 0, self, k, x);
         FOR_SIZE(forward, self->kernel[k], 0, self, k, x)
     }
 }
@@ -302,7 +300,7 @@ void zd_blocks_backward(const zd_blocks *self, double *x)
     if (self->uniform == 2) backward_twos(self, x);
     else FOR_SIZE(backward_all, self->uniform, 1, self, x)
     for (int k = self->count - 1; !self->uniform && k >= 0; k--) {
-        if (!self->kernel[k]) backward(size_at(self, k), 0, 0, self, k, x);
+        if (!self->kernel[k]) backward(zd_block_size(self, k), 0, 0, self, k, x);
         FOR_SIZE(backward, self->kernel[k], 0, self, k, x)
     }
 }

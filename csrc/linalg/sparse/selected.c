@@ -10,8 +10,6 @@
 #include "../small.h"
 #include "blocks.h"
 
-static int size_at(const zd_blocks *self, int k) { return self->at[k + 1] - self->at[k]; }
-
 /* to (a, n) <- to + A B, B (b, n); A (a, b) or, where it is turned, the transpose of what is given */
 ZD_INLINE void add_product(const int a, const int b, const int n, int is_turned, const double *A, const double *B, double *to)
 {
@@ -38,11 +36,11 @@ ZD_INLINE void scale(const int a, const int n, double sign, const double *U, con
 /* U (a, n) <- sum_j Z_ij B_j of the entry e of column k */
 ZD_INLINE void gather(const int n, const int is_same, const zd_blocks *self, const double *Z, int k, int e, double *U)
 {
-    const int first = self->begin[k], a = is_same ? n : size_at(self, self->row[e]);
+    const int first = self->begin[k], a = is_same ? n : zd_block_size(self, self->row[e]);
     const int *target = self->target + self->target_begin[k];
     memset(U, 0, (size_t)(a * n) * sizeof *U);
     for (int f = first; f < self->begin[k + 1]; f++) {
-        const int b = is_same ? n : size_at(self, self->row[f]), late = (f > e ? f : e) - first, early = (f > e ? e : f) - first;
+        const int b = is_same ? n : zd_block_size(self, self->row[f]), late = (f > e ? f : e) - first, early = (f > e ? e : f) - first;
         const int at = e == f ? self->pivot_at[self->row[e]] : target[late * (late - 1) / 2 + early];
         add_product(a, b, n, f > e, Z + at, self->S + self->entry_at[f], U);
     }
@@ -54,7 +52,7 @@ ZD_INLINE void invert_column(const int n, const int is_same, const zd_blocks *se
     const double *P = self->S + self->pivot_at[k];
     memset(own, 0, (size_t)(n * n) * sizeof *own);
     for (int e = self->begin[k]; e < self->begin[k + 1]; e++) {
-        const int a = is_same ? n : size_at(self, self->row[e]);
+        const int a = is_same ? n : zd_block_size(self, self->row[e]);
         gather(n, is_same, self, Z, k, e, U);
         add_product(n, a, n, 1, self->S + self->entry_at[e], U, own);
         scale(a, n, -1, U, P, Z + self->entry_at[e]);
@@ -72,6 +70,6 @@ void zd_blocks_invert(const zd_blocks *self, double *Z)
 {
     for (int k = self->count - 1; k >= 0; k--) {
         if (self->uniform == 2) invert_column(2, 1, self, Z, k);
-        else invert_column(size_at(self, k), 0, self, Z, k);
+        else invert_column(zd_block_size(self, k), 0, self, Z, k);
     }
 }

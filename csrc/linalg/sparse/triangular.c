@@ -12,8 +12,6 @@
 
 #include "../small.h"
 
-static int size_at(const zd_blocks *self, int k) { return self->at[k + 1] - self->at[k]; }
-
 /* P (n, n) <- its factors, the reciprocals of D on the diagonal. Returns n, or the row whose pivot is only rounding. */
 static int factor_block(int n, const double *diagonal, double *P)
 {
@@ -33,18 +31,18 @@ static void subtract_product(int a, int b, int n, const double *A, const double 
 /* Column k; returns the row of its diagonal block at which it fails, or -1. */
 static int eliminate(zd_blocks *self, int k)
 {
-    const int n = size_at(self, k), first = self->begin[k];
+    const int n = zd_block_size(self, k), first = self->begin[k];
     const int *target = self->target + self->target_begin[k];
     double *S = self->S, *P = S + self->pivot_at[k];
     const int failed = factor_block(n, self->diagonal + self->at[k], P);
     if (failed < n) return self->at[k] + failed;
     for (int e = first; e < self->begin[k + 1]; e++) {
-        const int row = self->row[e], a = size_at(self, row);
+        const int row = self->row[e], a = zd_block_size(self, row);
         double *B = S + self->entry_at[e], *Y = self->product;
         for (int i = 0; i < a; i++) zd_forward(n, P, B + i * n, Y + i * n);
         for (int i = 0; i < a; i++)
             for (int j = 0; j < n; j++) B[i * n + j] = Y[i * n + j] * P[j * n + j];
-        for (int f = first; f < e; f++) subtract_product(a, size_at(self, self->row[f]), n, Y, S + self->entry_at[f], S + *target++);
+        for (int f = first; f < e; f++) subtract_product(a, zd_block_size(self, self->row[f]), n, Y, S + self->entry_at[f], S + *target++);
         subtract_product(a, a, n, Y, B, S + self->pivot_at[row]);
     }
     return -1;
@@ -54,7 +52,7 @@ int zd_triangular_factor(zd_blocks *self)
 {
     int failed = -1;
     for (int k = 0; k < self->count; k++)
-        for (int i = 0, n = size_at(self, k); i < n; i++) self->diagonal[self->at[k] + i] = self->S[self->pivot_at[k] + i * (n + 1)];
+        for (int i = 0, n = zd_block_size(self, k); i < n; i++) self->diagonal[self->at[k] + i] = self->S[self->pivot_at[k] + i * (n + 1)];
     for (int k = 0; k < self->count && failed < 0; k++) failed = eliminate(self, k);
     return failed;
 }
@@ -62,20 +60,20 @@ int zd_triangular_factor(zd_blocks *self)
 void zd_triangular_solve(const zd_blocks *self, double *x)
 {
     for (int k = 0; k < self->count; k++) {
-        const int n = size_at(self, k);
+        const int n = zd_block_size(self, k);
         double *own = x + self->at[k];
         zd_forward(n, self->S + self->pivot_at[k], own, own);
         for (int e = self->begin[k]; e < self->begin[k + 1]; e++)
-            for (int i = 0, a = size_at(self, self->row[e]); i < a; i++)
+            for (int i = 0, a = zd_block_size(self, self->row[e]); i < a; i++)
                 x[self->at[self->row[e]] + i] -= zd_dot(n, self->S + self->entry_at[e] + i * n, own);
     }
     for (int k = self->count - 1; k >= 0; k--) {
-        const int n = size_at(self, k);
+        const int n = zd_block_size(self, k);
         const double *P = self->S + self->pivot_at[k];
         double *own = x + self->at[k];
         for (int j = 0; j < n; j++) own[j] *= P[j * n + j];
         for (int e = self->begin[k]; e < self->begin[k + 1]; e++)
-            for (int i = 0, a = size_at(self, self->row[e]); i < a; i++)
+            for (int i = 0, a = zd_block_size(self, self->row[e]); i < a; i++)
                 for (int j = 0; j < n; j++) own[j] -= self->S[self->entry_at[e] + i * n + j] * x[self->at[self->row[e]] + i];
         for (int i = n - 1; i > 0; i--)
             for (int j = 0; j < i; j++) own[j] -= P[i * n + j] * own[i];

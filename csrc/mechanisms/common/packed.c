@@ -103,3 +103,16 @@ int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bod
     }
     return -1;
 }
+
+static const int *bodies_at(const void *joints, size_t size, int k) { return (const int *)((const char *)joints + (size_t)k * size); }
+
+void zd_list_ends(int count, const void *joints, size_t size, int bodies, int *at, int *end)
+{
+    for (int k = 0; k < count; k++)
+        for (int side = 0; side < 2; side++) at[bodies_at(joints, size, k)[side] + 1]++;
+    for (int body = 0; body <= bodies; body++) at[body + 1] += at[body];
+    for (int k = count - 1; k >= 0; k--)        /* each one's place is where the next one's end is, from the back */
+        for (int side = 1; side >= 0; side--) end[--at[bodies_at(joints, size, k)[side] + 1]] = 2 * k + side;
+    for (int body = 0; body <= bodies; body++) at[body] = at[body + 1];
+    at[bodies + 1] = 2 * count;
+}

@@ -101,3 +101,6 @@ typedef void zd_bodies_of(const void *quantities, int quantity, int body[2]);
 void zd_packed_create(zd_packed *self, zd_arena *arena, size_t bodies, size_t rows, size_t terms);
 /* Fills in the structure; `coordinates` and `velocities` must be set. Returns -1, or the first row that has no entries, which is an error. */
 int zd_packed_plan(zd_packed *self, const zd_planned_elements *elements, int bodies, zd_bodies_of *bodies_of, const void *quantities);
+/* Lists the joints of each body: `end` and its offsets `at`, from zero, as both dimensions keep them. `joints` (count,): structs of `size`
+ * bytes that begin with both bodies. */
+void zd_list_ends(int count, const void *joints, size_t size, int bodies, int *at, int *end);

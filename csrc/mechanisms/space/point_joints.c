@@ -44,20 +44,6 @@ static int count_rows(const zd_space *space, int row)
     return rows;
 }
 
-/* Lists the point joints of each body. */
-static void list_ends(zd_point_joints *self, int bodies)
-{
-    int *at = self->end_at;
-    for (int k = 0; k < self->count; k++) at[self->joint[k].first + 1]++, at[self->joint[k].second + 1]++;
-    for (int body = 0; body <= bodies; body++) at[body + 1] += at[body];
-    for (int k = self->count - 1; k >= 0; k--) {        /* each one's place is where the next one's end is, from the back */
-        self->end[--at[self->joint[k].second + 1]] = 2 * k + 1;
-        self->end[--at[self->joint[k].first + 1]] = 2 * k;
-    }
-    for (int body = 0; body <= bodies; body++) at[body] = at[body + 1];
-    at[bodies + 1] = 2 * self->count;
-}
-
 static void add_socket(zd_point_joints *self, const zd_space *space, int row, int rows)
 {
     const zd_space_quantity *point = quantity_of_row(space, row);
@@ -94,7 +80,7 @@ void zd_point_joints_plan(zd_point_joints *self, const zd_space *space)
         for (int i = 0; i < rows; i++) self->has_row[row + i] = 1;
         of_sockets += rows;
     }
-    list_ends(self, space->bodies);
+    zd_list_ends(self->count, self->joint, sizeof *self->joint, space->bodies, self->end_at, self->end);
     self->are_all = of_sockets == space->elements.m && do_all_turn(space);
 }
 

@@ -219,8 +219,3 @@ class Flow:
         """Efforts along quantities, after those that act here."""
         held = self.derivatives.held
         return Held((*held.names, *names), np.concatenate([held.efforts, efforts]), is_moving=not self.is_at_rest)
-
-
-def flow_at(system: Any, t: float, p: np.ndarray, v: np.ndarray) -> Flow:
-    """The linearized flow of a system at a state."""
-    return Flow(state(system, t, p, v))

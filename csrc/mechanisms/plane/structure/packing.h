@@ -37,8 +37,6 @@ typedef struct zd_revolute_joints {
 
 /* True if `row` and the next are the x and y coincidence of the same two points, without further terms: a revolute joint. */
 int zd_is_revolute_joint_at(const zd_plane *mechanism, int row);
-/* Fills in end_at and end, after all joints were added. */
-void zd_revolute_joints_list(zd_revolute_joints *self, int bodies);
 /* frame->arm and frame->axis, from the sines and cosines. */
 void zd_revolute_joints_turn(const zd_revolute_joints *self, const zd_plane *mechanism, const zd_plane_frame *frame);
 /* Phi, C and xi of all revolute joints, as far as wanted. */

@@ -25,19 +25,6 @@ int zd_is_revolute_joint_at(const zd_plane *mechanism, int row)
     return a->first == b->first && a->second == b->second && are_alike(a->point1, b->point1) && are_alike(a->point2, b->point2);
 }
 
-void zd_revolute_joints_list(zd_revolute_joints *self, int bodies)
-{
-    int *at = self->end_at;
-    for (int k = 0; k < self->count; k++) at[self->between[k].first + 1]++, at[self->between[k].second + 1]++;
-    for (int body = 0; body <= bodies; body++) at[body + 1] += at[body];
-    for (int k = self->count - 1; k >= 0; k--) {        /* each one's place is where the next one's end is, from the back */
-        self->end[--at[self->between[k].second + 1]] = 2 * k + 1;
-        self->end[--at[self->between[k].first + 1]] = 2 * k;
-    }
-    for (int body = 0; body <= bodies; body++) at[body] = at[body + 1];
-    at[bodies + 1] = 2 * self->count;
-}
-
 /* ---- where the points are ---- */
 
 void zd_revolute_joints_turn(const zd_revolute_joints *self, const zd_plane *mechanism, const zd_plane_frame *frame)

@@ -36,7 +36,7 @@ static void plan_revolute_joints(zd_packing *self, const zd_plane *mechanism)
         self->is_known[row] = self->is_known[row + 1] = 1;
         row++;
     }
-    zd_revolute_joints_list(revolutes, mechanism->tree.bodies);
+    zd_list_ends(revolutes->count, revolutes->between, sizeof *revolutes->between, mechanism->tree.bodies, revolutes->end_at, revolutes->end);
     revolutes->are_all = 2 * revolutes->count == mechanism->elements.m && revolutes->count == packed->structure.groups;
     revolutes->have_angles = mechanism->tree.angles == mechanism->tree.bodies;
 }

@@ -22,7 +22,6 @@ SAME_IN_C = ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh
              "log", "floor", "erf")
 IN_C = {"Pow": "pow", "Abs": "fabs", "ceiling": "ceil"} | {name: name for name in SAME_IN_C}    # functions, and what C calls them
 MIRRORED = {"cos": "sin", "cosh": "sinh"}       # functions that are found together with others
-LINEAR = ("+", "-", "negative")
 
 
 class Jet(NamedTuple):
