@@ -18,6 +18,7 @@ import tempfile
 import pytest
 
 import zerodrift as zd
+from browser import browser  # noqa: F401  (a fixture)
 from caching import cache_folder, compiler  # noqa: F401  (fixtures)
 from core_objects import core_objects  # noqa: F401  (a fixture)
 from covering import EACH_VALUE, WHOLE, covering, product

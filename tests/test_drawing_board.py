@@ -235,12 +235,6 @@ def server(tmp_path_factory):
     serving.server_close()
 
 
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    with Browser(tmp_path_factory.mktemp("profile")) as opened:
-        yield opened
-
-
 def opened(browser, url, **look):
     """Opens the board."""
     browser.open("about:blank")

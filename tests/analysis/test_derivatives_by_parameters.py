@@ -5,11 +5,9 @@ import pytest
 
 import zerodrift as zd
 from covering import spread
-from support import allowed_velocity
+from every_model import moving
 from zerodrift.analysis.comparison import Compared, derivatives_by_parameters
 from zerodrift.analysis.derivatives import Derivatives
-from zerodrift.analysis.state import state
-from zerodrift.analysis.tangent import Tangent
 
 NOT_COMPARED = {    # parameters that cannot be varied individually: others, redundant constraints or coordinates depend on them
     "andrews": {"K1.com.y"}, "bicycle": set(), "coin": {"coin.inertia.xy", "coin.inertia.xz", "coin.inertia.yz"},
@@ -19,18 +17,9 @@ NOT_COMPARED = {    # parameters that cannot be varied individually: others, red
 NEAR = 1e-6     # relative: a parameter on its bound is varied to one side, by differences with errors of 4e-8
 
 
-def moving(name):
-    """A state of a model that moves in all its free directions."""
-    system = getattr(zd.models, name)().system()
-    p, v = system.start_at(0.0)
-    at = state(system, 0.0, p, v)
-    push = 0.3 * allowed_velocity(Tangent(at).velocities, at.M, np.random.default_rng(3))
-    return system, *zd.project(system, p, v + push, projection=zd.Projection(tol=1e-13))
-
-
 @pytest.mark.parametrize("name", spread(NOT_COMPARED, 4))
 def test_derivatives_by_every_parameter_equal_differences_of_accelerations(name):
-    system, p, v = moving(name)
+    system, p, v = moving(0.3, name)
     found = derivatives_by_parameters(system, 0.0, p, v)
     assert set(found) == set(system.parameters)
     assert all(each.agrees for each in found.values() if isinstance(each, Compared))
@@ -40,7 +29,7 @@ def test_derivatives_by_every_parameter_equal_differences_of_accelerations(name)
 
 
 def test_a_parameter_on_its_bound_is_varied_to_one_side():
-    system, p, v = moving("four_bar")
+    system, p, v = moving(0.3, "four_bar")
     assert system.parameters["A.damping"] == 0.0
     found = derivatives_by_parameters(system, 0.0, p, v)["A.damping"]
     h = 1e-6        # the acceleration is linear in it

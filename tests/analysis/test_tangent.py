@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from support import allowed_velocity, drawn_in, refused
+from every_model import moving
+from support import drawn_in, refused
 from zerodrift.analysis.derivatives import Derivatives, of_residuals_along, residuals
 from zerodrift.analysis.state import scales, state
 from zerodrift.analysis.tangent import Tangent
@@ -13,18 +14,9 @@ MODELS = [("whipple_bicycle", "joint"), ("whipple_bicycle", "absolute"), ("benne
           ("four_bar", "joint"), ("closed_pendulum", "absolute"), ("heavy_top", "joint"), ("snakeboard", "joint")]
 
 
-def moving(name, layout):
-    """A model's state that moves in all its free directions."""
-    system = getattr(zd.models, name)().system(layout)
-    p, v = (np.array(each) for each in system.start_at(0.0))
-    at = state(system, 0.0, p, v)
-    push = 0.1 * allowed_velocity(Tangent(at).velocities, at.M, np.random.default_rng(3))
-    return system, *zd.project(system, p, v + push, projection=zd.Projection(tol=1e-13))
-
-
 @pytest.mark.parametrize(("name", "layout"), MODELS)
 def test_the_basis_is_tangent_and_mass_orthonormal(name, layout):
-    system, p, v = moving(name, layout)
+    system, p, v = moving(0.1, name, layout)
     at = state(system, 0.0, p, v)
     tangent = Tangent(at)
     W, V, M = tangent.displacements, tangent.velocities, at.M
@@ -48,7 +40,7 @@ def test_freedoms_of_nonholonomic_and_redundant_constraints():
 
 @pytest.mark.parametrize(("name", "layout"), MODELS)
 def test_derivatives_of_accelerations_equal_differences_of_projected_states(name, layout):
-    system, p, v = moving(name, layout)
+    system, p, v = moving(0.1, name, layout)
     tangent = Tangent(state(system, 0.0, p, v))
     column = tangent.basis @ drawn_in(tangent.basis, np.random.default_rng(1))
     dp, dv = column[:system.nq], column[system.nq:]

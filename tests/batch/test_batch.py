@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from lanes import rows_of
 from large_mechanisms import four_bars
 from support import SYSTEMS
 from zerodrift import _gateway
@@ -24,11 +25,6 @@ def made(system, span, parameters=None, p0=None, v0=None, names=None, stop=never
     plan = checked(runs, span, options, names, None, keeps=False)
     assert batch_of(plan) is not None
     return run_range(plan, 0, runs.count, stop)
-
-
-def rows_of(part, name):
-    """Run by run."""
-    return np.split(part.arrays[name], np.cumsum(part.rows)[:-1])
 
 
 @pytest.mark.parametrize("course", COURSES)

@@ -64,10 +64,14 @@ def test_a_light_link_costs_no_digits(formulation, mass, monkeypatch):
 # ---- where all coordinates are exactly zero, their size is that of a natural unit ----
 
 
+def moved_from_zero():
+    """A mass on a guide that moves from zero."""
+    return zd.System(2, mass=np.diag([1.0, 2.0]), potential=0.0, p0=[0.0, 0.0], v0=[0.0, 0.3],
+                     constraints=lambda p, t: np.array([p[1] - 0.3 * np.sin(t)]))
+
+
 def test_a_start_at_zero_that_a_constraint_moves(formulation):
-    system = zd.System(2, mass=np.diag([1.0, 2.0]), potential=0.0, p0=[0.0, 0.0], v0=[0.0, 0.3],
-                       constraints=lambda p, t: np.array([p[1] - 0.3 * np.sin(t)]))
-    sol = zd.simulate(system, 1.0, step=0.01, formulation=formulation)
+    sol = zd.simulate(moved_from_zero(), 1.0, step=0.01, formulation=formulation)
     assert_close(sol.p, np.stack([0 * sol.t, 0.3 * np.sin(sol.t)], axis=1), 1e-11)
 
 
@@ -82,7 +86,5 @@ def test_displacements_from_zero(speed, formulation):
 
 @pytest.mark.usefixtures("few_places")
 def test_tools_take_a_start_at_zero():
-    system = zd.System(2, mass=np.diag([1.0, 2.0]), potential=0.0, p0=[0.0, 0.0], v0=[0.0, 0.3],
-                       constraints=lambda p, t: np.array([p[1] - 0.3 * np.sin(t)]))
-    reference = zd.reference(system, 0.2, error=1e-9)
+    reference = zd.reference(moved_from_zero(), 0.2, error=1e-9)
     assert_close(reference.solution.p[-1], np.array([0.0, 0.3 * np.sin(0.2)]), 1e-9)

@@ -1,6 +1,6 @@
 """Random mechanisms in space, of all kinds of joints, with loops and redundant rows, against an independent model of bodies."""
 
-from itertools import cycle
+from itertools import cycle, repeat
 
 import pytest
 
@@ -11,9 +11,10 @@ NEAR = 1e-6     # of the largest acceleration: the model's differences have some
 FAR = 1e-7      # m: what two steps of two different RK4 end apart, and those differences
 
 
-@pytest.mark.parametrize(("seed", "wanted"), list(zip(cycle((1, 2, 3, 5, 6)), FORMULATIONS)))
-def test_accelerations_and_reactions(seed, wanted):
-    case = Compared(seed, coordinates="absolute")
+@pytest.mark.parametrize(("seed", "wanted", "coordinates"), [
+    (5, "augmented", "joint"), *zip(cycle((1, 2, 3, 5, 6)), FORMULATIONS, repeat("absolute"))])
+def test_accelerations_and_reactions(seed, wanted, coordinates):
+    case = Compared(seed, coordinates=coordinates)
     assert case.can_be
     assert max(case.accelerations(wanted)) < NEAR
 

@@ -52,13 +52,6 @@ def test_joint_coordinates_equal_absolute_ones(seed):
     assert found[0].system.nv < found[1].system.nv
 
 
-@pytest.mark.parametrize(("seed", "wanted"), [(5, "augmented")])
-def test_accelerations_and_reactions(seed, wanted):
-    case = Compared(seed, coordinates="joint")
-    assert case.can_be
-    assert max(case.accelerations(wanted)) < NEAR
-
-
 @pytest.mark.parametrize(("seed", "on_ground"), spread([(64, None), (124, None), (844, None), (924, None), (299, "disc")], 2))
 def test_redundant_constraints_do_not_hold_up_independent_coordinates(seed, on_ground):
     """Redundant constraints have nearly zero gradients here, so that their rounding is large in units of these."""

@@ -327,8 +327,10 @@ class Failing:
 
 @pytest.mark.parametrize("options", [
     {"step": 0.01}, {"step": 0.01, "t_eval": [0.103, 0.3]}, {"rtol": 1e-8, "integrator": "dop853"}], ids=str)
-@pytest.mark.parametrize("member", ["accelerate", "correct", "finish"])
-def test_functions_that_do_not_know_are_done_without(member, options):
+@pytest.mark.parametrize(("member", "given"), [
+    ("accelerate", {}), ("correct", {}), ("finish", {}), *(("embed", {"formulation": name}) for name in INDEPENDENT)])
+def test_functions_that_do_not_know_are_done_without(member, given, options):
+    options = options | given
     failing = Failing(member, lambda t: 0.1 < t < 0.2)
     sol = zd.simulate(failing.system, 0.4, **options)
     assert 0 < sol.stats["closed_form_steps"] < sol.stats["steps"]
@@ -336,18 +338,6 @@ def test_functions_that_do_not_know_are_done_without(member, options):
     assert sol.stats["steps"] == general.stats["steps"]
     assert_close(sol.p, general.p, tol.STEPPED if "step" in options else 1e-7)     # rounding may choose other steps
     assert_close(sol.multipliers[-1], general.multipliers[-1], 1e-6)
-
-
-@pytest.mark.parametrize("options", [
-    {"step": 0.01}, {"step": 0.01, "t_eval": [0.103, 0.3]}, {"rtol": 1e-8, "integrator": "dop853"}], ids=str)
-@pytest.mark.parametrize("equations", INDEPENDENT)
-def test_embeddings_that_do_not_know_are_done_without(equations, options):
-    options = options | {"formulation": equations}
-    sol = zd.simulate(Failing("embed", lambda t: 0.1 < t < 0.2).system, 0.4, **options)
-    assert 0 < sol.stats["closed_form_steps"] < sol.stats["steps"]
-    general = zd.simulate(system("four_bar"), 0.4, closed_form=False, **options)
-    assert sol.stats["steps"] == general.stats["steps"]
-    assert_close(sol.p, general.p, tol.STEPPED if "step" in options else 1e-7)
 
 
 @pytest.mark.parametrize("member", ["correct", "finish"])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from browser import Browser, needs_chromium
+from browser import needs_chromium
 from zerodrift import gallery
 
 pytestmark = needs_chromium
@@ -19,12 +19,6 @@ CALLS = """(() => {
   Object.assign(all, own);
   return calls;
 })()"""
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    with Browser(tmp_path_factory.mktemp("profile")) as opened:
-        yield opened
 
 
 @pytest.fixture(scope="module")

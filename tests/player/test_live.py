@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
-from browser import Browser, needs_chromium
+from browser import needs_chromium
 from support import refused
 from zerodrift.errors import sentence
 
@@ -12,12 +12,6 @@ pytest.importorskip("ziglang")
 pytestmark = needs_chromium
 LARGEST = 1_000_000     # bytes of a page
 TIME = "zerodrift.time(zerodrift.live.mechanism)"
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory):
-    with Browser(tmp_path_factory.mktemp("profile")) as opened:
-        yield opened
 
 
 def opened(browser, view, folder):

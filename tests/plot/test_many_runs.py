@@ -13,12 +13,6 @@ from matplotlib import pyplot as plt
 TIMES = np.linspace(0, 1, 201)
 
 
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
-
-
 @pytest.fixture(scope="module")
 def spread():
     return zd.ensemble(zd.systems.four_bar(), 1.0, parameters={"gravity": np.linspace(9, 10, 41)}, step=0.01, t_eval=TIMES)
