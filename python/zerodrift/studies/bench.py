@@ -230,7 +230,7 @@ def _outcome(solution: Solution) -> Outcome:
 
 def _outcome_of(core: _gateway.CoreSystem, plan: settings.CheckedSettings, made: _gateway.BatchResults, run: int) -> Outcome:
     """Outcome of a run in a batch."""
-    rows, is_done = int(made.rows[run]), bool(made.status[run] == _gateway.DONE)
+    rows, is_done = int(made.samples[run]), bool(made.status[run] == _gateway.DONE)
     stats = dict(zip(made.statistics.dtype.names, made.statistics[run].item(), strict=True))
     measured = {name: float(values[run]) for name, values in made.measured.items()}
     energy = float(made.energy_error[run]) if core.has_energy and rows else np.nan
