@@ -44,7 +44,8 @@ def equilibrium(system: Any, *, near: Any = None, hold: Any = (), v: Any = None,
         Left out: the start.
     hold : sequence of measures, optional
         Quantities of positions that keep the values that they have there; `Equilibrium.effort` has the efforts that hold them.
-        Reactions contain these efforts, and so does what user functions read of them.
+        Reactions contain these efforts, and so does what user functions read of them; an effort along a joint's own coordinate
+        stands beside that joint's reaction.
         In a steady motion they are constant, at values that it needs, such as the steering angle of a bicycle in a turn.
     v : dict of measure to value, optional
         A steady motion is found in place of a position of rest: speeds that are prescribed, with drives running. All bodies keep
