@@ -42,8 +42,7 @@ def sources():
 def header(name, size):
     capitals = f"ZD_{name.upper()}_CLOSED_FORM"
     return f"""{HEADING}
-#ifndef {capitals}_H
-#define {capitals}_H
+#pragma once
 
 #include "../../include/zerodrift/system.h"
 #include "../../include/zerodrift/units.h"
@@ -54,8 +53,6 @@ enum {{ {capitals}_BEGINS = {BEGINS[name]}, {capitals}_ENDS = {BEGINS[name] + si
 extern const zd_closed_form zd_{name}_closed_form[];
 /* Computes the constants that depend on the parameters alone, which are the first of these doubles. */
 void zd_{name}_closed_form_constants(double *k);
-
-#endif
 """
 
 

@@ -5,7 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import zerodrift as zd
-from runs.test_inputs import LAYOUTS, four_bar, wheel
+from few_bodies import driven_four_bar
+from runs.test_inputs import LAYOUTS, wheel
 from support import refused
 
 G, CART, ROD, HALF = 9.81, 3.0, 2.0, 0.5       # m/s^2, kg, kg, m: rod on a cart, its center from the pin
@@ -70,7 +71,7 @@ def test_the_rod_on_a_cart_that_jumps_keeps_its_moment_of_momentum_about_the_pin
 def test_speeds_of_a_four_bar_jump_in_proportion():
     """Its velocities are proportional to that of the crank, so that the work is three times the kinetic energy before."""
     values = iter([1.0, 2.0, 2.0])
-    system = four_bar(speed=1.0).system()
+    system = driven_four_bar(speed=1.0).system()
 
     def set_next(run):
         run["drive.speed"] = next(values)
@@ -190,7 +191,7 @@ def test_a_start_that_does_not_fit_a_speed(layout, compiled):
 
 
 def test_another_violation_of_the_start_is_reported():
-    system = four_bar(speed=2.0).system()
+    system = driven_four_bar(speed=2.0).system()
     p, v = system.p0.copy(), system.v0.copy()
     v[2] += 0.1
     with refused("inconsistent-start", "most in row . 'C"):

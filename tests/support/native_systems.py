@@ -57,7 +57,7 @@ def compile_four_bar(library):
     source, closed_form = folder / "four_bar.c", folder / "closed_form" / "four_bar.c"
     text = f'#define zd_four_bar zd_kind_four_bar\n#include "{source}"\n#include "{closed_form}"\n'
     text += "const int zd_interface_version = ZD_INTERFACE_VERSION;\n"
-    others = (str(folder / name / "four_bar.c") for name in ("series", "precise"))
+    others = (str(folder / "series" / f"four_bar{name}.c") for name in ("", "_precise"))
     return compile_text(text, library, "-O3", "-Wno-pedantic", *others)
 
 
