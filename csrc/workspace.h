@@ -22,7 +22,7 @@ typedef struct zd_memory {
 /* A zeroed block; NULL if there is no memory. */
 zd_memory *zd_memory_create(size_t bytes);
 void zd_memory_free(zd_memory *memory);
-int zd_memory_save(zd_memory *memory);      /* copies the block to its image; nonzero if there is no memory */
+int zd_memory_save(zd_memory *memory);      /* copies the block to its image; nonzero: out of memory */
 static inline zd_arena zd_arena_in(zd_memory *memory) { return (zd_arena){memory->base, 0, memory->has_numbers}; }
 
 void *zd_arena_bytes(zd_arena *arena, size_t bytes);

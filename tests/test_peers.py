@@ -28,9 +28,10 @@ CLOSE = 1e-2        # rad: what is wrong in a model or its start, is so by more 
 
 @pytest.fixture(scope="module", autouse=True)
 def _path():
-    sys.path.insert(0, str(PEERS))
+    sys.path[:0] = paths = [str(PEERS), str(PEERS.parent)]
     yield
-    sys.path.remove(str(PEERS))
+    for path in paths:
+        sys.path.remove(path)
 
 
 @pytest.fixture(scope="module", params=["four_bar", 4])

@@ -231,7 +231,7 @@ def test_folders_of_tests_are_named_after_rooms():
 
 
 def test_scripts_that_are_started_by_hand_find_what_they_import():
-    """Pytest has the path of shared helpers by itself; a script sets it, or its first lines say with which one it is started."""
+    """Path of shared helpers: pytest's configuration has it; a script sets it, or its first lines name the PYTHONPATH."""
     helpers = {path.stem for path in (ROOT / "tests" / "support").glob("*.py")}
     for path in [*(ROOT / "tests" / "stress").glob("*.py"), *(ROOT / "tests" / "bench").rglob("*.py")]:
         source = path.read_text(encoding="utf-8")

@@ -20,7 +20,7 @@ typedef struct gaps {
     double *Phi, *v, *scratch;              /* (mh,); (nv,) zeros; of the system */
     double *open;                           /* (joints,): m; largest residual where loops are not named, m or rad */
     double *p;                              /* (nq,) with the smallest gaps */
-    int *row, *of_loop;                     /* (mh,) of zd_assembly_problem; (bodies + 1 + joints,) */
+    int *role, *of_loop;                    /* (mh,) of zd_assembly_problem; (bodies + 1 + joints,) */
 } gaps;
 
 static gaps create(zd_arena *arena, const zd_block *block)
@@ -31,7 +31,7 @@ static gaps create(zd_arena *arena, const zd_block *block)
     return (gaps){.block = block, .Phi = zd_arena_doubles(arena, mh),
                   .v = zd_arena_doubles(arena, nv), .scratch = zd_arena_doubles(arena, (size_t)system->scratch),
                   .open = zd_arena_doubles(arena, joints), .p = zd_arena_doubles(arena, (size_t)system->nq),
-                  .row = zd_arena_bytes(arena, mh * sizeof(int)),
+                  .role = zd_arena_bytes(arena, mh * sizeof(int)),
                   .of_loop = zd_arena_bytes(arena, (joints + bodies + 1) * sizeof(int))};
 }
 
@@ -89,9 +89,9 @@ static int close_joint(const gaps *self, const double *p, int joint)
     for (int row = 0; row < system->mh; row++) {
         const zd_constraint_owner *owner = self->block->names.owner + row;
         const int is_closed = owner->owner == ZD_OF_JOINT && (joint < 0 || owner->index == joint);
-        self->row[row] = is_closed ? ZD_OWNED_BY_JOINT : ZD_OWNED_BY_UNKNOWN_DRIVE;
+        self->role[row] = is_closed ? ZD_ROLE_JOINT : ZD_ROLE_IGNORED;
     }
-    const zd_assembly_problem given = {.system = system, .length = zd_block_length(self->block), .row = self->row};
+    const zd_assembly_problem given = {.system = system, .length = zd_block_length(self->block), .role = self->role};
     memcpy(self->p, p, (size_t)system->nq * sizeof *p);
     const int status = zd_assembly_minimize(&given, self->p);
     return status ? status : read_gaps(self, self->p);

@@ -81,6 +81,6 @@ static int is_angle_row(const zd_block_layout *layout, int joint, int component)
 
 const zd_block_dimension zd_block_plane = {
     .dimension = 2, .structure = structure, .make = make, .release = release, .pose = 3, .poses = poses,
-        .name_of_constraint = name_of_constraint,
+    .name_of_constraint = name_of_constraint,
     .state = state, .freedoms = freedoms, .is_angle_row = is_angle_row,
 };

@@ -74,6 +74,6 @@ static void state(const zd_block *block, const double *poses, double *p)
 
 const zd_block_dimension zd_block_space = {
     .dimension = 3, .structure = structure, .make = make, .release = release, .pose = 12, .poses = poses,
-        .name_of_constraint = name_of_constraint,
+    .name_of_constraint = name_of_constraint,
     .state = state,
 };

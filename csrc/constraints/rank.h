@@ -80,8 +80,8 @@ enum { ZD_MAX_DENSE_CONSTRAINTS = 40, ZD_MAX_DENSE_VELOCITIES = 300 };
 static inline int zd_rank_is_of_many(const zd_system *system)
 {
     int rows = system->structure && system->nv > ZD_MAX_DENSE_VELOCITIES ? ZD_MAX_DENSE_CONSTRAINTS + 1 : 0;
-    for (int g = 0; system->structure && g < system->structure->groups
-        && rows <= ZD_MAX_DENSE_CONSTRAINTS; g++) rows += system->structure->rows[g];
+    const int groups = system->structure ? system->structure->groups : 0;
+    for (int g = 0; g < groups && rows <= ZD_MAX_DENSE_CONSTRAINTS; g++) rows += system->structure->rows[g];
     return rows > ZD_MAX_DENSE_CONSTRAINTS;
 }
 
@@ -151,7 +151,7 @@ enum { ZD_FEW_CONSTRAINTS = 2 };       /* largest number of constraints checked 
 
 /* Finds the independent constraints at the point; sets point->rows, point->C. */
 int zd_find_independent(zd_point *point);
-/* Discards a selection kept from an earlier point, so that the next zd_find_independent() selects anew; returns 0 if there was none. */
+/* Discards a selection kept from an earlier point, so that the next zd_find_independent() selects anew; returns 0 without one. */
 int zd_discard_selection(zd_point *point);
 /* Selects again after a change of the velocity, along which limits are taken. */
 int zd_rows_find_again(zd_point *point);

@@ -47,10 +47,10 @@ void zd_complement_lend(const zd_complement *self, double **Q, double **G)
 
 static int choose(zd_complement *self, zd_point *point)
 {
-    for (int k = 0; k < self->m; k++)       /* characteristic scales */
-        for (int j = 0; j < self->n; j++)
-            self->choice[k * self->n + j] = self->C[k * self->n + j] * point->unit[j] * point->inverse_size[zd_independent_constraint(point,
-                                                                                                                                      k)];
+    for (int k = 0; k < self->m; k++) {     /* characteristic scales */
+        const double inverse = point->inverse_size[zd_independent_constraint(point, k)];
+        for (int j = 0; j < self->n; j++) self->choice[k * self->n + j] = self->C[k * self->n + j] * point->unit[j] * inverse;
+    }
     int rank = zd_choose_columns(self->m, self->n, 0, self->choice, self->order);
     point->failed_index = rank;
     self->chosen = rank == self->m;

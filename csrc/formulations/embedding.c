@@ -176,8 +176,8 @@ static int improve(void *context)
     zd_point *point = it->point;
     int status = factor(self, point);
     if (status) return status;
-    for (int k = 0; k < self->mh; k++) self->delta[k] = k < self->mh - point->rank->lost
-        ? -point->terms.Phi[zd_independent_constraint(point, k)] : 0;
+    for (int k = 0; k < self->mh; k++)
+        self->delta[k] = k < self->mh - point->rank->lost ? -point->terms.Phi[zd_independent_constraint(point, k)] : 0;
     zd_embedding_coordinates(self, point, self->delta + self->mh);
     for (int k = 0; k < self->k; k++) self->delta[self->mh + k] = it->q[k] - self->delta[self->mh + k];
     zd_lu_solve(self->nv, self->K, self->pivots, self->delta);
@@ -294,9 +294,9 @@ static int choose(zd_embedding *self, zd_point *point)
     int nv = self->nv, mh = self->mh, columns = mh + self->nq;
     for (int j = 0; j < nv; j++)
         for (int i = 0; i < columns; i++)
-            self->choice[j * columns + i] = point->unit[j] * (i < mh
-                ? self->C[i * nv + j] * point->inverse_size[zd_independent_constraint(point, i)]
-                                                                   : zd_entry_of_A(point, i - mh, j) * point->inverse_unit_p[i - mh]);
+            self->choice[j * columns + i] = point->unit[j] * (
+                i < mh ? self->C[i * nv + j] * point->inverse_size[zd_independent_constraint(point, i)]
+                       : zd_entry_of_A(point, i - mh, j) * point->inverse_unit_p[i - mh]);
     point->failed_index = zd_choose_columns(nv, columns, mh, self->choice, self->order);
     if (point->failed_index < nv) return ZD_DEPENDENT_ROWS;
     for (int k = 0; k < self->k; k++) self->index[k] = self->order[mh + k] - mh;

@@ -124,8 +124,7 @@ static int factor_large(schur *self, zd_point *point)
 {
     const zd_rank *rank = point->rank;
     const int may_show_rank = !(point->known & ZD_RANKED) && rank->max_rank == rank->m && rank->m > ZD_FEW_CONSTRAINTS
-        && rank->m <= self->most
-                       && !point->layout;
+                           && rank->m <= self->most && !point->layout;
     if (may_show_rank) {
         zd_shares shares = orthogonalize_all(self, point, rank->m, point->terms.C);
         const int is_conclusive = shares.rows == rank->m && shares.least > ZD_ILL_CONDITIONED * ZD_ILL_CONDITIONED;

@@ -15,9 +15,8 @@ static zd_rank *create_rank(zd_motion *motion, zd_arena *arena, const zd_system 
     double counted, *Q = lends ? &counted : NULL, *G = Q;
     if (motion->solver && lends) formulation->lend_workspace(motion->solver, &Q, &G);
     const int are_many = zd_has_many_constraints(formulation, system), is_dense = !system->structure;
-    int has_rank = is_dense ? zd_constraints(system) <= ZD_FEW_CONSTRAINTS || (formulation->finds_independent
-        && formulation->finds_independent(system))
-                            : are_many;
+    const int finds = formulation->finds_independent && formulation->finds_independent(system);
+    int has_rank = is_dense ? finds || zd_constraints(system) <= ZD_FEW_CONSTRAINTS : are_many;
     if (!has_rank) monitor = zd_rank_monitor_create(arena, system, Q, G);
     if (!rank) return NULL;
     rank->monitor = monitor;
@@ -30,8 +29,8 @@ void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *syste
                     const zd_formulation *formulation, const void *given)
 {
     const int has_products = system->operations && system->operations->add_weighted;
-    const int matrices = has_products && formulation->has_matrices_evaluated && zd_has_many_constraints(formulation, system) ? 0
-        : ZD_M | ZD_C;
+    const int has_own = has_products && formulation->has_matrices_evaluated && zd_has_many_constraints(formulation, system);
+    const int matrices = has_own ? 0 : ZD_M | ZD_C;
     const size_t used = arena->used;
     void *solver = formulation->create(arena, independent, given);
     *motion = (zd_motion){

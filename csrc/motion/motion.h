@@ -296,6 +296,6 @@ int zd_motion_start_energy(zd_motion *motion);      /* E0 of (28), from the poin
 /* Solves for what user functions of the system read, if any do so, at each evaluation of the accelerations. */
 void zd_reactions_create(zd_motion *motion, zd_arena *arena);
 /* u (functions,) <- values of the user functions at a state where vdot, lambda and efforts, NULL for none, are given. Returns ZD_DONE,
- * ZD_SEVERAL_MOTIONS, ZD_NO_MEMORY, or what a user function returns that failed. */
+ * ZD_SEVERAL_MOTIONS, ZD_NO_MEMORY, or the status of a user function that failed. */
 int zd_reactions_at(const zd_system *system, double t, const double *p, const double *v, const double *vdot, const double *lambda,
                        const zd_efforts *efforts, double *u);

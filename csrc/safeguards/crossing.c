@@ -240,8 +240,7 @@ static int is_ordinary(const zd_crossing *self, double moved)
 {
     const zd_point *point = self->motion->point;
     return point->rank->m == ZD_FEW_CONSTRAINTS && zd_rank_is_full(point) && !point->layout && self->has_begun && self->has_rows
-        && !self->may_pass
-        && moved <= LONGEST * LONGEST;
+        && !self->may_pass && moved <= LONGEST * LONGEST;
 }
 
 /* Saves two rows if they have the orientation of the saved ones; returns false otherwise. */

@@ -28,7 +28,7 @@ def arm(**motors):
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("held", [False, True])
 def test_forces_that_balance_leave_no_effort_missing(layout, held, recwarn):
-    """At rest the forces cancel in each coordinate: what is left of them is rounding, and so is a residual of that size."""
+    """At rest the forces cancel in each coordinate, except for rounding; a residual of that size is not a missing effort."""
     m = zd.Mechanism("pendulum", gravity=(0, -G))
     link = m.link("link", (0, 0), (0.7, 0.1), mass=1.5)
     m.revolute("pin", m.ground, link.start)

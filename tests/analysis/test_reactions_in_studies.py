@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import zerodrift as zd
+from zerodrift.analysis import read_forces
 from zerodrift.analysis.flow import Flow
 from zerodrift.analysis.retraction import near_to
 from zerodrift.analysis.state import state
@@ -78,6 +79,13 @@ def test_efforts_of_a_motion_contain_the_friction_that_its_reactions_cause(layou
     expected = INERTIA * wdot + MASS * G * C * np.cos(A0) - torque(*force(A0, W0, wdot), W0)
     found = zd.inverse_dynamics(system, 0.0, p, v, vdot, efforts=["pin.angle"])
     assert found["pin.angle"] == pytest.approx([expected], rel=1e-10)
+
+
+def test_forces_that_do_not_agree_with_the_reactions_are_refused(monkeypatch):
+    """Without an iteration the reactions are those of the free motion, not of the prescribed one."""
+    monkeypatch.setattr(read_forces, "ITERATIONS", 0)
+    with pytest.raises(zd.errors.NoUniqueMotion, match="must agree with the reactions"):
+        zd.inverse_dynamics(arm(layout="joint"), 0.0, [A0], [W0], [2.5], efforts=["pin.angle"])
 
 
 @pytest.mark.parametrize("layout", ["joint", "absolute"])

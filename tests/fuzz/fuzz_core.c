@@ -261,8 +261,7 @@ static zd_settings make_settings(input *in, double *times)
     unsigned how = byte(in);
     zd_settings settings = {
         .formulation = below(in, zd_entry_count(ZD_FORMULATIONS)), .integrator = below(in, zd_entry_count(ZD_INTEGRATORS)), .t1 = 0.5,
-            .step = 0.05,
-        .save_every = 1 + below(in, 3),
+        .step = 0.05, .save_every = 1 + below(in, 3),
     };
     settings.of_formulation = make_given(in, ZD_FORMULATIONS, settings.formulation, 1);
     settings.of_integrator = make_given(in, ZD_INTEGRATORS, settings.integrator, 1);

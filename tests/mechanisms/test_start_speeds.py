@@ -1,4 +1,4 @@
-"""Start velocities that drives leave undetermined: least kinetic energy relative to carriers, of whatever elements these are."""
+"""Start velocities that drives leave undetermined: least kinetic energy relative to driven bodies."""
 
 import itertools
 

@@ -75,9 +75,8 @@ static void run(const zd_system *system, const zd_settings *settings, int grant)
     if (it) status = zd_run_advance(it, &record, 1e9);
     if (it) snprintf(message, sizeof message, "%s", zd_run_message(it));
     zd_run_free(it);
-    printf("%s %s %d %d %d %s\n", zd_entry_card(ZD_FORMULATIONS, settings->formulation)->name, zd_entry_card(ZD_INTEGRATORS,
-                                                                                                             settings->integrator)->name,
-           grant, status, blocks, message);
+    printf("%s %s %d %d %d %s\n", zd_entry_card(ZD_FORMULATIONS, settings->formulation)->name,
+           zd_entry_card(ZD_INTEGRATORS, settings->integrator)->name, grant, status, blocks, message);
 }
 
 int main(void)

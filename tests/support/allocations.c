@@ -36,7 +36,7 @@ static void count(const zd_kind *kind, const zd_system *system, zd_settings sett
     if (run) status = zd_run_advance(run, &record, 1e9);
     printf("allocations %ld %ld %s, %s, %s, status %d, %" PRId64 " rows\n", creating, allocations, kind->card.name,
            zd_entry_card(ZD_FORMULATIONS, settings.formulation)->name, zd_entry_card(ZD_INTEGRATORS, settings.integrator)->name, status,
-               record.samples);
+           record.samples);
     zd_run_free(run);
 }
 

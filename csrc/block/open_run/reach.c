@@ -92,9 +92,9 @@ int zd_opened_find_positions(struct zd_opened *self, double t, const double *p)
     const size_t m = (size_t)(block->system.mh + block->system.mn);
     double *residual = zd_allocate(3 * m * sizeof *residual), *size = residual + m;
     if (!residual) return ZD_NO_MEMORY;
-    int *row = (int *)(size + m);
-    for (int k = 0; k < block->system.mh; k++) row[k] = block->names.owner[k].owner == ZD_OF_RELATION ? ZD_OWNED_BY_DRIVE : ZD_OWNED_BY_JOINT;
-    const zd_assembly_problem given = {.system = &block->system, .t = t, .length = zd_block_length(block), .row = row, .residual = residual,
+    int *role = (int *)(size + m);
+    for (int k = 0; k < block->system.mh; k++) role[k] = block->names.owner[k].owner == ZD_OF_RELATION ? ZD_ROLE_DRIVE : ZD_ROLE_JOINT;
+    const zd_assembly_problem given = {.system = &block->system, .t = t, .length = zd_block_length(block), .role = role, .residual = residual,
                                      .size = size};
     memcpy(self->p, p, (size_t)block->system.nq * sizeof *p);
     const int outcome = zd_assemble_positions(&given, self->p);

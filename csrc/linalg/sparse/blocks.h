@@ -6,7 +6,7 @@
 
 /* An order in which a symmetric matrix of blocks is eliminated with little fill. */
 
-/* Nonzero blocks of the matrix: those of any two block rows that are in one clique. */
+/* Nonzero blocks of the matrix. Two block rows that share a clique have one. */
 typedef struct zd_pattern {
     int count;              /* block rows */
     const int *size;        /* (count,) rows of each, at least one */

@@ -103,8 +103,8 @@ zd_planned_elements zd_elements_plan(const zd_elements *elements, const zd_eleme
         .reading = elements->reading ? *elements->reading : (zd_reading){0},
         .relations = elements->relations, .forces = elements->forces, .mh = mh, .m = from->rows, .longest = longest_of(elements),
         .length = elements->length > 0 ? elements->length : 1, .term = from->term, .coefficient = from->coefficient, .row = from->row,
-        .owner_of_constraint = from->owner_of_constraint, .constraint_of_relation = from->constraint_of_relation, .force = from->force,
-            .output = from->output,
+        .owner_of_constraint = from->owner_of_constraint, .constraint_of_relation = from->constraint_of_relation,
+        .force = from->force, .output = from->output,
         .law = elements->law, .owner = elements->owner, .has_velocity_forces = forces_know_velocity(elements),
     };
 }

@@ -16,8 +16,7 @@ typedef struct zd_constraint_numerics {
 
 /* Returns the sum of factors x, and adds that of factors times the marker quantities' rows to `to` unless that is NULL. */
 ZD_INLINE double zd_constraint_readings(const zd_constraint_numerics *self, const zd_readings *readings, const zd_relation *row,
-                                        const double *factors,
-                                 double *to)
+                                        const double *factors, double *to)
 {
     double sum = 0;
     for (int i = 0; i < row->terms; i++) sum += factors[i] * self->read(readings, row->first + i, factors[i], to);

@@ -124,7 +124,7 @@ def run_batch(tables: Any, settings: Any, k: int, capacity: int, wanted: tuple[s
     if stop is not None:
         members["stop"] = stop.c
     if lib.zd_batch_run(ffi.new("zd_batch *", members)):
-        raise NoMemory(f"there is no memory for the {capacity} samples of a run")
+        raise NoMemory(f"the {capacity} samples of a run must fit into memory, and do not")
     said = [""] * k
     for run in np.flatnonzero(of_runs["status"]).tolist():
         said[run] = messages[run].tobytes().partition(b"\0")[0].decode()

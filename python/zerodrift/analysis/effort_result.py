@@ -17,7 +17,7 @@ class Efforts:
     """Efforts of a motion; ``inv["crank.angle"]`` is that at a prescribed quantity, ``inv["A.force"]`` any measure, (k,) or (k,
     size).
 
-    Efforts act from outside: the reaction of a joint carries them, and does not contain those along its own coordinate.
+    Efforts are external loads: reactions of joints include them, except for the effort along a joint's own coordinate.
 
     Attributes
     ----------

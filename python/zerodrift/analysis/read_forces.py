@@ -16,6 +16,7 @@ from .tangent import Tangent, multipliers
 
 ITERATIONS = 30
 LEFT = 1e-14        # of the largest value: Newton's method ends
+DISAGREE = 1e-9     # of the largest generalized force before cancellation: user functions and reactions that do not agree
 
 Motion = tuple[np.ndarray, ...]             # accelerations (nv,), multipliers (m,) and efforts (j,)
 
@@ -75,6 +76,13 @@ def along(at: State, dp: np.ndarray, dv: np.ndarray, dt: float = 0.0, *, is_roug
     return (differences.each_roughly if is_rough else differences.each)(values, sizes_of(at, dp, dv, dt), core.functions).T
 
 
+def _check_agreement(at: State, off: np.ndarray) -> None:
+    """Refuse generalized forces that differ by `off` (nv,) from those of the reactions that they cause."""
+    if (np.abs(off) > DISAGREE * np.maximum(at.magnitudes, np.abs(at.force)).max(initial=0.0)).any():
+        raise NoUniqueMotion(f"user functions of {at.system.name} must agree with the reactions that they read: after "
+                             f"{ITERATIONS} iterations generalized forces differ by up to {np.abs(off).max():.3g}")
+
+
 def solved(at: State, names: Sequence[str], respond: Callable[[np.ndarray], Motion]) -> tuple[np.ndarray, np.ndarray, Motion]:
     """As `Held.motion`; `respond` gives the motion by the generalized forces of the system, in which it is affine."""
     core, B = core_of(at.system), rows(at)
@@ -102,4 +110,6 @@ def solved(at: State, names: Sequence[str], respond: Callable[[np.ndarray], Moti
         if not np.linalg.det(matrix) > 0:
             raise NoUniqueMotion(f"{at.system.name} must have one force that makes this motion, and friction has several or none")
         u = u - unit @ np.linalg.solve(matrix.T, off)
+    else:
+        _check_agreement(at, B @ left(u[None])[0])
     return u, at.force + B @ (u - here), tuple(motions(u))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 import time
 from collections.abc import Callable
 from typing import Any
@@ -19,8 +18,6 @@ from .open.run import Run
 from .open.stepping import SLICE
 from .samples import recording
 from .samples.solution import Solution
-
-NAMED = operator.itemgetter(*settings.Arguments._fields)
 
 
 def simulate(
@@ -222,7 +219,10 @@ def simulate(
     >>> sol.t_events[1].round(4)
     array([0.1287, 0.6498, 1.4803, 2.0013])
     """
-    given = settings.Arguments(*NAMED(locals()))
+    given = settings.Arguments(
+        t_eval=t_eval, step=step, save_every=save_every, rtol=rtol, atol=atol, first_step=first_step, max_step=max_step,
+        max_move=max_move, max_steps=max_steps, formulation=formulation, integrator=integrator, stabilization=stabilization,
+        energy=energy, correction=correction, on_singular=on_singular, closed_form=closed_form, vector=vector)
     ready = prepared(system, _check.span(t_span), p0, v0, events, outputs, save_to, given, inputs=inputs,
                      speeds=Speeds(hold, ramp))
     of = controls(control)

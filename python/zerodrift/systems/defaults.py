@@ -1,4 +1,4 @@
-"""Answers of a system that has nothing but its equations; kinds of systems that have more give their own."""
+"""Default methods of systems: those of a system with equations alone, which kinds of systems override."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class WithInputs(NamedTuple):
 
 
 class Defaults:
-    """Advice, drawing, inputs, series and other coordinates of a system: none."""
+    """Defaults: a system without advice, drawing, inputs, series and other coordinates."""
 
     def _why_no_closed_form(self, embeds: bool = False) -> str | None:
         """Known reason why the system has no closed-form functions; empty: it has some; None: systems of its kind have none."""
@@ -35,7 +35,7 @@ class Defaults:
         return {}
 
     def points(self, p: Any) -> np.ndarray | None:
-        """Drawing at p: points (n, 2) or (n, 3) in m, joined by lines except at NaN. None: there is no drawing."""
+        """Drawing at p: points (n, 2) or (n, 3) in m, joined by lines except at NaN. None: the system has no drawing."""
         return None
 
     def _sketches(self, positions: Sequence[np.ndarray], motion: Sequence[np.ndarray] = ()) -> list[list[Shape]] | None:
@@ -45,23 +45,23 @@ class Defaults:
         return None
 
     def _forces(self, names: Any, solution: Any, rows: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
-        """Forces by name, with where they act and what they are at rows of a solution, (k, 2) in m and (k, 2) in N."""
+        """Forces by name at samples of a solution: points of action (k, 2) in m and vectors (k, 2) in N."""
         return []
 
     def _definition(self) -> Any:
-        """Geometry, user functions and tables, without parameters and start: what saved states of runs are compared by."""
+        """Geometry, user functions and tables, without parameters and start; saved states of runs are compared by it."""
         return None
 
     def _advice(self, error: Exception) -> str | None:
-        """Advice of the system on an error that the core reported at the start; None: there is none."""
+        """Advice of the system on an error that the core reported at the start; None: no advice."""
         return None
 
     def _advice_on_failure(self, t: float, p: np.ndarray) -> str | None:
-        """Advice on the error of a run that failed near a state; None: there is none."""
+        """Advice on the error of a run that failed near a state; None: no advice."""
         return None
 
     def _beyond_reach(self, t: float, p: np.ndarray, ahead: float) -> str:
-        """Sentence on a drive that a motion at (t, p) does not follow for a time ahead in s; "": it does."""
+        """Sentence on a drive that the motion from (t, p) cannot follow for `ahead` seconds; "": it follows all drives."""
         return ""
 
     def _advice_on_collapse(self, t: float, p: np.ndarray, v: np.ndarray, velocity: int) -> str:
@@ -73,7 +73,7 @@ class Defaults:
         return None
 
     def _why_unknown(self, name: Any) -> str | None:
-        """Explanation of a name that is not found; None: there is no measure or coordinate like it."""
+        """Explanation of an unknown name; None: no measure or coordinate has a similar one."""
         return None
 
     def _with_inputs(self, names: Sequence[str]) -> WithInputs:
@@ -94,7 +94,7 @@ class Defaults:
         return self._closed_form_core(vector, embeds)
 
     def _with_series(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
-        """The core's system with the Taylor series of its motion, if there is one."""
+        """The core's system, with the Taylor series of its motion where it has one."""
         return core
 
     def _precise_functions(self, vector: str = "baseline") -> Precise | None:
@@ -122,7 +122,7 @@ class Defaults:
         return [], []
 
     def _with_jacobian(self, core: _gateway.CoreSystem, vector: str = "baseline") -> _gateway.CoreSystem:
-        """The core's system with the Jacobian of its motion, if there is one."""
+        """The core's system, with the Jacobian of its motion where it has one."""
         return core
 
     def _with_series_of_perturbed(self, core: _gateway.PerturbedCore, vector: str) -> _gateway.CoreSystem:
@@ -140,7 +140,7 @@ class Defaults:
         return False
 
     def _in_other_coordinates(self) -> Any:
-        """Equivalent system in other coordinates, with this system's coordinates among its measures; None if there is none."""
+        """Equivalent system in other coordinates, with this system's coordinates among its measures, or None."""
         return None
 
     @property
@@ -149,7 +149,7 @@ class Defaults:
         return False
 
     def _what_it_costs(self, steps: int | None) -> str | None:
-        """Advice on a cheaper description of the system for a number of steps (None: unknown); None: there is none."""
+        """Advice on a cheaper description of the system for a number of steps (None: unknown), or None."""
         return None
 
     def _drawn_open(self, also_held: Iterable[str] = ()) -> str | None:

@@ -1,4 +1,4 @@
-"""Terms of Python systems, written to the core's arrays: from callables, derived where these do not give them, and packed."""
+"""Writers of terms of Python systems into the core's arrays: from callables, by differentiation, and packed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _CALLABLE_OF = {"A": "kinematics", "M": "mass", "d": "bias", "f": "force", "Phi"
 
 
 class Writer:
-    """Writes the wanted terms into the core's arrays, (2)-(6), deriving what is not given."""
+    """Writer of the requested terms, (2)-(6), into the core's arrays; terms without a callable are derived."""
 
     def __init__(self, functions: dict[str, Function], nq: int, nv: int, mh: int, mn: int) -> None:
         self.functions, self.nq, self.nv, self.mh, self.mn = functions, nq, nv, mh, mn
@@ -58,14 +58,14 @@ class Writer:
         return [(name, function) for name, function in self._direct.items() if name in names], derived
 
     def not_finite(self, name: str, t: float, value: np.ndarray) -> Exception:
-        """The error for a term that is not finite: it names the callable, or those that may be at fault."""
+        """Error for a term that is not finite, with the callables that computed it."""
         asked = ("jacobian", "nonholonomic", "kinematics") if name == "C" else (_CALLABLE_OF.get(name),)
         sources = [source for source in asked if source in self.functions]
         if sources not in ([], ["kinematics"]):
             return WrongValue(f"{' or '.join(sources)} is not finite at t = {t:g}: {value}", "not-finite")
         source = " and ".join(["constraints" if self.mh else "nonholonomic", *["kinematics"] * ("kinematics" in self.functions)])
-        return WrongValue(f"{name}, derived from {source}, is not finite at t = {t:g}: {value}; where there are no "
-                          "derivatives, supply jacobian and xi", "not-finite")
+        return WrongValue(f"{name}, derived from {source}, is not finite at t = {t:g}: {value}; supply jacobian and xi "
+                          "if these functions cannot be differentiated", "not-finite")
 
     def _derive(self, derived: frozenset[str], t: float, arrays: dict[str, np.ndarray]) -> None:
         p, v, mh = arrays["p"], arrays["v"], self.mh

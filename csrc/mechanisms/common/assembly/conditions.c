@@ -171,9 +171,8 @@ static void choose(zd_assembly *self, enum zd_assembly_choice choice)
 {
     int count = 0;
     for (int k = 0; k < self->rows; k++) {
-        const int is_target = self->of[k] >= self->m, owner = is_target ? 0 : self->given->row[self->of[k]];
-        if (!is_target && (owner == ZD_OWNED_BY_DRIVE ? choice != ZD_OF_ALL : owner == ZD_OWNED_BY_COUPLING
-            && choice == ZD_OF_JOINTS)) continue;
+        const int is_target = self->of[k] >= self->m, role = is_target ? 0 : self->given->role[self->of[k]];
+        if (!is_target && (role == ZD_ROLE_DRIVE ? choice != ZD_OF_ALL : role == ZD_ROLE_COUPLING && choice == ZD_OF_JOINTS)) continue;
         self->J[count] = self->J[k];
         self->of[count] = self->of[k];
         self->r[count++] = self->r[k];
@@ -196,7 +195,7 @@ double zd_assembly_find(zd_assembly *self, const zd_conditions *of, const double
     evaluate(self, ZD_PHI | ZD_C, p);
     self->rows = 0;
     for (int k = 0; k < self->system->mh; k++)
-        if (self->given->row[k] != ZD_OWNED_BY_UNKNOWN_DRIVE) add_constraint(self, k, self->terms.Phi[k]);
+        if (self->given->role[k] != ZD_ROLE_IGNORED) add_constraint(self, k, self->terms.Phi[k]);
     zd_assembly_add_targets(self, of->roles, 0, p);
     scale_rows(self);
     divide_by_sizes(self, of->roles);
@@ -211,8 +210,7 @@ double zd_assembly_gap(zd_assembly *self, const double *p)
     double gap = 0;
     evaluate(self, ZD_PHI, p);
     for (int k = 0; k < self->system->mh; k++)
-        if (self->given->row[k] != ZD_OWNED_BY_UNKNOWN_DRIVE) gap = fmax(gap, isnan(self->terms.Phi[k]) ? INFINITY
-            : fabs(self->terms.Phi[k]));
+        if (self->given->role[k] != ZD_ROLE_IGNORED) gap = fmax(gap, isnan(self->terms.Phi[k]) ? INFINITY : fabs(self->terms.Phi[k]));
     return self->status ? INFINITY : gap;
 }
 

@@ -1,4 +1,4 @@
-/* Conditions of a start: owners of the constraints, targets, and the outcome of an assembly.
+/* Conditions of a start: roles of the constraints, targets, and the outcome of an assembly.
  *
  * Plain declarations only: CFFI parses this text. SI units, radians.
  */
@@ -6,12 +6,12 @@
 
 #include "../../../include/zerodrift/system.h"
 
-/* Owner of a holonomic constraint */
-enum zd_owner_kind {
-    ZD_OWNED_BY_JOINT,
-    ZD_OWNED_BY_COUPLING,     /* without a user function, as of gears: part of the reference configuration, as joints are */
-    ZD_OWNED_BY_DRIVE,        /* or of a user's constraint: led from where it is to where it must be */
-    ZD_OWNED_BY_UNKNOWN_DRIVE         /* drive whose value at the start is not known yet: ignored in positions */
+/* Role of a holonomic constraint in an assembly */
+enum zd_constraint_role {
+    ZD_ROLE_JOINT,
+    ZD_ROLE_COUPLING,       /* without a user function, as of gears: part of the reference configuration, as joints are */
+    ZD_ROLE_DRIVE,          /* or constraint of a user: led from its present value to the prescribed one */
+    ZD_ROLE_IGNORED         /* in positions: a drive whose value at the start is not known yet, a joint that may stay open */
 };
 
 enum zd_target_role {
@@ -43,7 +43,7 @@ typedef struct zd_assembly_problem {
     const zd_system *system;    /* in absolute coordinates, with the measures of the targets */
     const double *inputs;       /* (2 inputs + 1,) or NULL */
     double t, length;           /* s; m: characteristic length */
-    const int *row;             /* (mh,) enum zd_owner_kind */
+    const int *role;            /* (mh,) enum zd_constraint_role */
     int targets;
     const zd_target *target;    /* (targets,) */
     const double *nudge;        /* (nv,) random displacement of about one: at a dead centre no step leads away from it; NULL: none */
@@ -87,6 +87,6 @@ int zd_assembly_check(const zd_assembly_problem *given, const double *p);
 /* v (nv,) <- minimum-norm velocities that satisfy all constraints and held targets and approach wished ones */
 int zd_assemble_velocities(const zd_assembly_problem *given, const double *p, double *v);
 /* message <- sentence on the drives that bring a motion at p to a dead point within a time `ahead` in s; otherwise it is unchanged.
- * measure (mh,): of the coordinate that each constraint drives; -1: none, or it is not known. given->row is ignored. */
+ * measure (mh,): of the coordinate that each constraint drives; -1: none, or it is not known. given->role is ignored. */
 int zd_assembly_explain_reach(const zd_assembly_problem *given, const double *p, const int *measure, double ahead, char *message,
                               int message_size);

@@ -23,7 +23,7 @@ typedef struct reach {
     zd_assembly_problem given;
     zd_assembly assembly;
     const int *measure;     /* (mh,): of the driven coordinate; -1: not known */
-    int *row;               /* (mh,): of `given` */
+    int *role;              /* (mh,): of `given` */
     double *p;              /* (nq,): last position found */
 } reach;
 
@@ -81,9 +81,9 @@ static void explain(reach *self, double ahead, zd_complaint to)
     zd_assembly_find_rates(assembly, 0, self->p);
     for (int k = 0; k < system->mh; k++) {
         if (!(fabs(assembly->start[k]) < STEADY) || assembly->terms.Phi_t[k] == 0) continue;
-        self->row[k] = ZD_OWNED_BY_UNKNOWN_DRIVE;
+        self->role[k] = ZD_ROLE_IGNORED;
         const int goes_on = follow(self, t + LATER * ahead, 0, assembly->begun);
-        self->row[k] = ZD_OWNED_BY_JOINT;
+        self->role[k] = ZD_ROLE_JOINT;
         if (!goes_on) continue;
         system->name_constraint(system->names, k, name, SIZE);
         zd_append(&name_end, "%s'%s'", name_end.size < SIZE ? " and " : "", name);
@@ -100,15 +100,15 @@ static void explain(reach *self, double ahead, zd_complaint to)
 int zd_assembly_explain_reach(const zd_assembly_problem *given, const double *p, const int *measure, double ahead, char *message,
                               int message_size)
 {
-    reach self = {.given = *given, .measure = measure, .row = zd_allocate((size_t)given->system->mh * sizeof(int))};
-    self.given.row = self.row;
-    const int status = !self.row ? ZD_NO_MEMORY : given->system->nv > MAX_VELOCITIES ? 0 : zd_assembly_open(&self.assembly, &self.given, p);
+    reach self = {.given = *given, .measure = measure, .role = zd_allocate((size_t)given->system->mh * sizeof(int))};
+    self.given.role = self.role;
+    const int status = !self.role ? ZD_NO_MEMORY : given->system->nv > MAX_VELOCITIES ? 0 : zd_assembly_open(&self.assembly, &self.given, p);
     if (self.assembly.block) {
         self.p = memcpy(self.assembly.led, p, (size_t)given->system->nq * sizeof *p);
         if (begin(&self, given->t, ahead) && has_dead_point(&self, given->t + ahead, ahead))
             explain(&self, ahead, (zd_complaint){message, message_size});
         zd_assembly_close(&self.assembly, 0);
     }
-    zd_release(self.row);
+    zd_release(self.role);
     return status;
 }

@@ -36,7 +36,7 @@ void zd_assembly_divide_row(zd_assembly *self, int row, double by)
 
 int zd_assembly_is_joint(const zd_assembly *self, int row)
 {
-    return self->of[row] < self->m && self->given->row[self->of[row]] == ZD_OWNED_BY_JOINT;
+    return self->of[row] < self->m && self->given->role[self->of[row]] == ZD_ROLE_JOINT;
 }
 
 double zd_assembly_unit_of(const zd_assembly *self, int row, const double *weight)

@@ -43,7 +43,7 @@ typedef struct found {      /* start of one mechanism */
     double *poses, *rates, *places;     /* (bodies, 3) both; (drives,) */
     double *p, *v, *scratch;            /* state of the mechanism in absolute coordinates, and its scratch */
     double *Phi;                        /* (mh,) */
-    int *row;                           /* (mh,), as an assembly requires it */
+    int *role;                          /* (mh,), as an assembly requires it */
 } found;
 
 static found allocate(zd_arena *arena, const zd_varied *self, const zd_plane *drawn)
@@ -55,7 +55,7 @@ static found allocate(zd_arena *arena, const zd_varied *self, const zd_plane *dr
             .places = zd_arena_doubles(arena, (size_t)self->drives),
         .p = zd_arena_doubles(arena, (size_t)system->nv), .v = zd_arena_doubles(arena, (size_t)system->nv),
         .scratch = zd_arena_doubles(arena, (size_t)system->scratch), .Phi = zd_arena_doubles(arena, (size_t)system->mh),
-        .row = zd_arena_bytes(arena, (size_t)system->mh * sizeof(int)),
+        .role = zd_arena_bytes(arena, (size_t)system->mh * sizeof(int)),
     };
 }
 
@@ -67,13 +67,13 @@ static int drive_of(const zd_varied *self, const zd_constraint_owner *owner)
     return -1;
 }
 
-static enum zd_owner_kind kind_of(const zd_varied *self, const zd_plane *drawn, int row)
+static enum zd_constraint_role role_of(const zd_varied *self, const zd_plane *drawn, int row)
 {
     const zd_constraint_owner *owner = zd_plane_rows(drawn) + row;
     const zd_relation *relation = zd_plane_planned(drawn).row + row;
-    if (owner->owner == ZD_OF_JOINT) return ZD_OWNED_BY_JOINT;
-    if (drive_of(self, owner) >= 0) return ZD_OWNED_BY_UNKNOWN_DRIVE;
-    return relation->law < 0 && relation->slope == 0 && relation->terms > 1 ? ZD_OWNED_BY_COUPLING : ZD_OWNED_BY_DRIVE;
+    if (owner->owner == ZD_OF_JOINT) return ZD_ROLE_JOINT;
+    if (drive_of(self, owner) >= 0) return ZD_ROLE_IGNORED;
+    return relation->law < 0 && relation->slope == 0 && relation->terms > 1 ? ZD_ROLE_COUPLING : ZD_ROLE_DRIVE;
 }
 
 /* Values of the driven coordinates, where the constants of these relations are 0 */
@@ -91,9 +91,9 @@ static void find_places(const zd_varied *self, const zd_plane *drawn, const foun
 static int assemble(const zd_varied *self, int64_t run, const zd_plane *drawn, const found *to)
 {
     const zd_system *system = zd_plane_system(drawn);
-    const zd_assembly_problem given = {.system = system, .length = self->length[run], .row = to->row,
+    const zd_assembly_problem given = {.system = system, .length = self->length[run], .role = to->role,
                                      .targets = self->targets, .target = self->target};
-    for (int k = 0; k < system->mh; k++) to->row[k] = kind_of(self, drawn, k);
+    for (int k = 0; k < system->mh; k++) to->role[k] = role_of(self, drawn, k);
     zd_plane_state(drawn, self->poses + run * 3 * drawn->tree.bodies, NULL, to->p, NULL);
     if (zd_assemble_positions(&given, to->p) || zd_assemble_velocities(&given, to->p, to->v)) return 0;
     if (!(zd_largest(system->nv, to->p) < INFINITY && zd_largest(system->nv, to->v) < INFINITY)) return 0;

@@ -11,8 +11,8 @@ from ..._core import ffi, lib
 from ..base import MESSAGE_SIZE, doubles, error_of, text
 from ..systems import CoreSystem
 
-ROWS = {"joint": lib.ZD_OWNED_BY_JOINT, "coupling": lib.ZD_OWNED_BY_COUPLING, "drive": lib.ZD_OWNED_BY_DRIVE,
-        "left out": lib.ZD_OWNED_BY_UNKNOWN_DRIVE}
+ROLES = {"joint": lib.ZD_ROLE_JOINT, "coupling": lib.ZD_ROLE_COUPLING, "drive": lib.ZD_ROLE_DRIVE,
+         "ignored": lib.ZD_ROLE_IGNORED}
 HELD, STAYS, WISHED, DRAWN = (getattr(lib, f"ZD_TARGET_{role}") for role in ("HELD", "STAYS", "WISHED", "DRAWN"))
 ASSEMBLED, JOINTS_OPEN, TARGETS_UNMET = lib.ZD_ASSEMBLED, lib.ZD_JOINTS_OPEN, lib.ZD_TARGETS_UNMET
 
@@ -45,18 +45,18 @@ class CoreAssembly:
     ----------
     core : MechanismCore
         In absolute coordinates.
-    rows : sequence of str
-        Owner of each holonomic constraint, a key of ROWS.
+    roles : sequence of str
+        Role of each holonomic constraint, a key of ROLES.
     length : float
         Characteristic length in m.
     is_of_many : bool
         True for sparse matrices, at a cost proportional to the bodies, all of which must be free and have mass.
     """
 
-    def __init__(self, core: Any, rows: Sequence[str], length: float, t: float, *, is_of_many: bool = False) -> None:
+    def __init__(self, core: Any, roles: Sequence[str], length: float, t: float, *, is_of_many: bool = False) -> None:
         self.core, self.length, self.t, self.error = core, length, t, None
         self._many = core.many_bodies() if is_of_many else ffi.NULL
-        self._rows = ffi.new("int[]", [ROWS[row] for row in rows])
+        self._roles = ffi.new("int[]", [ROLES[role] for role in roles])
         self._nudge = np.random.default_rng(0).standard_normal(core.nv)
 
     def run(self, operation: str, p: np.ndarray, targets: Sequence[CoreTarget] = (), *, left_out: Sequence[int] = ()) -> Outcome:
@@ -84,14 +84,14 @@ class CoreAssembly:
 
     def _called(self, operation: str, targets: Sequence[CoreTarget], left_out: Sequence[int], found: np.ndarray,
                 *arrays: Any) -> Outcome:
-        core, rows = self.core.for_run(), self._rows
+        core, roles = self.core.for_run(), self._roles
         if left_out:
-            rows = ffi.new("int[]", [ROWS["left out"] if i in left_out else row for i, row in enumerate(self._rows)])
+            roles = ffi.new("int[]", [ROLES["ignored"] if i in left_out else role for i, role in enumerate(self._roles)])
         residual, size = np.zeros((2, core.m + len(targets)))
         handle, self.error = ffi.new_handle(self), None
         target, inputs = ffi.new("zd_target[]", list(targets)), core.initial_inputs()
         given = ffi.new("zd_assembly_problem *", {
-            "system": core.c, "inputs": inputs, "t": self.t, "length": self.length, "row": rows,
+            "system": core.c, "inputs": inputs, "t": self.t, "length": self.length, "role": roles,
             "targets": len(targets), "target": target, "nudge": doubles(self._nudge, core.nv), "many": self._many,
             "interrupted": lib.zd_interrupted_in_python, "owner": handle,
             "residual": doubles(residual, residual.size, writable=True), "size": doubles(size, size.size, writable=True)})

@@ -36,7 +36,7 @@ class JointRow(NamedTuple):
 
 
 class JointKind(NamedTuple):
-    """A kind of joint; see `zd_plane_joint_kind`. `carrier` is None if it cannot be a tree joint."""
+    """A kind of joint; see `zd_plane_joint_kind`. `inboard` is None if it cannot be a tree joint."""
 
     number: int
     card: Card

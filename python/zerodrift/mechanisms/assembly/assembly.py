@@ -66,10 +66,10 @@ class Assembly:
                  t: float, couplings: Collection[int] = ()) -> None:
         self.core, self.rows, self.length, self.t = core, rows, length, t
         self.kept = sorted(set(range(core.mh)) - set(left_out))
-        owners = ["joint" if core.rows[row].owner == "joint" else "left out" if row in left_out
-                  else "coupling" if row in couplings else "drive" for row in range(core.mh)]
-        self.is_joint = np.array([owners[row] == "joint" for row in self.kept], dtype=bool)
-        self._core = CoreAssembly(core, owners, length, t, is_of_many=is_of_many(core))
+        roles = ["joint" if core.rows[row].owner == "joint" else "ignored" if row in left_out
+                 else "coupling" if row in couplings else "drive" for row in range(core.mh)]
+        self.is_joint = np.array([roles[row] == "joint" for row in self.kept], dtype=bool)
+        self._core = CoreAssembly(core, roles, length, t, is_of_many=is_of_many(core))
         angles = np.array([coordinate.kind == "angle" for coordinate in core.motions])
         self.scale = np.where(angles, 1.0, length)      # of coordinates: steps are in rad and parts of the length
 

@@ -181,8 +181,8 @@ def _of_joint(number: int, body: Body, joint: Joint) -> Iterator[Coordinate]:
 def bodies_of(element: Any) -> tuple[Body, ...]:
     """Bodies that an element is, belongs to, or joins."""
     if isinstance(element, Body):
-        carrier = getattr(element, "carrier", None)     # the point of a body of which a particle is part
-        return (element if carrier is None else carrier.body,)
+        attachment = getattr(element, "attachment", None)     # the point of a body of which a particle is part
+        return (element if attachment is None else attachment.body,)
     if isinstance(element, Point):
         return (element.body,)
     return element.bodies if isinstance(element, Joint) else (element.first.body, element.second.body)

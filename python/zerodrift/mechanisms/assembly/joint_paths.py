@@ -16,7 +16,7 @@ class Reach:
 
     Parameters
     ----------
-    carrier : sequence of int
+    inboard : sequence of int
         Inboard joint of each body in the tree; -1: the body is free.
     ends : sequence of (int, int)
         Numbers of the two bodies of each joint; 0 is the ground.

@@ -23,11 +23,11 @@ from ..equations.space_tables import SpaceTables, tables_of
 from ..equations.tables import Tables
 from ..equations.tree import loop
 from .assembly import Assembly, Rates, Target, is_of_many
-from .carriers import motion_of_drives
 from .drawing_changes import DrawingChanges
 from .drive_starts import Conditions, DriveStarts, drawn_targets, drive_starts, driven_coordinate, speed_drives
 from .free_coordinates import Unforced, bodies_of, names_of, swings, unforced
 from .nudge import aside, way_out
+from .reference_motion import motion_of_drives
 from .space_advice import of_angles
 from .start_checks import check_directions
 
@@ -52,7 +52,7 @@ class Starting:
 
     @functools.cached_property
     def is_relative(self) -> bool:
-        """True if start velocities at t = 0 depend on the motions of carriers."""
+        """True if start velocities at t = 0 depend on the motions of driven bodies."""
         return self.velocities(*self.closed(0.0)[1:]).is_relative
 
     @property

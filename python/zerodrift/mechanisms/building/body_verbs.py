@@ -182,8 +182,8 @@ class BodyVerbs(Elements):
         mass, at = _amount("mass", name, mass), self._named(f"at of {name!r}", at)
         made = SpaceParticle if self.dimension == 3 else Particle
         if isinstance(at, Fixed):
-            carrier = self._point("at", at)
-            return self._add(made(name, carrier.drawn, mass, carrier))
+            attachment = self._point("at", at)
+            return self._add(made(name, attachment.drawn, mass, attachment))
         return self._add(made(name, _check.vector(f"at of {name!r}", at, self.dimension), mass))
 
     def point(self, name: str, body: Body | str, local: Any = None, *, at: Any = None) -> Point:

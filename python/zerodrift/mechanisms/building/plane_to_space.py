@@ -150,7 +150,7 @@ def _link(m: Any, link: Link) -> None:
 
 
 def _particle(m: Any, particle: Particle) -> None:
-    at = _raised(particle.pose.origin) if particle.carrier is None else _point(m, particle.carrier)
+    at = _raised(particle.pose.origin) if particle.attachment is None else _point(m, particle.attachment)
     m.particle(particle.name, particle.mass, at=at)
 
 

@@ -99,7 +99,7 @@ class Elements:
 
     def _particle_point(self, argument: str, particle: Particle) -> Point:
         self._body(argument, particle)
-        return Point(particle, np.zeros(self.dimension)) if particle.carrier is None else particle.carrier
+        return Point(particle, np.zeros(self.dimension)) if particle.attachment is None else particle.attachment
 
     def _joint(self, argument: str, value: Any, coordinate: tuple[str, ...]) -> Joint:
         """Joint of this mechanism, checked to have one of these coordinates, "angle" or "displacement"."""

@@ -146,9 +146,9 @@ def _add(m: Elements, joint: type[Joint], name: Any, *, first: Any = None, secon
     if damping and joint.coordinate == "angle":
         m._turning(name, "damping of", first.body, second.body)
     if axis is not None:
-        carrier = second.body if joint.is_of_one_body else first.body
-        m._turning(name, f"{word} of", carrier)
-        axis = carrier.pose.local_direction(axis)
+        owner = second.body if joint.is_of_one_body else first.body
+        m._turning(name, f"{word} of", owner)
+        axis = owner.pose.local_direction(axis)
     made = joint(name, first, second, axis=axis, length=length, damping=damping, cut=checked_cut(name, cut))
     if joint.row.takes_length:
         _check.number(f"length of {name!r}, as drawn,", made.numbers()["length"], above=0)

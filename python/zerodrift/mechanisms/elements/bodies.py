@@ -241,16 +241,16 @@ class Particle(Body):
 
     Attributes
     ----------
-    carrier : Point or None
+    attachment : Point or None
         The point of a body to which it is attached; None for a particle with its own coordinates.
     """
 
     what = "particle"
     turns = False
 
-    def __init__(self, name: str, at: np.ndarray, mass: float, carrier: Point | None = None) -> None:
+    def __init__(self, name: str, at: np.ndarray, mass: float, attachment: Point | None = None) -> None:
         super().__init__(name, Pose(at, 0.0), mass, 0.0, np.zeros(2))
-        self.carrier = carrier
+        self.attachment = attachment
 
     def numbers(self, now: Numbers = AS_GIVEN) -> dict[str, float]:
         """Values of its parameters by the last word of their paths: "mass" of ``crank.mass``."""

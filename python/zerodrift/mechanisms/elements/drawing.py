@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -48,7 +49,8 @@ class Drawing(NamedTuple):
 
     def parts(self) -> list[Body]:
         """Bodies with their own coordinates: without the ground and particles that are attached to others."""
-        return [body for body in self.of(Body) if body is not self.ground and not (isinstance(body, Particle) and body.carrier)]
+        return [body for body in self.of(Body)
+                if body is not self.ground and not (isinstance(body, Particle) and body.attachment)]
 
     def numbers(self, now: Numbers) -> dict[str, float]:
         """Values of all parameters by path, and of the user's own."""
@@ -60,18 +62,20 @@ class Drawing(NamedTuple):
         return listed
 
 
+def inertias_of_bodies(drawing: Drawing, numbers: Numbers, combined: Callable[..., Any]) -> dict[str, Any]:
+    """Inertia of each body by name: `combined` of its properties and the masses and places of the particles attached to it."""
+    masses: dict[str, list[tuple[float, np.ndarray]]] = {}
+    for particle in drawing.of(Particle):
+        if at := particle.attachment:
+            masses.setdefault(at.body.name, []).append((particle.properties(numbers).mass, at.local_with(numbers)))
+    return {body.name: combined(*body.properties(numbers), masses.get(body.name, [])) for body in drawing.parts()}
+
+
 class Inertias:
     """Mass, inertia and centre of mass of each body together with the particles attached to it."""
 
     def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
-        self.of: dict[str, tuple[float, float, np.ndarray]] = {}
-        carried: dict[str, list[tuple[float, np.ndarray]]] = {}
-        for particle in drawing.of(Particle):
-            if particle.carrier:
-                place = particle.carrier.local_with(numbers)
-                carried.setdefault(particle.carrier.body.name, []).append((particle.properties(numbers).mass, place))
-        for body in drawing.parts():
-            self.of[body.name] = self._together(*body.properties(numbers), carried.get(body.name, []))
+        self.of: dict[str, tuple[float, float, np.ndarray]] = inertias_of_bodies(drawing, numbers, _combined)
 
     def is_massive(self, body: Body) -> bool:
         """True if every motion of a body has inertia."""
@@ -88,15 +92,16 @@ class Inertias:
         com_x, com_y = known[2].tolist()
         return x - com_x, y - com_y
 
-    def _together(self, mass: float, inertia: float, com: np.ndarray,
-                  others: list[tuple[float, np.ndarray]]) -> tuple[float, float, np.ndarray]:
-        """Mass, moment of inertia and centre of a body with point masses on it."""
-        if not others:
-            return mass, inertia, com
-        total = mass + sum(other for other, _ in others)
-        if not total:
-            return mass, inertia, com
-        centre = (mass * com + sum(other * place for other, place in others)) / total
-        shifted = [(mass, com), *others]
-        apart = [(part, place - centre) for part, place in shifted]
-        return total, inertia + sum(part * columns.plain((way * way).sum()) for part, way in apart), centre
+
+def _combined(mass: float, inertia: float, com: np.ndarray,
+              others: list[tuple[float, np.ndarray]]) -> tuple[float, float, np.ndarray]:
+    """Mass, moment of inertia and centre of a body with point masses on it."""
+    if not others:
+        return mass, inertia, com
+    total = mass + sum(other for other, _ in others)
+    if not total:
+        return mass, inertia, com
+    centre = (mass * com + sum(other * place for other, place in others)) / total
+    shifted = [(mass, com), *others]
+    apart = [(part, place - centre) for part, place in shifted]
+    return total, inertia + sum(part * columns.plain((way * way).sum()) for part, way in apart), centre

@@ -10,7 +10,7 @@ from ... import _check
 from ..._rotations import AXES
 from ...errors import WrongAttribute, WrongValue
 from .bodies import Body, Ground, Link, MassProperties, Particle, Point, _End
-from .drawing import Inertias
+from .drawing import Drawing, inertias_of_bodies
 from .frames import Pose3
 from .measures import Measure, vector
 from .numbers import AS_GIVEN, Numbers
@@ -192,9 +192,9 @@ class _SpaceEnd(_End):
 class SpaceParticle(Particle):
     """A mass in a point, without orientation; `Mechanism.particle` makes it."""
 
-    def __init__(self, name: str, at: np.ndarray, mass: float, carrier: Point | None = None) -> None:
+    def __init__(self, name: str, at: np.ndarray, mass: float, attachment: Point | None = None) -> None:
         Body.__init__(self, name, Pose3(at, np.eye(3)), mass, 0.0, np.zeros(3))
-        self.carrier = carrier
+        self.attachment = attachment
 
     @property
     def center(self) -> Point:
@@ -211,15 +211,13 @@ class SpaceMass(NamedTuple):
     axes: np.ndarray
 
 
-class SpaceInertias(Inertias):
+class SpaceInertias:
     """Mass and principal moments of each body together with the particles attached to it."""
 
-    of: dict[str, SpaceMass]        # type: ignore[assignment]
+    def __init__(self, drawing: Drawing, numbers: Numbers) -> None:
+        self.of: dict[str, SpaceMass] = inertias_of_bodies(drawing, numbers, _principal)
 
-    def _together(self, *properties: Any) -> SpaceMass:     # type: ignore[override]
-        return _principal(*properties)
-
-    def local(self, point: Point, numbers: Numbers) -> np.ndarray:      # type: ignore[override]
+    def local(self, point: Point, numbers: Numbers) -> np.ndarray:
         """Point relative to its body's mass centre, in the body's principal axes; on the ground relative to the origin."""
         place, known = point.local_with(numbers), self.of.get(point.body.name)
         return place if known is None else known.axes.T @ (place - known.com)

@@ -112,7 +112,7 @@ class SpaceTables(Tables):
     def place_quantities(self, of: Body | Point) -> tuple[Quantity, ...]:     # type: ignore[override]
         """Marker quantities x, y and z of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
-            of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, np.zeros(3))
+            of = of.attachment if isinstance(of, Particle) and of.attachment else Point(of, np.zeros(3))
         body, local = self.place(of)
         return tuple(Quantity(axis, 0, body, point2=local) for axis in AXES)
 

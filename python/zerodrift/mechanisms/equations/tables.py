@@ -36,7 +36,7 @@ class Tables:
     ----------
     joints : list of Joint
         In the order of the core's table.
-    carrier : list of int
+    inboard : list of int
         Inboard joint of each body; -1: the body is free.
     relation_names : list of str
         Name of the element that each relation belongs to.
@@ -185,7 +185,7 @@ class Tables:
     def place_quantities(self, of: Body | Point) -> tuple[Quantity, Quantity]:
         """Marker quantities x and y of a point, or of the origin of a body's frame."""
         if isinstance(of, Body):
-            of = of.carrier if isinstance(of, Particle) and of.carrier else Point(of, ORIGIN)
+            of = of.attachment if isinstance(of, Particle) and of.attachment else Point(of, ORIGIN)
         body, local = self.place(of)
         return Quantity("x", 0, body, (0.0, 0.0), local), Quantity("y", 0, body, (0.0, 0.0), local)
 

@@ -67,7 +67,7 @@ def _link(link: Any, drawing: Drawing) -> dict[str, Any]:
 
 
 def _particle(particle: Any, drawing: Drawing) -> dict[str, Any]:
-    at = place(particle.carrier, drawing) if particle.carrier else numbers(particle.pose.origin)
+    at = place(particle.attachment, drawing) if particle.attachment else numbers(particle.pose.origin)
     return {"mass": particle.mass, "at": at}
 
 

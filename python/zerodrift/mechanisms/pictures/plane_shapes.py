@@ -76,8 +76,8 @@ class Sketch:
             elif body.name not in self.has_shape:
                 yield Shape("disc", np.array([places[0], posed.direction(body, np.array([1.0, 0.0]))]), body.name)
         for particle in self.parts.drawing.of(Particle):
-            if particle.carrier:
-                yield Shape("particle", posed.at(particle.carrier)[None], particle.name)
+            if particle.attachment:
+                yield Shape("particle", posed.at(particle.attachment)[None], particle.name)
         for point in self.parts.free:
             yield Shape("mark", posed.at(point)[None], point.name or "")
 

@@ -43,8 +43,8 @@ class SpaceSketch:
         self.held = self._held()
         self.carried: dict[str, list[Particle]] = {}
         for particle in drawing.of(Particle):
-            if particle.carrier:
-                self.carried.setdefault(particle.carrier.body.name, []).append(particle)
+            if particle.attachment:
+                self.carried.setdefault(particle.attachment.body.name, []).append(particle)
 
     def _held(self) -> dict[str, np.ndarray]:
         """Points (n, 3) of each body that its shape connects."""
@@ -54,8 +54,8 @@ class SpaceSketch:
         for point in [*self.drawing.joined_points(), *self.drawing.of(Point)]:
             points[point.body.name].append(point)
         for particle in self.drawing.of(Particle):
-            if particle.carrier:
-                points[particle.carrier.body.name].append(particle.carrier)
+            if particle.attachment:
+                points[particle.attachment.body.name].append(particle.attachment)
         return {name: np.array(different([self.local(point) for point in those])).reshape(-1, 3)
                 for name, those in points.items()}
 
@@ -77,7 +77,7 @@ class SpaceSketch:
             yield Shape("dot", _moved(ORIGIN, at), body.name)
             return
         for particle in self.carried.get(body.name, ()):
-            yield Shape("dot", _moved(self.local(particle.carrier)[None], at), particle.name)
+            yield Shape("dot", _moved(self.local(particle.attachment)[None], at), particle.name)
         places = self.held[body.name]
         if body.name in self.rolling and len(places) < 2:
             return

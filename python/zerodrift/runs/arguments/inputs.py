@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 import numpy as np
 
 from ... import _check, _gateway
-from ...errors import WrongType, WrongValue
+from ...errors import WrongName, WrongType, WrongValue
 from ...systems.base import BaseSystem
 from ...systems.defaults import WithInputs
+
+
+def refuse_unknown(system: BaseSystem, name: Any, places: Mapping[str, Any]) -> NoReturn:
+    """Refuse a name that a run cannot set; `places`: its inputs."""
+    if name in system._names_of_inputs():
+        raise WrongName(f"{name!r} must be declared as an input before it can be set: inputs=[{name!r}]", "wrong-name")
+    known = f"; {_check.closest(name, places)}" if places else ""
+    raise WrongName(f"a name to set must be that of an input, not {name!r}{known}", "wrong-name")
 
 
 class Declared(NamedTuple):

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from ... import _check, _gateway
-from ...errors import WrongName, WrongValue
+from ...errors import WrongValue
 from ...systems.base import closed_form_core_of
-from ..arguments.inputs import Speeds
+from ..arguments.inputs import Speeds, refuse_unknown
 from ..states.reading import Reading
 from .beginning import Prepared, known_settings, nominal_span, prepared
 from .ending import beyond_reach
@@ -187,9 +187,7 @@ class ManyRuns:
         """Set an input in every run, from the next step on: a number, or an array (runs,); of an array, (runs, ...)."""
         name = getattr(name, "name", name)
         if name not in self._places:
-            raise WrongName(f"nothing but inputs can be set, and {name!r} is none; {_check.closest(name, self._places)}"
-                           if self._places else f"nothing but inputs can be set, and there are none: Run(..., inputs=[{name!r}])",
-                            "wrong-name")
+            refuse_unknown(self.system, name, self._places)
         self.inputs[:, self._places[name]] = values
 
     def __repr__(self) -> str:

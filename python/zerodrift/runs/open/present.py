@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from ... import _check
-from ...errors import WrongName, WrongValue
+from ...errors import WrongValue
+from ..arguments.inputs import refuse_unknown
 from ..samples.summary import run_summary
 
 
@@ -93,10 +94,7 @@ class Present:
         name = getattr(name, "name", name)
         if name in self._places:
             return self._places[name]
-        if name in self.system._names_of_inputs():
-            raise WrongName(f"{name!r} must be declared as an input before it can be set: inputs=[{name!r}]", "wrong-name")
-        known = f"; {_check.closest(name, self._places)}" if self._places else ""
-        raise WrongName(f"nothing but inputs can be set, and {name!r} is none{known}", "wrong-name")
+        refuse_unknown(self.system, name, self._places)
 
     def _ipython_key_completions_(self) -> list[str]:
         return [*self._places, *self._ready.of._names_of_quantities()]

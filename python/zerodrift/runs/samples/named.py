@@ -73,7 +73,7 @@ class Named:
                             "multiplier is in sol.multipliers and has the opposite sign, by (7)", "duplicate-name")
 
     def _force_of(self, name: str) -> str | None:
-        """Name of the scalar force or torque of a drive or coupling of that name; None if there is none."""
+        """Name of the scalar force or torque of the drive or coupling of that name, or None."""
         measures = (f"{name}.{quantity}" for quantity in ("force", "torque"))
         return next((measure for measure in measures if self.system._is_scalar_measure(measure)), None)
 
@@ -93,7 +93,7 @@ class Named:
         return np.column_stack([c * values[:, 0] + s * values[:, 1], c * values[:, 1] - s * values[:, 0]])
 
     def _axes_of(self, body: str, size: int) -> np.ndarray:
-        """Unit vectors (k, size, size) along the axes of a body, one of each row."""
+        """Unit vectors along the axes of a body at each sample, as rows of (k, size, size)."""
         if size == 3:
             return self[f"{body}.rotation"].transpose(0, 2, 1)
         angle = self[f"{body}.angle"]
