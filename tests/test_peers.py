@@ -2,7 +2,6 @@
 
 import functools
 import importlib
-import sys
 
 import numpy as np
 import pytest
@@ -28,10 +27,10 @@ CLOSE = 1e-2        # rad: what is wrong in a model or its start, is so by more 
 
 @pytest.fixture(scope="module", autouse=True)
 def _path():
-    sys.path[:0] = paths = [str(PEERS), str(PEERS.parent)]
-    yield
-    for path in paths:
-        sys.path.remove(path)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(PEERS.parent)
+        patch.syspath_prepend(PEERS)
+        yield
 
 
 @pytest.fixture(scope="module", params=["four_bar", 4])

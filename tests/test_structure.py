@@ -232,8 +232,8 @@ def test_folders_of_tests_are_named_after_rooms():
 
 def test_scripts_that_are_started_by_hand_find_what_they_import():
     """Path of shared helpers: pytest's configuration has it; a script sets it, or its first lines name the PYTHONPATH."""
-    helpers = {path.stem for path in (ROOT / "tests" / "support").glob("*.py")}
-    for path in [*(ROOT / "tests" / "stress").glob("*.py"), *(ROOT / "tests" / "bench").rglob("*.py")]:
+    helpers = {path.stem for path in ROOT.glob("tests/support/*.py")}
+    for path in [*ROOT.glob("tests/stress/*.py"), *ROOT.glob("tests/bench/**/*.py")]:
         source = path.read_text(encoding="utf-8")
         if helpers & set(re.findall(r"^(?:from|import) (\w+)", source, re.MULTILINE)):
             assert re.search(r'/ "support"\)|tests/support', source), path

@@ -37,7 +37,7 @@ def python_texts(path):
     source, file = path.read_text(encoding="utf-8"), str(path.relative_to(ROOT))
     docstrings = set()
     for node in ast.walk(ast.parse(source)):
-        if getattr(node, "name", None) and node.name.startswith("test_"):
+        if str(getattr(node, "name", "")).startswith("test_"):
             yield Text(file, node.lineno, "test name", node.name, node.name.replace("_", " "))
         if isinstance(node, DESCRIBED) and (found := ast.get_docstring(node)):
             where = file, getattr(node, "lineno", 1)
