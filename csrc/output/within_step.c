@@ -19,9 +19,7 @@ zd_output zd_output_create(zd_arena *arena, const zd_settings *settings, zd_step
     };
     if (settings->t_eval || settings->events) {
         self.before = zd_state_create(arena, stepper->motion);
-        self.after = zd_state_create(arena, stepper->motion);
-        self.rates = zd_rates_create(arena, stepper->motion);
-        self.checkpoint = zd_checkpoint_create(arena, stepper);
+        self.after = zd_snapshot_create(arena, stepper);
         self.y = zd_arena_doubles(arena, self.has_polynomial ? (size_t)stepper->capacity : 0);
     }
     return self;
@@ -33,37 +31,18 @@ void zd_output_save_start(zd_output *self)
     self->is_prepared = self->is_within = 0;
 }
 
-static void copy_end(zd_output *self)
-{
-    zd_stepper_save_state(self->stepper, &self->after);
-    zd_stepper_save_rates(self->stepper, &self->rates);
-    const zd_motion *motion = self->stepper->motion;
-    self->is_factored = (motion->point->known & ZD_FACTORED) && !self->rates.are_known && !motion->formulation->update;
-    self->checkpoint.is_set = 0;
-}
-
 void zd_output_save_end(zd_output *self)
 {
-    copy_end(self);
-    zd_checkpoint_set(&self->checkpoint, self->stepper);
+    zd_snapshot_take(&self->after, self->stepper, ZD_ACCELERATIONS | ZD_MEMORY);
     self->is_within = 1;
     self->is_prepared = self->is_plain = 0;
-}
-
-static int return_to_end(zd_output *self)
-{
-    int status = self->checkpoint.is_set ? zd_checkpoint_return(&self->checkpoint, self->stepper, &self->after)
-                                    : zd_stepper_return_to(self->stepper, &self->after);
-    if (!status) zd_stepper_restore_rates(self->stepper, &self->rates);
-    /* A factorization that includes a right-hand side rounds differently from a later solve, so it is repeated. */
-    return !status && self->is_factored ? zd_motion_factor(self->stepper->motion) : status;
 }
 
 int zd_output_return_to_end(zd_output *self)
 {
     self->is_within = 0;
-    if (!self->is_plain) return return_to_end(self);
-    zd_plain_return_to_end(self->stepper, self->after.t, &self->rates);
+    if (!self->is_plain) return zd_snapshot_restore(&self->after, self->stepper);
+    zd_plain_return_to_end(self->stepper, self->after.state.t, &self->after.accelerations);
     return ZD_DONE;
 }
 
@@ -81,11 +60,10 @@ static int leave_for_polynomial(zd_output *self, int may_stay)
     zd_stepper *stepper = self->stepper;
     self->is_within = 1;
     self->is_plain = may_stay && zd_plain_may_stay(stepper);
-    self->after.t = stepper->t;
-    if (!self->is_plain) copy_end(self);
-    if (stepper->motion->formulation->update) zd_checkpoint_set_variables(&self->checkpoint, stepper);
+    const int choice = stepper->motion->formulation->update ? ZD_VARIABLES : 0;
+    if (!self->is_plain) zd_snapshot_take(&self->after, stepper, ZD_ACCELERATIONS | choice);
     int status = self->is_prepared ? ZD_DONE : zd_dense_output_prepare(stepper);
-    if (self->is_plain) zd_plain_save_rates(stepper, &self->rates);     /* dense output reads them in place */
+    if (self->is_plain) zd_plain_save_rates(stepper, &self->after.accelerations);     /* dense output reads them in place */
     self->is_prepared = !status;
     return !status || zd_callable_failed(stepper->motion, status) ? status : go_on_with_shorter_steps(self);
 }
@@ -137,7 +115,7 @@ static int move_to_next(zd_output *self)
 static int save_within(zd_output *self, zd_record *record)
 {
     int status = ZD_DONE;
-    while (!status && is_wanted_before(self, self->after.t)) {
+    while (!status && is_wanted_before(self, self->after.state.t)) {
         if (!zd_record_has_room(record)) return ZD_FULL;
         status = move_to_next(self);
         if (!status) status = zd_recorder_add(self->recorder, record);
@@ -148,7 +126,7 @@ static int save_within(zd_output *self, zd_record *record)
 /* Returns to the end of the step, and saves it if requested. */
 static int save_end(zd_output *self, zd_record *record, int is_end)
 {
-    const double t1 = self->after.t;
+    const double t1 = self->after.state.t;
     int status = self->is_within ? zd_output_return_to_end(self) : ZD_DONE;
     const int here = is_wanted(self, t1);
     if (status || !(here || is_end)) return status;
@@ -160,7 +138,7 @@ static int save_end(zd_output *self, zd_record *record, int is_end)
 int zd_output_after(zd_output *self, zd_record *record, int is_end)
 {
     if (!self->is_open && !is_wanted(self, self->stepper->t)) return is_end ? zd_recorder_add(self->recorder, record) : ZD_DONE;
-    if (!self->is_open) self->after.t = self->stepper->t;
+    if (!self->is_open) self->after.state.t = self->stepper->t;
     int status = save_within(self, record);
     if (!status) status = save_end(self, record, is_end);
     self->is_open = status == ZD_FULL;

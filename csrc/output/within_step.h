@@ -2,7 +2,7 @@
 #pragma once
 
 #include "../paths/path.h"
-#include "../state/stepper.h"
+#include "../state/snapshot.h"
 #include "../step/step_loop.h"
 #include "reading.h"
 
@@ -26,10 +26,8 @@ typedef struct zd_output {
     int64_t t_evals;
     int64_t next;              /* index of the next of them */
     int has_polynomial;     /* true if dense output of the method is used */
-    zd_state before, after; /* start and end of the step */
-    zd_cached_accelerations rates; /* acceleration at its end */
-    int is_factored;        /* true if the leading matrix is factored at its end */
-    zd_checkpoint checkpoint;    /* other quantities that the next step reads */
+    zd_state before;        /* start of the step */
+    zd_snapshot after;      /* its end */
     int is_waiting;         /* true if the record was full before all samples of the step were saved */
     int is_open;            /* true while samples within the step remain */
     int is_prepared;          /* true if its dense output is prepared */
@@ -39,7 +37,7 @@ typedef struct zd_output {
 } zd_output;
 
 zd_output zd_output_create(zd_arena *arena, const zd_settings *settings, zd_step_loop *loop, zd_recorder *recorder);
-static inline int zd_output_has_checkpoint(const zd_output *self) { return self->has_polynomial && self->checkpoint.y; }
+static inline int zd_output_interpolates(const zd_output *self) { return self->has_polynomial && self->after.y; }
 void zd_output_save_start(zd_output *self);
 /* True if dense output is available for the last step. */
 static inline int zd_output_has_dense(const zd_output *self)

@@ -187,7 +187,7 @@ zd_run *zd_run_create(const zd_system *system, const zd_settings *settings, cons
     if (!run) return NULL;
     if (settings->steps == ZD_FIXED_STEPS) run->loop.steps = (int64_t)zd_count_steps(settings->t0, settings->t1, settings->step);
     int why = zd_run_start(run, *status, p0, v0);
-    if (!why && zd_output_has_checkpoint(&run->output)) why = zd_dense_output_create(&run->stepper);
+    if (!why && zd_output_interpolates(&run->output)) why = zd_dense_output_create(&run->stepper);
     *status = why;
     if (settings->is_open) zd_run_leave_open(run);
     return why ? refuse(run, why, status, message, message_size) : run;

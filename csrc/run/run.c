@@ -8,7 +8,7 @@
 double zd_run_progress(const zd_run *run)
 {
     const double span = run->loop.end - run->settings.t0;
-    const double t = run->output.is_open ? run->output.after.t : run->stepper.t;    /* the step is finished, its samples are not */
+    const double t = run->output.is_open ? run->output.after.state.t : run->stepper.t;    /* the step is finished, its samples are not */
     return span > 0 ? (t - run->settings.t0) / span : 1;
 }
 

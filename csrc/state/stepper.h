@@ -44,10 +44,6 @@ int zd_stepper_set_state(zd_stepper *self, double t, const double *p, const doub
 zd_state zd_state_create(zd_arena *arena, const zd_motion *motion);
 void zd_stepper_save_state(const zd_stepper *self, zd_state *place);
 int zd_stepper_return_to(zd_stepper *self, const zd_state *place);
-/* Save the acceleration at the point, if it is known and depends on p and v only; restore it there. */
-zd_cached_accelerations zd_rates_create(zd_arena *arena, const zd_motion *motion);
-void zd_stepper_save_rates(const zd_stepper *self, zd_cached_accelerations *rates);
-void zd_stepper_restore_rates(zd_stepper *self, const zd_cached_accelerations *rates);
 
 /* Integrated variables near a bifurcation: variables.c */
 
@@ -62,26 +58,7 @@ static inline int zd_variables_lose_digits(const zd_stepper *stepper, int status
 }
 /* Returns to the start of the step and changes to (p, v). */
 int zd_variables_use_dependent(zd_stepper *stepper);
-/* Changes to the given formulation before a state is restored. */
-void zd_variables_restore(zd_stepper *stepper, const zd_formulation *formulation);
+/* Changes back to the chosen formulation before a state is restored. */
+void zd_variables_restore(zd_stepper *stepper);
 /* Changes back to the chosen formulation, unless the point is still near a bifurcation. */
 int zd_variables_use_chosen(zd_stepper *stepper);
-
-/* State of integrator and formulation that a step passes to the next, saved while steps are made that do not belong to the run. */
-
-typedef struct zd_checkpoint {
-    int is_set;             /* true if a state is saved */
-    int has_integrator;     /* true if the integrator's state is included */
-    void *of_integrator, *of_chosen;    /* copies of memory_of_integrator and memory_of_chosen */
-    double *y;              /* (size,): integrated state; u recomputed from v = D u would differ by rounding */
-    const zd_formulation *formulation;
-    int was_ill_conditioned, was_deficient, was_doubtful;   /* flags of zd_rank */
-} zd_checkpoint;
-
-zd_checkpoint zd_checkpoint_create(zd_arena *arena, const zd_stepper *stepper);
-/* Save, at the end of a step of the run. The second saves the formulation's choice of variables only, which suffices if no steps are made
- * before it is restored. */
-void zd_checkpoint_set(zd_checkpoint *self, const zd_stepper *stepper);
-void zd_checkpoint_set_variables(zd_checkpoint *self, const zd_stepper *stepper);
-/* Restores it, at the state `end` */
-int zd_checkpoint_return(zd_checkpoint *self, zd_stepper *stepper, const zd_state *end);

@@ -65,9 +65,10 @@ int zd_variables_use_dependent(zd_stepper *stepper)
     return status ? status : motion->formulation->pack(motion->solver, motion->point, stepper->y);
 }
 
-void zd_variables_restore(zd_stepper *stepper, const zd_formulation *formulation)
+void zd_variables_restore(zd_stepper *stepper)
 {
-    if (stepper->motion->formulation != formulation) use(stepper, &stepper->chosen, stepper->y + stepper->motion->formulation_size);
+    const zd_motion *motion = stepper->motion;
+    if (motion->formulation != stepper->chosen.formulation) use(stepper, &stepper->chosen, stepper->y + motion->formulation_size);
 }
 
 int zd_variables_use_chosen(zd_stepper *stepper)

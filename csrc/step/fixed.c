@@ -1,7 +1,6 @@
 /* Fixed steps. One that cannot be corrected or is not accepted is repeated in equal parts: two, four, eight; if these fail, too, the run
  * fails.
  */
-#include "../linalg/small.h"
 #include "step_loop.h"
 
 enum { MAX_PARTS = 8 };    /* largest number of parts of a step that fails */
@@ -38,21 +37,6 @@ static void *create_state(zd_arena *arena, const void *of)
     return zd_arena_copy(arena, &state, sizeof state);
 }
 
-static int save_undivided(zd_step_loop *loop)
-{
-    zd_motion *motion = loop->motion;
-    const zd_last *last = &loop->stepper->last;
-    const int own = motion->formulation_size;
-    if (!loop->undivided) loop->undivided = zd_store_create(&motion->store, create_state, motion);
-    zd_state *undivided = loop->undivided;
-    if (!undivided) return ZD_NO_MEMORY;
-    undivided->t = last->t;
-    zd_copy(motion->system.nq, last->p, undivided->p);
-    zd_copy(motion->system.nv, last->v, undivided->v);
-    zd_copy(motion->rate.size - own, last->y + own, undivided->extra);
-    return ZD_DONE;
-}
-
 static int is_too_far(int status)
 {
     return status == ZD_NO_CONVERGENCE || status == ZD_BRANCH || status == ZD_NO_EMBEDDING || status == ZD_BIFURCATION_PASSED;
@@ -73,10 +57,14 @@ static int divide(zd_step_loop *loop, int *status)
 
 static int begin_parts(zd_step_loop *loop, int *status)
 {
-    if (save_undivided(loop)) {
-        *status = ZD_NO_MEMORY;
+    zd_stepper *stepper = loop->stepper;
+    if (!loop->undivided) loop->undivided = zd_store_create(&loop->motion->store, create_state, loop->motion);
+    const int returned = loop->undivided ? zd_stepper_return(stepper) : ZD_NO_MEMORY;
+    if (returned) {
+        *status = returned;
         return 0;
     }
+    zd_stepper_save_state(stepper, loop->undivided);
     loop->parts = 1;
     return divide(loop, status);
 }
