@@ -12,15 +12,30 @@ from native_systems import needs_compiler
 from zerodrift import _gateway
 
 
+def assert_same(keys, least):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        compared, here, elsewhere = saved_runs.compare(keys)
+    assert len(compared) >= least
+    assert not here
+    assert not elsewhere
+
+
 @needs_compiler
 def test_copies_continue_with_the_same_bits():
     """Copies of runs of every kind; `python tests/support/saved_runs.py 0 400` compares more."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        compared, here, elsewhere = saved_runs.compare(0, draws(20, 40))
-    assert len(compared) > draws(12, 25)
-    assert not here
-    assert not elsewhere
+    assert_same(range(draws(40, 80)), draws(30, 60))
+
+
+def test_copies_with_inputs_continue_with_the_same_bits():
+    """Every formulation with eight integrators, fixed and adaptive, while torques and speeds jump."""
+    assert_same([(number, 1) for number in range(len(saved_runs.driven()))], 70)    # others do not suit the mechanism
+
+
+def test_cheap_ones_continue_for_many_steps():
+    cheap = [(number, 200) for number, (drive, options) in enumerate(saved_runs.driven()) if drive == "drive.torque"
+             and options["formulation"] == "schur" and options["integrator"] in ("rk4", "dop853")]
+    assert_same(cheap, 3)
 
 
 @pytest.mark.parametrize("options", [
