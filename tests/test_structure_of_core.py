@@ -4,7 +4,7 @@ import re
 import shutil
 import subprocess
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 
 import pytest
 
@@ -94,13 +94,16 @@ def test_rooms_depend_downward(uses):
 
 
 def test_the_step_knows_no_closed_form_beyond_its_paths():
-    """The step, the motion, integrators, corrections, checks, output and samples do not ask which path a step is on; a saved
-    state has the accelerations of one elimination order.
+    """The motion, integrators, corrections, checks and output do not ask which path a step is on. The step asks for the path's
+    functions; a snapshot has the accelerations of one elimination order; runs that are repeated, started elsewhere or made in
+    lanes ask whether there is a closed form.
     """
-    asking = {unit_of(path) for path in CSRC.rglob("*.[ch]")
-              if re.search(r"path\.(is_short|lands|embeds|order)\b", path.read_text())}
-    assert len(asking) > 5
-    assert {unit.split("/")[0] for unit in asking} == {"paths", "state"}
+    asked = re.compile(r"path(\.|->)(is_plain|embeds|finishes|continues|was_taken|closed_form|order)\b"
+                       r"|zd_(has|finishes_in)_closed_form|zd_path_of\b")
+    asking = Counter(unit_of(path).split("/")[0] for path in CSRC.rglob("*.[ch]") for line in path.read_text().splitlines()
+                     if asked.search(line))
+    assert asking.keys() == {"paths", "state", "step", "run", "batch"}
+    assert asking["step"] + asking["run"] + asking["batch"] <= 7
 
 
 @pytest.mark.parametrize("room", ["integrators", "corrections"])

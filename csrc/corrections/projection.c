@@ -139,8 +139,7 @@ static int improve_position(void *context)
     if (!status && has_A) status = zd_point_need_times_A(point, 0);
     if (status) return status;
     if (has_A) zd_point_rate(point, self->x, self->p);
-    ZD_SIZED(zd_subtract, system->nq, point->p, has_A ? self->p : self->x, self->p);   /* (25a), (26a), (27a) */
-    zd_quaternions_normalise(system, self->p);
+    zd_correct_position(system, point->p, has_A ? self->p : self->x, self->p);     /* (25a), (26a), (27a) */
     zd_point_move_position(point, self->p);
     return ZD_DONE;
 }
@@ -226,7 +225,7 @@ static int correct_velocities(projection *self, zd_motion *motion)
     zd_point_velocity_violation(point, self->rhs);
     status = solve(self, motion, ZD_LIMIT_PSI, self->x);
     if (status) return status;
-    ZD_SIZED(zd_subtract, point->system->nv, point->v, self->x, self->v);   /* (25b), (26b), (27b) */
+    zd_correct_velocity(point->system, point->v, self->x, self->v);         /* (25b), (26b), (27b) */
     zd_point_move_velocity(point, self->v);
     motion->statistics.velocity_corrections++;
     return ZD_DONE;

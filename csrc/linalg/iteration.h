@@ -1,6 +1,11 @@
 /* Newton's iteration, and iterative refinement. */
 #pragma once
 
+#include <math.h>
+
+#include "../zerodrift.h"
+#include "small.h"
+
 /* Newton iteration, for the position correction and for implicit steps. */
 
 typedef struct zd_newton {
@@ -15,6 +20,16 @@ typedef struct zd_newton {
 
 /* Returns 0 with the number of iterations and the last residual; ZD_NO_CONVERGENCE; ZD_NOT_FINITE; or the status of a function. */
 int zd_newton_solve(const zd_newton *newton, void *context, int *iterations, double *residual);
+
+/* The decision after so many iterations that have left this residual: ZD_DONE for another one, ZD_NO_CONVERGENCE or ZD_NOT_FINITE.
+ * *first: the residual before the first. */
+ZD_INLINE int zd_newton_goes_on(int iterations, int max_iterations, double contraction, double residual, double *first)
+{
+    if (!isfinite(residual)) return ZD_NOT_FINITE;
+    if (iterations == max_iterations) return ZD_NO_CONVERGENCE;
+    if (iterations == 0) *first = residual;
+    return iterations == 1 && contraction > 0 && !(residual <= contraction * *first) ? ZD_NO_CONVERGENCE : ZD_DONE;
+}
 
 /* Limits of iterative refinement, x <- x + solve(rhs - C x). */
 

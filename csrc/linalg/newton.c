@@ -1,9 +1,5 @@
 #include "iteration.h"
 
-#include <math.h>
-
-#include "../zerodrift.h"
-
 enum { MAX_RETREATS = 10 };
 
 /* Armijo's rule: an iteration that does not reduce the residual is shortened. A residual that is NaN does not reduce it. */
@@ -27,12 +23,9 @@ int zd_newton_solve(const zd_newton *newton, void *context, int *iterations, dou
         int status = newton->residual(context, residual);
         if (status) return status;
         if (*residual <= newton->tolerance || (*residual <= newton->nearly && *residual > before / 2)) return ZD_DONE;
-        if (!isfinite(*residual)) return ZD_NOT_FINITE;
-        if (*iterations == newton->max_iterations) return ZD_NO_CONVERGENCE;
-        if (*iterations == 1 && newton->contraction > 0 && !(*residual <= newton->contraction * first)) return ZD_NO_CONVERGENCE;
-        if (*iterations == 0) first = *residual;
+        status = zd_newton_goes_on(*iterations, newton->max_iterations, newton->contraction, *residual, &first);
         before = *residual;
-        status = newton->improve(context);
+        if (!status) status = newton->improve(context);
         if (!status && newton->retreat) status = shorten(newton, context, *residual);
         if (status) return status;
     }

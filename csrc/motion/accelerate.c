@@ -120,10 +120,29 @@ int zd_motion_rate(void *context, double t, const double *y, double *ydot)
     return ZD_DONE;
 }
 
+/* ---- the state and the point ---- */
+
+int zd_motion_unpack(zd_motion *motion, double t, double *y)
+{
+    const zd_formulation *formulation = motion->formulation;
+    /* If Phi drifts, the state begins with p; otherwise p has been normalised when it was computed. */
+    if (formulation->drifts_from & ZD_PHI) zd_quaternions_normalise(&motion->system, y);
+    return formulation->unpack(motion->solver, motion->point, t, y);
+}
+
 int zd_motion_pack(zd_motion *motion, double *y)
 {
     return motion->formulation->pack(motion->solver, motion->point, y);
 }
 
+int zd_motion_finish(zd_motion *motion, double *y, int within)
+{
+    const zd_formulation *formulation = motion->formulation;
+    zd_point_follow(motion->point);
+    int status = within && formulation->update ? formulation->express(motion->solver, motion->point, y) : zd_motion_pack(motion, y);
+    /* Dependent velocities are recomputed from the state to the last bit, so that the next step can start from quantities known here. */
+    return !status && formulation->update ? formulation->update(motion->solver, motion->point) : status;
+}
+
 const zd_equations zd_equations_by_matrices = {
-    accelerate, zd_motion_rate, zd_motion_pack, zd_motion_expand, zd_motion_reduce, ~0, 1};
+    accelerate, zd_motion_rate, zd_motion_unpack, zd_motion_pack, zd_motion_finish, zd_motion_expand, zd_motion_reduce, ~0, 1};

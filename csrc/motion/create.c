@@ -45,6 +45,7 @@ void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *syste
         .formulation_size = formulation->state_size(independent),
         .solver = solver,
         .equations = &zd_equations_by_matrices,
+        .path = {.order = -1},
         .memory_of_chosen = zd_span_since(arena, used),
     };
     motion->point = zd_point_create(arena, &motion->system, &motion->statistics);
@@ -53,6 +54,7 @@ void zd_motion_create(zd_motion *motion, zd_arena *arena, const zd_system *syste
     motion->rate = (zd_rate){
         .inputs = motion->point ? motion->point->inputs : NULL,
         .context = motion,
+        .known = motion->point ? &motion->point->known : NULL,
         .size = motion->formulation_size + zd_has_input(system),
         .system = &motion->system,
     };

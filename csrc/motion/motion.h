@@ -4,6 +4,7 @@
 #pragma once
 
 #include "../formulations/formulation.h"
+#include "../linalg/small.h"
 #include "../step_limits.h"
 #include "correction.h"
 #include "derivatives.h"
@@ -20,7 +21,7 @@ typedef struct zd_state {
 typedef struct zd_cached_accelerations {
     double *vdot, *lambda;  /* (nv,), (m,) */
     double *pivots;         /* (nv,): of the closed-form path; NULL if the system has no closed form */
-    const void *order;      /* elimination order of these pivots; NULL: none */
+    int order;              /* elimination order of these pivots, as zd_path has it */
     double smallest;        /* smallest of them, as zd_path has it */
     int are_known;          /* true if the fields above are set */
 } zd_cached_accelerations;
@@ -50,7 +51,8 @@ typedef struct zd_rate {
     const zd_elimination *closed_form;
     const zd_system *system;
     const double *inputs;   /* (2 inputs + 1,): of the system; NULL without inputs */
-    const double *vdot;     /* (nv,): acceleration at the start of a step, if known; otherwise NULL */
+    const double *vdot;     /* (nv,): the point's acceleration, for a step that starts there; NULL: it is evaluated with the rate */
+    const int *known;       /* mask of the quantities known at the point */
     /* J (size, size) <- derivatives with respect to the state; increment (size,): changes of its entries for differences. Nonzero: not
      * available at this state. NULL: never available. */
     int (*jacobian)(void *context, double t, const double *y, const double *increment, double *J);
@@ -63,7 +65,7 @@ typedef struct zd_rate {
 /* Rates at the start of a step, and at a stage within it. */
 static inline int zd_rate_of_beginning(const zd_rate *rate, double t, const double *restrict y, double *restrict ydot)
 {
-    if (!rate->vdot) return rate->evaluate(rate->context, t, y, ydot);
+    if (!rate->vdot || !(*rate->known & ZD_ACCELERATED)) return rate->evaluate(rate->context, t, y, ydot);
     const int n = rate->system->nv;
     for (int i = 0; i < n; i++) ydot[i] = y[n + i], ydot[n + i] = rate->vdot[i];
     return ZD_DONE;
@@ -98,7 +100,10 @@ typedef struct zd_balance {
 typedef struct zd_equations {
     int (*accelerate)(zd_motion *motion);   /* vdot and lambda at the point */
     int (*rate)(void *motion, double t, const double *y, double *ydot);     /* ydot of the integrated state */
-    int (*pack)(zd_motion *motion, double *y);     /* y <- the formulation's part of the state at the point */
+    int (*unpack)(zd_motion *motion, double t, double *y);      /* moves the point to the formulation's part of the state y */
+    int (*pack)(zd_motion *motion, double *y);     /* y <- that part at the point */
+    /* The same at the end of a step, with the point's dependent entries; `within`: without a new choice of variables, for values within it */
+    int (*finish)(zd_motion *motion, double *y, int within);
     int (*expand)(void *motion, double t, const double *y, double *whole);      /* as in zd_rate, for states in independent velocities */
     int (*reduce)(void *motion, double t, const double *whole, double *y);
     int terms;              /* mask of zd_motion.acceleration_needs: the terms that accelerate() evaluates */
@@ -117,7 +122,10 @@ typedef struct zd_range {
 typedef struct zd_path {
     const zd_closed_form *closed_form;
     const zd_equations *equations;  /* in closed form */
-    const zd_elimination *order;    /* elimination order of the current step; NULL: it takes the matrix path */
+    const zd_elimination *first;    /* (orders,): elimination orders for this formulation */
+    int orders;
+    int embeds;             /* true if the state is in independent velocities, for which all fields from `state` on are: embed.c */
+    int order;              /* index of the elimination order of the current step; negative: it takes the matrix path */
     int was_taken;          /* true if steps were made in closed form since the last checks of the matrix path */
     int continues;          /* true if the quick check has passed, so that the next step may reuse this elimination order */
     double *scale;          /* (orders, nv): factor that makes each pivot relative, from zd_closed_form_find_scales(); 0 until then */
@@ -128,18 +136,14 @@ typedef struct zd_path {
     double *pdot;           /* (nq,): at the point, of a system with A */
     double *pdot_of_stage;  /* (nq,): at a stage; that of the point stays, as a rejected step begins with it again */
     double *dp, *dv;        /* (nq,), (nv,): corrections of one iteration */
-    double *corrected;      /* (nq,) or (nv,): p or v after it */
     double *allowed;        /* (mh,): largest |Phi| that meets the projection's tolerance */
-    int finishes;              /* true if one function projects and computes the acceleration at the end of a step */
+    int finishes;           /* true if one function projects and computes the acceleration at the end of a step */
     int is_plain;           /* true if a step needs nothing else, with a state (p, v), pdot = v, that equals the point's at its ends */
     int64_t energy_skipped; /* counters at the start of the step, restored if it is repeated on the matrix path */
     int64_t energy_corrections;
     double energy_corrected;
     int skipped_since_row;
     double power;           /* W: at the point, of a system with energy input */
-    const zd_elimination *first;    /* (orders,): elimination orders for this formulation */
-    int orders;
-    int embeds;             /* true if the state is in independent velocities, for which all fields below are: embed.c */
     zd_entries state;       /* entries of p and v in the state */
     double *p, *v, *vdot, *Phi;     /* (nq,), (nv,), (nv,), (mh,): of the state being evaluated, which may differ from the point */
     double *unbounded;      /* (mh,): infinite bounds of |Phi|, for a given p */
@@ -258,7 +262,10 @@ static inline int zd_motion_acceleration_terms(const zd_motion *motion)
 }
 static inline int zd_motion_updates(const zd_motion *motion) { return motion->formulation->update && motion->equations->updates; }
 void zd_motion_stabilize(zd_motion *motion);    /* point.rhs <- point.rhs with the terms that corrections add to the right side of (6) */
-int zd_motion_pack(zd_motion *motion, double *y);  /* by the formulation */
+/* zd_equations.unpack, pack and finish by the formulation */
+int zd_motion_unpack(zd_motion *motion, double t, double *y);
+int zd_motion_pack(zd_motion *motion, double *y);
+int zd_motion_finish(zd_motion *motion, double *y, int within);
 int zd_motion_rate(void *motion, double t, const double *y, double *ydot);     /* after a move of the point there */
 void zd_motion_extra_rates(const zd_motion *motion, double *ydot);      /* rates of the corrections' part of the state */
 
@@ -271,6 +278,17 @@ static inline void zd_count_position_iterations(zd_motion *motion, int iteration
     statistics->position_iterations += iterations;
     if (iterations > statistics->max_position_iterations) statistics->max_position_iterations = iterations;
     if (iterations > motion->tally->iterations) motion->tally->iterations = iterations;
+}
+
+/* The corrections (25a), (26a), (27a), with unit quaternions, and (25b), (26b), (27b): to <- p - dp, to <- v - dv. `to` may be p or v. */
+static inline void zd_correct_position(const zd_system *system, const double *p, const double *dp, double *to)
+{
+    ZD_SIZED(zd_subtract_pairs, system->nq, p, dp, to);
+    zd_quaternions_normalise(system, to);
+}
+static inline void zd_correct_velocity(const zd_system *system, const double *v, const double *dv, double *to)
+{
+    ZD_SIZED(zd_subtract_pairs, system->nv, v, dv, to);
 }
 
 /* Applies the corrections that are due in this step, in their order; `forced`: all */

@@ -301,7 +301,8 @@ static int accelerate(zd_motion *motion)
 }
 
 static const zd_equations equations = {
-    accelerate, zd_motion_rate, zd_motion_pack, zd_motion_expand, zd_motion_reduce, ~(ZD_FORCE | ZD_POWER), 1};
+    accelerate, zd_motion_rate, zd_motion_unpack, zd_motion_pack, zd_motion_finish, zd_motion_expand, zd_motion_reduce,
+    ~(ZD_FORCE | ZD_POWER), 1};
 
 static zd_reactions create(zd_arena *arena, const zd_system *system)
 {

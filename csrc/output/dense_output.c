@@ -48,18 +48,14 @@ int zd_dense_output_prepare(zd_stepper *stepper)
         status = motion->formulation->express(motion->solver, motion->point, stepper->y);
     }
     /* The point is where the step has ended. */
-    motion->rate.vdot = motion->path.is_plain && motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
-    if (!status) status = stepper->integrator->prepare_dense(stepper->memory, &motion->rate, last->t, last->h, last->y, stepper->y);
-    motion->rate.vdot = NULL;
-    return status;
+    return status ? status : stepper->integrator->prepare_dense(stepper->memory, &motion->rate, last->t, last->h, last->y, stepper->y);
 }
 
-int zd_dense_output_move(zd_stepper *stepper, double t, double *y)
+int zd_dense_output_move(zd_stepper *stepper, double t)
 {
     const zd_last *last = &stepper->last;
     if (zd_motion_updates(stepper->motion)) take_variables_back(stepper);
-    stepper->integrator->dense_output(stepper->memory, (t - last->t) / last->h, last->y, y);
+    stepper->integrator->dense_output(stepper->memory, (t - last->t) / last->h, last->y, stepper->y);
     stepper->motion->statistics.output_steps++;
-    if (stepper->motion->path.is_plain) return zd_plain_project_within(stepper, t, y);
-    return zd_path_end(zd_path_of_state(stepper->motion), stepper, t, 0, 1, 1);
+    return zd_path_end(stepper, t, 1);
 }

@@ -130,7 +130,7 @@ static int cut(zd_watch *self, double *end)
     if (status) return status;
     zd_stepper_save_state(output->stepper, &self->end);
     zd_watch_span(self);
-    status = zd_output_leave(output, 0);
+    status = zd_output_leave(output);
     if (!status) status = zd_watch_sample(self);
     *end = -INFINITY;       /* no other event is the last */
     self->occurrences = 0;

@@ -5,7 +5,6 @@
  */
 #include "watch.h"
 
-#include "../paths/choose.h"
 #include "../point/point.h"
 
 static int is_fixed(const zd_watch *self)
@@ -22,7 +21,7 @@ static int reads_any_accelerations(const zd_watch *self)
 
 int zd_watch_correct(zd_stepper *stepper)
 {
-    return zd_path_end(zd_path_of_state(stepper->motion), stepper, stepper->t, 0, 1, 0);
+    return zd_path_end(stepper, stepper->t, 0);
 }
 
 int zd_watch_move(zd_watch *self, double t)
@@ -181,7 +180,7 @@ int zd_watch_leave(zd_watch *self)
     zd_output *output = self->output;
     const int is_corrected = output->is_within && !output->is_prepared;
     int status = is_corrected && zd_output_has_dense(output) ? zd_output_return_to_end(output) : ZD_DONE;
-    return status || output->is_within ? status : zd_output_leave(output, 0);
+    return status || output->is_within ? status : zd_output_leave(output);
 }
 
 int zd_watch_predict(zd_watch *self, int *occurs)

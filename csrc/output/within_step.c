@@ -35,15 +35,13 @@ void zd_output_save_end(zd_output *self)
 {
     zd_snapshot_take(&self->after, self->stepper, ZD_ACCELERATIONS | ZD_MEMORY);
     self->is_within = 1;
-    self->is_prepared = self->is_plain = 0;
+    self->is_prepared = 0;
 }
 
 int zd_output_return_to_end(zd_output *self)
 {
     self->is_within = 0;
-    if (!self->is_plain) return zd_snapshot_restore(&self->after, self->stepper);
-    zd_plain_return_to_end(self->stepper, self->after.state.t, &self->after.accelerations);
-    return ZD_DONE;
+    return zd_snapshot_restore(&self->after, self->stepper);
 }
 
 /* Continues with shorter steps after dense output has failed. */
@@ -55,22 +53,20 @@ static int go_on_with_shorter_steps(zd_output *self)
 }
 
 /* Prepares the dense output of the step, unless events have done so: it is valid until the next step. */
-static int leave_for_polynomial(zd_output *self, int may_stay)
+static int leave_for_polynomial(zd_output *self)
 {
     zd_stepper *stepper = self->stepper;
     self->is_within = 1;
-    self->is_plain = may_stay && zd_plain_may_stay(stepper);
     const int choice = stepper->motion->formulation->update ? ZD_VARIABLES : 0;
-    if (!self->is_plain) zd_snapshot_take(&self->after, stepper, ZD_ACCELERATIONS | choice);
+    zd_snapshot_take(&self->after, stepper, ZD_ACCELERATIONS | choice);
     int status = self->is_prepared ? ZD_DONE : zd_dense_output_prepare(stepper);
-    if (self->is_plain) zd_plain_save_rates(stepper, &self->after.accelerations);     /* dense output reads them in place */
     self->is_prepared = !status;
     return !status || zd_callable_failed(stepper->motion, status) ? status : go_on_with_shorter_steps(self);
 }
 
-int zd_output_leave(zd_output *self, int may_stay)
+int zd_output_leave(zd_output *self)
 {
-    if (zd_output_has_dense(self)) return leave_for_polynomial(self, may_stay);
+    if (zd_output_has_dense(self)) return leave_for_polynomial(self);
     zd_output_save_end(self);
     return ZD_DONE;
 }
@@ -85,7 +81,7 @@ int zd_output_make_shorter(zd_output *self, double t)
 int zd_output_go(zd_output *self, double t)
 {
     if (self->is_prepared) {
-        int status = zd_dense_output_move(self->stepper, t, self->is_plain ? self->y : self->stepper->y);
+        int status = zd_dense_output_move(self->stepper, t);
         if (!status || zd_callable_failed(self->stepper->motion, status)) return status;
         status = go_on_with_shorter_steps(self);
         if (status) return status;
@@ -107,7 +103,7 @@ static int is_wanted_before(const zd_output *self, double t)
 static int move_to_next(zd_output *self)
 {
     const double t = self->t_eval[self->next++];
-    int status = self->is_within ? ZD_DONE : zd_output_leave(self, 1);
+    int status = self->is_within ? ZD_DONE : zd_output_leave(self);
     return status ? status : zd_output_go(self, t);
 }
 

@@ -15,8 +15,8 @@ int zd_dense_output_create(zd_stepper *stepper);
  * is valid until the next step. */
 int zd_has_dense_output(const zd_stepper *stepper, double t0);
 int zd_dense_output_prepare(zd_stepper *stepper);
-/* Moves the point to time t within the step: the value of the polynomial, with all corrections. y (size,) receives the state there. */
-int zd_dense_output_move(zd_stepper *stepper, double t, double *y);
+/* Moves to time t within the step: the value of the polynomial, with all corrections. */
+int zd_dense_output_move(zd_stepper *stepper, double t);
 
 typedef struct zd_output {
     zd_step_loop *loop;
@@ -32,7 +32,6 @@ typedef struct zd_output {
     int is_open;            /* true while samples within the step remain */
     int is_prepared;          /* true if its dense output is prepared */
     int is_within;            /* true while the motion is not at the end of the step, which is saved */
-    int is_plain;           /* true while dense output is evaluated into y, the stepper's state staying that of the end */
     double *y;              /* (size,) state from dense output */
 } zd_output;
 
@@ -45,10 +44,9 @@ static inline int zd_output_has_dense(const zd_output *self)
     return self->has_polynomial && zd_has_dense_output(self->stepper, self->before.t);
 }
 /* Saves the end of the step before the motion leaves it: for shorter steps only; or for any values within the step, preparing dense output
- * if available. zd_output_return_to_end() returns there, so that the bits of the next step do not change. `may_stay`: the stepper's state
- * may stay at the end, as only dense output follows. */
+ * if available. zd_output_return_to_end() returns there, so that the bits of the next step do not change. */
 void zd_output_save_end(zd_output *self);
-int zd_output_leave(zd_output *self, int may_stay);
+int zd_output_leave(zd_output *self);
 int zd_output_return_to_end(zd_output *self);
 /* Moves to a time within the step, after its end was saved: by dense output, or else by a shorter step; the second function always by a
  * shorter step. */

@@ -17,17 +17,18 @@
 #include "../step_limits.h"
 #include "path.h"
 
-static double *scale_of(const zd_motion *motion, const zd_elimination *order)
+static double *scale_of(const zd_motion *motion, int order)
 {
-    return motion->path.scale + (order - motion->path.first) * motion->system.nv;
+    return motion->path.scale + order * motion->system.nv;
 }
 
 /* Scale of each pivot. A determinant is a sum of products of one entry from each row and column, and so is its scale. Pivots of D^T M D are
  * relative already; their factor makes ZD_LARGE_PIVOT mean ZD_LOST_PIVOT. */
-static void measure(const zd_motion *motion, const zd_elimination *order)
+static void measure(const zd_motion *motion, int i)
 {
     const zd_point *point = motion->point;
-    double *scale = scale_of(motion, order);
+    const zd_elimination *order = motion->path.first + i;
+    double *scale = scale_of(motion, i);
     for (int k = 0; k < motion->system.nv; k++) scale[k] = k < order->solves ? 1 : ZD_LARGE_PIVOT / ZD_LOST_PIVOT;
     for (int k = 0; k < zd_constraints(&motion->system); k++)
         scale[order->solve[k]] *= point->unit[order->column[k]] * point->inverse_size[order->row[k]];
@@ -35,15 +36,14 @@ static void measure(const zd_motion *motion, const zd_elimination *order)
 
 void zd_closed_form_find_scales(zd_motion *motion)
 {
-    for (int i = 0; i < motion->path.closed_form->orders; i++) measure(motion, motion->path.closed_form->order + i);
+    for (int i = 0; i < motion->path.orders; i++) measure(motion, i);
 }
 
 /* Smallest relative pivot of the constraints at the point; 0 if D^T M D has lost too many bits, or a pivot is NaN */
 static double smallest_pivot(const zd_motion *motion)
 {
-    const zd_elimination *order = motion->path.order;
-    const double *pivots = motion->path.pivots, *scale = scale_of(motion, order);
-    const int solves = order->solves, all = solves + motion->system.nv - zd_constraints(&motion->system);
+    const double *pivots = motion->path.pivots, *scale = scale_of(motion, motion->path.order);
+    const int solves = zd_path_order(motion)->solves, all = solves + motion->system.nv - zd_constraints(&motion->system);
     double smallest = INFINITY;
     for (int k = 0; k < solves; k++) {
         const double share = fabs(pivots[k]) * scale[k];
@@ -56,7 +56,7 @@ static double smallest_pivot(const zd_motion *motion)
 
 static int count_pivots(const zd_motion *motion)
 {
-    return motion->path.order->solves + motion->system.nv - zd_constraints(&motion->system);
+    return zd_path_order(motion)->solves + motion->system.nv - zd_constraints(&motion->system);
 }
 
 /* True if a step ends with the projection, optionally followed by the energy correction, and nothing else is integrated or added. */
@@ -92,7 +92,7 @@ static void save_pivots(zd_motion *motion)
 {
     zd_path *path = &motion->path;
     const double *scale = scale_of(motion, path->order), factor = 1 / sqrt(ZD_SHRUNK_PIVOT);
-    if (path->order != path->first) return;
+    if (path->order) return;
     for (int k = 0; k < count_pivots(motion); k++) {
         const double x = path->pivots[k], least = fmax(fabs(x) / factor, ZD_LARGE_PIVOT / scale[k]), most = fabs(x) * factor;
         const uint64_t from = bits_of(copysign(least, x)), to = bits_of(copysign(most, x));
@@ -100,32 +100,37 @@ static void save_pivots(zd_motion *motion)
     }
 }
 
-static void use(zd_motion *motion, const zd_elimination *order)
+void zd_path_take(zd_motion *motion, int i)
 {
-    if (motion->path.order == order) return;
+    zd_path *path = &motion->path;
+    if (path->order == i) return;
+    const zd_elimination *order = i < 0 ? NULL : path->first + i;
+    const int is_rate = order && !motion->is_stabilized && !path->embeds && motion->rate.size == motion->formulation_size;
     motion->point->known &= ~ZD_ACCELERATED;
-    motion->path.order = order;
-    motion->path.continues = 0;
+    path->order = i;
+    path->continues = 0;
     if (order) discard_pivots(motion);
-    motion->path.finishes = order && order->finish && ends_with_projection(motion);
-    for (int k = 0; k < motion->system.mh; k++) motion->path.allowed[k] = motion->target.tolerance * motion->point->size[k];
-    motion->equations = order ? motion->path.equations : &zd_equations_by_matrices;
+    path->finishes = order && order->finish && ends_with_projection(motion);
+    for (int k = 0; k < motion->system.mh; k++) path->allowed[k] = motion->target.tolerance * motion->point->size[k];
+    motion->equations = order ? path->equations : &zd_equations_by_matrices;
     zd_motion_describe_rate(motion);
-    motion->rate.closed_form = motion->is_stabilized || motion->path.embeds || motion->rate.size > motion->formulation_size ? NULL : order;
-    motion->path.is_plain = motion->path.finishes && motion->target.every == 1 && motion->rate.closed_form && !motion->point->terms.A
-        && !motion->system.quaternions;
+    motion->rate.closed_form = is_rate ? order : NULL;
+    path->is_plain = path->finishes && is_rate && motion->target.every == 1 && !motion->point->terms.A && !motion->system.quaternions;
+    motion->rate.vdot = path->is_plain ? motion->point->vdot : NULL;
 }
 
-void zd_closed_form_leave(zd_motion *motion)
+int zd_closed_form_leave(zd_motion *motion)
 {
-    use(motion, NULL);
+    const int was_taken = motion->path.order >= 0;
+    zd_path_take(motion, -1);
+    return was_taken;
 }
 
 void zd_closed_form_discard(zd_motion *motion)
 {
     const zd_path *path = &motion->path;
     zd_closed_form_leave(motion);
-    for (int i = 0; path->closed_form && i < path->closed_form->orders * motion->system.nv; i++) path->scale[i] = 0;
+    for (int i = 0; i < path->orders * motion->system.nv; i++) path->scale[i] = 0;
 }
 
 void zd_closed_form_save_energy(zd_motion *motion)
@@ -136,14 +141,15 @@ void zd_closed_form_save_energy(zd_motion *motion)
     motion->path.skipped_since_row = motion->tally->energy_skipped;
 }
 
-void zd_closed_form_leave_step(zd_motion *motion)
+int zd_closed_form_leave_step(zd_motion *motion)
 {
-    zd_closed_form_leave(motion);
+    if (!zd_closed_form_leave(motion)) return 0;
     motion->path.was_taken = 0;
     motion->statistics.energy_skipped = motion->path.energy_skipped;
     motion->statistics.energy_corrections = motion->path.energy_corrections;
     motion->statistics.energy_corrected = motion->path.energy_corrected;
     motion->tally->energy_skipped = motion->path.skipped_since_row;
+    return 1;
 }
 
 /* Saves pivots and energy counters at the start of a step. */
@@ -155,10 +161,10 @@ static void begin(zd_motion *motion)
 }
 
 /* Selects the order and returns true if its relative pivots at the point are at least `enough`. */
-static int takes(zd_motion *motion, const zd_elimination *order, double enough)
+static int takes(zd_motion *motion, int order, double enough)
 {
     if (!(*scale_of(motion, order) > 0)) measure(motion, order);
-    use(motion, order);
+    zd_path_take(motion, order);
     if (zd_motion_accelerate(motion) || !(smallest_pivot(motion) >= enough)) return 0;
     begin(motion);
     return 1;
@@ -167,17 +173,16 @@ static int takes(zd_motion *motion, const zd_elimination *order, double enough)
 /* Selects the first order whose relative pivots at the point are at least `enough`; 0 if there is none. */
 static int find_order(zd_motion *motion, double enough)
 {
-    const zd_path *path = &motion->path;
-    for (int i = 0; i < path->orders; i++)
-        if (takes(motion, path->first + i, enough)) return 1;
+    for (int i = 0; i < motion->path.orders; i++)
+        if (takes(motion, i, enough)) return 1;
     return 0;
 }
 
 /* Selects the order for a state in independent velocities: at most one fits. */
 static int find_embedding(zd_motion *motion)
 {
-    const zd_elimination *order = zd_embed_find(motion);
-    return order && takes(motion, order, ZD_SUFFICIENT_PIVOT);
+    const int order = zd_embed_find(motion);
+    return order >= 0 && takes(motion, order, ZD_SUFFICIENT_PIVOT);
 }
 
 int zd_closed_form_choose(zd_motion *motion)
@@ -185,11 +190,17 @@ int zd_closed_form_choose(zd_motion *motion)
     const zd_path *path = &motion->path;
     int all_count = motion->point->rank->max_rank == zd_constraints(&motion->system);
     /* Usually the order of the previous step, which ended at this point. */
-    if (all_count && path->order == path->first && (motion->point->known & ZD_ACCELERATED) && path->smallest >= ZD_LARGE_PIVOT) begin(motion);
+    if (all_count && path->order == 0 && (motion->point->known & ZD_ACCELERATED) && path->smallest >= ZD_LARGE_PIVOT) begin(motion);
     else if (!all_count || !(path->embeds ? find_embedding(motion) : find_order(motion, ZD_LARGE_PIVOT) ||
                              find_order(motion, ZD_SUFFICIENT_PIVOT)))
-        use(motion, NULL);
-    return path->order != NULL;
+        zd_path_take(motion, -1);
+    return path->order >= 0;
+}
+
+int zd_closed_form_resume(zd_motion *motion)
+{
+    motion->path.was_taken = 1;
+    return zd_closed_form_choose(motion);
 }
 
 int zd_closed_form_compare(zd_safeguards *safeguards, double h, double moved)
@@ -209,9 +220,4 @@ int zd_closed_form_compare(zd_safeguards *safeguards, double h, double moved)
     path->was_taken = 1;
     save_pivots(motion);
     return ZD_DONE;
-}
-
-int zd_path_check_pivots(zd_stepper *self, zd_safeguards *safeguards, int64_t next_step, int parts)
-{
-    return zd_safeguards_judge(safeguards, zd_closed_form_compare, self->t - self->last.t, next_step, parts);
 }

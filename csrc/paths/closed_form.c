@@ -1,4 +1,4 @@
-/* Steps on the closed-form path that end with the projection and, optionally, the energy correction; equations of motion in closed form. */
+/* The closed-form path: equations of motion, parts of a step, and its quick check. */
 #include "path.h"
 
 #include <math.h>
@@ -17,8 +17,8 @@ static int evaluate(zd_motion *motion, const double *added)
     zd_point *point = motion->point;
     zd_path *path = &motion->path;
     motion->statistics.evaluations++;
-    return path->order->accelerate(motion->system.data, point->terms.inputs, &point->t, point->p, point->v, added, path->pdot, point->vdot,
-                                   point->lambda, motion->balance.input ? &path->power : NULL, path->pivots);
+    return zd_path_order(motion)->accelerate(motion->system.data, point->terms.inputs, &point->t, point->p, point->v, added, path->pdot,
+                                             point->vdot, point->lambda, motion->balance.input ? &path->power : NULL, path->pivots);
 }
 
 int zd_closed_form_accelerate(zd_motion *motion, int (*evaluate_with)(zd_motion *motion, const double *added))
@@ -70,16 +70,17 @@ static int rate(void *context, double t, const double *y, double *ydot)
     motion->statistics.evaluations++;
     if (!point->terms.A) zd_copy_all(nv, y + nq, ydot);
     double *power = motion->balance.input ? ydot + motion->rate.size - 1 : NULL;
-    int status = motion->path.order->accelerate(point->system->data, point->terms.inputs, &t, y, y + nq, NULL, ydot, ydot + nq, NULL, power,
-                                                NULL);
+    int status = zd_path_order(motion)->accelerate(point->system->data, point->terms.inputs, &t, y, y + nq, NULL, ydot, ydot + nq,
+                                                         NULL, power, NULL);
     return status ? ZD_CALLBACK : ZD_DONE;
 }
 
-const zd_equations zd_equations_in_closed_form = {accelerate, rate, zd_motion_pack, NULL, NULL, 0, 0};
+const zd_equations zd_equations_in_closed_form = {
+    accelerate, rate, zd_motion_unpack, zd_motion_pack, zd_motion_finish, NULL, NULL, 0, 0};
 
-/* ---- integration ---- */
+/* ---- parts of a step, of a plain state in place ---- */
 
-/* Zero times what is not finite is not a number; the sum has no branches. */
+/* True if 2 n numbers are finite: zero times others is NaN. The sum has no branches. */
 ZD_INLINE int is_finite(const int n, const double *y)
 {
     double zero = 0;
@@ -87,108 +88,59 @@ ZD_INLINE int is_finite(const int n, const double *y)
     return zero == 0;
 }
 
-ZD_INLINE void save_start(const int n, zd_stepper *stepper)
-{
-    zd_copy(n, stepper->y, stepper->last.y);
-    zd_copy(n, stepper->y + n, stepper->last.y + n);
-}
-
-ZD_INLINE int integrate(const int n, zd_stepper *stepper, double h)
+ZD_INLINE int integrate_plain(const int n, zd_stepper *stepper, double h)
 {
     zd_motion *motion = stepper->motion;
-    save_start(n, stepper);
-    motion->rate.vdot = motion->point->known & ZD_ACCELERATED ? motion->point->vdot : NULL;
-    int status = stepper->integrator->step(stepper->memory, &motion->rate, stepper->t, h, stepper->y, &motion->statistics);
-    motion->rate.vdot = NULL;
-    return status;      /* values that are not finite are found at the end of the step */
-}
-
-static int integrate_from(zd_stepper *stepper, double h)
-{
-    const zd_point *point = stepper->motion->point;
     stepper->last.t = stepper->t;
     stepper->last.h = h;
-    point->rank->was_ill_conditioned = 0;
-    return ZD_SIZED(integrate, point->system->nv, stepper, h);
+    motion->point->rank->was_ill_conditioned = 0;
+    zd_copy(n, stepper->y, stepper->last.y);
+    zd_copy(n, stepper->y + n, stepper->last.y + n);
+    /* Values that are not finite are found at the end of the step. */
+    return stepper->integrator->step(stepper->memory, &motion->rate, stepper->t, h, stepper->y, &motion->statistics);
 }
 
-/* ---- projection at the end of a step on the closed-form path ----
- *
- * Positions are iterated onto the constraints,
- *
- *     p <- p - dp     (25a), (26a), (27a)     until every |Phi| is at most its tolerance
- *
- * and the call that finds them converged also projects the velocities, (25b), (26b), (27b), and computes the acceleration for the first
- * stage of the next step. Sines and pivots are so computed once for all three.
- */
-
-/* One iteration p <- p - dp; ZD_NO_CONVERGENCE or ZD_NOT_FINITE if none may follow. */
-static int improve(zd_motion *motion, int iteration, double *first, double *p)
+static int integrate(zd_stepper *stepper, double h)
 {
-    zd_point *point = motion->point;
-    const double residual = point->residual_left =
-        ZD_SIZED(zd_largest_scaled, point->system->mh, point->terms.Phi, point->inverse_size);
-    if (!isfinite(residual)) return ZD_NOT_FINITE;
-    if (iteration == motion->target.max_iterations) return ZD_NO_CONVERGENCE;
-    if (iteration == 0) *first = residual;
-    if (iteration == 1 && !(residual <= ZD_TRUSTED_SHARE * *first)) return ZD_NO_CONVERGENCE;
-    ZD_SIZED(zd_subtract_pairs, point->system->nq, p, motion->path.dp, p);    /* (25a), (26a), (27a) */
-    if (point->system->quaternions) zd_quaternions_normalise(point->system, p);
-    return ZD_DONE;
+    const zd_motion *motion = stepper->motion;
+    return motion->path.is_plain ? ZD_SIZED(integrate_plain, motion->system.nv, stepper, h) : zd_path_integrate(stepper, h);
 }
 
-int zd_closed_form_finish(zd_motion *motion, double t, double *p, double *v)
+ZD_INLINE void copy_to_point(const int n, const double *y, zd_point *point)
 {
-    zd_point *point = motion->point;
-    zd_path *path = &motion->path;
-    const zd_system *system = &motion->system;
-    double first = 0;
-    int iterations = 0, status;
-    for (;; iterations++) {
-        status = path->order->finish(system->data, point->terms.inputs, &t, p, v, path->allowed, point->terms.Phi, path->dp, path->pdot,
-                                   point->vdot, point->lambda, NULL, path->pivots);
-        if (status != ZD_NO_CONVERGENCE) break;
-        status = improve(motion, iterations, &first, p);
-        if (status) break;
-    }
-    motion->statistics.evaluations += iterations + 1;
-    zd_count_position_iterations(motion, iterations);
-    point->known = status ? 0 : ZD_ACCELERATED;
-    if (status) return status == ZD_NOT_FINITE || status == ZD_NO_CONVERGENCE ? status : ZD_CALLBACK;
-    motion->statistics.velocity_corrections++;
-    return ZD_DONE;
+    zd_copy_pairs(n, y, point->p);
+    zd_copy_pairs(n, y + n, point->v);
 }
 
-/* Projects the state y at t, and moves the point to it. */
-ZD_INLINE int project(const int n, zd_stepper *stepper, double t, double *y)
+ZD_INLINE int project_plain(zd_stepper *stepper, double t, double *y)
 {
     zd_point *point = stepper->motion->point;
     point->t = stepper->t = t;
-    int status = zd_closed_form_finish(stepper->motion, t, y, y + n);
-    zd_copy_pairs(n, y, point->p);
-    zd_copy_pairs(n, y + n, point->v);
+    int status = zd_project_and_accelerate(stepper->motion, t, y, y + point->system->nv);
+    ZD_SIZED(copy_to_point, point->system->nv, y, point);
     return status;
 }
 
-static int project_state(zd_stepper *stepper, double t1, int64_t step, int forced)
+static int project(zd_stepper *stepper, double t1, int64_t step, int forced)
 {
-    (void)step, (void)forced;       /* due in every step */
-    return ZD_SIZED(project, stepper->motion->system.nv, stepper, t1, stepper->y);
+    const int is_plain = stepper->motion->path.is_plain;
+    return is_plain ? project_plain(stepper, t1, stepper->y) : zd_project_converted(stepper, t1, step, forced);
 }
 
-/* Applies the other corrections at the point, and computes its acceleration. */
-ZD_INLINE int correct(const int n, zd_stepper *stepper, double *y, int64_t step, int forced)
+static int correct_rest(zd_stepper *stepper, int64_t step, int forced)
 {
     zd_motion *motion = stepper->motion;
     int status = zd_motion_correct_rest(motion, step, forced);
-    if (status) return status;
-    zd_copy_pairs(n, motion->point->v, y + n);
+    if (status || !motion->path.is_plain) return status;
+    zd_copy_all(motion->system.nv, motion->point->v, stepper->y + motion->system.nv);
     return zd_motion_accelerate(motion);
 }
 
-static int correct_state(zd_stepper *stepper, int64_t step, int forced)
+static int finish(zd_stepper *stepper, int within)
 {
-    return ZD_SIZED(correct, stepper->motion->system.nv, stepper, stepper->y, step, forced);
+    zd_motion *motion = stepper->motion;
+    if (!motion->path.is_plain) return zd_path_finish(stepper, within);
+    return ZD_SIZED(is_finite, motion->system.nv, stepper->y) ? ZD_DONE : ZD_NOT_FINITE;
 }
 
 /* ---- quick check of a step ----
@@ -249,13 +201,14 @@ ZD_INLINE int pivots_stay(zd_path *path)
     return 1;
 }
 
-/* True if the step to (p, v) passes, with n coordinates and pdot = v. NaN and infinity fail each comparison. */
-ZD_INLINE int passes_quick_check(const int n, zd_safeguards *self, double h, int64_t next_step, const double *p, const double *v)
+/* True if the step passes, of a plain state with n coordinates. NaN and infinity fail each comparison. */
+ZD_INLINE int passes_quick_check(const int n, const zd_stepper *stepper, zd_safeguards *self, int64_t next_step)
 {
+    const double *y = stepper->y;
     zd_guard *guard = &self->guard;
     const zd_last *last = guard->last;
     if (guard->watches_step) return 0;
-    const seen_step seen = see(n, 0.5 * h, last->p, last->v, p, v, guard->motion->point->inverse_unit_p);
+    const seen_step seen = see(n, 0.5 * last->h, last->p, last->v, y, y + n, guard->motion->point->inverse_unit_p);
     if (!(ZD_CALM_DETOUR * ZD_CALM_DETOUR * seen.detour <= seen.moved + guard->nearby) || !(seen.moved <= guard->reach)) return 0;
     if (!pivots_stay(&guard->motion->path)) return 0;
     if (next_step >= guard->next_check) zd_guard_watch_next(guard);
@@ -264,62 +217,16 @@ ZD_INLINE int passes_quick_check(const int n, zd_safeguards *self, double h, int
 
 ZD_RARE int check_fully(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
-    const int is_number = is_finite(stepper->motion->system.nv, stepper->y);
-    return is_number ? zd_safeguards_judge(safeguards, zd_closed_form_compare, stepper->last.h, next_step, parts) : ZD_NOT_FINITE;
+    const double h = stepper->motion->path.is_plain ? stepper->last.h : stepper->t - stepper->last.t;
+    int status = finish(stepper, 0);
+    return status ? status : zd_safeguards_judge(safeguards, zd_closed_form_compare, h, next_step, parts);
 }
 
-ZD_INLINE int check(const int n, zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
+static int check(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
 {
-    const double *y = stepper->y;
-    if (!parts && passes_quick_check(n, safeguards, stepper->last.h, next_step, y, y + n)) return ZD_DONE;
-    return check_fully(stepper, safeguards, next_step, parts);
+    const int may_be_quick = stepper->motion->path.is_plain && !parts;
+    return may_be_quick && ZD_SIZED(passes_quick_check, stepper->motion->system.nv, stepper, safeguards, next_step) ? ZD_DONE
+         : check_fully(stepper, safeguards, next_step, parts);
 }
 
-static int check_state(zd_stepper *stepper, zd_safeguards *safeguards, int64_t next_step, int parts)
-{
-    return ZD_SIZED(check, stepper->motion->system.nv, stepper, safeguards, next_step, parts);
-}
-
-const zd_evaluation_path zd_closed_form_path = {"closed form", 1, integrate_from, project_state, correct_state, NULL, check_state};
-
-ZD_INLINE int project_within(const int n, zd_stepper *stepper, double t, double *y)
-{
-    int status = project(n, stepper, t, y);
-    if (!status && stepper->motion->others_after_step) status = correct(n, stepper, y, 0, 1);
-    return status || is_finite(n, y) ? status : ZD_NOT_FINITE;
-}
-
-int zd_plain_project_within(zd_stepper *stepper, double t, double *y)
-{
-    return ZD_SIZED(project_within, stepper->motion->system.nv, stepper, t, y);
-}
-
-/* Exchanges the arrays of accelerations at the end of the step with others: a copy would take as long as saving a sample. */
-static void exchange_rates(zd_motion *motion, zd_cached_accelerations *rates)
-{
-    zd_exchange(&motion->point->vdot, &rates->vdot);
-    zd_exchange(&motion->point->lambda, &rates->lambda);
-    zd_exchange(&motion->path.pivots, &rates->pivots);
-}
-
-void zd_plain_save_rates(const zd_stepper *stepper, zd_cached_accelerations *rates)
-{
-    rates->smallest = stepper->motion->path.smallest;
-    exchange_rates(stepper->motion, rates);
-}
-
-ZD_INLINE void return_to_end(const int n, const double *y, const zd_point *point)
-{
-    zd_copy_pairs(n, y, point->p);
-    zd_copy_pairs(n, y + n, point->v);
-}
-
-void zd_plain_return_to_end(zd_stepper *stepper, double t, zd_cached_accelerations *rates)
-{
-    zd_motion *motion = stepper->motion;
-    motion->point->t = stepper->t = t;
-    motion->point->known = ZD_ACCELERATED;
-    motion->path.smallest = rates->smallest;
-    exchange_rates(motion, rates);
-    ZD_SIZED(return_to_end, motion->system.nv, stepper->y, motion->point);
-}
+const zd_evaluation_path zd_closed_form_path = {"closed form", integrate, project, correct_rest, finish, check};

@@ -25,6 +25,7 @@ void zd_closed_form_create(zd_motion *motion, zd_arena *arena, enum zd_unit unit
         .equations = embeds ? &zd_equations_of_independent : &zd_equations_in_closed_form,
         .first = embeds ? closed_form->embedding : closed_form->order,
         .orders = orders,
+        .order = -1,
         .scale = zd_arena_doubles(arena, (size_t)(orders * system->nv)),
         .pivots = zd_arena_doubles(arena, (size_t)system->nv),
         .before = zd_arena_doubles(arena, (size_t)system->nv),
@@ -32,7 +33,6 @@ void zd_closed_form_create(zd_motion *motion, zd_arena *arena, enum zd_unit unit
         .range = zd_arena_bytes(arena, (size_t)system->nv * sizeof(zd_range)),
         .dp = zd_arena_doubles(arena, (size_t)system->nq),
         .dv = zd_arena_doubles(arena, (size_t)system->nv),
-        .corrected = zd_arena_doubles(arena, (size_t)(system->nq > system->nv ? system->nq : system->nv)),
         .allowed = zd_arena_doubles(arena, (size_t)system->mh),
     };
     if (embeds) zd_embed_create(&motion->path, arena, system);

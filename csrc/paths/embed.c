@@ -42,17 +42,17 @@ static int solves_for(const zd_elimination *order, int m, int j)
     return 0;
 }
 
-const zd_elimination *zd_embed_find(zd_motion *motion)
+int zd_embed_find(zd_motion *motion)
 {
     const int m = zd_constraints(&motion->system), r = motion->system.nv - m;
     zd_path *path = &motion->path;
-    if (!motion->formulation->entries || !motion->formulation->entries(motion->solver, &path->state)) return NULL;
+    if (!motion->formulation->entries || !motion->formulation->entries(motion->solver, &path->state)) return -1;
     for (int i = 0; i < path->orders; i++) {
         int serves = 1;
         for (int j = 0; j < r; j++) serves &= !solves_for(path->first + i, m, path->state.u[j]);
-        if (serves) return path->first + i;
+        if (serves) return i;
     }
-    return NULL;
+    return -1;
 }
 
 void zd_embed_begin(zd_motion *motion)
@@ -67,7 +67,7 @@ void zd_embed_begin(zd_motion *motion)
 int zd_embed_is_steep(const zd_motion *motion)
 {
     const zd_point *point = motion->point;
-    const zd_elimination *order = motion->path.order;
+    const zd_elimination *order = zd_path_order(motion);
     const int m = zd_constraints(&motion->system), n = motion->system.nv;
     const double *D = motion->path.D;
     double steepest = 0;
@@ -128,34 +128,30 @@ void zd_embed_write(const zd_motion *motion, const double *p, const double *v, d
 
 /* ---- dependent coordinates, velocities and accelerations ---- */
 
-/* One iteration p <- p - dp; ZD_NO_EMBEDDING if it does not converge. */
-static int improve(zd_motion *motion, int iteration, double *first)
+typedef struct embedding {
+    zd_iterate it;
+    const double *added, *allowed;
+    const zd_embedded *to;
+} embedding;
+
+ZD_INLINE int call_embed(const zd_iterate *it)
 {
-    zd_path *path = &motion->path;
-    double residual = 0;
-    for (int k = 0; k < motion->system.mh; k++) residual = fmax(residual, fabs(path->Phi[k]) * motion->point->inverse_size[k]);
-    if (iteration == MAX_ITERATIONS || (iteration == 1 && !(residual <= ZD_TRUSTED_SHARE * *first))) return ZD_NO_EMBEDDING;
-    if (iteration == 0) *first = residual;
-    ZD_SIZED(zd_subtract, motion->system.nq, path->p, path->dp, path->p);
-    return ZD_DONE;
+    const embedding *self = (const embedding *)it;
+    const zd_embedded *to = self->to;
+    const zd_motion *motion = it->motion;
+    return zd_path_order(motion)->embed(motion->system.data, motion->rate.inputs, it->t, it->p, it->v, self->added, self->allowed,
+                                        motion->path.Phi, motion->path.dp, to->D, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
 }
 
 int zd_embed_entries(zd_motion *motion, double t, int finds_p, const double *added, const zd_embedded *to)
 {
-    zd_path *path = &motion->path;
-    const double *allowed = finds_p ? path->allowed : path->unbounded;
-    double first = 0;
-    for (int iteration = 0;; iteration++) {
-        motion->statistics.evaluations++;
-        int status = path->order->embed(motion->system.data, motion->rate.inputs, &t, path->p, path->v, added, allowed, path->Phi, path->dp,
-                                        to->D, to->pdot, to->vdot, to->lambda, to->power, to->pivots);
-        if (finds_p && status == ZD_NO_CONVERGENCE) status = improve(motion, iteration, &first);
-        else {
-            motion->statistics.embedding_iterations += finds_p ? iteration : 0;
-            return status ? ZD_CALLBACK : ZD_DONE;
-        }
-        if (status) return status;
-    }
+    const zd_path *path = &motion->path;
+    const embedding self = {{motion, &t, path->p, path->v}, added, finds_p ? path->allowed : path->unbounded, to};
+    double left;
+    int iterations;
+    const int status = zd_iterate_in_closed_form(&self.it, call_embed, finds_p ? MAX_ITERATIONS : 0, path->Phi, &iterations, &left);
+    if (!status) motion->statistics.embedding_iterations += iterations;
+    return !status || status == ZD_CALLBACK ? status : ZD_NO_EMBEDDING;
 }
 
 /* The same with D, accelerations, multipliers, power and pivots of the point. */
@@ -182,7 +178,7 @@ static void move_there(zd_motion *motion, double t)
     else motion->point->known &= ~ZD_ACCELERATED;       /* it lacks the stabilization terms of (6) */
 }
 
-int zd_embed_unpack(zd_motion *motion, double t, const double *y)
+int zd_embed_unpack(zd_motion *motion, double t, double *y)
 {
     zd_path *path = &motion->path;
     zd_embed_read(motion, t, y);

@@ -73,7 +73,7 @@ int zd_run_return_to_good(zd_run *run)
     loop->parts = 0;
     loop->step = run->goal.good_step;
     loop->control.h = run->goal.good_h;
-    run->output.is_within = run->output.is_prepared = run->output.is_plain = run->watch.failed = 0;
+    run->output.is_within = run->output.is_prepared = run->watch.failed = 0;
     motion->point->known = 0;
     motion->point->rank->was_deficient = motion->point->rank->was_doubtful = 0;
     zd_inputs_return(run);

@@ -78,7 +78,7 @@ static int renew(zd_run *run)
     zd_guard *guard = &run->safeguards.guard;
     const int was_accelerated = motion->point->known & ZD_ACCELERATED;
     motion->point->known &= motion->point->constant;
-    if (!motion->path.continues && !guard->watches_step && !was_accelerated) return ZD_DONE;
+    if (!guard->watches_step && !was_accelerated) return ZD_DONE;
     const int status = zd_motion_accelerate(motion);
     if (!status && guard->watches_step) zd_guard_watch_next(guard);
     return status;

@@ -62,7 +62,7 @@ int zd_jump_finish(zd_run *run)
     double work = 0;
     for (int k = 0; k < zd_constraints(&motion->system); k++)
         work += jump->works[k] = jump->impulses[k] * (jump->works[k] + (Phi_t ? Phi_t[k] / 2 : 0));
-    for (int i = 0; i < motion->system.nv; i++) held->start.v[i] -= held->x[i];
+    zd_correct_velocity(&motion->system, held->start.v, held->x, held->start.v);       /* (25b) */
     if (motion->balance.input) held->start.extra[motion->rate.size - motion->formulation_size - 1] += work;
     jump->t = run->stepper.t;
     jump->count++;

@@ -69,7 +69,7 @@ static int begin(zd_resample *self, int64_t sample, int is_general)
     zd_motion *motion = &self->run->motion;
     if (is_general) zd_closed_form_leave(motion);
     int status = place(self, sample);
-    if (!status && zd_has_closed_form(motion) && !is_general) zd_closed_form_choose(motion);
+    if (!status && !is_general) zd_closed_form_choose(motion);
     return status;
 }
 
@@ -103,10 +103,9 @@ static int make_general_step(zd_resample *self, int64_t sample)
  * closed-form path in it. If neither reproduces it, the step in closed form stands. */
 static int make_again(zd_resample *self, int64_t sample)
 {
-    const int has_closed_form = zd_has_closed_form(&self->run->motion);
     int status = begin_from_before(self, sample);
     if (!status) status = make_step(self, sample);
-    if (!has_closed_form || (!status && is_at(self, sample + 1))) return status;
+    if ((!status && is_at(self, sample + 1)) || !zd_closed_form_leave(&self->run->motion)) return status;
     const int general_status = make_general_step(self, sample);
     self->is_general = status || (!general_status && is_at(self, sample + 1));
     if (self->is_general) return general_status;
@@ -139,7 +138,7 @@ int zd_resample_move(zd_resample *self, double t)
     int status = sample == self->sample ? ZD_DONE : find_path(self, sample);
     if (status) return status;
     if (self->has_polynomial) {
-        status = zd_dense_output_move(&self->run->stepper, t, self->run->stepper.y);
+        status = zd_dense_output_move(&self->run->stepper, t);
         if (!status || zd_callable_failed(&self->run->motion, status)) return status;
     }
     self->has_polynomial = 0;

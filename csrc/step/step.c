@@ -42,7 +42,7 @@ ZD_INLINE int attempt(zd_step_loop *loop, const zd_attempt *a, const int kind)
     const zd_motion *motion = loop->motion;
     const zd_step_sizes *sizes = loop->sizes;
     const int is_new = kind == ZD_NEW_STEP, is_checked = is_new || kind == ZD_THROUGH_BIFURCATION;
-    const zd_evaluation_path *path = is_checked ? zd_path_of(motion) : zd_path_of_state(motion);
+    const zd_evaluation_path *path = zd_path_of(motion);
     if (sizes->set_scale && (is_new || kind == ZD_REPEATED_STEP)) sizes->set_scale(loop);
     int status = path->integrate(stepper, a->h);
     if (!status && sizes->estimate && is_new) {
@@ -51,9 +51,8 @@ ZD_INLINE int attempt(zd_step_loop *loop, const zd_attempt *a, const int kind)
     }
     if (!status) status = path->project(stepper, a->t1, a->step, a->forced);                                /* (25)-(27) */
     if (!status && motion->others_after_step) status = path->correct(stepper, a->step, a->forced);          /* (29) */
-    if (!status && path->finish) status = path->finish(stepper, 0);
-    if (!status && is_checked) status = path->check(stepper, loop->safeguards, a->step + 1, loop->parts);
-    return status;
+    if (status) return status;
+    return is_checked ? path->check(stepper, loop->safeguards, a->step + 1, loop->parts) : path->finish(stepper, 0);
 }
 
 int zd_step_attempt(zd_step_loop *loop, const zd_attempt *a)
@@ -63,13 +62,16 @@ int zd_step_attempt(zd_step_loop *loop, const zd_attempt *a)
 
 /* ---- returns to the start of the step ---- */
 
+/* Leaves the closed form; true if the step was made so. */
+static int leave_closed_form(zd_step_loop *loop, const zd_attempt *a)
+{
+    return a->kind == ZD_SUBSTEP ? zd_closed_form_leave(loop->motion) : zd_closed_form_leave_step(loop->motion);
+}
+
 static int return_for_matrices(zd_step_loop *loop, const zd_attempt *a)
 {
-    const int is_substep = a->kind == ZD_SUBSTEP;
-    if (is_substep) zd_closed_form_leave(loop->motion);
-    else zd_closed_form_leave_step(loop->motion);
     int status = zd_stepper_return(loop->stepper);
-    return status || is_substep ? status : zd_safeguards_begin(loop->safeguards, loop->step);
+    return status || a->kind == ZD_SUBSTEP ? status : zd_safeguards_begin(loop->safeguards, loop->step);
 }
 
 /* Returns to the start of the step with (p, v) as the integrated variables; the safeguards may have saved the end of the step already. */
@@ -116,7 +118,7 @@ ZD_INLINE int attempt_or_pass(zd_step_loop *loop, const zd_attempt *a, const int
  * digits, of which attempts that succeed report it, too. Returns `status` if neither applies. */
 static int attempt_again(zd_step_loop *loop, const zd_attempt *a, int status, const zd_stiffness *before, int64_t stiff)
 {
-    if (status && zd_path_of(loop->motion)->is_closed_form) {
+    if (status && leave_closed_form(loop, a)) {
         loop->control.stiffness = *before;      /* the step is counted once */
         loop->motion->statistics.stiff = stiff;
         status = return_for_matrices(loop, a);

@@ -97,10 +97,9 @@ static int move_to(const zd_lanes *lanes, int lane, double t, double steps, cons
     zd_lane_store(lanes, lane, lanes->size, y, stepper->y);
     stepper->t = t;
     motion->state = stepper->y;
-    motion->path.was_taken = 1;
     run->loop.step = (int64_t)steps;
     zd_point_move(motion->point, t, stepper->y, stepper->y + lanes->nq);
-    return zd_closed_form_choose(motion) ? zd_guard_begin(&run->safeguards.guard, run->loop.step + 1) : ZD_DONE;
+    return zd_closed_form_resume(motion) ? zd_guard_begin(&run->safeguards.guard, run->loop.step + 1) : ZD_DONE;
 }
 
 int zd_lane_put_back(zd_open_lanes *self, int lane, int64_t i, double t, double steps, const double *y)

@@ -26,7 +26,7 @@ static int are_served(const zd_open_runs *runs, const zd_run *run)
     const zd_system *system = &run->motion.system;
     const zd_closed_form *closed_form;
     return runs->data && settings->steps == ZD_FIXED_STEPS && !settings->events && lanes_serve_inputs(settings->inputs)
-        && zd_lanes_serve_settings(system, settings) && !system->structure && zd_has_closed_form(&run->motion) && zd_lanes_serve_run(run)
+        && zd_lanes_serve_settings(system, settings) && !system->structure && zd_lanes_serve_run(run)
         && run->motion.corrections < 2 && zd_lane_functions_of(system, settings->vector, &closed_form) != NULL;
 }
 
